@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Flags of every target: warnings, sanitizers, reproducible floating point.
+add_library(sheet_flags INTERFACE)
+target_compile_options(sheet_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+                                             -Wnon-virtual-dtor -Woverloaded-virtual)
+if(SHEET_WERROR)
+  target_compile_options(sheet_flags INTERFACE -Werror)
+endif()
+# The same input gives the same bits: no contraction that depends on the compiler's mood.
+target_compile_options(sheet_flags INTERFACE -ffp-contract=off)
+if(SHEET_SANITIZE)
+  target_compile_options(sheet_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                               -fno-omit-frame-pointer)
+  target_link_options(sheet_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(SHEET_FUZZ)
+  target_compile_options(sheet_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+                                               -fno-omit-frame-pointer)
+  target_link_options(sheet_flags INTERFACE -fsanitize=address,undefined)
+endif()

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# sheet_layer(NAME USES layer... PUBLIC target... PRIVATE target...)
+# One static library from every .cpp of the calling folder. USES and PUBLIC targets are visible to users of the layer,
+# PRIVATE ones (the heavy libraries) only to its own sources.
+function(sheet_layer name)
+  cmake_parse_arguments(ARG "" "" "USES;PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS *.h)
+  if(NOT sources)
+    set(kind INTERFACE)
+    add_library(sheet_${name} INTERFACE)
+  else()
+    set(kind PUBLIC)
+    add_library(sheet_${name} STATIC ${sources} ${headers})
+    target_link_libraries(sheet_${name} PRIVATE ${ARG_PRIVATE})
+  endif()
+  target_include_directories(sheet_${name} ${kind} ${PROJECT_SOURCE_DIR})
+  target_link_libraries(sheet_${name} ${kind} sheet_flags ${ARG_PUBLIC})
+  foreach(layer ${ARG_USES})
+    target_link_libraries(sheet_${name} ${kind} sheet_${layer})
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY SHEET_HEADERS ${headers})
+endfunction()
