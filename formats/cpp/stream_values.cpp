@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The standard arrays of version 1 and what their values must obey (formats/sheet.md, section 5).
+#include <array>
+#include <cmath>
+#include <span>
+
+#include <fmt/core.h>
+
+#include "formats/cpp/stream_frame.h"
+
+namespace sheet::formats {
+
+namespace {
+
+struct Standard {
+  std::string_view name;
+  Place place;
+  Type type;
+  std::uint32_t components;
+  std::string_view unit;
+  Transfer transfer;
+  bool required;
+};
+
+constexpr std::array standards{
+    Standard{"position", Place::vertex, Type::float64, 3, "m", Transfer::interpolate, true},
+    Standard{"triangle", Place::triangle, Type::uint32, 3, "1", Transfer::drop, true},
+    Standard{"volume", Place::triangle, Type::float64, 1, "m^3", Transfer::conserve, true},
+    Standard{"velocity", Place::vertex, Type::float64, 3, "m/s", Transfer::interpolate, false},
+    Standard{"start_position", Place::vertex, Type::float64, 3, "m", Transfer::drop, false},
+    Standard{"hold", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
+    Standard{"next_output_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
+    Standard{"step_size", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
+    Standard{"scene", Place::frame, Type::text, 1, "1", Transfer::copy, false},
+    Standard{"provenance", Place::frame, Type::text, 1, "1", Transfer::copy, false},
+};
+
+const Standard* find_standard(std::string_view name) {
+  for (const Standard& s : standards)
+    if (s.name == name)
+      return &s;
+  return nullptr;
+}
+
+// The first row with a component that is not finite, or rows if there is none.
+std::size_t first_not_finite(std::span<const double> values, std::size_t components) {
+  // A sum of 0 * x is NaN exactly if some x is not finite: one pass without branches in the usual case.
+  double probe = 0;
+  for (const double x : values)
+    probe += 0 * x;
+  if (!std::isnan(probe))
+    return values.size() / components;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      return i / components;
+  return values.size() / components;
+}
+
+std::string find_triangle_error(const Frame& frame, const Array& array) {
+  const auto corners = array.values<std::array<std::uint32_t, 3>>();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto& t = corners[i];
+    for (const std::uint32_t v : t)
+      if (v >= frame.vertices)
+        return fmt::format("array \"triangle\": triangle {} names vertex {}, the frame has {}", i, v, frame.vertices);
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      return fmt::format("array \"triangle\": triangle {} names vertex {} twice", i, t[0] == t[1] ? t[0] : t[2]);
+  }
+  return {};
+}
+
+std::string find_error(const Frame& frame, const Standard& standard, const Array& array) {
+  if (array.place != standard.place || array.type != standard.type || array.components != standard.components)
+    return fmt::format("array \"{}\" is {} {} x {}, it must be {} {} x {}", array.name, name_of(array.place),
+                       name_of(array.type), array.components, name_of(standard.place), name_of(standard.type),
+                       standard.components);
+  if (array.unit != standard.unit)
+    return fmt::format("array \"{}\" has unit \"{}\", it must be \"{}\"", array.name, array.unit, standard.unit);
+  if (array.transfer != standard.transfer)
+    return fmt::format("array \"{}\" has transfer \"{}\", it must be \"{}\"", array.name, name_of(array.transfer),
+                       name_of(standard.transfer));
+  if (array.name == "triangle")
+    return find_triangle_error(frame, array);
+  if (array.type != Type::float64)
+    return {};
+  if (array.place == Place::frame && array.rows != 1)
+    return fmt::format("array \"{}\" has {} rows, it must have 1", array.name, array.rows);
+  const auto values = array.values<double>();
+  const std::size_t row = first_not_finite(values, array.components);
+  if (row < array.rows)
+    return fmt::format("array \"{}\": row {} is not finite", array.name, row);
+  if (array.name == "volume")
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!(values[i] > 0))
+        return fmt::format("array \"volume\": triangle {} has volume {} m^3, it must be positive", i, values[i]);
+  if (array.name == "step_size" && !(values[0] > 0))
+    return fmt::format("array \"step_size\" is {} s, it must be positive", values[0]);
+  return {};
+}
+
+} // namespace
+
+std::string find_value_error(const Frame& frame) {
+  if (!std::isfinite(frame.time))
+    return "the time is not finite";
+  for (const Standard& s : standards)
+    if (s.required && frame.find(s.name) == nullptr)
+      return fmt::format("array \"{}\" is missing", s.name);
+  for (const Array& array : frame.arrays) {
+    const Standard* standard = find_standard(array.name);
+    if (standard == nullptr)
+      continue;
+    if (const std::string error = find_error(frame, *standard, array); !error.empty())
+      return error;
+  }
+  return {};
+}
+
+std::string find_critical_error(const Frame& frame) {
+  for (const Array& array : frame.arrays)
+    if (array.critical && find_standard(array.name) == nullptr)
+      return fmt::format("array \"{}\" is critical and unknown to version {}.{}: a newer sheet is needed", array.name,
+                         version_major, version_minor);
+  return {};
+}
+
+} // namespace sheet::formats
