@@ -4,12 +4,19 @@
 #include <optional>
 #include <vector>
 
+#include "libsheet/energy/contact.h"
 #include "libsheet/energy/holds.h"
 #include "libsheet/energy/inertia.h"
 #include "libsheet/energy/pressure.h"
 #include "libsheet/energy/term.h"
 
 namespace sheet {
+
+// A bath below the sheet.
+struct BathModel {
+  double density = 0; // [kg/m³]
+  double level = 0;   // of its surface, along the upward direction [m]
+};
 
 enum class Bending { none, mid_edge, hinge, hinge_paper };
 
@@ -19,10 +26,13 @@ struct Model {
   double surface_tension = 0;        // [N/m]
   Vector3 gravity = Vector3::Zero(); // [m/s²]
   std::optional<PressureLaw> pressure;
+  std::optional<BathModel> bath; // needs gravity
   bool inertia = true;
   Bending bending = Bending::none;
+  bool arcs = false; // with mid-edge bending: edges are arcs in the membrane's strain
   Mass mass = Mass::lumped;
   std::vector<Hold> holds;
+  std::vector<ContactSpring> contacts;
 
   [[nodiscard]] bool has_inertia() const { return inertia && density > 0; }
   [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && viscosity > 0; }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "libsheet/base/error.h"
-#include "libsheet/solve/stage_setup.h"
+#include "libsheet/energy/stage_setup.h"
 
 namespace sheet {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "libsheet/solve/stage_setup.h"
+#include "libsheet/energy/stage_setup.h"
 
 #include <algorithm>
 #include <cmath>
