@@ -83,17 +83,18 @@ void Tool::add(Option option) {
   options_.push_back(std::move(option));
 }
 
-void Tool::option(std::string_view names, double& value, std::string_view placeholder, std::string_view text) {
+void Tool::option(std::string_view names, double& value, std::string_view placeholder, std::string_view text,
+                  Provenance provenance) {
   custom(
       names, placeholder, text, [&value](const std::string& s) { value = parse_number<double>(s, "a finite number"); },
-      [&value] { return fmt::format("{}", value); });
+      [&value] { return fmt::format("{}", value); }, provenance);
 }
 
 void Tool::option(std::string_view names, std::optional<double>& value, std::string_view placeholder,
-                  std::string_view text) {
+                  std::string_view text, Provenance provenance) {
   custom(
       names, placeholder, text, [&value](const std::string& s) { value = parse_number<double>(s, "a finite number"); },
-      [&value] { return value ? fmt::format("{}", *value) : std::string(); });
+      [&value] { return value ? fmt::format("{}", *value) : std::string(); }, provenance);
 }
 
 void Tool::option(std::string_view names, std::int64_t& value, std::string_view placeholder, std::string_view text,
