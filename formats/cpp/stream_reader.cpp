@@ -22,6 +22,7 @@ constexpr std::uint64_t first_portion = 16u << 20;
 
 template <std::size_t N> bool padded_text(const std::array<char, N>& field, std::string& text) {
   const auto end = std::find(field.begin(), field.end(), '\0');
+  text.clear();
   if (end == field.end() || std::any_of(end, field.end(), [](char c) { return c != '\0'; }))
     return false;
   text.assign(field.begin(), end);
@@ -30,6 +31,12 @@ template <std::size_t N> bool padded_text(const std::array<char, N>& field, std:
 
 template <std::size_t N> bool all_zero(const std::array<std::uint8_t, N>& bytes) {
   return std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t b) { return b == 0; });
+}
+
+// For messages: a name that may hold anything.
+std::string printable(std::string name) {
+  std::replace_if(name.begin(), name.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return name;
 }
 
 std::string find_version_error(std::uint16_t major, std::uint32_t critical_flags) {
@@ -220,7 +227,7 @@ void StreamReader::read_table(const layout::FrameHeader& h, std::vector<layout::
       error = find_entry_error(array, frame);
     if (!error.empty())
       corrupt(position_ + sizeof h + i * sizeof(layout::ArrayEntry),
-              fmt::format("array {} \"{}\": {}", i, array.name, error));
+              fmt::format("array {} \"{}\": {}", i, printable(array.name), error));
     offset += layout::padded(table[i].bytes);
   }
   if (offset != h.frame_bytes)
