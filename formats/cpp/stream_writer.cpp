@@ -8,7 +8,10 @@
 #include <memory>
 
 #include <fmt/core.h>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/uio.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include "formats/cpp/stream_layout.h"
@@ -69,6 +72,14 @@ void write_all(int descriptor, std::vector<iovec> parts, const std::string& name
   }
 }
 
+// Where the next byte of a regular file will be written; -1 for pipes and the like.
+off_t end_of_file(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
+    return -1;
+  return (::fcntl(descriptor, F_GETFL) & O_APPEND) != 0 ? status.st_size : ::lseek(descriptor, 0, SEEK_CUR);
+}
+
 iovec part(const void* data, std::size_t size) { return {const_cast<void*>(data), size}; }
 
 } // namespace
@@ -124,7 +135,15 @@ void StreamWriter::write(const Frame& frame) {
     if (const std::size_t padding = layout::padded(size) - size; padding > 0)
       parts.push_back(part(zeros.data(), padding));
   }
-  write_all(descriptor_, std::move(parts), name_);
+  const off_t start = end_of_file(descriptor_);
+  try {
+    write_all(descriptor_, std::move(parts), name_);
+  } catch (const StreamError&) {
+    // Whole frames only: what a full disk took of this one goes. If that fails too, readers still see the missing end.
+    if (start >= 0)
+      [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, start);
+    throw;
+  }
   ++frames_;
   ++frames_since_end_;
   bytes_ += encoded.size();

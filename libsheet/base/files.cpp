@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/base/files.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "formats/cpp/stream_writer.h"
+#include "libsheet/base/error.h"
+
+namespace sheet {
+
+namespace {
+
+bool same_regular_file(int a, int b) {
+  struct stat sa {}, sb {};
+  return ::fstat(a, &sa) == 0 && ::fstat(b, &sb) == 0 && S_ISREG(sa.st_mode) && sa.st_dev == sb.st_dev &&
+         sa.st_ino == sb.st_ino;
+}
+
+} // namespace
+
+InputFile::InputFile(const std::string& path) : name_(path == "-" ? "standard input" : path) {
+  if (path == "-") {
+    if (::isatty(STDIN_FILENO) != 0)
+      fail(ExitCode::usage, "standard input is a terminal: give a file, or pipe a stream in");
+    descriptor_ = STDIN_FILENO;
+  } else {
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor_ < 0)
+      fail(ExitCode::io, "cannot open {}: {}", path, std::strerror(errno));
+    struct stat status {};
+    if (::fstat(descriptor_, &status) == 0 && S_ISDIR(status.st_mode)) {
+      ::close(descriptor_);
+      fail(ExitCode::io, "cannot read {}: it is a folder", path);
+    }
+  }
+  widen_pipe(descriptor_);
+}
+
+InputFile::~InputFile() {
+  if (descriptor_ > STDERR_FILENO)
+    ::close(descriptor_);
+}
+
+OutputFile::OutputFile(const std::string& path, Content content, const InputFile* input)
+    : name_(path == "-" ? "standard output" : path) {
+  if (path == "-") {
+    if (content == Content::binary && ::isatty(STDOUT_FILENO) != 0)
+      fail(ExitCode::usage, "standard output is a terminal and the stream is binary: give -o FILE, or pipe it on");
+    descriptor_ = STDOUT_FILENO;
+    if (input != nullptr && same_regular_file(descriptor_, input->descriptor()))
+      fail(ExitCode::usage, "{} is input and output at once: choose another output", input->name());
+    widen_pipe(descriptor_);
+    return;
+  }
+  // Opened without truncation first, so that an input of the same name is still whole when we refuse.
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0)
+    fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
+  if (input != nullptr && same_regular_file(descriptor_, input->descriptor())) {
+    ::close(descriptor_);
+    fail(ExitCode::usage, "{} is input and output at once: choose another output", path);
+  }
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && ::ftruncate(descriptor_, 0) != 0) {
+    const int code = errno;
+    ::close(descriptor_);
+    fail(ExitCode::io, "cannot empty {}: {}", path, std::strerror(code));
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ > STDERR_FILENO)
+    ::close(descriptor_);
+}
+
+void OutputFile::write(std::string_view text) {
+  formats::write_all(descriptor_, std::as_bytes(std::span(text)), name_);
+}
+
+void OutputFile::close() {
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (::close(descriptor) != 0)
+    fail(ExitCode::io, "cannot finish writing {}: {}", name_, std::strerror(errno));
+}
+
+std::string read_text_file(const std::string& path, std::size_t limit) {
+  const InputFile file(path);
+  std::string text;
+  std::size_t size = 0;
+  for (;;) {
+    text.resize(std::max<std::size_t>(1 << 16, 2 * size));
+    const ssize_t got = ::read(file.descriptor(), text.data() + size, text.size() - size);
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got < 0)
+      fail(ExitCode::io, "cannot read {}: {}", file.name(), std::strerror(errno));
+    if (got == 0)
+      break;
+    size += static_cast<std::size_t>(got);
+    if (size > limit)
+      fail(ExitCode::io, "cannot read {}: it is longer than {} bytes", file.name(), limit);
+  }
+  text.resize(size);
+  return text;
+}
+
+void widen_pipe(int descriptor) {
+  constexpr int bytes = 1 << 20;
+  // Refused on other kinds of files and above the user's limit: then the pipe stays as it is.
+  ::fcntl(descriptor, F_SETPIPE_SZ, bytes);
+}
+
+} // namespace sheet

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files or pipes alike: "-" is standard input or output. Opening and closing are checked; errors name the file.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace sheet {
+
+// A file descriptor that is open for reading. Throws Error: usage (standard input is a terminal), io (cannot open).
+class InputFile {
+public:
+  explicit InputFile(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+  // For messages: the path, or "standard input".
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+
+private:
+  std::string name_;
+  int descriptor_ = -1;
+};
+
+// A file descriptor that is open for writing. Throws Error: usage (binary data to a terminal; the file is `input` itself),
+// io (cannot open). Call close() when all is written: only then is it known to be on its way.
+class OutputFile {
+public:
+  enum class Content { binary, text };
+  OutputFile(const std::string& path, Content content, const InputFile* input = nullptr);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  void write(std::string_view text);
+  void close();
+
+private:
+  std::string name_;
+  int descriptor_ = -1;
+};
+
+// The whole content of a file. Throws Error (io), also above `limit` bytes.
+[[nodiscard]] std::string read_text_file(const std::string& path, std::size_t limit = std::size_t{1} << 30);
+
+// Grows a pipe's buffer to 1 MiB where the system allows it, so that a frame needs few switches between programs.
+void widen_pipe(int descriptor);
+
+} // namespace sheet
