@@ -122,7 +122,7 @@ EncodedFrame::EncodedFrame(const Frame& frame) {
 StreamWriter::StreamWriter(int descriptor, std::string name) : StreamWriter(descriptor, std::move(name), 0) {}
 
 StreamWriter::StreamWriter(int descriptor, std::string name, std::uint64_t frames)
-    : descriptor_(descriptor), name_(std::move(name)), frames_(frames) {}
+    : descriptor_(descriptor), name_(std::move(name)), frames_(frames), frames_since_end_(frames) {}
 
 void StreamWriter::write(const Frame& frame) {
   const EncodedFrame encoded(frame);
@@ -145,6 +145,7 @@ void StreamWriter::write(const Frame& frame) {
     throw;
   }
   ++frames_;
+  ++frames_since_end_;
   bytes_ += encoded.size();
 }
 
@@ -153,9 +154,10 @@ void StreamWriter::end() {
   mark.magic = layout::end_magic;
   mark.version_major = version_major;
   mark.version_minor = version_minor;
-  mark.frames = frames_;
+  mark.frames = frames_since_end_;
   mark.checksum = XXH3_64bits(&mark, offsetof(layout::EndMark, checksum));
   write_all(descriptor_, {part(&mark, sizeof mark)}, name_);
+  frames_since_end_ = 0;
 }
 
 void write_all(int descriptor, std::span<const std::byte> bytes, const std::string& name) {
