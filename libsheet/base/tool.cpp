@@ -256,6 +256,8 @@ void Tool::parse(int argc, char** argv) {
     fail(ExitCode::usage, "{} (see {} --help)", error.what(), name_);
   }
   for (const std::string& extra : app.remaining()) {
+    if (extra == "--") // CLI11 leaves the separator behind
+      continue;
     if (extra.size() < 2 || extra[0] != '-')
       fail(ExitCode::usage, "argument \"{}\" is one too many (see {} --help)", extra, name_);
     std::vector<std::string> known;
