@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <unordered_set>
 
 #include <fmt/core.h>
@@ -39,25 +40,31 @@ bool good_unit(std::string_view unit) {
   return !unit.empty() && unit.size() < sizeof(layout::ArrayEntry::unit) && std::all_of(unit.begin(), unit.end(), good);
 }
 
-std::string find_form_error(const Array& a, const Frame& frame) {
-  if (!good_name(a.name))
-    return "its name is not 1 to 47 characters of [a-z0-9_.:-]";
-  if (!good_unit(a.unit))
-    return "its unit is not 1 to 23 printable characters without blanks (\"1\" for none)";
-  if (a.components == 0)
-    return "it has no components";
-  if (a.type == Type::text && (a.place != Place::frame || a.components != 1))
-    return "text belongs to the frame, with one component";
-  if (a.transfer == Transfer::common && (is_floating(a.type) || a.type == Type::text))
-    return "transfer \"common\" is for integers";
-  if ((a.transfer == Transfer::interpolate || a.transfer == Transfer::conserve) && !is_floating(a.type))
-    return fmt::format("transfer \"{}\" is for floating point", name_of(a.transfer));
-  if (a.place != Place::frame && a.rows != frame.rows_at(a.place))
-    return fmt::format("it has {} rows, the frame has {} at place {}", a.rows, frame.rows_at(a.place),
-                       name_of(a.place));
-  const unsigned __int128 bytes = static_cast<unsigned __int128>(a.rows) * a.components * size_of(a.type);
-  if (bytes != a.data.size())
-    return fmt::format("it has {} bytes, its rows and components need another number", a.data.size());
+// The length of the well-formed UTF-8 sequence at `p`, of which `left` bytes are there; 0 if it is none.
+std::size_t utf8_length(const unsigned char* p, std::size_t left) {
+  if (p[0] < 0x80)
+    return 1;
+  const std::size_t length = p[0] < 0xc2 ? 0 : p[0] < 0xe0 ? 2 : p[0] < 0xf0 ? 3 : p[0] < 0xf5 ? 4 : 0;
+  if (length == 0 || length > left)
+    return 0;
+  // The second byte excludes overlong forms, surrogates and what is above U+10FFFF.
+  const unsigned char low = p[0] == 0xe0 ? 0xa0 : p[0] == 0xf0 ? 0x90 : 0x80;
+  const unsigned char high = p[0] == 0xed ? 0x9f : p[0] == 0xf4 ? 0x8f : 0xbf;
+  if (p[1] < low || p[1] > high)
+    return 0;
+  return std::all_of(p + 2, p + length, [](unsigned char c) { return (c & 0xc0) == 0x80; }) ? length : 0;
+}
+
+std::string find_text_error(std::string_view text) {
+  if (const std::size_t at = text.find('\0'); at != text.npos)
+    return fmt::format("its byte {} is zero, text has none", at);
+  const auto* p = reinterpret_cast<const unsigned char*>(text.data());
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(p + i, text.size() - i);
+    if (length == 0)
+      return fmt::format("its byte {} is not UTF-8", i);
+    i += length;
+  }
   return {};
 }
 
@@ -121,20 +128,66 @@ Array make_array(std::string_view name, Place place, Type type, std::uint32_t co
   return array;
 }
 
-std::string find_form_error(const Frame& frame) {
+std::string find_header_error(const Frame& frame) {
   if (frame.arrays.size() > layout::max_arrays)
     return fmt::format("{} arrays are more than the {} that a frame may have", frame.arrays.size(),
                        layout::max_arrays);
   for (const std::uint64_t rows : {frame.vertices, frame.triangles, frame.edges})
     if (rows > layout::max_rows)
       return fmt::format("{} vertices, triangles or edges are more than 2^32", rows);
+  if (!std::isfinite(frame.time))
+    return "the time is not finite";
+  return {};
+}
+
+std::string find_entry_error(const Array& a, const Frame& frame) {
+  if (!good_name(a.name))
+    return "its name is not 1 to 47 characters of [a-z0-9_.:-]";
+  if (!good_unit(a.unit))
+    return "its unit is not 1 to 23 printable characters without blanks (\"1\" for none)";
+  if (a.components == 0)
+    return "it has no components";
+  if (a.type == Type::text && (a.place != Place::frame || a.components != 1))
+    return "text belongs to the frame, with one component";
+  if (a.transfer == Transfer::common && (is_floating(a.type) || a.type == Type::text))
+    return "transfer \"common\" is for integers";
+  if ((a.transfer == Transfer::interpolate || a.transfer == Transfer::conserve) && !is_floating(a.type))
+    return fmt::format("transfer \"{}\" is for floating point", name_of(a.transfer));
+  if (a.place != Place::frame && a.rows != frame.rows_at(a.place))
+    return fmt::format("it has {} rows, the frame has {} at place {}", a.rows, frame.rows_at(a.place),
+                       name_of(a.place));
+  return {};
+}
+
+std::string find_table_error(const Frame& frame) {
   std::unordered_set<std::string_view> names;
   for (const Array& a : frame.arrays) {
-    if (const std::string error = find_form_error(a, frame); !error.empty())
+    if (const std::string error = find_entry_error(a, frame); !error.empty())
       return fmt::format("array \"{}\": {}", a.name, error);
     if (!names.insert(a.name).second)
       return fmt::format("array \"{}\" appears twice", a.name);
   }
+  if (frame.edges != 0 &&
+      std::none_of(frame.arrays.begin(), frame.arrays.end(), [](const Array& a) { return a.place == Place::edge; }))
+    return fmt::format("the frame counts {} edges but has no array at place edge", frame.edges);
+  return {};
+}
+
+std::string find_data_error(const Array& a) {
+  const unsigned __int128 bytes = static_cast<unsigned __int128>(a.rows) * a.components * size_of(a.type);
+  if (bytes != a.data.size())
+    return fmt::format("it has {} bytes, its rows and components need another number", a.data.size());
+  return a.type == Type::text ? find_text_error(a.text()) : std::string();
+}
+
+std::string find_form_error(const Frame& frame) {
+  if (std::string error = find_header_error(frame); !error.empty())
+    return error;
+  if (std::string error = find_table_error(frame); !error.empty())
+    return error;
+  for (const Array& a : frame.arrays)
+    if (const std::string error = find_data_error(a); !error.empty())
+      return fmt::format("array \"{}\": {}", a.name, error);
   return {};
 }
 

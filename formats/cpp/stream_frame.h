@@ -122,11 +122,15 @@ private:
   Kind kind_;
 };
 
-// Says what is wrong with the form of a frame (names, places, types, sizes); empty if nothing is.
-[[nodiscard]] std::string find_form_error(const Frame& frame);
+// Each says what is wrong with the form of a frame; empty if nothing is.
+[[nodiscard]] std::string find_header_error(const Frame& frame);                     // time, counts
+[[nodiscard]] std::string find_entry_error(const Array& array, const Frame& frame); // all of an array but its data
+[[nodiscard]] std::string find_table_error(const Frame& frame);                      // all entries, names unique, edges
+[[nodiscard]] std::string find_data_error(const Array& array);                       // size; text is UTF-8 without NUL
+[[nodiscard]] std::string find_form_error(const Frame& frame);                       // all of these
 
 // Says which standard array breaks its rule (section 5 of formats/sheet.md: shapes, indices in range, finite positions,
-// positive volumes), with row; empty if none does. Cost: one pass.
+// positive volumes, number of edges), with row; empty if none does. Cost: one pass; arrays at place edge: a sort.
 [[nodiscard]] std::string find_value_error(const Frame& frame);
 
 // Says which critical array this version does not know; empty if there is none.

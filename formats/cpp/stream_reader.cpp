@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
-#include <vector>
+#include <string_view>
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -23,6 +22,7 @@ constexpr std::uint64_t first_portion = 16u << 20;
 
 template <std::size_t N> bool padded_text(const std::array<char, N>& field, std::string& text) {
   const auto end = std::find(field.begin(), field.end(), '\0');
+  text.clear();
   if (end == field.end() || std::any_of(end, field.end(), [](char c) { return c != '\0'; }))
     return false;
   text.assign(field.begin(), end);
@@ -31,6 +31,12 @@ template <std::size_t N> bool padded_text(const std::array<char, N>& field, std:
 
 template <std::size_t N> bool all_zero(const std::array<std::uint8_t, N>& bytes) {
   return std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t b) { return b == 0; });
+}
+
+// For messages: a name that may hold anything.
+std::string printable(std::string name) {
+  std::replace_if(name.begin(), name.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return name;
 }
 
 std::string find_version_error(std::uint16_t major, std::uint32_t critical_flags) {
@@ -42,7 +48,8 @@ std::string find_version_error(std::uint16_t major, std::uint32_t critical_flags
   return {};
 }
 
-std::string find_header_error(const layout::FrameHeader& h) {
+// What the header says beyond what find_header_error sees of a frame.
+std::string find_layout_error(const layout::FrameHeader& h) {
   if (const std::string error = find_version_error(h.version_major, h.critical_flags); !error.empty())
     return error;
   if (h.version_minor <= version_minor && (h.reserved_a != 0 || !all_zero(h.reserved_b)))
@@ -52,11 +59,6 @@ std::string find_header_error(const layout::FrameHeader& h) {
   const std::uint64_t head = sizeof(layout::FrameHeader) + h.arrays * sizeof(layout::ArrayEntry);
   if (h.frame_bytes < head || h.frame_bytes > layout::max_frame_bytes || h.frame_bytes % layout::alignment != 0)
     return fmt::format("a frame of {} bytes cannot be", h.frame_bytes);
-  for (const std::uint64_t rows : {h.vertices, h.triangles, h.edges})
-    if (rows > layout::max_rows)
-      return fmt::format("{} vertices, triangles or edges are more than 2^32", rows);
-  if (!std::isfinite(h.time))
-    return "the time is not finite";
   return {};
 }
 
@@ -121,8 +123,11 @@ std::size_t StreamReader::fill(std::byte* to, std::size_t size) {
   return done;
 }
 
-void StreamReader::read_payload(Array& array, std::uint64_t bytes, std::uint64_t checksum) {
-  const std::uint64_t start = consumed_, size = layout::padded(bytes);
+void StreamReader::read_payload(Array& array, const layout::ArrayEntry& entry) {
+  const std::uint64_t start = consumed_, size = layout::padded(entry.bytes);
+  const auto fail = [&](std::uint64_t byte, const std::string& what) {
+    corrupt(byte, fmt::format("array \"{}\": {}", array.name, what));
+  };
   array.data.resize(0);
   for (std::uint64_t have = 0; have < size;) {
     const std::uint64_t portion = std::min(size - have, std::max(have, first_portion));
@@ -130,18 +135,20 @@ void StreamReader::read_payload(Array& array, std::uint64_t bytes, std::uint64_t
     const std::size_t got = fill(array.data.data() + have, portion);
     have += got;
     if (got < portion)
-      corrupt(consumed_, fmt::format("array \"{}\" is cut short: {} of {} bytes", array.name, have, size));
+      fail(consumed_, fmt::format("cut short, {} of {} bytes are there", have, size));
   }
-  if (XXH3_64bits(array.data.data(), size) != checksum)
-    corrupt(start, fmt::format("array \"{}\": checksum mismatch", array.name));
-  for (std::uint64_t i = bytes; i < size; ++i)
+  if (XXH3_64bits(array.data.data(), size) != entry.checksum)
+    fail(start, "checksum mismatch");
+  for (std::uint64_t i = entry.bytes; i < size; ++i)
     if (array.data.data()[i] != std::byte{0})
-      corrupt(start + i, fmt::format("array \"{}\": padding is not zero", array.name));
-  array.data.resize(bytes);
+      fail(start + i, "padding is not zero");
+  array.data.resize(entry.bytes);
+  if (const std::string error = find_data_error(array); !error.empty())
+    fail(start, error);
 }
 
-// `start` is the first 64 bytes of the mark; `after_end` if another mark stands right before it.
-void StreamReader::read_end(const std::byte* start, bool after_end) {
+// `start` is the 64 bytes of the mark.
+void StreamReader::read_end(const std::byte* start) {
   layout::EndMark mark;
   std::memcpy(&mark, start, sizeof mark);
   if (XXH3_64bits(&mark, offsetof(layout::EndMark, checksum)) != mark.checksum)
@@ -150,18 +157,16 @@ void StreamReader::read_end(const std::byte* start, bool after_end) {
     corrupt(position_, error);
   if (mark.version_minor <= version_minor && !all_zero(mark.reserved))
     corrupt(position_, "reserved bytes of the end mark are not zero");
-  const std::uint64_t frames = after_end ? 0 : frames_since_end_;
-  if (mark.frames != frames)
-    corrupt(position_, fmt::format("end mark counts {} frames, there are {}", mark.frames, frames));
+  if (mark.frames != unended_)
+    corrupt(position_, fmt::format("end mark counts {} frames, there are {}", mark.frames, unended_));
+  ++ends_;
+  unended_ = 0;
 }
 
-bool StreamReader::read(Frame& frame) {
-  if (done_)
-    return false;
-  layout::FrameHeader h;
+// Reads up to the header of the next frame into `h`, over END marks. False at the end of the stream.
+bool StreamReader::read_header(layout::FrameHeader& h) {
   auto* raw = reinterpret_cast<std::byte*>(&h);
-  bool after_end = false;
-  for (;;) { // END marks may stand between frames
+  for (bool after_end = false;; after_end = true) {
     position_ = consumed_;
     const std::size_t got = fill(raw, sizeof(layout::EndMark));
     if (got == 0 && after_end) {
@@ -171,30 +176,35 @@ bool StreamReader::read(Frame& frame) {
     if (got == 0)
       corrupt(consumed_, frames_ == 0 ? "the stream is empty: not even an end mark"
                                       : "the stream was cut short: no end mark");
-    if (std::memcmp(raw, layout::end_magic.data(), std::min<std::size_t>(got, 8)) == 0 && got >= 8) {
+    const std::string_view head(reinterpret_cast<const char*>(raw), got);
+    const std::string_view frame_magic(layout::frame_magic.data(), 8), end_magic(layout::end_magic.data(), 8);
+    if (head.starts_with(end_magic)) {
       if (got < sizeof(layout::EndMark))
         corrupt(consumed_, "the end mark is cut short");
-      read_end(raw, after_end);
-      after_end = true;
+      read_end(raw);
       continue;
     }
-    if (got >= 8 && std::memcmp(raw, layout::frame_magic.data(), 8) != 0) {
-      static constexpr std::array<unsigned char, 4> zstd{0x28, 0xb5, 0x2f, 0xfd};
-      corrupt(position_, std::memcmp(raw, zstd.data(), zstd.size()) == 0
-                             ? "this is zstd-compressed: read it through zstd -dc"
-                             : "not a sheet stream: a frame starts with SHEETFRM");
-    }
-    if (got < sizeof(layout::EndMark) ||
-        fill(raw + sizeof(layout::EndMark), sizeof h - sizeof(layout::EndMark)) < sizeof h - sizeof(layout::EndMark))
+    if (frame_magic.starts_with(head) || end_magic.starts_with(head))
+      corrupt(consumed_, "the stream was cut short: a frame or end mark has just begun");
+    if (!head.starts_with(frame_magic))
+      corrupt(position_, head.starts_with("\x28\xb5\x2f\xfd") ? "this is zstd-compressed: read it through zstd -dc"
+                         : head.starts_with("sheet-text")     ? "this is the text form: read it through sheet-parse"
+                                                              : "not a sheet stream: a frame starts with SHEETFRM");
+    constexpr std::size_t rest = sizeof h - sizeof(layout::EndMark);
+    if (got < sizeof(layout::EndMark) || fill(raw + sizeof(layout::EndMark), rest) < rest)
       corrupt(consumed_, "the frame header is cut short");
     break;
   }
   if (XXH3_64bits(&h, offsetof(layout::FrameHeader, header_checksum)) != h.header_checksum)
     corrupt(position_, "frame header: checksum mismatch");
-  if (const std::string error = find_header_error(h); !error.empty())
+  if (const std::string error = find_layout_error(h); !error.empty())
     corrupt(position_, error);
+  return true;
+}
 
-  std::vector<layout::ArrayEntry> table(h.arrays);
+// Reads the table into `table` and everything of `frame` but the arrays' data; both are found to be well-formed.
+void StreamReader::read_table(const layout::FrameHeader& h, std::vector<layout::ArrayEntry>& table, Frame& frame) {
+  table.resize(h.arrays);
   const std::size_t table_bytes = table.size() * sizeof(layout::ArrayEntry);
   if (fill(reinterpret_cast<std::byte*>(table.data()), table_bytes) < table_bytes)
     corrupt(consumed_, "the array table is cut short");
@@ -207,30 +217,42 @@ bool StreamReader::read(Frame& frame) {
   frame.triangles = h.triangles;
   frame.edges = h.edges;
   frame.arrays.resize(h.arrays);
+  if (const std::string error = find_header_error(frame); !error.empty())
+    corrupt(position_, error);
   std::uint64_t offset = sizeof h + table_bytes;
   for (std::size_t i = 0; i < table.size(); ++i) {
-    const std::string error = read_entry(table[i], h, offset, frame.arrays[i]);
+    Array& array = frame.arrays[i];
+    std::string error = read_entry(table[i], h, offset, array);
+    if (error.empty())
+      error = find_entry_error(array, frame);
     if (!error.empty())
       corrupt(position_ + sizeof h + i * sizeof(layout::ArrayEntry),
-              fmt::format("array {} \"{}\": {}", i, frame.arrays[i].name, error));
+              fmt::format("array {} \"{}\": {}", i, printable(array.name), error));
     offset += layout::padded(table[i].bytes);
   }
   if (offset != h.frame_bytes)
     corrupt(position_, fmt::format("the frame has {} bytes, its arrays need {}", h.frame_bytes, offset));
-
-  for (std::size_t i = 0; i < table.size(); ++i)
-    read_payload(frame.arrays[i], table[i].bytes, table[i].checksum);
-  if (const std::string error = find_form_error(frame); !error.empty())
+  if (const std::string error = find_table_error(frame); !error.empty())
     corrupt(position_, error);
   if (const std::string error = find_critical_error(frame); !error.empty())
     corrupt(position_, error);
+}
+
+bool StreamReader::read(Frame& frame) {
+  layout::FrameHeader h;
+  if (done_ || !read_header(h))
+    return false;
+  std::vector<layout::ArrayEntry> table;
+  read_table(h, table, frame);
+  for (std::size_t i = 0; i < table.size(); ++i)
+    read_payload(frame.arrays[i], table[i]);
   if (values_ == Values::check)
     if (const std::string error = find_value_error(frame); !error.empty()) {
       done_ = true;
       throw StreamError(StreamError::Kind::value, fmt::format("{}: frame {}: {}", name_, frames_, error));
     }
   ++frames_;
-  frames_since_end_ = after_end ? 1 : frames_since_end_ + 1;
+  frames_since_end_ = ++unended_;
   bytes_of_frames_ = consumed_;
   return true;
 }

@@ -8,7 +8,10 @@
 #include <memory>
 
 #include <fmt/core.h>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/uio.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include "formats/cpp/stream_layout.h"
@@ -69,6 +72,14 @@ void write_all(int descriptor, std::vector<iovec> parts, const std::string& name
   }
 }
 
+// Where the next byte of a regular file will be written; -1 for pipes and the like.
+off_t end_of_file(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
+    return -1;
+  return (::fcntl(descriptor, F_GETFL) & O_APPEND) != 0 ? status.st_size : ::lseek(descriptor, 0, SEEK_CUR);
+}
+
 iovec part(const void* data, std::size_t size) { return {const_cast<void*>(data), size}; }
 
 } // namespace
@@ -111,7 +122,7 @@ EncodedFrame::EncodedFrame(const Frame& frame) {
 StreamWriter::StreamWriter(int descriptor, std::string name) : StreamWriter(descriptor, std::move(name), 0) {}
 
 StreamWriter::StreamWriter(int descriptor, std::string name, std::uint64_t frames)
-    : descriptor_(descriptor), name_(std::move(name)), frames_(frames) {}
+    : descriptor_(descriptor), name_(std::move(name)), frames_(frames), frames_since_end_(frames) {}
 
 void StreamWriter::write(const Frame& frame) {
   const EncodedFrame encoded(frame);
@@ -124,8 +135,17 @@ void StreamWriter::write(const Frame& frame) {
     if (const std::size_t padding = layout::padded(size) - size; padding > 0)
       parts.push_back(part(zeros.data(), padding));
   }
-  write_all(descriptor_, std::move(parts), name_);
+  const off_t start = end_of_file(descriptor_);
+  try {
+    write_all(descriptor_, std::move(parts), name_);
+  } catch (const StreamError&) {
+    // Whole frames only: what a full disk took of this one goes. If that fails too, readers still see the missing end.
+    if (start >= 0)
+      [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, start);
+    throw;
+  }
   ++frames_;
+  ++frames_since_end_;
   bytes_ += encoded.size();
 }
 
@@ -134,9 +154,10 @@ void StreamWriter::end() {
   mark.magic = layout::end_magic;
   mark.version_major = version_major;
   mark.version_minor = version_minor;
-  mark.frames = frames_;
+  mark.frames = frames_since_end_;
   mark.checksum = XXH3_64bits(&mark, offsetof(layout::EndMark, checksum));
   write_all(descriptor_, {part(&mark, sizeof mark)}, name_);
+  frames_since_end_ = 0;
 }
 
 void write_all(int descriptor, std::span<const std::byte> bytes, const std::string& name) {

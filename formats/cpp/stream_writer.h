@@ -31,7 +31,7 @@ public:
   // Writes one whole frame. Throws StreamError: value (bad form), io (disk full, ...), closed (broken pipe; SIGPIPE must be
   // ignored by the program).
   void write(const Frame& frame);
-  // Writes the end mark. A stream without it counts as cut short.
+  // Writes the end mark. A stream without it counts as cut short. Frames behind it belong to a stream that is joined on.
   void end();
 
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
@@ -41,7 +41,7 @@ public:
 private:
   int descriptor_;
   std::string name_;
-  std::uint64_t frames_ = 0, bytes_ = 0;
+  std::uint64_t frames_ = 0, frames_since_end_ = 0, bytes_ = 0;
 };
 
 // Writes all bytes, through EINTR and short writes. Throws StreamError (io, closed).

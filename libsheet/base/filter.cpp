@@ -2,14 +2,39 @@
 #include "libsheet/base/filter.h"
 
 #include <charconv>
+#include <chrono>
+#include <cstdlib>
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include "formats/cpp/stream_reader.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/files.h"
 
 namespace sheet {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Where sheet-loop runs the stage, it wants to know the time that the stage took: a line on a descriptor that it names.
+void report_time(const std::string& name, std::uint64_t frames, Clock::duration busy) {
+  const char* variable = std::getenv(report_descriptor_variable);
+  if (variable == nullptr)
+    return;
+  int descriptor = -1;
+  const std::string_view text = variable;
+  std::from_chars(text.data(), text.data() + text.size(), descriptor);
+  if (descriptor <= STDERR_FILENO)
+    return;
+  const std::string line = fmt::format("time {} {} {} {:.6f}\n", ::getpid(), name, frames,
+                                       std::chrono::duration<double>(busy).count());
+  // A missing line is a missing line in a report, no more.
+  [[maybe_unused]] const ssize_t ignored = ::write(descriptor, line.data(), line.size());
+}
+
+} // namespace
 
 void declare_filter_options(Tool& tool, FilterOptions& options) {
   tool.argument("INPUT", options.input, "stream to read; - for standard input");
@@ -26,7 +51,9 @@ void run_filter(const Tool& tool, const FilterOptions& options, const std::funct
   formats::StreamWriter writer(output.descriptor(), output.name());
   const std::string line = tool.command_line();
   formats::Frame frame;
+  Clock::duration busy{};
   while (reader.read(frame)) {
+    const auto start = Clock::now();
     try {
       work(frame);
     } catch (const Error& error) {
@@ -36,9 +63,11 @@ void run_filter(const Tool& tool, const FilterOptions& options, const std::funct
     if (!options.no_provenance)
       record_provenance(frame, line);
     writer.write(frame);
+    busy += Clock::now() - start;
   }
   writer.end();
   output.close();
+  report_time(tool.name(), reader.frames(), busy);
 }
 
 void record_provenance(formats::Frame& frame, const std::string& line) {

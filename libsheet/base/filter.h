@@ -23,6 +23,9 @@ void declare_filter_options(Tool& tool, FilterOptions& options);
 // downstream knows that it was cut short.
 void run_filter(const Tool& tool, const FilterOptions& options, const std::function<void(formats::Frame&)>& work);
 
+// Environment variable by which sheet-loop tells its stages the descriptor for a line "time PID NAME FRAMES SECONDS".
+inline constexpr const char* report_descriptor_variable = "SHEET_REPORT_FD";
+
 // Counts `line` in the frame's provenance (formats/sheet.md, section 5).
 void record_provenance(formats::Frame& frame, const std::string& line);
 

@@ -83,17 +83,18 @@ void Tool::add(Option option) {
   options_.push_back(std::move(option));
 }
 
-void Tool::option(std::string_view names, double& value, std::string_view placeholder, std::string_view text) {
+void Tool::option(std::string_view names, double& value, std::string_view placeholder, std::string_view text,
+                  Provenance provenance) {
   custom(
       names, placeholder, text, [&value](const std::string& s) { value = parse_number<double>(s, "a finite number"); },
-      [&value] { return fmt::format("{}", value); });
+      [&value] { return fmt::format("{}", value); }, provenance);
 }
 
 void Tool::option(std::string_view names, std::optional<double>& value, std::string_view placeholder,
-                  std::string_view text) {
+                  std::string_view text, Provenance provenance) {
   custom(
       names, placeholder, text, [&value](const std::string& s) { value = parse_number<double>(s, "a finite number"); },
-      [&value] { return value ? fmt::format("{}", *value) : std::string(); });
+      [&value] { return value ? fmt::format("{}", *value) : std::string(); }, provenance);
 }
 
 void Tool::option(std::string_view names, std::int64_t& value, std::string_view placeholder, std::string_view text,
@@ -255,6 +256,8 @@ void Tool::parse(int argc, char** argv) {
     fail(ExitCode::usage, "{} (see {} --help)", error.what(), name_);
   }
   for (const std::string& extra : app.remaining()) {
+    if (extra == "--") // CLI11 leaves the separator behind
+      continue;
     if (extra.size() < 2 || extra[0] != '-')
       fail(ExitCode::usage, "argument \"{}\" is one too many (see {} --help)", extra, name_);
     std::vector<std::string> known;

@@ -25,9 +25,10 @@ public:
 
   // `names`: "--fps" or "-o,--output". `placeholder` names the value and its unit ("FPS", "SECONDS"). The value that the
   // variable has now is the default. An optional is a setting that may be absent; its default is that.
-  void option(std::string_view names, double& value, std::string_view placeholder, std::string_view text);
+  void option(std::string_view names, double& value, std::string_view placeholder, std::string_view text,
+              Provenance provenance = Provenance::record);
   void option(std::string_view names, std::optional<double>& value, std::string_view placeholder,
-              std::string_view text);
+              std::string_view text, Provenance provenance = Provenance::record);
   void option(std::string_view names, std::int64_t& value, std::string_view placeholder, std::string_view text,
               Provenance provenance = Provenance::record);
   void option(std::string_view names, std::optional<std::int64_t>& value, std::string_view placeholder,

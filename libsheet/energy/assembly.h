@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sum of all terms over all their elements: value [J], gradient [N, or N m for angles], Hessian. Written once for
-// every term. Elements with the same stencil share a place in one buffer, which the Pattern gathers into the matrix.
+// every term. Elements with the same stencil share a place in one buffer, which the MatrixPattern gathers into the matrix.
 #pragma once
 #include <memory>
 #include <optional>
@@ -27,7 +27,7 @@ class Assembly {
   // Sets the order of elimination, from an order of the vertices: each edge comes just before the first of its
   // vertices.
   void set_order(std::span<const std::uint32_t> vertex_order);
-  [[nodiscard]] const Pattern& pattern() const { return *pattern_; }
+  [[nodiscard]] const MatrixPattern& pattern() const { return *pattern_; }
 
   [[nodiscard]] EnergySum value(const Terms& terms, const Unknowns& u);
   // held: one flag an unknown, or empty. Their gradient is zero, their rows and columns those of the unit matrix.
@@ -45,7 +45,7 @@ class Assembly {
   int stride_ = 9;
   std::vector<ElementGroup> groups_;
   std::vector<int> group_of_term_;
-  std::optional<Pattern> pattern_;
+  std::optional<MatrixPattern> pattern_;
   std::vector<double> gradients_, hessians_;
   std::vector<double> seconds_;
 };

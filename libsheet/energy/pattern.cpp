@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kColumnsAtOnce = 256;
 } // namespace
 
-Pattern::Pattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
+MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
                  std::span<const std::uint32_t> order)
     : vertices_(vertices), stride_(stride), order_(order.begin(), order.end()) {
   const std::size_t nodes = vertices + edges;
@@ -118,7 +118,7 @@ Pattern::Pattern(std::size_t vertices, std::size_t edges, std::span<const Elemen
   each_node([&](std::uint32_t node, std::uint32_t place) { gradient_sources_[next[node]++] = place; });
 }
 
-void Pattern::gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const {
+void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const {
   gradient.resize(static_cast<Eigen::Index>(permutation_.size()));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order_.size(), 4 * kColumnsAtOnce), [&](const auto& range) {
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
@@ -133,7 +133,7 @@ void Pattern::gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd
   });
 }
 
-void Pattern::gather_matrix(const std::vector<double>& buffer, std::span<const char> held, SparseLower& matrix) const {
+void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<const char> held, SparseLower& matrix) const {
   const auto gather = [&](std::uint32_t k) {
     const std::uint32_t column_node = order_[k];
     const int columns = width(column_node);

@@ -28,10 +28,10 @@ struct ElementGroup {
   [[nodiscard]] std::size_t size() const { return width ? nodes.size() / static_cast<std::size_t>(width) : 0; }
 };
 
-class Pattern {
+class MatrixPattern {
  public:
   // order: the nodes in the order of elimination. stride: unknowns of an element in the buffer.
-  Pattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
+  MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
           std::span<const std::uint32_t> order);
 
   [[nodiscard]] std::size_t unknowns() const { return permutation_.size(); }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Reads triangle meshes from OBJ, OFF, PLY, STL and VTU files.
+//
+// Polygons become fans of triangles around their first corner (right for convex ones). Vertices that no face uses are
+// dropped, so are faces that name a vertex twice; both are told in the notes. Arrays "thickness" (1 component) and
+// "velocity" (3 components; PLY: velocity_x, _y, _z or vx, vy, vz), per vertex or per face, are picked up from PLY and
+// VTU; other arrays are passed over. Numbers are read the same in every locale.
+//
+// The readers trust nothing: counts are held against the size of the file before memory is asked for, indices against
+// the number of vertices, numbers must be finite. Every error is a MeshFileError that names file, place and remedy.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/cpp/foreign_mesh.h"
+
+namespace sheet::formats {
+
+struct MeshImport {
+  ForeignMesh mesh;
+  std::vector<std::string> notes; // what was dropped, merged or passed over; each starts with the file's name
+};
+
+// Reads the file; its format follows from the ending of its name.
+[[nodiscard]] MeshImport import_mesh(const std::string& path);
+
+// Reads a mesh from memory; `name` stands for the file in messages.
+[[nodiscard]] MeshImport import_mesh(std::string_view bytes, MeshFormat format, const std::string& name);
+
+// One reader a format. STL: binary or ASCII, vertices with equal coordinates are merged. OFF: also with normals or
+// colours, which are passed over. PLY: ASCII and both binary orders. VTU: ASCII, inline base64 and appended data (raw
+// or base64), not compressed; triangles, quads, polygons and strips, several pieces.
+[[nodiscard]] MeshImport import_obj(std::string_view bytes, const std::string& name);
+[[nodiscard]] MeshImport import_off(std::string_view bytes, const std::string& name);
+[[nodiscard]] MeshImport import_ply(std::string_view bytes, const std::string& name);
+[[nodiscard]] MeshImport import_stl(std::string_view bytes, const std::string& name);
+[[nodiscard]] MeshImport import_vtu(std::string_view bytes, const std::string& name);
+
+} // namespace sheet::formats

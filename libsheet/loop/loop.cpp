@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/loop/loop.h"
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <future>
+#include <limits>
+#include <memory>
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "formats/cpp/stream_reader.h"
+#include "formats/cpp/stream_writer.h"
+#include "libsheet/base/error.h"
+#include "libsheet/base/files.h"
+#include "libsheet/base/filter.h"
+#include "libsheet/base/log.h"
+#include "libsheet/loop/pipeline.h"
+#include "libsheet/loop/progress.h"
+
+namespace sheet {
+
+using formats::Frame;
+using formats::StreamError;
+using formats::StreamReader;
+using formats::StreamWriter;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+// Which frames are kept.
+struct Keep {
+  bool output_times = false, last_only = false;
+  std::uint64_t every = 1;
+};
+
+Keep parse_keep(const LoopOptions& options) {
+  Keep keep;
+  if (options.keep.empty()) {
+    keep.output_times = options.fps.has_value();
+  } else if (options.keep == "output") {
+    if (!options.fps)
+      fail(ExitCode::usage, "--keep output needs --fps");
+    keep.output_times = true;
+  } else if (options.keep == "last") {
+    keep.last_only = true;
+  } else {
+    const char* end = options.keep.data() + options.keep.size();
+    const auto [stop, error] = std::from_chars(options.keep.data(), end, keep.every);
+    if (error != std::errc{} || stop != end || keep.every == 0)
+      fail(ExitCode::usage, "--keep: \"{}\" is not \"output\", \"last\" or a number of steps", options.keep);
+  }
+  return keep;
+}
+
+// SIGINT and SIGTERM as something to wait for, from construction on; as before after destruction.
+class Signals {
+public:
+  Signals() {
+    sigemptyset(&set_);
+    sigaddset(&set_, SIGINT);
+    sigaddset(&set_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &set_, &old_);
+    descriptor_ = ::signalfd(-1, &set_, SFD_CLOEXEC | SFD_NONBLOCK);
+    if (descriptor_ < 0)
+      fail(ExitCode::io, "cannot wait for signals: {}", std::strerror(errno));
+  }
+  ~Signals() {
+    ::close(descriptor_);
+    pthread_sigmask(SIG_SETMASK, &old_, nullptr);
+  }
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+  // Waits until `descriptor` can be read (true) or a signal has come (false).
+  [[nodiscard]] bool wait_readable(int descriptor) const {
+    for (;;) {
+      std::array<pollfd, 2> waited{pollfd{descriptor, POLLIN, 0}, pollfd{descriptor_, POLLIN, 0}};
+      if (::poll(waited.data(), waited.size(), -1) < 0)
+        continue; // EINTR
+      if (waited[1].revents != 0)
+        return false;
+      if (waited[0].revents != 0)
+        return true;
+    }
+  }
+  // The signal that wait_readable saw.
+  [[nodiscard]] int take() const {
+    signalfd_siginfo info{};
+    return ::read(descriptor_, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : SIGINT;
+  }
+
+private:
+  sigset_t set_{}, old_{};
+  int descriptor_ = -1;
+};
+
+// The stream of kept frames: a new one, or one that a run before has left.
+class Output {
+public:
+  // Reads what is there, cuts off what is behind the last whole frame, and leaves that frame in `last`.
+  static std::unique_ptr<Output> resume(const std::string& path, Frame& last) {
+    std::uint64_t frames = 0, bytes = 0;
+    {
+      const InputFile input(path);
+      StreamReader reader(input.descriptor(), input.name());
+      Frame frame;
+      try {
+        while (reader.read(frame)) {
+          std::swap(frame, last);
+          frames = reader.frames_since_end();
+        }
+      } catch (const StreamError& error) {
+        if (error.kind() == StreamError::Kind::io)
+          throw;
+        log::detail("{}; what is before it is whole", error.what());
+      }
+      bytes = reader.bytes_of_frames();
+      if (reader.frames() == 0)
+        fail(ExitCode::bad_input, "{} holds no whole frame: start the run anew", path);
+    }
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0)
+      fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
+    auto output = std::unique_ptr<Output>(new Output(descriptor, path, frames));
+    if (::ftruncate(descriptor, static_cast<off_t>(bytes)) != 0 || ::lseek(descriptor, 0, SEEK_END) < 0)
+      fail(ExitCode::io, "cannot go on with {}: {}", path, std::strerror(errno));
+    return output;
+  }
+  static std::unique_ptr<Output> create(const std::string& path, const InputFile& input) {
+    auto output = std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(
+        path, OutputFile::Content::binary, &input)));
+    return output;
+  }
+  ~Output() {
+    if (resumed_ >= 0)
+      ::close(resumed_);
+  }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  void write(const Frame& frame) { writer_.write(frame); }
+  void end() {
+    writer_.end();
+    if (created_)
+      created_->close();
+    if (resumed_ >= 0 && ::close(std::exchange(resumed_, -1)) != 0)
+      fail(ExitCode::io, "cannot finish writing: {}", std::strerror(errno));
+  }
+  [[nodiscard]] std::uint64_t frames() const { return writer_.frames(); }
+
+private:
+  explicit Output(std::unique_ptr<OutputFile> file)
+      : created_(std::move(file)), writer_(created_->descriptor(), created_->name()) {}
+  Output(int descriptor, const std::string& path, std::uint64_t frames)
+      : resumed_(descriptor), writer_(descriptor, path, frames) {}
+
+  std::unique_ptr<OutputFile> created_;
+  int resumed_ = -1;
+  StreamWriter writer_;
+};
+
+// A file that holds the newest frame, replaced as a whole.
+void write_checkpoint(const std::string& path, const Frame& frame) {
+  const std::string draft = path + ".new";
+  OutputFile file(draft, OutputFile::Content::binary);
+  StreamWriter writer(file.descriptor(), file.name());
+  writer.write(frame);
+  writer.end();
+  file.close();
+  if (std::rename(draft.c_str(), path.c_str()) != 0)
+    fail(ExitCode::io, "cannot put {} in its place: {}", path, std::strerror(errno));
+}
+
+Frame read_last_frame(const InputFile& input) {
+  StreamReader reader(input.descriptor(), input.name());
+  Frame frame, last;
+  while (reader.read(frame))
+    std::swap(frame, last);
+  if (reader.frames() == 0)
+    fail(ExitCode::bad_input, "{} holds no frame to start from", input.name());
+  return last;
+}
+
+void stamp_next_output_time(Frame& frame, const LoopOptions& options) {
+  double next = options.until.value_or(std::numeric_limits<double>::infinity());
+  if (options.fps)
+    next = std::min(next, next_output_time(frame.time, *options.fps));
+  if (std::isinf(next)) {
+    frame.erase("next_output_time");
+    return;
+  }
+  formats::Array array = formats::make_array("next_output_time", formats::Place::frame, formats::Type::float64, 1, "s",
+                                             formats::Transfer::copy, 1);
+  array.values<double>()[0] = next;
+  frame.put(std::move(array));
+}
+
+// The ring's provenance is one line, not one a round.
+void record_once(Frame& frame, const std::string& line) {
+  const formats::Array* array = frame.find("provenance");
+  if (line.empty() || (array != nullptr && ("\n" + std::string(array->text()) + "\n").find("\n1 " + line + "\n") !=
+                                               std::string::npos))
+    return;
+  record_provenance(frame, line);
+}
+
+ExitCode exit_code_of(const StageStatus& stage) {
+  constexpr int command_not_found = 127, not_executable = 126;
+  if (stage.code == command_not_found || stage.code == not_executable)
+    return ExitCode::usage;
+  return stage.code >= 1 && stage.code <= 6 ? static_cast<ExitCode>(stage.code) : ExitCode::internal;
+}
+
+std::string describe(const StageStatus& stage) {
+  if (stage.code == 127)
+    return fmt::format("stage \"{}\" was not found (exit code 127)", stage.command);
+  if (stage.code > 128)
+    return fmt::format("stage \"{}\" was ended by signal {} ({})", stage.command, stage.code - 128,
+                       strsignal(stage.code - 128));
+  return fmt::format("stage \"{}\" failed with exit code {}", stage.command, stage.code);
+}
+
+void report_times(const PipelineEnd& end, std::uint64_t rounds, double elapsed) {
+  std::string text = fmt::format("{} steps in {:.3g} s", rounds, elapsed);
+  double known = 0;
+  for (const StageTime& time : end.times) {
+    known += time.seconds;
+    text += fmt::format("\n  {:<16} {:10.3f} s {:9.3f} ms a step {:5.1f} %", time.name, time.seconds,
+                        1e3 * time.seconds / static_cast<double>(std::max<std::uint64_t>(1, time.frames)),
+                        100 * time.seconds / elapsed);
+  }
+  text += fmt::format("\n  {:<16} {:10.3f} s {:9.3f} ms a step {:5.1f} %", "pipes and others", elapsed - known,
+                      1e3 * (elapsed - known) / static_cast<double>(std::max<std::uint64_t>(1, rounds)),
+                      100 * (elapsed - known) / elapsed);
+  log::warning("{}", text);
+}
+
+class Ring {
+public:
+  Ring(const LoopOptions& options, const std::string& provenance_line)
+      : options_(options), keep_(parse_keep(options)), provenance_line_(provenance_line) {}
+
+  int run() {
+    start();
+    const Signals signals; // from here on an interrupt ends the ring in good order
+    Pipeline pipeline(options_.pipeline);
+    StreamReader returned(pipeline.output(), "the pipeline's output");
+    StreamWriter sent(pipeline.input(), "the pipeline's input");
+    Progress progress(frame_.time, frame_.step, options_.until, options_.steps);
+    const auto begin = Clock::now();
+    auto checkpointed = begin;
+    std::uint64_t rounds = 0;
+    while (!done()) {
+      stamp_next_output_time(frame_, options_);
+      if (!round(pipeline, signals, sent, returned)) {
+        progress.clear();
+        interrupted(pipeline);
+        return signals.take();
+      }
+      ++rounds;
+      keep_frame();
+      progress.show(frame_.time, frame_.step, output_->frames());
+      if (!options_.checkpoint.empty() &&
+          std::chrono::duration<double>(Clock::now() - checkpointed).count() >= options_.checkpoint_every) {
+        save_state();
+        checkpointed = Clock::now();
+      }
+    }
+    progress.clear();
+    const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (!kept_)
+      write_frame();
+    save_state();
+    finish(pipeline, sent, returned, rounds, elapsed);
+    output_->end();
+    return 0;
+  }
+
+private:
+  // Reads the first frame, opens the output.
+  void start() {
+    if (!options_.resume.empty()) {
+      output_ = Output::resume(options_.resume, frame_);
+      kept_ = true;
+      if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint)) {
+        const InputFile input(options_.checkpoint);
+        Frame newer = read_last_frame(input);
+        if (newer.step > frame_.step) {
+          frame_ = std::move(newer);
+          kept_ = false;
+        }
+      }
+      log::detail("going on with {} at step {}, t = {} s", options_.resume, frame_.step, frame_.time);
+    } else {
+      const InputFile input(options_.input);
+      frame_ = read_last_frame(input);
+      output_ = Output::create(options_.output, input);
+      record_once(frame_, provenance_line_);
+      if (!keep_.last_only)
+        write_frame();
+    }
+    record_once(frame_, provenance_line_);
+  }
+
+  [[nodiscard]] bool done() const {
+    return (options_.until && frame_.time >= *options_.until) ||
+           (options_.steps && frame_.step >= static_cast<std::uint64_t>(*options_.steps));
+  }
+
+  // One frame through all stages; false if the user interrupted. Sends from a thread of its own: a stage may answer before
+  // it has read everything, and neither end may wait for the other.
+  bool round(Pipeline& pipeline, const Signals& signals, StreamWriter& sent, StreamReader& returned) {
+    std::future<void> sending = std::async(std::launch::async, [&] { sent.write(frame_); });
+    const bool readable = signals.wait_readable(pipeline.output());
+    std::string error;
+    if (readable) {
+      try {
+        if (!returned.read(back_))
+          error = "the pipeline ended its stream too early";
+      } catch (const StreamError& e) {
+        error = e.what();
+      }
+    }
+    if ((!readable || !error.empty()) &&
+        sending.wait_for(std::chrono::seconds(readable ? 5 : 0)) != std::future_status::ready)
+      pipeline.kill();
+    try {
+      sending.get();
+    } catch (const StreamError& e) {
+      if (error.empty() && readable)
+        error = e.what();
+    }
+    if (!readable)
+      return false;
+    if (!error.empty())
+      fail_round(pipeline, error);
+    if (back_.step == frame_.step)
+      ++back_.step; // a ring without sheet-step counts rounds
+    if (options_.until && !(back_.time > frame_.time))
+      fail(ExitCode::usage,
+           "the pipeline did not advance the time (t = {} s after step {}): --until needs sheet-step in it; "
+           "give --steps for a ring without",
+           back_.time, back_.step);
+    std::swap(frame_, back_);
+    kept_ = false;
+    return true;
+  }
+
+  void keep_frame() {
+    const bool wanted = keep_.last_only      ? false
+                        : keep_.output_times ? frame_.time >= back_.find("next_output_time")->values<double>()[0]
+                                             : frame_.step % keep_.every == 0;
+    if (!wanted)
+      return;
+    write_frame();
+  }
+
+  void write_frame() {
+    try {
+      output_->write(frame_);
+    } catch (const StreamError& error) {
+      if (error.kind() == StreamError::Kind::closed)
+        throw;
+      save_state();
+      fail(ExitCode::io, "{}; at {}", error.what(), whereabouts());
+    }
+    kept_ = true;
+  }
+
+  // How to go on, for messages.
+  [[nodiscard]] std::string whereabouts() const {
+    std::string text = fmt::format("step {}, t = {} s; {} whole frames kept", frame_.step, frame_.time,
+                                   output_->frames());
+    const std::string& path = options_.resume.empty() ? options_.output : options_.resume;
+    text += path == "-" ? "; go on with --resume FILE if they are in one" : fmt::format("; go on with --resume {}", path);
+    return text;
+  }
+
+  void save_state() const {
+    if (!options_.checkpoint.empty())
+      write_checkpoint(options_.checkpoint, frame_);
+  }
+
+  [[noreturn]] void fail_round(Pipeline& pipeline, const std::string& error) {
+    const PipelineEnd end = pipeline.finish(5);
+    save_state();
+    if (const StageStatus* stage = first_failure(end))
+      fail(exit_code_of(*stage), "{} in the step after {}", describe(*stage), whereabouts());
+    fail(ExitCode::corrupt, "{}, though every stage ended well; in the step after {}", error, whereabouts());
+  }
+
+  void interrupted(Pipeline& pipeline) {
+    pipeline.kill();
+    save_state();
+    log::warning("interrupted in the step after {}", whereabouts());
+    output_->end();
+  }
+
+  // Ends the stream to the pipeline and sees every stage end well.
+  void finish(Pipeline& pipeline, StreamWriter& sent, StreamReader& returned, std::uint64_t rounds, double elapsed) {
+    std::string error;
+    try {
+      sent.end();
+      pipeline.close_input();
+      if (returned.read(back_))
+        error = "the pipeline sent more frames than it got";
+    } catch (const StreamError& e) {
+      error = e.what();
+    }
+    const PipelineEnd end = pipeline.finish(60);
+    if (const StageStatus* stage = first_failure(end))
+      fail(exit_code_of(*stage), "{} at the end of the stream, after {}", describe(*stage), whereabouts());
+    if (!error.empty())
+      fail(ExitCode::corrupt, "{}; after {}", error, whereabouts());
+    if (rounds > 0)
+      report_times(end, rounds, elapsed);
+  }
+
+  LoopOptions options_;
+  Keep keep_;
+  std::string provenance_line_;
+  std::unique_ptr<Output> output_;
+  Frame frame_, back_;  // the newest state; the one that comes back (after a round: the one before)
+  bool kept_ = false;   // the newest state is in the output
+};
+
+} // namespace
+
+void check(const LoopOptions& options) {
+  const auto positive = [](const char* name, const std::optional<double>& value) {
+    if (value && !(*value > 0 && std::isfinite(*value)))
+      fail(ExitCode::usage, "{}: {} is not a positive number", name, *value);
+  };
+  positive("--fps", options.fps);
+  positive("--checkpoint-every", options.checkpoint_every);
+  if (options.until && !std::isfinite(*options.until))
+    fail(ExitCode::usage, "--until: {} is not finite", *options.until);
+  if (options.steps && *options.steps < 0)
+    fail(ExitCode::usage, "--steps: {} is negative", *options.steps);
+  if (!options.until && !options.steps)
+    fail(ExitCode::usage, "when does it end? give --until SECONDS or --steps N");
+  if (options.pipeline.find_first_not_of(" \t\n") == std::string::npos)
+    fail(ExitCode::usage, "no pipeline: give the stages behind --, as in -- 'sheet-step | sheet-remesh'");
+  if (!options.resume.empty() && (options.input != "-" || options.output != "-"))
+    fail(ExitCode::usage, "--resume FILE is input and output at once: give neither INPUT nor -o with it");
+  [[maybe_unused]] const Keep keep = parse_keep(options);
+}
+
+double next_output_time(double time, double fps) {
+  double k = std::floor(time * fps);
+  while (k / fps <= time)
+    ++k;
+  while ((k - 1) / fps > time)
+    --k;
+  return k / fps;
+}
+
+int run_loop(const LoopOptions& options, const std::string& provenance_line) {
+  check(options);
+  return Ring(options, provenance_line).run();
+}
+
+} // namespace sheet

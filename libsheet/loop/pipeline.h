@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A shell pipeline as a child process, with both its ends, the exit status of each of its stages and their times.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace sheet {
+
+// How one stage ended.
+struct StageStatus {
+  std::string command; // as written in the pipeline
+  int code = 0;        // exit code; 128 + signal if a signal ended it
+};
+
+// What a stage that knows how (run_filter) says of its own time.
+struct StageTime {
+  pid_t process = 0;
+  std::string name;
+  std::uint64_t frames = 0;
+  double seconds = 0; // wall-clock, from a frame's arrival to its departure, all frames
+};
+
+struct PipelineEnd {
+  std::vector<StageStatus> stages; // empty if the shell could not tell
+  int shell_code = 0;              // of the shell itself
+  std::vector<StageTime> times;    // in the order of the pipeline
+};
+
+// Splits a command at its top-level pipes: "a 'x|y' | b" gives "a 'x|y'" and "b". Empty if it is more than one pipeline
+// (;, &&, ||, &, newline outside quotes), for then stages cannot be told apart.
+[[nodiscard]] std::vector<std::string> split_pipeline(const std::string& command);
+
+class Pipeline {
+public:
+  // Starts `command` under bash in a process group of its own, with this program's folder first in PATH. Throws Error (io).
+  explicit Pipeline(const std::string& command);
+  // Ends whatever still runs.
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  [[nodiscard]] int input() const noexcept { return input_; }   // write frames here
+  [[nodiscard]] int output() const noexcept { return output_; } // read frames here
+  void close_input();
+
+  // Closes both ends and waits until all stages have ended; those that have not after `patience` seconds are killed.
+  [[nodiscard]] PipelineEnd finish(double patience);
+  // Kills all stages now.
+  void kill();
+
+private:
+  std::string command_;
+  int input_ = -1, output_ = -1, report_ = -1;
+  pid_t shell_ = -1;
+};
+
+// The stage to blame for a pipeline's end: the first from the left with a code other than 0 and SIGPIPE's, for those before
+// it saw a closed pipe and those behind it a stream that was cut short. Null if there is none.
+[[nodiscard]] const StageStatus* first_failure(const PipelineEnd& end);
+
+} // namespace sheet

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/read.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "libsheet/scene/tables.h"
+
+namespace sheet::scene {
+namespace {
+
+// What only several tables together can say.
+void check_together(const Scene& scene, const Node& document, Problems& problems) {
+  const auto place = [&](std::string_view table, std::string_view key) {
+    const Node* found = document.find(table);
+    if (found && found->type == Node::Type::table)
+      if (const Node* value = found->find(key))
+        return value->place;
+    return found ? found->place : document.place;
+  };
+  const auto has = [&](std::string_view table, std::string_view key) {
+    const Node* found = document.find(table);
+    return found && found->find(key);
+  };
+  const auto& [sheet, material, environment, model, holds, solids, inflow, tear, contact] = scene;
+  if (!has("material", "density") && model.inertia)
+    problems.add(place("material", "density"), "missing key \"density\" in [material]: inertia needs it (or switch it "
+                                               "off: inertia = false in [model])");
+  else if (!has("material", "density") && environment.gravity)
+    problems.add(place("material", "density"), "missing key \"density\" in [material]: gravity needs it");
+  if (material.viscosity == 0 && !model.inertia)
+    problems.add(place("material", "viscosity"), "viscosity: 0 needs inertia: nothing else would resist the forces");
+  if (environment.bath && !environment.gravity && (!has("environment", "gravity") || !problems.any()))
+    problems.add(place("environment", "bath"), "bath: needs gravity, which says where up is");
+  const bool flat = sheet.shape.index() <= 2;
+  if (environment.pressure && flat && !std::holds_alternative<ConstantPressure>(*environment.pressure))
+    problems.add(place("environment", "pressure"),
+                 "pressure: this law needs a shape that encloses a volume, or a mesh");
+}
+
+Scene read_document(const Node& document, Problems& problems, const Files& files) {
+  static const Node nothing{};
+  TableReader top(document, "the scene", problems);
+  const auto required = [&](std::string_view key) {
+    const auto table = top.table(key);
+    if (!table && top.absent(key))
+      problems.add({}, fmt::format("missing table [{}]", key));
+    return table;
+  };
+  const auto named = [&](std::string_view key, const Node& node) {
+    return TableReader(node, fmt::format("[{}]", key), problems);
+  };
+  const auto optional = [&](std::string_view key) -> std::optional<TableReader> {
+    const Node* node = top.table(key) ? document.find(key) : nullptr;
+    if (!node)
+      return {};
+    return named(key, *node);
+  };
+  const auto list = [&](std::string_view key) {
+    std::vector<TableReader> tables;
+    const Node* node = top.take(key);
+    if (!node)
+      return tables;
+    if (node->type != Node::Type::list) {
+      problems.add(node->place, fmt::format("{0}: expected tables [[{0}]], got {1}", key, describe(node->type)));
+      return tables;
+    }
+    for (const Node& item : node->items) {
+      if (item.type == Node::Type::table)
+        tables.emplace_back(item, fmt::format("[[{}]]", key), problems);
+      else
+        problems.add(item.place,
+                     fmt::format("{0}: expected tables [[{0}]], got {1} in the list", key, describe(item.type)));
+    }
+    return tables;
+  };
+
+  Scene scene;
+  const bool has_sheet = required("sheet").has_value(), has_material = required("material").has_value();
+  if (has_material)
+    scene.material = read_material(named("material", *document.find("material")));
+  if (auto table = optional("environment"))
+    scene.environment = read_environment(*table);
+  if (auto table = optional("model"))
+    scene.model = read_model(*table);
+  if (has_sheet)
+    scene.sheet = read_sheet(named("sheet", *document.find("sheet")), scene.environment, files);
+  else
+    scene.sheet.shape = SheetMesh{"", 1}; // has every border
+  for (TableReader& table : list("hold"))
+    scene.holds.push_back(read_hold(table, scene.sheet, scene.model));
+  for (TableReader& table : list("solid"))
+    scene.solids.push_back(read_solid(table, scene.environment, files));
+  if (auto table = optional("inflow"))
+    scene.inflow = read_inflow(*table, scene.sheet);
+  if (auto table = optional("tear"))
+    scene.tear = read_tear(*table, scene.sheet);
+  if (auto table = optional("contact"))
+    scene.contact = read_contact(*table);
+  top.finish();
+  if (has_sheet && has_material && !problems.any())
+    check_together(scene, document, problems);
+  return scene;
+}
+
+Scene parse(std::string_view text, const std::string& name, std::span<const std::string> sets, const Files& files) {
+  Node document = parse_toml(text, name);
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    apply_set(document, sets[i], static_cast<int>(i));
+  Problems problems(name, sets);
+  Scene scene = read_document(document, problems, files);
+  problems.throw_if_any();
+  return scene;
+}
+
+} // namespace
+
+Scene parse_scene(std::string_view text, std::string_view name, std::span<const std::string> sets,
+                  const std::filesystem::path& base_folder) {
+  return parse(text, std::string(name), sets, Files{base_folder, false});
+}
+
+Scene read_scene(const std::filesystem::path& path, std::span<const std::string> sets) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (in)
+    text << in.rdbuf();
+  std::error_code error;
+  if (!in || std::filesystem::is_directory(path, error))
+    fail(ExitCode::io, "{}: cannot be read", path.string());
+  std::filesystem::path folder = path.parent_path();
+  if (folder.is_absolute())
+    folder = folder.lexically_proximate(std::filesystem::current_path());
+  return parse(text.str(), path.string(), sets, Files{folder, true});
+}
+
+} // namespace sheet::scene

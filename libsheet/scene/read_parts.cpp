@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What several tables have in common: motions, rotations, files, borders.
+#include <algorithm>
+
+#include "libsheet/scene/tables.h"
+#include "libsheet/scene/words.h"
+
+namespace sheet::scene {
+
+Motion read_motion(TableReader& parent, const Vector3d& center) {
+  auto table = parent.table("motion");
+  if (!table)
+    return Fixed{};
+  const auto kind = table->choice("kind", words::motions);
+  if (table->absent("kind"))
+    table->missing("kind", "\"rotating\"");
+  Motion motion = Fixed{};
+  if (kind == 1) {
+    if (table->absent("velocity"))
+      table->missing("velocity", "[0, 0, \"0.4 m/s\"]");
+    motion = Translating{table->timed_velocity("velocity").value_or(Timed<Vector3d>{})};
+  } else if (kind == 2) {
+    if (table->absent("rate"))
+      table->missing("rate", "\"0.3 rad/s\"");
+    if (table->absent("axis"))
+      table->missing("axis", "[0, 1, 0]");
+    motion = Rotating{table->direction_or("axis", Vector3d::UnitY()),
+                      table->vector("center", quantity::length).value_or(center),
+                      table->timed_rate("rate").value_or(Timed<double>{})};
+  }
+  const auto because = kind ? fmt::format("a {} motion takes {}", words::motions[*kind],
+                                          *kind == 0   ? "nothing else"
+                                          : *kind == 1 ? "velocity"
+                                                       : "axis, center, rate")
+                            : "the motion's kind is not known";
+  table->has_no_meaning({"velocity", "rate", "axis", "center"}, because);
+  table->finish();
+  return motion;
+}
+
+std::optional<Rotation> read_rotation(TableReader& parent) {
+  auto table = parent.table("rotation");
+  if (!table)
+    return {};
+  if (table->absent("axis"))
+    table->missing("axis", "[0, 1, 0]");
+  Rotation rotation;
+  rotation.axis = table->direction_or("axis", Vector3d::UnitY());
+  rotation.angle = table->required("angle", quantity::angle, Bound::any);
+  table->finish();
+  return rotation;
+}
+
+std::string read_file(TableReader& table, const Files& files, std::span<const std::string_view> extensions) {
+  if (table.absent("file"))
+    table.missing("file", fmt::format("\"bunny{}\"", extensions.front()));
+  const auto name = table.text("file");
+  if (!name)
+    return {};
+  const std::filesystem::path path = (files.folder / *name).lexically_normal();
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    std::string list;
+    for (const auto known : extensions)
+      list += fmt::format("{}{}", list.empty() ? "" : ", ", known);
+    table.wrong("file", fmt::format("\"{}\" is of no known kind; known: {}", *name, list));
+  } else if (files.must_exist) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status))
+      table.wrong("file", fmt::format("there is no \"{}\"", path.string()));
+    else if (!std::filesystem::is_regular_file(status))
+      table.wrong("file", fmt::format("\"{}\" is not a file", path.string()));
+  }
+  return path.string();
+}
+
+std::optional<Border> read_border(TableReader& table, std::string_view key, const SheetTable& sheet) {
+  const auto index = table.choice(key, words::borders);
+  if (!index)
+    return {};
+  const auto border = static_cast<Border>(*index);
+  const auto existing = borders_of(sheet);
+  if (std::find(existing.begin(), existing.end(), border) == existing.end()) {
+    std::string list;
+    for (const Border one : existing)
+      list += fmt::format("{}{}", list.empty() ? "" : ", ", words::borders[static_cast<std::size_t>(one)]);
+    table.wrong(key, fmt::format("this sheet has no \"{}\"; it has {}", words::borders[*index],
+                                 list.empty() ? "no border" : list));
+  }
+  return border;
+}
+
+} // namespace sheet::scene

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// [material], [environment], [model]
+#include "libsheet/scene/tables.h"
+#include "libsheet/scene/words.h"
+
+namespace sheet::scene {
+namespace {
+
+std::optional<Pressure> read_pressure(TableReader& parent) {
+  auto table = parent.table("pressure");
+  if (!table)
+    return {};
+  if (table->absent("law"))
+    table->missing("law", "\"constant\"");
+  const auto law = table->choice("law", words::pressures);
+  std::optional<Pressure> result;
+  std::string because = "the law is not known";
+  if (law == 0) {
+    result = ConstantPressure{table->required("value", quantity::pressure, Bound::any)};
+    because = "law \"constant\" takes value";
+  } else if (law == 1) {
+    const double value = table->required("value", quantity::pressure, Bound::any);
+    result = InverseSquarePressure{value, table->required("reference_radius", quantity::length)};
+    because = "law \"inverse_square\" takes value, reference_radius";
+  } else if (law == 2) {
+    result = DrainingPressure{table->required("conductance", quantity::conductance)};
+    because = "law \"draining\" takes conductance";
+  }
+  table->has_no_meaning({"value", "reference_radius", "conductance"}, because);
+  table->finish();
+  return result;
+}
+
+} // namespace
+
+Material read_material(TableReader table) {
+  Material material;
+  material.viscosity = table.required("viscosity", quantity::viscosity, Bound::not_negative);
+  material.density = table.quantity_or("density", quantity::density, 0, Bound::positive);
+  material.surface_tension = table.quantity_or("surface_tension", quantity::surface_tension, 0, Bound::not_negative);
+  table.finish();
+  return material;
+}
+
+Environment read_environment(TableReader table) {
+  Environment environment;
+  environment.gravity = table.vector("gravity", quantity::acceleration);
+  if (environment.gravity && environment.gravity->isZero(0))
+    environment.gravity.reset(); // no such term
+  environment.pressure = read_pressure(table);
+  if (auto bath = table.table("bath")) {
+    const double density = bath->required("density", quantity::density);
+    environment.bath = Bath{density, bath->quantity_or("level", quantity::length, 0)};
+    bath->finish();
+  }
+  table.finish();
+  return environment;
+}
+
+Model read_model(TableReader table) {
+  Model model;
+  model.inertia = table.boolean("inertia").value_or(true);
+  model.bending = table.boolean("bending").value_or(true);
+  table.finish();
+  return model;
+}
+
+} // namespace sheet::scene

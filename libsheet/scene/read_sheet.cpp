@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// [sheet]
+#include <cmath>
+#include <numbers>
+
+#include "libsheet/scene/tables.h"
+#include "libsheet/scene/words.h"
+
+namespace sheet::scene {
+namespace {
+
+constexpr std::array<std::string_view, 5> mesh_files{".obj", ".off", ".ply", ".stl", ".vtu"};
+constexpr double most_triangles = 1e9;
+
+Rectangle read_rectangle(TableReader& table) {
+  constexpr std::string_view example = "[\"1 m\", \"0.5 m\"]";
+  const Node* size = table.take("size");
+  if (!size) {
+    table.missing("size", example);
+    return {NAN, NAN};
+  }
+  if (size->type != Node::Type::list || size->items.size() != 2) {
+    table.wrong("size", fmt::format("expected two lengths such as {}", example));
+    return {NAN, NAN};
+  }
+  const auto side = [&](std::size_t i) {
+    return table.quantity(size->items[i], "size", quantity::length, Bound::positive).value_or(NAN);
+  };
+  const double first = side(0);
+  return {first, side(1)};
+}
+
+Annulus read_annulus(TableReader& table) {
+  const Annulus annulus{table.required("inner_radius", quantity::length),
+                        table.required("outer_radius", quantity::length)};
+  if (annulus.inner_radius >= annulus.outer_radius)
+    table.wrong("inner_radius", fmt::format("must be less than outer_radius, but {} m is not less than {} m",
+                                            shortest(annulus.inner_radius), shortest(annulus.outer_radius)));
+  return annulus;
+}
+
+Cap read_cap(TableReader& table) {
+  const Cap cap{table.required("radius", quantity::length), table.required("angle", quantity::angle, Bound::any),
+                table.quantity_or("opening", quantity::angle, 0, Bound::not_negative)};
+  const auto degrees = [](double angle) { return shortest(angle * 180 / std::numbers::pi); };
+  if (cap.angle <= 0 || cap.angle > std::numbers::pi)
+    table.wrong("angle", fmt::format("must be above 0 and at most 180 deg, got {} deg (a number is in radians)",
+                                     degrees(cap.angle)));
+  else if (cap.opening >= cap.angle)
+    table.wrong("opening", fmt::format("must be less than the cap's angle, but {} deg is not less than {} deg",
+                                       degrees(cap.opening), degrees(cap.angle)));
+  return cap;
+}
+
+SheetShape read_shape(TableReader& table, const Files& files) {
+  constexpr std::array<std::string_view, 7> keys{
+      "size",           "radius",     "inner_radius, outer_radius", "radius", "radius, angle, opening",
+      "radius, height", "file, scale"};
+  if (table.absent("shape"))
+    table.missing("shape", "\"disk\"");
+  const auto kind = table.choice("shape", words::sheet_shapes);
+  if (!kind) {
+    // What depends on the shape cannot be judged; a mesh is the shape with the fewest rules.
+    for (const auto key : {"size", "radius", "inner_radius", "outer_radius", "angle", "opening", "height", "file",
+                           "scale", "edge_length", "segments", "pattern", "seed"})
+      table.take(key);
+    return SheetMesh{"", 1};
+  }
+  SheetShape shape;
+  switch (*kind) {
+  case 0:
+    shape = read_rectangle(table);
+    break;
+  case 1:
+    shape = Disk{table.required("radius", quantity::length)};
+    break;
+  case 2:
+    shape = read_annulus(table);
+    break;
+  case 3:
+    shape = Sphere{table.required("radius", quantity::length)};
+    break;
+  case 4:
+    shape = read_cap(table);
+    break;
+  case 5: {
+    const double radius = table.required("radius", quantity::length);
+    shape = Tube{radius, table.required("height", quantity::length)};
+    break;
+  }
+  default: {
+    std::string file = read_file(table, files, mesh_files);
+    shape = SheetMesh{std::move(file), table.quantity_or("scale", quantity::number, 1, Bound::positive)};
+    table.has_no_meaning({"edge_length", "segments", "pattern", "seed"}, "a mesh is taken as it is");
+  }
+  }
+  table.has_no_meaning(
+      {"size", "radius", "inner_radius", "outer_radius", "angle", "opening", "height", "file", "scale"},
+      fmt::format("shape \"{}\" takes {}", words::sheet_shapes[*kind], keys[*kind]));
+  return shape;
+}
+
+std::optional<std::array<int, 2>> read_segments(TableReader& table, bool round) {
+  const Node* value = table.take("segments");
+  if (!value)
+    return {};
+  constexpr std::int64_t most = 1'000'000;
+  const auto good = [&](std::size_t i, std::int64_t least) {
+    const Node& item = value->items[i];
+    return item.type == Node::Type::integer && item.integer >= least && item.integer <= most;
+  };
+  const int least = round ? 3 : 1;
+  if (value->type != Node::Type::list || value->items.size() != 2 || !good(0, least) || !good(1, 1)) {
+    table.wrong("segments", fmt::format("expected two integers such as [30, 20], from {} to {}{}", least, most,
+                                        round ? " around and from 1 along" : ""));
+    return {};
+  }
+  return std::array{static_cast<int>(value->items[0].integer), static_cast<int>(value->items[1].integer)};
+}
+
+void read_mesh_size(TableReader& table, SheetTable& sheet) {
+  if (std::holds_alternative<SheetMesh>(sheet.shape))
+    return;
+  sheet.edge_length = table.quantity("edge_length", quantity::length, Bound::positive);
+  sheet.segments = read_segments(table, !std::holds_alternative<Rectangle>(sheet.shape));
+  const auto pattern = table.choice("pattern", words::patterns);
+  const bool counted = !table.absent("segments");
+  if (!counted && table.absent("edge_length"))
+    table.missing("edge_length", "\"20 mm\"");
+  if (counted && !table.absent("edge_length"))
+    table.wrong("segments", "give either edge_length or segments, not both");
+  sheet.pattern = pattern ? static_cast<Pattern>(*pattern) : counted ? Pattern::structured : Pattern::irregular;
+  if (counted && pattern && sheet.pattern != Pattern::structured)
+    table.wrong("pattern", "segments need the pattern \"structured\"");
+  if (sheet.pattern == Pattern::irregular)
+    sheet.seed = table.seed("seed").value_or(0);
+  else
+    table.has_no_meaning({"seed"}, "only the pattern \"irregular\" has one");
+
+  const auto size = size_of(sheet.shape);
+  if (!sheet.edge_length || !size)
+    return;
+  const double edge = *sheet.edge_length;
+  if (edge > size->smallest)
+    table.wrong("edge_length", fmt::format("{} m is larger than the shape, whose least measure is {} m", shortest(edge),
+                                           shortest(size->smallest)));
+  else if (const double triangles = size->area / (edge * edge) * 4 / std::sqrt(3.0);
+           !(triangles <= most_triangles) && !std::isnan(size->area))
+    table.wrong("edge_length", fmt::format("{} m makes about {:.1e} triangles; at most {:.0e} are possible",
+                                           shortest(edge), triangles, most_triangles));
+}
+
+void read_thickness(TableReader& table, SheetTable& sheet) {
+  const bool mesh = std::holds_alternative<SheetMesh>(sheet.shape);
+  const Node* value = table.take("thickness");
+  if (!value || value->type != Node::Type::table) {
+    sheet.thickness = table.required("thickness", quantity::length);
+    return;
+  }
+  auto source = *table.table("thickness");
+  if (!mesh)
+    table.wrong("thickness", "only shape \"mesh\" has data to take it from; expected a length such as \"2.5 mm\"");
+  ThicknessData data{};
+  if (source.absent("data"))
+    source.missing("data", "\"thickness\"");
+  data.data = source.text("data").value_or("");
+  data.per_face = source.choice("place", words::places).value_or(0) == 1;
+  data.scale = source.quantity_or("scale", quantity::number, 1, Bound::positive);
+  source.finish();
+  sheet.thickness = std::move(data);
+}
+
+Perturbation read_perturbation(TableReader table, const SheetTable& sheet) {
+  Perturbation result{};
+  result.of_thickness = table.choice("of", words::perturbed).value_or(0) == 1;
+  result.amplitude = table.required("amplitude", quantity::length);
+  const double* uniform = std::get_if<double>(&sheet.thickness);
+  if (result.of_thickness && uniform && result.amplitude >= *uniform)
+    table.wrong("amplitude", fmt::format("must be less than the sheet's thickness, but {} m is not less than {} m",
+                                         shortest(result.amplitude), shortest(*uniform)));
+  const auto seed = table.seed("seed");
+  const auto wavelength = table.quantity("wavelength", quantity::length, Bound::positive);
+  if (table.absent("seed") == table.absent("wavelength"))
+    table.problems().add(table.place(),
+                         fmt::format("{}: give either a wavelength or a seed (for noise)", table.where()));
+  if (!table.absent("seed")) {
+    result.form = Noise{seed.value_or(0)};
+    table.has_no_meaning({"direction", "phase"}, "noise has none");
+  } else {
+    const PlaneAxes axes = axes_of(sheet.plane);
+    const auto direction = table.choice("direction", words::directions);
+    const bool flat = sheet.shape.index() <= 2;
+    if (flat && direction == static_cast<std::size_t>(axes.normal))
+      table.wrong("direction", "is the normal of the sheet's plane, along which a flat sheet has no extent");
+    result.form = Wave{wavelength.value_or(1), table.quantity_or("phase", quantity::angle, 0),
+                       static_cast<WaveDirection>(direction.value_or(static_cast<std::size_t>(axes.first)))};
+  }
+  table.finish();
+  return result;
+}
+
+void read_perturbations(TableReader& table, SheetTable& sheet) {
+  const Node* value = table.take("perturbation");
+  if (!value)
+    return;
+  if (value->type == Node::Type::list) {
+    for (const Node& item : value->items) {
+      if (item.type == Node::Type::table)
+        sheet.perturbations.push_back(read_perturbation({item, "perturbation", table.problems()}, sheet));
+      else
+        table.problems().add(item.place, fmt::format("perturbation: expected tables, got {}", describe(item.type)));
+    }
+  } else if (auto one = table.table("perturbation")) {
+    sheet.perturbations.push_back(read_perturbation(*one, sheet));
+  }
+}
+
+// Horizontal: the coordinate plane that is most nearly perpendicular to gravity; y is up without gravity.
+Plane horizontal(const Environment& environment) {
+  if (!environment.gravity)
+    return Plane::xz;
+  int axis = 1;
+  for (const int other : {0, 2})
+    if (std::abs((*environment.gravity)[other]) > std::abs((*environment.gravity)[axis]))
+      axis = other;
+  return axis == 0 ? Plane::yz : axis == 1 ? Plane::xz : Plane::xy;
+}
+
+} // namespace
+
+SheetTable read_sheet(TableReader table, const Environment& environment, const Files& files) {
+  SheetTable sheet;
+  sheet.shape = read_shape(table, files);
+  read_mesh_size(table, sheet);
+  const auto plane = table.choice("plane", words::planes);
+  sheet.plane = plane ? static_cast<Plane>(*plane) : horizontal(environment);
+  read_thickness(table, sheet);
+  read_perturbations(table, sheet);
+  sheet.center = table.vector("center", quantity::length).value_or(Vector3d::Zero());
+  sheet.rotation = read_rotation(table);
+  sheet.velocity = table.vector("velocity", quantity::velocity).value_or(Vector3d::Zero());
+  table.finish();
+  return sheet;
+}
+
+} // namespace sheet::scene

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// [[hold]], [[solid]], [inflow], [tear], [contact]
+#include "libsheet/scene/tables.h"
+#include "libsheet/scene/words.h"
+
+namespace sheet::scene {
+namespace {
+
+constexpr std::array<std::string_view, 5> mesh_files{".obj", ".off", ".ply", ".stl", ".vdb"};
+constexpr std::string_view region_example =
+    "\"rim\", {box = [[0, 0, 0], [1, 1, 1]]} or {sphere = {center = [0, 0, 0], radius = 1}}";
+
+std::optional<Region> read_box_region(TableReader& parent) {
+  const Node* box = parent.take("box");
+  if (box->type != Node::Type::list || box->items.size() != 2) {
+    parent.wrong("box", "expected two corners such as [[0, 0, 0], [1, 1, 1]]");
+    return {};
+  }
+  const auto low = parent.vector(box->items[0], "box", quantity::length);
+  const auto high = parent.vector(box->items[1], "box", quantity::length);
+  if (!low || !high)
+    return {};
+  if ((low->array() > high->array()).any())
+    parent.wrong("box", "the first corner must not exceed the second in any coordinate");
+  return BoxRegion{*low, *high};
+}
+
+std::optional<Region> read_region(TableReader& hold, const SheetTable& sheet) {
+  const Node* value = hold.take("region");
+  if (!value) {
+    hold.missing("region", "\"rim\"");
+    return {};
+  }
+  if (value->type == Node::Type::text) {
+    if (const auto border = read_border(hold, "region", sheet))
+      return *border;
+    return {};
+  }
+  if (value->type != Node::Type::table) {
+    hold.wrong("region", fmt::format("expected {}, got {}", region_example, describe(value->type)));
+    return {};
+  }
+  auto table = *hold.table("region");
+  std::optional<Region> result;
+  if (table.absent("box") == table.absent("sphere")) {
+    hold.wrong("region", fmt::format("expected {}", region_example));
+  }
+  if (!table.absent("box"))
+    result = read_box_region(table);
+  if (auto sphere = table.table("sphere")) {
+    if (sphere->absent("center"))
+      sphere->missing("center", "[0, 0, 0]");
+    const Vector3d center = sphere->vector("center", quantity::length).value_or(Vector3d::Zero());
+    result = SphereRegion{center, sphere->required("radius", quantity::length)};
+    sphere->finish();
+  }
+  table.finish();
+  return result;
+}
+
+std::array<bool, 3> read_axes(TableReader& table) {
+  const auto text = table.text("axes");
+  if (!text)
+    return {true, true, true};
+  std::array<bool, 3> axes{};
+  for (const char c : *text) {
+    const std::size_t axis = c == 'x' ? 0 : c == 'y' ? 1 : c == 'z' ? 2 : 3;
+    if (axis == 3 || axes[axis]) {
+      table.wrong("axes", "expected some of the letters x, y, z, such as \"y\" or \"xz\"");
+      return {true, true, true};
+    }
+    axes[axis] = true;
+  }
+  return axes;
+}
+
+struct KnownSolid {
+  SolidShape shape;
+  std::string_view keys;
+};
+
+KnownSolid read_solid_shape(TableReader& table, std::size_t kind, const Environment& environment, const Files& files) {
+  switch (kind) {
+  case 0:
+    return {Sphere{table.required("radius", quantity::length)}, "radius"};
+  case 1: {
+    if (table.absent("size"))
+      table.missing("size", "[0.2, 0.1, 0.2]");
+    const auto size = table.vector("size", quantity::length);
+    if (size && (size->array() <= 0).any())
+      table.wrong("size", "every edge must be positive");
+    return {SolidBox{size.value_or(Vector3d::Ones())}, "size, rotation"};
+  }
+  case 2: {
+    const double radius = table.required("radius", quantity::length);
+    return {Capsule{radius, table.required("length", quantity::length)}, "radius, length, rotation"};
+  }
+  case 3: {
+    const double radius = table.required("radius", quantity::length);
+    return {Cylinder{radius, table.required("height", quantity::length)}, "radius, height, rotation"};
+  }
+  case 4:
+    return {HalfSpace{table.direction_or("normal", up(environment).value_or(Vector3d::UnitY()))}, "normal"};
+  default: {
+    std::string file = read_file(table, files, mesh_files);
+    const double scale = table.quantity_or("scale", quantity::number, 1, Bound::positive);
+    return {SolidMesh{std::move(file), scale, table.quantity("voxel_size", quantity::length, Bound::positive)},
+            "file, scale, voxel_size, rotation"};
+  }
+  }
+}
+
+} // namespace
+
+Hold read_hold(TableReader table, const SheetTable& sheet, const Model& model) {
+  Hold hold;
+  hold.region = read_region(table, sheet).value_or(Border::rim);
+  hold.clamped = table.choice("kind", words::holds).value_or(0) == 1;
+  hold.axes = read_axes(table);
+  hold.motion = read_motion(table, sheet.center);
+  hold.until = table.quantity("until", quantity::time, Bound::positive);
+  const bool all_axes = hold.axes == std::array{true, true, true};
+  if (hold.clamped && !model.bending)
+    table.wrong("kind", "a clamped hold needs bending, which [model] switches off; use \"pinned\"");
+  if (hold.clamped && !all_axes)
+    table.wrong("axes", "a clamped hold holds all axes; use kind = \"pinned\"");
+  if (std::holds_alternative<Rotating>(hold.motion) && !all_axes)
+    table.wrong("axes", "a rotating hold holds all axes");
+  table.finish();
+  return hold;
+}
+
+Solid read_solid(TableReader table, const Environment& environment, const Files& files) {
+  Solid solid;
+  if (table.absent("shape"))
+    table.missing("shape", "\"sphere\"");
+  const auto kind = table.choice("shape", words::solid_shapes);
+  solid.center = table.vector("center", quantity::length).value_or(Vector3d::Zero());
+  std::string because = "the shape is not known";
+  if (kind) {
+    KnownSolid known = read_solid_shape(table, *kind, environment, files);
+    solid.shape = std::move(known.shape);
+    because = fmt::format("shape \"{}\" takes {}", words::solid_shapes[*kind], known.keys);
+    if (*kind != 0 && *kind != 4)
+      solid.rotation = read_rotation(table);
+    table.has_no_meaning({"radius", "size", "length", "height", "normal", "file", "scale", "voxel_size", "rotation"},
+                         because);
+  } else {
+    for (const auto key : {"radius", "size", "length", "height", "normal", "file", "scale", "voxel_size", "rotation"})
+      table.take(key); // judged when the shape is known
+  }
+  solid.motion = read_motion(table, solid.center);
+  solid.surface_velocity = table.vector("surface_velocity", quantity::velocity).value_or(Vector3d::Zero());
+  table.finish();
+  return solid;
+}
+
+Inflow read_inflow(TableReader table, const SheetTable& sheet) {
+  Inflow inflow;
+  if (table.absent("region"))
+    table.missing("region", "\"y_max\"");
+  const auto region = read_border(table, "region", sheet);
+  inflow.region = region.value_or(Border::rim);
+  if (region == Border::rim && borders_of(sheet).size() > 2)
+    table.wrong("region", "liquid enters at one side or ring only; \"rim\" is all of the border");
+  if (table.absent("velocity"))
+    table.missing("velocity", "[0, \"-0.1 m/s\", 0]");
+  inflow.velocity = table.timed_velocity("velocity").value_or(Timed<Vector3d>{});
+  const auto thickness = table.quantity("thickness", quantity::length, Bound::positive);
+  const double* uniform = std::get_if<double>(&sheet.thickness);
+  if (table.absent("thickness") && !uniform)
+    table.missing("thickness", "\"2.5 mm\"");
+  inflow.thickness = thickness.value_or(uniform ? *uniform : 0);
+  inflow.until = table.quantity("until", quantity::time, Bound::positive);
+  if (inflow.velocity.entries.size() == 1 && inflow.velocity.entries[0].value.isZero(0))
+    table.wrong("velocity", "with no velocity nothing flows in");
+  table.finish();
+  return inflow;
+}
+
+Tear read_tear(TableReader table, const SheetTable& sheet) {
+  Tear tear;
+  tear.below = table.required("below", quantity::length);
+  const double* uniform = std::get_if<double>(&sheet.thickness);
+  if (uniform && tear.below >= *uniform)
+    table.wrong("below", fmt::format("the whole sheet would tear at once: {} m is not less than its thickness {} m",
+                                     shortest(tear.below), shortest(*uniform)));
+  tear.drop_crumbs = table.choice("crumbs", words::crumbs).value_or(0) == 1;
+  table.finish();
+  return tear;
+}
+
+Contact read_contact(TableReader table) {
+  Contact contact;
+  contact.self = table.boolean("self").value_or(true);
+  contact.stiffness = table.quantity("stiffness", quantity::stiffness, Bound::positive);
+  contact.adhesion = table.quantity("adhesion", quantity::pressure, Bound::not_negative);
+  contact.distance = table.quantity("distance", quantity::length, Bound::positive);
+  table.finish();
+  return contact;
+}
+
+} // namespace sheet::scene

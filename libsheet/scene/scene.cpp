@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sheet::scene {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+std::optional<ShapeSize> size(const Rectangle& s) {
+  const double shortest = std::min(s.size_first, s.size_second);
+  return ShapeSize{shortest, shortest, s.size_first * s.size_second};
+}
+std::optional<ShapeSize> size(const Disk& s) { return ShapeSize{s.radius, s.radius, pi * s.radius * s.radius}; }
+std::optional<ShapeSize> size(const Annulus& s) {
+  const double width = s.outer_radius - s.inner_radius;
+  return ShapeSize{width, width, pi * width * (s.outer_radius + s.inner_radius)};
+}
+std::optional<ShapeSize> size(const Sphere& s) { return ShapeSize{s.radius, s.radius, 4 * pi * s.radius * s.radius}; }
+std::optional<ShapeSize> size(const Cap& s) {
+  const double height = s.radius * (std::cos(s.opening) - std::cos(s.angle));
+  return ShapeSize{s.radius, s.radius * std::min(1.0, s.angle - s.opening), 2 * pi * s.radius * height};
+}
+std::optional<ShapeSize> size(const Tube& s) {
+  const double shortest = std::min(s.radius, s.height);
+  return ShapeSize{shortest, shortest, 2 * pi * s.radius * s.height};
+}
+std::optional<ShapeSize> size(const SheetMesh&) { return {}; }
+
+Border least(int axis) { return static_cast<Border>(static_cast<int>(Border::x_min) + 2 * axis); }
+Border greatest(int axis) { return static_cast<Border>(static_cast<int>(Border::x_max) + 2 * axis); }
+
+std::vector<Border> borders(const Rectangle&, const PlaneAxes& axes) {
+  return {Border::rim, least(axes.first), greatest(axes.first), least(axes.second), greatest(axes.second)};
+}
+std::vector<Border> borders(const Disk&, const PlaneAxes&) { return {Border::rim, Border::outer_rim}; }
+std::vector<Border> borders(const Annulus&, const PlaneAxes&) {
+  return {Border::rim, Border::inner_rim, Border::outer_rim};
+}
+std::vector<Border> borders(const Sphere&, const PlaneAxes&) { return {}; }
+std::vector<Border> borders(const Cap& cap, const PlaneAxes&) {
+  std::vector<Border> result;
+  if (cap.opening > 0)
+    result.push_back(Border::inner_rim);
+  if (cap.angle < pi)
+    result.push_back(Border::outer_rim);
+  if (!result.empty())
+    result.insert(result.begin(), Border::rim);
+  return result;
+}
+std::vector<Border> borders(const Tube&, const PlaneAxes& axes) {
+  return {Border::rim, least(axes.normal), greatest(axes.normal)};
+}
+std::vector<Border> borders(const SheetMesh&, const PlaneAxes&) {
+  return {Border::rim,   Border::inner_rim, Border::outer_rim, Border::x_min, Border::x_max,
+          Border::y_min, Border::y_max,     Border::z_min,     Border::z_max};
+}
+
+} // namespace
+
+std::optional<ShapeSize> size_of(const SheetShape& shape) {
+  return std::visit([](const auto& s) { return size(s); }, shape);
+}
+
+std::vector<Border> borders_of(const SheetTable& sheet) {
+  return std::visit([&](const auto& s) { return borders(s, axes_of(sheet.plane)); }, sheet.shape);
+}
+
+Eigen::Matrix3d matrix(const std::optional<Rotation>& rotation) {
+  if (!rotation)
+    return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(rotation->angle, rotation->axis.stableNormalized()).toRotationMatrix();
+}
+
+PlaneAxes axes_of(Plane plane) {
+  switch (plane) {
+  case Plane::xy:
+    return {0, 1, 2};
+  case Plane::yz:
+    return {1, 2, 0};
+  case Plane::xz:
+    break;
+  }
+  return {0, 2, 1};
+}
+
+std::optional<Vector3d> up(const Environment& environment) {
+  if (!environment.gravity)
+    return {};
+  return -environment.gravity->stableNormalized();
+}
+
+} // namespace sheet::scene

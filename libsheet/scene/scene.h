@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is physical in a simulation, as a scene file says it. Plain data in SI units; how it is computed is each
+// program's own business. A part that the file does not have is an empty optional or list, and costs nothing.
+//
+// Reading: read.h. Writing: write.h. The commented example (example.h) explains every key to users.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "libsheet/scene/motion.h"
+
+namespace sheet::scene {
+
+using Eigen::Vector3d;
+
+// Turn by `angle` [rad] about `axis` (any length but zero, right-handed) through the thing's center.
+struct Rotation {
+  Vector3d axis = Vector3d::UnitY();
+  double angle = 0;
+  bool operator==(const Rotation&) const = default;
+};
+[[nodiscard]] Eigen::Matrix3d matrix(const std::optional<Rotation>& rotation);
+
+// ---- the sheet
+// --------------------------------------------------------------------------------------------------------
+
+// Flat shapes lie in the sheet's plane; caps and tubes stand on it, their axis along its normal.
+struct Rectangle {
+  double size_first, size_second; // along the plane's first and second letter [m]
+  bool operator==(const Rectangle&) const = default;
+};
+struct Disk {
+  double radius;
+  bool operator==(const Disk&) const = default;
+};
+struct Annulus {
+  double inner_radius, outer_radius;
+  bool operator==(const Annulus&) const = default;
+};
+struct Sphere {
+  double radius;
+  bool operator==(const Sphere&) const = default;
+};
+// The part of a sphere within `angle` of its pole (pi/2: a hemisphere), less the part within `opening` of it.
+struct Cap {
+  double radius, angle, opening; // [m], [rad], [rad]; 0 <= opening < angle <= pi
+  bool operator==(const Cap&) const = default;
+};
+struct Tube {
+  double radius, height; // open at both ends, the center halfway up
+  bool operator==(const Tube&) const = default;
+};
+// A mesh file, triangles taken as they are.
+struct SheetMesh {
+  std::string file;
+  double scale; // metres per unit of the file
+  bool operator==(const SheetMesh&) const = default;
+};
+using SheetShape = std::variant<Rectangle, Disk, Annulus, Sphere, Cap, Tube, SheetMesh>;
+
+enum class Pattern { structured, equilateral, irregular };
+enum class Plane { xy, xz, yz };
+
+// Thickness from an array of the mesh file: h = scale * value.
+struct ThicknessData {
+  std::string data; // the array's name in the file
+  bool per_face;    // else per vertex
+  double scale;     // metres per unit of the file
+  bool operator==(const ThicknessData&) const = default;
+};
+
+// A small deviation d of the start: of the position, along the sheet's normal, or of the thickness.
+//   wave   d = amplitude * sin(2 pi s / wavelength + phase)
+//          s: coordinate along a world axis from the sheet's center, before `rotation`;
+//          radial: distance from the sheet's axis (through its center along the plane's normal), less an annulus' inner
+//          radius
+//   noise  d uniform in [-amplitude, amplitude], independent at each vertex (position) or triangle (thickness), from
+//   `seed`
+enum class WaveDirection { x, y, z, radial };
+struct Wave {
+  double wavelength, phase; // [m], [rad]
+  WaveDirection direction;
+  bool operator==(const Wave&) const = default;
+};
+struct Noise {
+  std::int64_t seed;
+  bool operator==(const Noise&) const = default;
+};
+struct Perturbation {
+  bool of_thickness; // else of position
+  double amplitude;  // [m]
+  std::variant<Wave, Noise> form;
+  bool operator==(const Perturbation&) const = default;
+};
+
+struct SheetTable {
+  SheetShape shape = Rectangle{1, 1};
+  std::optional<double> edge_length; // [m]; generated shapes have either this or segments, meshes neither
+  std::optional<std::array<int, 2>>
+      segments; // rectangle: first, second letter; else: around, then along (radius, height)
+  Pattern pattern = Pattern::irregular;
+  std::int64_t seed = 0;                         // of the irregular pattern
+  std::variant<double, ThicknessData> thickness; // [m]
+  std::vector<Perturbation> perturbations;
+  Plane plane = Plane::xz;
+  Vector3d center = Vector3d::Zero(); // of the shape (cap: of its sphere; mesh: where the file's origin goes)
+  std::optional<Rotation> rotation;
+  Vector3d velocity = Vector3d::Zero(); // at the start
+  bool operator==(const SheetTable&) const = default;
+};
+
+// ---- material, environment, model
+// ------------------------------------------------------------------------------------
+
+struct Material {
+  double viscosity = 0;       // dynamic [Pa s]; 0: inviscid, needs inertia
+  double density = 0;         // [kg/m³]; 0: not given, then neither inertia nor gravity nor an inflow's mass matter
+  double surface_tension = 0; // of each of the two surfaces [N/m]; 0: no such term
+  bool operator==(const Material&) const = default;
+};
+
+// Pressure on the sheet's negative side less that on its positive side [Pa]: blows a closed sheet up.
+struct ConstantPressure {
+  double value;
+  bool operator==(const ConstantPressure&) const = default;
+};
+// p = value (reference_radius / r)², r the radius of the sphere that has the enclosed volume.
+struct InverseSquarePressure {
+  double value, reference_radius;
+  bool operator==(const InverseSquarePressure&) const = default;
+};
+// Enclosed gas leaves at the rate Q = conductance * p: p = -(dV/dt) / conductance, V the enclosed volume (openings
+// closed flat). Slow flow through a round hole of radius a in a thin wall: conductance = a³ / (3 mu_gas) [Sampson
+// 1891].
+struct DrainingPressure {
+  double conductance; // [m³/(Pa s)]
+  bool operator==(const DrainingPressure&) const = default;
+};
+using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingPressure>;
+
+// Liquid below the height `level`, measured against gravity from the origin.
+struct Bath {
+  double density, level;
+  bool operator==(const Bath&) const = default;
+};
+
+struct Environment {
+  std::optional<Vector3d> gravity; // [m/s²]
+  std::optional<Pressure> pressure;
+  std::optional<Bath> bath;
+  bool operator==(const Environment&) const = default;
+};
+
+struct Model {
+  bool inertia = true; // false: creeping flow
+  bool bending = true; // false: a membrane
+  bool operator==(const Model&) const = default;
+};
+
+// ---- holds, solids, inflow, tearing, contact
+// -------------------------------------------------------------------------
+
+// Parts of the sheet's border as it lies at the start. *_min, *_max: the side where that coordinate is least or
+// greatest, before `rotation`. inner_rim: around the hole; outer_rim: the other one; rim: all of the border.
+enum class Border { rim, inner_rim, outer_rim, x_min, x_max, y_min, y_max, z_min, z_max };
+// Vertices in a part of space, at the start, the sheet in its place.
+struct BoxRegion {
+  Vector3d low, high;
+  bool operator==(const BoxRegion&) const = default;
+};
+struct SphereRegion {
+  Vector3d center;
+  double radius;
+  bool operator==(const SphereRegion&) const = default;
+};
+using Region = std::variant<Border, BoxRegion, SphereRegion>;
+
+struct Hold {
+  Region region = Border::rim;
+  bool clamped = false;                          // position and slope; else position only
+  std::array<bool, 3> axes = {true, true, true}; // the coordinates that are held
+  Motion motion;
+  std::optional<double> until; // released at this time [s]
+  bool operator==(const Hold&) const = default;
+};
+
+struct SolidBox {
+  Vector3d size; // edge lengths
+  bool operator==(const SolidBox&) const = default;
+};
+struct Capsule {
+  double radius, length; // along its own y axis; length between the centers of its ends
+  bool operator==(const Capsule&) const = default;
+};
+struct Cylinder {
+  double radius, height; // along its own y axis
+  bool operator==(const Cylinder&) const = default;
+};
+// Everything behind the plane through the solid's center.
+struct HalfSpace {
+  Vector3d normal; // out of the solid, any length but zero
+  bool operator==(const HalfSpace&) const = default;
+};
+struct SolidMesh {
+  std::string file;
+  double scale;                     // metres per unit of the file
+  std::optional<double> voxel_size; // of the distance field [m]; absent: the program chooses
+  bool operator==(const SolidMesh&) const = default;
+};
+using SolidShape = std::variant<Sphere, SolidBox, Capsule, Cylinder, HalfSpace, SolidMesh>;
+
+struct Solid {
+  SolidShape shape = Sphere{1};
+  Vector3d center = Vector3d::Zero(); // mesh: where the file's origin goes
+  std::optional<Rotation> rotation;
+  Motion motion;
+  Vector3d surface_velocity = Vector3d::Zero(); // of a belt: what touches moves so, though the shape stays [m/s]
+  bool operator==(const Solid&) const = default;
+};
+
+// New liquid enters at this border; what has entered moves at `velocity` as long as it is at the inlet. A velocity that
+// is not perpendicular to the border gives a slanted curtain.
+struct Inflow {
+  Border region = Border::y_max;
+  Timed<Vector3d> velocity; // [m/s]
+  double thickness = 0;     // [m]
+  std::optional<double> until;
+  bool operator==(const Inflow&) const = default;
+};
+
+struct Tear {
+  double below = 0; // thickness [m]
+  bool drop_crumbs = false;
+  bool operator==(const Tear&) const = default;
+};
+
+struct Contact {
+  bool self = true;                // of the sheet with itself
+  std::optional<double> stiffness; // of one contact's springs [N/m]; absent: the program chooses
+  std::optional<double> adhesion;  // tension at which touching surfaces part again [Pa]; absent: never
+  std::optional<double> distance;  // between mid-surfaces that touch [m]; absent: the mean of their thicknesses
+  bool operator==(const Contact&) const = default;
+};
+
+struct Scene {
+  SheetTable sheet;
+  Material material;
+  Environment environment;
+  Model model;
+  std::vector<Hold> holds;
+  std::vector<Solid> solids;
+  std::optional<Inflow> inflow;
+  std::optional<Tear> tear;
+  std::optional<Contact> contact;
+  bool operator==(const Scene&) const = default;
+};
+
+// Figures of a generated shape, at the start; a mesh has none here.
+struct ShapeSize {
+  double length;   // the length by which forces and flows are judged: shortest side, radius, width of an annulus [m]
+  double smallest; // an edge longer than this cannot make the shape [m]
+  double area;     // [m²]
+};
+[[nodiscard]] std::optional<ShapeSize> size_of(const SheetShape& shape);
+
+// The borders that the sheet has by name; a mesh may have any.
+[[nodiscard]] std::vector<Border> borders_of(const SheetTable& sheet);
+
+// Axes of a plane: first letter, second letter, normal (the third axis, always positive).
+struct PlaneAxes {
+  int first, second, normal; // 0 x, 1 y, 2 z
+};
+[[nodiscard]] PlaneAxes axes_of(Plane plane);
+
+// Up: against gravity; nothing without gravity.
+[[nodiscard]] std::optional<Vector3d> up(const Environment& environment);
+
+} // namespace sheet::scene
+
+namespace sheet {
+using scene::Scene;
+} // namespace sheet

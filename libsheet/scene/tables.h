@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One function a table of the scene file, for read.cpp. Each reports what is wrong and returns what it could read.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "libsheet/scene/reader.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet::scene {
+
+// How file names are understood.
+struct Files {
+  std::filesystem::path folder; // of the scene file; relative names start here
+  bool must_exist = false;
+};
+
+SheetTable read_sheet(TableReader table, const Environment& environment, const Files& files);
+Material read_material(TableReader table);
+Environment read_environment(TableReader table);
+Model read_model(TableReader table);
+Hold read_hold(TableReader table, const SheetTable& sheet, const Model& model);
+Solid read_solid(TableReader table, const Environment& environment, const Files& files);
+Inflow read_inflow(TableReader table, const SheetTable& sheet);
+Tear read_tear(TableReader table, const SheetTable& sheet);
+Contact read_contact(TableReader table);
+
+// Parts that several tables have.
+Motion read_motion(TableReader& parent, const Vector3d& center);
+std::optional<Rotation> read_rotation(TableReader& parent);
+std::string read_file(TableReader& table, const Files& files, std::span<const std::string_view> extensions);
+// A border by its name; reports one that the sheet does not have.
+std::optional<Border> read_border(TableReader& table, std::string_view key, const SheetTable& sheet);
+
+} // namespace sheet::scene

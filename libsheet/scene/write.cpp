@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/write.h"
+
+#include "libsheet/base/units.h"
+#include "libsheet/scene/document.h"
+#include "libsheet/scene/overloaded.h"
+#include "libsheet/scene/words.h"
+
+namespace sheet::scene {
+namespace {
+
+// -0 and 0 are equal, so they read the same.
+std::string number(double value) { return shortest(value == 0 ? 0 : value); }
+std::string list(const Vector3d& v) { return fmt::format("[{}, {}, {}]", number(v[0]), number(v[1]), number(v[2])); }
+std::string_view flag(bool value) { return value ? "true" : "false"; }
+template <class Words> std::string word(const Words& words, std::size_t index) { return quoted(words[index]); }
+template <class Words, class Enum>
+requires std::is_enum_v<Enum> std::string word(const Words& words, Enum value) {
+  return word(words, static_cast<std::size_t>(value));
+}
+
+// Lines "key = value" of a table.
+class Writer {
+ public:
+  void open(std::string_view header) { text_ += fmt::format("{}{}\n", text_.empty() ? "" : "\n", header); }
+  void line(std::string_view key, std::string_view value) { text_ += fmt::format("{} = {}\n", key, value); }
+  void line(std::string_view key, double value) { line(key, number(value)); }
+  void line(std::string_view key, const std::optional<double>& value) {
+    if (value)
+      line(key, *value);
+  }
+  void line_unless_zero(std::string_view key, const Vector3d& value) {
+    if (!value.isZero(0))
+      line(key, list(value));
+  }
+  [[nodiscard]] std::string text() && { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void write_rotation(Writer& out, const std::optional<Rotation>& rotation) {
+  if (rotation)
+    out.line("rotation", fmt::format("{{axis = {}, angle = {}}}", list(rotation->axis), number(rotation->angle)));
+}
+
+template <class T, class Constant, class Row> std::string timed(const Timed<T>& table, Constant constant, Row row) {
+  if (table.entries.size() == 1 && table.entries[0].time == 0)
+    return constant(table.entries[0].value);
+  std::string rows;
+  for (const auto& [time, value] : table.entries)
+    rows += fmt::format("{}[{}, {}]", rows.empty() ? "" : ", ", number(time), row(value));
+  return "[" + rows + "]";
+}
+
+std::string timed(const Timed<double>& rate) { return timed(rate, number, number); }
+std::string timed(const Timed<Vector3d>& velocity) {
+  return timed(velocity, list,
+               [](const Vector3d& v) { return fmt::format("{}, {}, {}", number(v[0]), number(v[1]), number(v[2])); });
+}
+
+void write_motion(Writer& out, const Motion& motion) {
+  std::visit(Overloaded{[](const Fixed&) {},
+                        [&](const Translating& m) {
+                          out.line("motion",
+                                   fmt::format("{{kind = \"translating\", velocity = {}}}", timed(m.velocity)));
+                        },
+                        [&](const Rotating& m) {
+                          out.line("motion", fmt::format("{{kind = \"rotating\", axis = {}, center = {}, rate = {}}}",
+                                                         list(m.axis), list(m.center), timed(m.rate)));
+                        }},
+             motion);
+}
+
+void write_perturbations(Writer& out, const SheetTable& sheet) {
+  if (sheet.perturbations.empty())
+    return;
+  std::string tables;
+  for (const Perturbation& p : sheet.perturbations) {
+    tables += fmt::format("{}{{of = {}, amplitude = {}, ", tables.empty() ? "" : ", ",
+                          word(words::perturbed, p.of_thickness ? 1UL : 0UL), number(p.amplitude));
+    std::visit(Overloaded{[&](const Wave& wave) {
+                            tables +=
+                                fmt::format("wavelength = {}, direction = {}, phase = {}}}", number(wave.wavelength),
+                                            word(words::directions, wave.direction), number(wave.phase));
+                          },
+                          [&](const Noise& noise) { tables += fmt::format("seed = {}}}", noise.seed); }},
+               p.form);
+  }
+  out.line("perturbation", "[" + tables + "]");
+}
+
+void write_sheet(Writer& out, const SheetTable& sheet) {
+  out.open("[sheet]");
+  out.line("shape", word(words::sheet_shapes, sheet.shape.index()));
+  std::visit(Overloaded{[&](const Rectangle& s) {
+                          out.line("size", fmt::format("[{}, {}]", number(s.size_first), number(s.size_second)));
+                        },
+                        [&](const Disk& s) { out.line("radius", s.radius); },
+                        [&](const Annulus& s) {
+                          out.line("inner_radius", s.inner_radius);
+                          out.line("outer_radius", s.outer_radius);
+                        },
+                        [&](const Sphere& s) { out.line("radius", s.radius); },
+                        [&](const Cap& s) {
+                          out.line("radius", s.radius);
+                          out.line("angle", s.angle);
+                          out.line("opening", s.opening);
+                        },
+                        [&](const Tube& s) {
+                          out.line("radius", s.radius);
+                          out.line("height", s.height);
+                        },
+                        [&](const SheetMesh& s) {
+                          out.line("file", quoted(s.file));
+                          out.line("scale", s.scale);
+                        }},
+             sheet.shape);
+  out.line("edge_length", sheet.edge_length);
+  if (sheet.segments)
+    out.line("segments", fmt::format("[{}, {}]", (*sheet.segments)[0], (*sheet.segments)[1]));
+  if (!std::holds_alternative<SheetMesh>(sheet.shape)) {
+    out.line("pattern", word(words::patterns, sheet.pattern));
+    if (sheet.pattern == Pattern::irregular)
+      out.line("seed", fmt::format("{}", sheet.seed));
+  }
+  std::visit(Overloaded{[&](double uniform) { out.line("thickness", uniform); },
+                        [&](const ThicknessData& t) {
+                          out.line("thickness",
+                                   fmt::format("{{data = {}, place = {}, scale = {}}}", quoted(t.data),
+                                               word(words::places, t.per_face ? 1UL : 0UL), number(t.scale)));
+                        }},
+             sheet.thickness);
+  write_perturbations(out, sheet);
+  out.line("plane", word(words::planes, sheet.plane));
+  out.line_unless_zero("center", sheet.center);
+  write_rotation(out, sheet.rotation);
+  out.line_unless_zero("velocity", sheet.velocity);
+}
+
+void write_environment(Writer& out, const Environment& environment) {
+  if (environment == Environment{})
+    return;
+  out.open("[environment]");
+  if (environment.gravity)
+    out.line("gravity", list(*environment.gravity));
+  if (environment.pressure) {
+    std::string values = std::visit(
+        Overloaded{[](const ConstantPressure& p) { return fmt::format("value = {}", number(p.value)); },
+                   [](const InverseSquarePressure& p) {
+                     return fmt::format("value = {}, reference_radius = {}", number(p.value),
+                                        number(p.reference_radius));
+                   },
+                   [](const DrainingPressure& p) { return fmt::format("conductance = {}", number(p.conductance)); }},
+        *environment.pressure);
+    out.line("pressure",
+             fmt::format("{{law = {}, {}}}", word(words::pressures, environment.pressure->index()), values));
+  }
+  if (environment.bath)
+    out.line("bath", fmt::format("{{density = {}, level = {}}}", number(environment.bath->density),
+                                 number(environment.bath->level)));
+}
+
+void write_hold(Writer& out, const Hold& hold) {
+  out.open("[[hold]]");
+  out.line("region", std::visit(Overloaded{[](Border border) { return word(words::borders, border); },
+                                           [](const BoxRegion& box) {
+                                             return fmt::format("{{box = [{}, {}]}}", list(box.low), list(box.high));
+                                           },
+                                           [](const SphereRegion& sphere) {
+                                             return fmt::format("{{sphere = {{center = {}, radius = {}}}}}",
+                                                                list(sphere.center), number(sphere.radius));
+                                           }},
+                                hold.region));
+  out.line("kind", word(words::holds, hold.clamped ? 1UL : 0UL));
+  if (hold.axes != std::array{true, true, true}) {
+    std::string axes;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (hold.axes[i])
+        axes += "xyz"[i];
+    out.line("axes", quoted(axes));
+  }
+  write_motion(out, hold.motion);
+  out.line("until", hold.until);
+}
+
+void write_solid(Writer& out, const Solid& solid) {
+  out.open("[[solid]]");
+  out.line("shape", word(words::solid_shapes, solid.shape.index()));
+  std::visit(Overloaded{[&](const Sphere& s) { out.line("radius", s.radius); },
+                        [&](const SolidBox& s) { out.line("size", list(s.size)); },
+                        [&](const Capsule& s) {
+                          out.line("radius", s.radius);
+                          out.line("length", s.length);
+                        },
+                        [&](const Cylinder& s) {
+                          out.line("radius", s.radius);
+                          out.line("height", s.height);
+                        },
+                        [&](const HalfSpace& s) { out.line("normal", list(s.normal)); },
+                        [&](const SolidMesh& s) {
+                          out.line("file", quoted(s.file));
+                          out.line("scale", s.scale);
+                          out.line("voxel_size", s.voxel_size);
+                        }},
+             solid.shape);
+  out.line_unless_zero("center", solid.center);
+  write_rotation(out, solid.rotation);
+  write_motion(out, solid.motion);
+  out.line_unless_zero("surface_velocity", solid.surface_velocity);
+}
+
+} // namespace
+
+std::string to_toml(const Scene& scene) {
+  Writer out;
+  write_sheet(out, scene.sheet);
+  out.open("[material]");
+  out.line("viscosity", scene.material.viscosity);
+  if (scene.material.density > 0)
+    out.line("density", scene.material.density);
+  if (scene.material.surface_tension > 0)
+    out.line("surface_tension", scene.material.surface_tension);
+  write_environment(out, scene.environment);
+  out.open("[model]");
+  out.line("inertia", flag(scene.model.inertia));
+  out.line("bending", flag(scene.model.bending));
+  for (const Hold& hold : scene.holds)
+    write_hold(out, hold);
+  for (const Solid& solid : scene.solids)
+    write_solid(out, solid);
+  if (const auto& inflow = scene.inflow) {
+    out.open("[inflow]");
+    out.line("region", word(words::borders, inflow->region));
+    out.line("velocity", timed(inflow->velocity));
+    out.line("thickness", inflow->thickness);
+    out.line("until", inflow->until);
+  }
+  if (const auto& tear = scene.tear) {
+    out.open("[tear]");
+    out.line("below", tear->below);
+    out.line("crumbs", word(words::crumbs, tear->drop_crumbs ? 1UL : 0UL));
+  }
+  if (const auto& contact = scene.contact) {
+    out.open("[contact]");
+    out.line("self", flag(contact->self));
+    out.line("stiffness", contact->stiffness);
+    out.line("adhesion", contact->adhesion);
+    out.line("distance", contact->distance);
+  }
+  return std::move(out).text();
+}
+
+} // namespace sheet::scene

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A frame of the stream seen as a sheet: typed access to its standard arrays (formats/sheet.md, section 5). SI units.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "formats/cpp/stream_frame.h"
+
+namespace sheet {
+
+using Corners = std::array<std::uint32_t, 3>; // vertex indices of a triangle, counter-clockwise from its positive side
+
+// A new frame at rest at time 0, its arrays in the standard order. `volumes` [m³] one a triangle.
+[[nodiscard]] formats::Frame make_frame(std::span<const Eigen::Vector3d> positions, std::span<const Corners> triangles,
+                                        std::span<const double> volumes);
+
+[[nodiscard]] std::span<Eigen::Vector3d> positions(formats::Frame& frame); // [m]
+[[nodiscard]] std::span<const Eigen::Vector3d> positions(const formats::Frame& frame);
+[[nodiscard]] std::span<const Corners> triangles(const formats::Frame& frame);
+[[nodiscard]] std::span<double> volumes(formats::Frame& frame); // [m³]
+[[nodiscard]] std::span<const double> volumes(const formats::Frame& frame);
+// Velocities [m/s]; a frame without them gets zeros.
+[[nodiscard]] std::span<Eigen::Vector3d> velocities(formats::Frame& frame);
+// Empty if the frame has none: it is at rest.
+[[nodiscard]] std::span<const Eigen::Vector3d> velocities(const formats::Frame& frame);
+// Bit i: held by the scene's i-th [[hold]]. Empty if the frame has no holds.
+[[nodiscard]] std::span<const std::uint64_t> holds(const formats::Frame& frame);
+
+// Adds or replaces a float64 array of one row at place frame.
+void put_number(formats::Frame& frame, std::string_view name, std::string_view unit, double value);
+// Its value, or `otherwise` where there is no such array.
+[[nodiscard]] double number(const formats::Frame& frame, std::string_view name, double otherwise);
+
+} // namespace sheet

@@ -1,0 +1,128 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Interrupted anywhere: whole frames on disk, a message that says what happened where, the right exit code, and
+# straight run = interrupted and resumed run, byte for byte.
+
+run_options=(--steps 60 --keep 10)
+bats_require_minimum_version 1.5.0
+
+setup_file() {
+  cd "$BATS_FILE_TMPDIR"
+  make_grid 60 > start.sheet
+  accident=true sheet-loop -q -i start.sheet --steps 60 --keep 10 -o straight.sheet -- 'sheet-pass | accident_at 35 | sheet-pass'
+}
+
+setup() {
+  cd "$BATS_TEST_TMPDIR"
+  cp "$BATS_FILE_TMPDIR/start.sheet" .
+  straight=$BATS_FILE_TMPDIR/straight.sheet
+}
+
+# usage: ring_with_accident COMMAND [OPTION]...: runs the ring; at step 35 its middle stage runs COMMAND, which knows the
+# stage's process id as $stage and the ring's as $(pgrep ...). Leaves exit code in $code, messages in `log`.
+ring_with_accident() {
+  export accident=$1
+  shift
+  code=0
+  sheet-loop -i start.sheet "${run_options[@]}" "$@" -- 'sheet-pass | accident_at 35 | sheet-pass' 2> log || code=$?
+  unset accident
+}
+
+resumed_equals_straight() { # [OPTION]...
+  accident=true sheet-loop -q --resume run.sheet "${run_options[@]}" "$@" -- 'sheet-pass | accident_at -1 | sheet-pass'
+  cmp run.sheet "$straight"
+}
+
+whole_frames() { # FILE COUNT: so many whole frames and nothing behind them
+  sheet-print "$1" 2> print.log > text || [[ $(cat print.log) == *"no end mark"* ]]
+  [[ $(grep -c '^frame$' text) == "$2" ]]
+}
+
+@test "SIGINT to sheet-loop: the stream ends well, exit by the signal, resume gives the straight run" {
+  ring_with_accident 'kill -INT $(ps -o ppid= -p $(ps -o ppid= -p $stage)); sleep 10' -o run.sheet
+  [[ $code == 130 ]]
+  grep -q 'interrupted in the step after step 35, t = 0 s; 4 whole frames kept; go on with --resume run.sheet' log
+  sheet-pass run.sheet > /dev/null
+  whole_frames run.sheet 4
+  resumed_equals_straight
+}
+
+@test "kill -9 of a stage: the stage is named, whole frames, resume gives the straight run" {
+  ring_with_accident 'kill -9 $stage' -o run.sheet
+  [[ $code == 1 ]]
+  grep -q 'stage "accident_at 35" was ended by signal 9 (Killed) in the step after step 35' log
+  run -4 sheet-pass run.sheet -o copy.sheet
+  whole_frames run.sheet 4
+  resumed_equals_straight
+}
+
+@test "kill -9 of sheet-loop: whole frames, no stage stays behind, resume gives the straight run" {
+  ring_with_accident 'kill -9 $(ps -o ppid= -p $(ps -o ppid= -p $stage))' -o run.sheet
+  [[ $code == 137 ]]
+  for _ in $(seq 50); do
+    left=$(pgrep -r R,S,D -f 'accident_at 35' || true)
+    [[ -n $left ]] || break
+    sleep 0.1
+  done
+  [[ -z $left ]]
+  whole_frames run.sheet 4
+  resumed_equals_straight
+}
+
+@test "a stage that fails with an exit code of its own: the ring passes it on" {
+  ring_with_accident 'kill -TERM $stage' -o run.sheet
+  [[ $code == 1 ]]
+  grep -q 'signal 15' log
+  code=0
+  sheet-loop -i start.sheet --steps 5 -o other.sheet -- 'sheet-pass | sheet-pass --nonsense' 2> log || code=$?
+  [[ $code == 2 ]]
+  grep -q 'stage "sheet-pass --nonsense" failed with exit code 2 in the step after step 0' log
+}
+
+@test "a stage that does not exist, one that ends too early, one that talks nonsense" {
+  run -2 sheet-loop -i start.sheet --steps 5 -o run.sheet -- 'sheet-pass | nonesuch | sheet-pass'
+  [[ $output == *'stage "nonesuch" was not found'* ]]
+  run -4 sheet-loop -i start.sheet --steps 5 -o run.sheet -- 'sheet-pass | head -c 100000'
+  [[ $output == *'cut short'* ]]
+  run -4 sheet-loop -i start.sheet --steps 5 -o run.sheet -- 'sheet-pass | tr S T'
+  [[ $output == *'not a sheet stream'* ]]
+}
+
+@test "disk full: exit code 6, whole frames, resume elsewhere gives the straight run" {
+  ((EUID == 0)) && mkdir small && mount -t tmpfs -o size=2m tmpfs small 2> /dev/null || skip "needs the right to mount a tmpfs"
+  ring_with_accident true -o small/run.sheet || true
+  cp small/run.sheet run.sheet
+  umount small
+  [[ $code == 6 ]]
+  grep -q 'No space left on device; at step [0-9]*, t = 0 s; [0-9]* whole frames kept' log
+  sheet-print run.sheet > /dev/null 2> print.log || grep -q 'no end mark' print.log
+  resumed_equals_straight
+}
+
+@test "closed pipe downstream: everybody ends quietly" {
+  ring_with_accident true 2>&1 | head -c 700000 > /dev/null
+  [[ ${PIPESTATUS[0]} == 0 ]]
+  [[ ! -s log ]]
+}
+
+@test "checkpoint: the newest frame survives a dying stage, and resume starts from it" {
+  ring_with_accident 'kill -9 $stage' -o run.sheet --checkpoint newest.sheet
+  sheet-print newest.sheet | grep -q '^step 35$'
+  accident='false; kill -9 $stage' # would kill a second run of step 34
+  export accident
+  sheet-loop -q --resume run.sheet "${run_options[@]}" --checkpoint newest.sheet -- 'sheet-pass | accident_at 34 | sheet-pass'
+  cmp run.sheet "$straight" || { sheet-diff --ignore provenance run.sheet "$straight"; }
+}
+
+@test "a stream that was cut in the middle of a frame is mended by resume" {
+  head -c 1000000 "$straight" > run.sheet
+  resumed_equals_straight
+}
+
+@test "resume of a finished run changes nothing; of an empty file is refused" {
+  cp "$straight" run.sheet
+  resumed_equals_straight
+  : > run.sheet
+  run -3 sheet-loop --resume run.sheet "${run_options[@]}" -- cat
+  [[ $output == *'holds no whole frame'* ]]
+}
