@@ -69,12 +69,10 @@ struct Array {
   template <class T> [[nodiscard]] std::span<const T> values() const {
     return {const_cast<Array*>(this)->cast<T>(), data.size() / sizeof(T)};
   }
-  [[nodiscard]] std::string_view text() const {
-    return {reinterpret_cast<const char*>(data.data()), data.size()};
-  }
+  [[nodiscard]] std::string_view text() const { return {reinterpret_cast<const char*>(data.data()), data.size()}; }
   bool operator==(const Array&) const = default;
 
-private:
+ private:
   template <class T> T* cast() {
     if (sizeof(T) != size_of(type) && sizeof(T) != size_of(type) * components)
       throw std::logic_error("array \"" + name + "\" read as a type of another size");
@@ -108,7 +106,7 @@ struct Frame {
 
 // What a reader or writer throws: `kind` decides the exit code of a tool.
 class StreamError : public std::runtime_error {
-public:
+ public:
   enum class Kind {
     corrupt, // cut short or damaged: the bytes are not a sheet stream
     value,   // well-formed, but says something impossible (an index out of range, a NaN position)
@@ -118,16 +116,16 @@ public:
   StreamError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
   [[nodiscard]] Kind kind() const noexcept { return kind_; }
 
-private:
+ private:
   Kind kind_;
 };
 
 // Each says what is wrong with the form of a frame; empty if nothing is.
-[[nodiscard]] std::string find_header_error(const Frame& frame);                     // time, counts
+[[nodiscard]] std::string find_header_error(const Frame& frame);                    // time, counts
 [[nodiscard]] std::string find_entry_error(const Array& array, const Frame& frame); // all of an array but its data
-[[nodiscard]] std::string find_table_error(const Frame& frame);                      // all entries, names unique, edges
-[[nodiscard]] std::string find_data_error(const Array& array);                       // size; text is UTF-8 without NUL
-[[nodiscard]] std::string find_form_error(const Frame& frame);                       // all of these
+[[nodiscard]] std::string find_table_error(const Frame& frame);                     // all entries, names unique, edges
+[[nodiscard]] std::string find_data_error(const Array& array);                      // size; text is UTF-8 without NUL
+[[nodiscard]] std::string find_form_error(const Frame& frame);                      // all of these
 
 // Says which standard array breaks its rule (section 5 of formats/sheet.md: shapes, indices in range, finite positions,
 // positive volumes, number of edges), with row; empty if none does. Cost: one pass; arrays at place edge: a sort.

@@ -11,17 +11,17 @@
 namespace sheet::formats {
 
 class TextPrinter {
-public:
+ public:
   // `name` appears in messages. The descriptor stays the caller's.
   TextPrinter(int descriptor, std::string name);
 
-  // Prints `end` until there are as many as `ends` (StreamReader::ends(): so joined streams stay apart), then the frame.
-  // All of it has been written on return. Throws StreamError: value (bad form), io, closed.
+  // Prints `end` until there are as many as `ends` (StreamReader::ends(): so joined streams stay apart), then the
+  // frame. All of it has been written on return. Throws StreamError: value (bad form), io, closed.
   void print(const Frame& frame, std::uint64_t ends = 0);
   // Prints `end` until there are as many as `ends`.
   void end(std::uint64_t ends = 1);
 
-private:
+ private:
   void put_ends(std::uint64_t ends);
   void put_array(const Array& array);
   void put_text(std::string_view text);
@@ -39,19 +39,19 @@ private:
 };
 
 class TextParser {
-public:
+ public:
   enum class Item { frame, end, nothing };
 
   // `name` appears in messages. The descriptor stays the caller's.
   TextParser(int descriptor, std::string name);
 
-  // Reads the next frame into `frame`, or the next `end`; nothing at the end of the input, which must stand behind `end`.
-  // A frame's form has been checked (find_form_error), its values have not (find_value_error).
-  // Throws StreamError: corrupt (no `end`), value (says something else than section 6 allows), io; the message is
+  // Reads the next frame into `frame`, or the next `end`; nothing at the end of the input, which must stand behind
+  // `end`. A frame's form has been checked (find_form_error), its values have not (find_value_error). Throws
+  // StreamError: corrupt (no `end`), value (says something else than section 6 allows), io; the message is
   // "NAME:LINE:COLUMN: what is wrong and what is expected".
   [[nodiscard]] Item read(Frame& frame);
 
-private:
+ private:
   [[noreturn]] void fail(std::string_view word, const std::string& what) const;
   [[noreturn]] void cut_short(const std::string& what) const;
   bool read_line();

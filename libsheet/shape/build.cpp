@@ -48,17 +48,16 @@ TriangleMesh load_scaled(const scene::SheetMesh& file) {
 // In the shape's local frame (shapes.h).
 TriangleMesh local_mesh(const scene::SheetTable& table) {
   const MeshOptions options = mesh_options(table);
-  return std::visit(
-      Overloaded{
-          [&](const scene::Rectangle& r) { return make_rectangle(r.size_first, r.size_second, options); },
-          [&](const scene::Disk& d) { return make_disk(d.radius, options); },
-          [&](const scene::Annulus& a) { return make_annulus(a.inner_radius, a.outer_radius, options); },
-          [&](const scene::Sphere& s) { return make_sphere(s.radius, options); },
-          [&](const scene::Cap& c) { return make_cap(c.radius, c.angle, options, c.opening); },
-          [&](const scene::Tube& t) { return make_tube(t.radius, t.height, options); },
-          [&](const scene::SheetMesh& m) { return load_scaled(m); },
-      },
-      table.shape);
+  return std::visit(Overloaded{
+                        [&](const scene::Rectangle& r) { return make_rectangle(r.size_first, r.size_second, options); },
+                        [&](const scene::Disk& d) { return make_disk(d.radius, options); },
+                        [&](const scene::Annulus& a) { return make_annulus(a.inner_radius, a.outer_radius, options); },
+                        [&](const scene::Sphere& s) { return make_sphere(s.radius, options); },
+                        [&](const scene::Cap& c) { return make_cap(c.radius, c.angle, options, c.opening); },
+                        [&](const scene::Tube& t) { return make_tube(t.radius, t.height, options); },
+                        [&](const scene::SheetMesh& m) { return load_scaled(m); },
+                    },
+                    table.shape);
 }
 
 Plane plane_of(scene::Plane plane) {
@@ -103,8 +102,9 @@ std::vector<double> thicknesses(const TriangleMesh& mesh, const scene::SheetTabl
     const auto& data = std::get<scene::ThicknessData>(table.thickness);
     const std::vector<double>& values = data.per_face ? mesh.triangle_thickness : mesh.vertex_thickness;
     if (data.data != "thickness" || values.empty())
-      fail(ExitCode::bad_input, "sheet.thickness: the mesh file has no array \"{}\" per {} (\"thickness\" is read from PLY "
-                                "and VTU files)",
+      fail(ExitCode::bad_input,
+           "sheet.thickness: the mesh file has no array \"{}\" per {} (\"thickness\" is read from PLY "
+           "and VTU files)",
            data.data, data.per_face ? "face" : "vertex");
     for (std::size_t t = 0; t < h.size(); ++t) {
       const auto& c = mesh.triangles[t];
@@ -147,13 +147,13 @@ void add_holds(const TriangleMesh& mesh, const std::vector<scene::Hold>& table, 
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (std::holds_alternative<scene::Border>(table[i].region) != borders)
       continue;
-    const VertexSet held = std::visit(
-        Overloaded{
-            [&](scene::Border b) { return named_region(mesh, name_of(b)); },
-            [&](const scene::BoxRegion& b) { return in_box(mesh, b.low, b.high); },
-            [&](const scene::SphereRegion& s) { return in_sphere(mesh, s.center, s.radius); },
-        },
-        table[i].region);
+    const VertexSet held =
+        std::visit(Overloaded{
+                       [&](scene::Border b) { return named_region(mesh, name_of(b)); },
+                       [&](const scene::BoxRegion& b) { return in_box(mesh, b.low, b.high); },
+                       [&](const scene::SphereRegion& s) { return in_sphere(mesh, s.center, s.radius); },
+                   },
+                   table[i].region);
     if (held.empty())
       fail(ExitCode::bad_input, "[[hold]] number {} (from 0): no vertex lies in its region", i);
     for (const std::uint32_t v : held)
