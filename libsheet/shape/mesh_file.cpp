@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/shape/mesh_file.h"
+
+#include "formats/cpp/mesh_export.h"
+#include "formats/cpp/mesh_import.h"
+#include "libsheet/base/error.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::MeshArray;
+using formats::MeshPlace;
+
+[[noreturn]] void rethrow(const formats::MeshFileError& error) {
+  throw Error(error.kind() == formats::MeshFileError::Kind::io ? ExitCode::io : ExitCode::bad_input, error.what());
+}
+
+std::vector<double> thickness_of(const formats::ForeignMesh& mesh, MeshPlace place, const std::string& path) {
+  const MeshArray* array = mesh.find("thickness", place);
+  if (!array)
+    return {};
+  for (std::size_t i = 0; i < array->values.size(); ++i)
+    if (!(array->values[i] > 0.0))
+      fail(ExitCode::bad_input, "{}: thickness = {:g} m at {} {} must be positive", path, array->values[i],
+           place == MeshPlace::point ? "vertex" : "triangle", i);
+  return array->values;
+}
+
+void add_thickness(formats::ForeignMesh& mesh, MeshPlace place, const std::vector<double>& values) {
+  if (!values.empty())
+    mesh.arrays.push_back({"thickness", place, 1, values});
+}
+
+} // namespace
+
+LoadedMesh load_mesh(const std::string& path) try {
+  formats::MeshImport import = formats::import_mesh(path);
+  LoadedMesh loaded;
+  loaded.notes = std::move(import.notes);
+  for (const auto& p : import.mesh.points)
+    loaded.mesh.positions.emplace_back(p[0], p[1], p[2]);
+  loaded.mesh.vertex_thickness = thickness_of(import.mesh, MeshPlace::point, path);
+  loaded.mesh.triangle_thickness = thickness_of(import.mesh, MeshPlace::cell, path);
+  if (const MeshArray* velocity = import.mesh.find("velocity", MeshPlace::point))
+    for (std::size_t i = 0; i < velocity->values.size(); i += 3)
+      loaded.mesh.velocities.emplace_back(velocity->values[i], velocity->values[i + 1], velocity->values[i + 2]);
+  if (import.mesh.find("velocity", MeshPlace::cell))
+    loaded.notes.push_back(path + ": velocity per triangle passed over; a sheet has it per vertex");
+  loaded.mesh.triangles = std::move(import.mesh.triangles);
+  return loaded;
+} catch (const formats::MeshFileError& error) {
+  rethrow(error);
+}
+
+formats::ForeignMesh to_foreign(const TriangleMesh& mesh) {
+  formats::ForeignMesh foreign;
+  foreign.points.reserve(mesh.positions.size());
+  for (const Eigen::Vector3d& x : mesh.positions)
+    foreign.points.push_back({x.x(), x.y(), x.z()});
+  foreign.triangles = mesh.triangles;
+  add_thickness(foreign, MeshPlace::point, mesh.vertex_thickness);
+  add_thickness(foreign, MeshPlace::cell, mesh.triangle_thickness);
+  if (!mesh.velocities.empty()) {
+    MeshArray velocity{"velocity", MeshPlace::point, 3, {}};
+    for (const Eigen::Vector3d& v : mesh.velocities)
+      velocity.values.insert(velocity.values.end(), {v.x(), v.y(), v.z()});
+    foreign.arrays.push_back(std::move(velocity));
+  }
+  return foreign;
+}
+
+void save_mesh(const std::string& path, const TriangleMesh& mesh) try {
+  formats::export_mesh(path, to_foreign(mesh));
+} catch (const formats::MeshFileError& error) {
+  rethrow(error);
+}
+
+} // namespace sheet

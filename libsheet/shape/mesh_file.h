@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mesh files as TriangleMesh: formats/cpp's importers and exporters with this library's errors.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "formats/cpp/foreign_mesh.h"
+#include "libsheet/shape/triangle_mesh.h"
+
+namespace sheet {
+
+struct LoadedMesh {
+  TriangleMesh mesh;
+  std::vector<std::string> notes; // what was dropped, merged or passed over
+};
+
+// Reads OBJ, OFF, PLY, STL or VTU with thickness and velocity where the file has them. Throws Error: io if the file
+// cannot be read, bad_input if its content is wrong or a thickness is not positive.
+[[nodiscard]] LoadedMesh load_mesh(const std::string& path);
+
+// Arrays "thickness" (per vertex, per triangle) and "velocity", as far as the mesh has them.
+[[nodiscard]] formats::ForeignMesh to_foreign(const TriangleMesh& mesh);
+
+// Writes VTU, PLY, OBJ, OFF or STL by the ending of the path. Throws Error (io, bad_input).
+void save_mesh(const std::string& path, const TriangleMesh& mesh);
+
+} // namespace sheet
