@@ -15,7 +15,7 @@ namespace sheet::formats {
 namespace {
 
 constexpr std::array<std::string_view, 4> place_names{"vertex", "triangle", "edge", "frame"};
-constexpr std::array<std::string_view, 10> type_names{"",       "int8",   "uint8",   "int32",   "uint32",
+constexpr std::array<std::string_view, 10> type_names{"",      "int8",   "uint8",   "int32",   "uint32",
                                                       "int64", "uint64", "float32", "float64", "text"};
 constexpr std::array<std::size_t, 10> type_sizes{0, 1, 1, 4, 4, 8, 8, 4, 8, 1};
 constexpr std::array<std::string_view, 5> transfer_names{"drop", "copy", "interpolate", "conserve", "common"};
@@ -130,8 +130,7 @@ Array make_array(std::string_view name, Place place, Type type, std::uint32_t co
 
 std::string find_header_error(const Frame& frame) {
   if (frame.arrays.size() > layout::max_arrays)
-    return fmt::format("{} arrays are more than the {} that a frame may have", frame.arrays.size(),
-                       layout::max_arrays);
+    return fmt::format("{} arrays are more than the {} that a frame may have", frame.arrays.size(), layout::max_arrays);
   for (const std::uint64_t rows : {frame.vertices, frame.triangles, frame.edges})
     if (rows > layout::max_rows)
       return fmt::format("{} vertices, triangles or edges are more than 2^32", rows);

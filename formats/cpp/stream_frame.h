@@ -69,9 +69,7 @@ struct Array {
   template <class T> [[nodiscard]] std::span<const T> values() const {
     return {const_cast<Array*>(this)->cast<T>(), data.size() / sizeof(T)};
   }
-  [[nodiscard]] std::string_view text() const {
-    return {reinterpret_cast<const char*>(data.data()), data.size()};
-  }
+  [[nodiscard]] std::string_view text() const { return {reinterpret_cast<const char*>(data.data()), data.size()}; }
   bool operator==(const Array&) const = default;
 
 private:
@@ -123,11 +121,11 @@ private:
 };
 
 // Each says what is wrong with the form of a frame; empty if nothing is.
-[[nodiscard]] std::string find_header_error(const Frame& frame);                     // time, counts
+[[nodiscard]] std::string find_header_error(const Frame& frame);                    // time, counts
 [[nodiscard]] std::string find_entry_error(const Array& array, const Frame& frame); // all of an array but its data
-[[nodiscard]] std::string find_table_error(const Frame& frame);                      // all entries, names unique, edges
-[[nodiscard]] std::string find_data_error(const Array& array);                       // size; text is UTF-8 without NUL
-[[nodiscard]] std::string find_form_error(const Frame& frame);                       // all of these
+[[nodiscard]] std::string find_table_error(const Frame& frame);                     // all entries, names unique, edges
+[[nodiscard]] std::string find_data_error(const Array& array);                      // size; text is UTF-8 without NUL
+[[nodiscard]] std::string find_form_error(const Frame& frame);                      // all of these
 
 // Says which standard array breaks its rule (section 5 of formats/sheet.md: shapes, indices in range, finite positions,
 // positive volumes, number of edges), with row; empty if none does. Cost: one pass; arrays at place edge: a sort.

@@ -14,7 +14,7 @@ inline constexpr std::array<char, 8> frame_magic{'S', 'H', 'E', 'E', 'T', 'F', '
 inline constexpr std::array<char, 8> end_magic{'S', 'H', 'E', 'E', 'T', 'E', 'N', 'D'};
 inline constexpr std::uint64_t alignment = 64;
 inline constexpr std::uint32_t max_arrays = 4096;
-inline constexpr std::uint64_t max_rows = std::uint64_t{1} << 32;         // vertex indices are 32 bits wide
+inline constexpr std::uint64_t max_rows = std::uint64_t{1} << 32;        // vertex indices are 32 bits wide
 inline constexpr std::uint64_t max_frame_bytes = std::uint64_t{1} << 48; // keeps every sum below 2^64
 inline constexpr std::uint8_t critical_bit = 1;
 

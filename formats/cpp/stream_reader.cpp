@@ -35,7 +35,8 @@ template <std::size_t N> bool all_zero(const std::array<std::uint8_t, N>& bytes)
 
 // For messages: a name that may hold anything.
 std::string printable(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return name;
 }
 
@@ -174,8 +175,8 @@ bool StreamReader::read_header(layout::FrameHeader& h) {
       return false;
     }
     if (got == 0)
-      corrupt(consumed_, frames_ == 0 ? "the stream is empty: not even an end mark"
-                                      : "the stream was cut short: no end mark");
+      corrupt(consumed_,
+              frames_ == 0 ? "the stream is empty: not even an end mark" : "the stream was cut short: no end mark");
     const std::string_view head(reinterpret_cast<const char*>(raw), got);
     const std::string_view frame_magic(layout::frame_magic.data(), 8), end_magic(layout::end_magic.data(), 8);
     if (head.starts_with(end_magic)) {

@@ -20,8 +20,8 @@ public:
 
   // Reads the next frame into `frame`, reusing its memory. False at the end of the stream: an END mark with nothing
   // behind it. END marks between frames (streams joined by cat) are passed over.
-  // Throws StreamError: corrupt (cut short, checksum, impossible header), value, io; the message names file, frame, array
-  // and byte. After an error the reader stays at its end.
+  // Throws StreamError: corrupt (cut short, checksum, impossible header), value, io; the message names file, frame,
+  // array and byte. After an error the reader stays at its end.
   [[nodiscard]] bool read(Frame& frame);
 
   // Frames read so far, and the byte behind the last one.
@@ -44,7 +44,8 @@ private:
   std::string name_;
   Values values_;
   std::uint64_t frames_ = 0, frames_since_end_ = 0, unended_ = 0, ends_ = 0;
-  std::uint64_t position_ = 0, consumed_ = 0, bytes_of_frames_ = 0; // [bytes] start of this item, read, end of last frame
+  std::uint64_t position_ = 0, consumed_ = 0,
+                bytes_of_frames_ = 0; // [bytes] start of this item, read, end of last frame
   bool done_ = false;
 };
 

@@ -15,8 +15,8 @@ public:
   // `name` appears in messages. The descriptor stays the caller's.
   TextPrinter(int descriptor, std::string name);
 
-  // Prints `end` until there are as many as `ends` (StreamReader::ends(): so joined streams stay apart), then the frame.
-  // All of it has been written on return. Throws StreamError: value (bad form), io, closed.
+  // Prints `end` until there are as many as `ends` (StreamReader::ends(): so joined streams stay apart), then the
+  // frame. All of it has been written on return. Throws StreamError: value (bad form), io, closed.
   void print(const Frame& frame, std::uint64_t ends = 0);
   // Prints `end` until there are as many as `ends`.
   void end(std::uint64_t ends = 1);
@@ -45,9 +45,9 @@ public:
   // `name` appears in messages. The descriptor stays the caller's.
   TextParser(int descriptor, std::string name);
 
-  // Reads the next frame into `frame`, or the next `end`; nothing at the end of the input, which must stand behind `end`.
-  // A frame's form has been checked (find_form_error), its values have not (find_value_error).
-  // Throws StreamError: corrupt (no `end`), value (says something else than section 6 allows), io; the message is
+  // Reads the next frame into `frame`, or the next `end`; nothing at the end of the input, which must stand behind
+  // `end`. A frame's form has been checked (find_form_error), its values have not (find_value_error). Throws
+  // StreamError: corrupt (no `end`), value (says something else than section 6 allows), io; the message is
   // "NAME:LINE:COLUMN: what is wrong and what is expected".
   [[nodiscard]] Item read(Frame& frame);
 

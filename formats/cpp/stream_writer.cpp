@@ -7,8 +7,8 @@
 #include <cstring>
 #include <memory>
 
-#include <fmt/core.h>
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -140,8 +140,8 @@ void StreamWriter::write(const Frame& frame) {
     write_all(descriptor_, std::move(parts), name_);
   } catch (const StreamError&) {
     // Whole frames only: what a full disk took of this one goes. If that fails too, readers still see the missing end.
-    if (start >= 0)
-      [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, start);
+    if (start >= 0) [[maybe_unused]]
+      const int ignored = ::ftruncate(descriptor_, start);
     throw;
   }
   ++frames_;

@@ -28,10 +28,11 @@ public:
   // A stream that goes on after `frames` frames which are in the file already (sheet-loop --resume).
   StreamWriter(int descriptor, std::string name, std::uint64_t frames);
 
-  // Writes one whole frame. Throws StreamError: value (bad form), io (disk full, ...), closed (broken pipe; SIGPIPE must be
-  // ignored by the program).
+  // Writes one whole frame. Throws StreamError: value (bad form), io (disk full, ...), closed (broken pipe; SIGPIPE
+  // must be ignored by the program).
   void write(const Frame& frame);
-  // Writes the end mark. A stream without it counts as cut short. Frames behind it belong to a stream that is joined on.
+  // Writes the end mark. A stream without it counts as cut short. Frames behind it belong to a stream that is joined
+  // on.
   void end();
 
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }

@@ -41,8 +41,7 @@ TEST(StreamWriter, RefusesFramesOfBadForm) {
       {[](Frame& f) { f.edges = 3; }, "the frame counts 3 edges but has no array at place edge"},
       {[](Frame& f) { f.edges = (std::uint64_t{1} << 32) + 1; },
        "4294967297 vertices, triangles or edges are more than 2^32"},
-      {[](Frame& f) { f.arrays[2].name = "position"; },
-       "array \"position\" appears twice"},
+      {[](Frame& f) { f.arrays[2].name = "position"; }, "array \"position\" appears twice"},
       {[](Frame& f) { f.arrays[2].name = ""; }, "array \"\": its name is not 1 to 47 characters of [a-z0-9_.:-]"},
       {[](Frame& f) { f.arrays[2].name = std::string(48, 'a'); },
        "array \"" + std::string(48, 'a') + "\": its name is not 1 to 47 characters of [a-z0-9_.:-]"},
@@ -53,7 +52,8 @@ TEST(StreamWriter, RefusesFramesOfBadForm) {
       {[](Frame& f) { f.put_text("note", "\xed\xa0\x80"); }, "array \"note\": its byte 0 is not UTF-8"},
       {[](Frame& f) { f.put_text("note", "\xf4\x90\x80\x80"); }, "array \"note\": its byte 0 is not UTF-8"},
       {[](Frame& f) { f.put_text("note", "ab\xe2\x82"); }, "array \"note\": its byte 2 is not UTF-8"},
-      {[](Frame& f) { f.put_text("note", std::string_view("ab\0", 3)); }, "array \"note\": its byte 2 is zero, text has none"},
+      {[](Frame& f) { f.put_text("note", std::string_view("ab\0", 3)); },
+       "array \"note\": its byte 2 is zero, text has none"},
       {[](Frame& f) {
          for (int i = 0; i < 4096; ++i)
            f.put_text(std::to_string(i), "");
@@ -95,7 +95,8 @@ TEST(StreamValues, EdgesAreCounted) {
   Frame frame = one_triangle();
   frame.vertices = 4;
   frame.triangles = 2;
-  frame.put(array_of<double>("position", Place::vertex, "m", Transfer::interpolate, 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}));
+  frame.put(
+      array_of<double>("position", Place::vertex, "m", Transfer::interpolate, 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}));
   frame.put(array_of<std::uint32_t>("triangle", Place::triangle, "1", Transfer::drop, 3, {0, 1, 2, 2, 1, 3}));
   frame.put(array_of<double>("volume", Place::triangle, "m^3", Transfer::conserve, 1, {1, 1}));
   frame.edges = 5;
