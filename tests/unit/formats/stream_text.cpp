@@ -110,6 +110,7 @@ TEST(StreamText, RefusesWithLineAndColumn) {
   const std::string text = std::string(triangle_text) + "end\n";
   const std::vector<BadText> cases{
       {"sheet-text 1.0", "sheet-text 2.0", ":1:12: version \"2.0\" of the text form is not 1.0"},
+      {"sheet-text 1.0", "sheet-text 1.", ":1:12: version \"1.\" of the text form is not 1.0"},
       {"sheet-text 1.0", "SHEETFRM", ":1:1: this is a binary sheet stream already: it needs no parsing"},
       {"sheet-text 1.0", "sheet", ":1:1: not the text form of a sheet stream: its first line is \"sheet-text 1.0\""},
       {"frame\n", "", ":2:1: \"time\" stands where \"frame\" or \"end\" is expected"},
