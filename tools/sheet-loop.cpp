@@ -6,29 +6,33 @@
 #include "libsheet/loop/loop.h"
 
 int main(int argc, char** argv) {
-  sheet::Tool tool("sheet-loop", "run stages in a ring, step after step",
-                   "Starts the given shell pipeline once, sends the last frame of the input through it, and sends what comes "
-                   "back through it again, until the time or the number of steps is reached. Each frame is complete, so "
-                   "every kept frame is a checkpoint.\n"
-                   "The next output time is stamped into the frame, and sheet-step never steps past it. If a stage dies, the "
-                   "message names it, and what was kept is whole.");
+  sheet::Tool tool(
+      "sheet-loop", "run stages in a ring, step after step",
+      "Starts the given shell pipeline once, sends the last frame of the input through it, and sends what comes "
+      "back through it again, until the time or the number of steps is reached. Each frame is complete, so "
+      "every kept frame is a checkpoint.\n"
+      "The next output time is stamped into the frame, and sheet-step never steps past it. If a stage dies, the "
+      "message names it, and what was kept is whole.");
   sheet::LoopOptions o;
   using Provenance = sheet::Tool::Provenance;
   tool.option("--until", o.until, "SECONDS", "end when the frame's time is there; a step ends exactly then",
               Provenance::omit);
   tool.option("--fps", o.fps, "FPS", "output times are the multiples of 1/FPS; steps end exactly at them");
-  tool.option("--steps", o.steps, "N", "end at step N (in a ring without sheet-step: after N rounds)", Provenance::omit);
+  tool.option("--steps", o.steps, "N", "end at step N (in a ring without sheet-step: after N rounds)",
+              Provenance::omit);
   tool.option("--keep", o.keep, "output|last|N",
               "frames to keep: those at output times (the default with --fps), the last only, or every N-th step "
               "(the default without --fps is 1). The first frame, except with last, and the final one are kept too");
-  tool.option("--resume", o.resume, "FILE",
-              "go on with this stream: a run that was interrupted, or one that shall become longer. New frames are added "
-              "to it; the result is the same, byte for byte, as without the interruption",
-              Provenance::omit);
-  tool.option("--checkpoint", o.checkpoint, "FILE",
-              "keep the newest frame in FILE, replaced as a whole, also when the run fails; --resume starts from it if it is "
-              "newer than the stream's last frame",
-              Provenance::omit);
+  tool.option(
+      "--resume", o.resume, "FILE",
+      "go on with this stream: a run that was interrupted, or one that shall become longer. New frames are added "
+      "to it; the result is the same, byte for byte, as without the interruption",
+      Provenance::omit);
+  tool.option(
+      "--checkpoint", o.checkpoint, "FILE",
+      "keep the newest frame in FILE, replaced as a whole, also when the run fails; --resume starts from it if it is "
+      "newer than the stream's last frame",
+      Provenance::omit);
   tool.option("--checkpoint-every", o.checkpoint_every, "SECONDS", "of the clock on the wall", Provenance::omit);
   tool.option("-i,--input", o.input, "FILE", "stream to start from; - for standard input", Provenance::omit);
   tool.option("-o,--output", o.output, "FILE", "stream to write; - for standard output", Provenance::omit);
@@ -42,9 +46,8 @@ int main(int argc, char** argv) {
   tool.example("sheet-init a.toml | sheet-loop --steps 100 --keep 10 -- 'sheet-step --dt 0.001' > run.sheet",
                "a hundred steps, every tenth kept");
   int signal = 0;
-  const int code = tool.run(argc, argv, [&] {
-    signal = sheet::run_loop(o, no_provenance ? std::string() : tool.command_line());
-  });
+  const int code =
+      tool.run(argc, argv, [&] { signal = sheet::run_loop(o, no_provenance ? std::string() : tool.command_line()); });
   if (signal != 0) { // die of it, so that a calling script stops too
     std::signal(signal, SIG_DFL);
     std::raise(signal);

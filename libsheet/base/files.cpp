@@ -16,7 +16,8 @@ namespace sheet {
 namespace {
 
 bool same_regular_file(int a, int b) {
-  struct stat sa {}, sb {};
+  struct stat sa {
+  }, sb{};
   return ::fstat(a, &sa) == 0 && ::fstat(b, &sb) == 0 && S_ISREG(sa.st_mode) && sa.st_dev == sb.st_dev &&
          sa.st_ino == sb.st_ino;
 }

@@ -28,8 +28,8 @@ void report_time(const std::string& name, std::uint64_t frames, Clock::duration 
   std::from_chars(text.data(), text.data() + text.size(), descriptor);
   if (descriptor <= STDERR_FILENO)
     return;
-  const std::string line = fmt::format("time {} {} {} {:.6f}\n", ::getpid(), name, frames,
-                                       std::chrono::duration<double>(busy).count());
+  const std::string line =
+      fmt::format("time {} {} {} {:.6f}\n", ::getpid(), name, frames, std::chrono::duration<double>(busy).count());
   // A missing line is a missing line in a report, no more.
   [[maybe_unused]] const ssize_t ignored = ::write(descriptor, line.data(), line.size());
 }
@@ -38,8 +38,7 @@ void report_time(const std::string& name, std::uint64_t frames, Clock::duration 
 
 void declare_filter_options(Tool& tool, FilterOptions& options) {
   tool.argument("INPUT", options.input, "stream to read; - for standard input");
-  tool.option("-o,--output", options.output, "FILE", "stream to write; - for standard output",
-              Tool::Provenance::omit);
+  tool.option("-o,--output", options.output, "FILE", "stream to write; - for standard output", Tool::Provenance::omit);
   tool.flag("--no-provenance", options.no_provenance, "leave the record of programs and options as it is",
             Tool::Provenance::omit);
 }

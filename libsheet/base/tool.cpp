@@ -202,7 +202,9 @@ void Tool::arguments(std::string_view name, std::vector<std::string>& values, st
   add(std::move(o));
 }
 
-void Tool::example(std::string command, std::string text) { examples_.emplace_back(std::move(command), std::move(text)); }
+void Tool::example(std::string command, std::string text) {
+  examples_.emplace_back(std::move(command), std::move(text));
+}
 void Tool::section(std::string title, std::string text) { sections_.emplace_back(std::move(title), std::move(text)); }
 
 void Tool::parse(int argc, char** argv) {
@@ -326,7 +328,8 @@ std::string Tool::command_line() const {
 
 std::string shell_quoted(std::string_view word) {
   const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("_-./:=+,%@^").find(c) != std::string_view::npos;
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-./:=+,%@^").find(c) != std::string_view::npos;
   };
   if (!word.empty() && std::all_of(word.begin(), word.end(), plain))
     return std::string(word);

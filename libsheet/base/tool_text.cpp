@@ -84,7 +84,8 @@ std::string Tool::help_text() const {
       if (!o.is_argument && !o.placeholder.empty())
         head += " " + o.placeholder;
       const std::string text = wrapped(o.text + default_note(o), 26);
-      lines += head.size() < 23 ? fmt::format("  {:<24}{}", head, text.substr(26)) : fmt::format("  {}\n{}", head, text);
+      lines +=
+          head.size() < 23 ? fmt::format("  {:<24}{}", head, text.substr(26)) : fmt::format("  {}\n{}", head, text);
     }
     if (!lines.empty())
       out += fmt::format("\n{}:\n{}", title, lines);
@@ -150,8 +151,9 @@ std::string Tool::completion_script() const {
     for (const std::string& word : o.words)
       choices += (choices.empty() ? "" : " ") + word;
     if (!choices.empty())
-      cases += fmt::format("    {})\n      mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")\n      return\n      ;;\n",
-                           pattern, choices);
+      cases +=
+          fmt::format("    {})\n      mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")\n      return\n      ;;\n",
+                      pattern, choices);
     else if (!o.is_flag && o.placeholder != "FILE")
       cases += fmt::format("    {})\n      COMPREPLY=()\n      return\n      ;;\n", pattern);
   }

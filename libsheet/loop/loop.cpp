@@ -65,7 +65,7 @@ Keep parse_keep(const LoopOptions& options) {
 
 // SIGINT and SIGTERM as something to wait for, from construction on; as before after destruction.
 class Signals {
-public:
+ public:
   Signals() {
     sigemptyset(&set_);
     sigaddset(&set_, SIGINT);
@@ -100,14 +100,14 @@ public:
     return ::read(descriptor_, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : SIGINT;
   }
 
-private:
+ private:
   sigset_t set_{}, old_{};
   int descriptor_ = -1;
 };
 
 // The stream of kept frames: a new one, or one that a run before has left.
 class Output {
-public:
+ public:
   // Reads what is there, cuts off what is behind the last whole frame, and leaves that frame in `last`.
   static std::unique_ptr<Output> resume(const std::string& path, Frame& last) {
     std::uint64_t frames = 0, bytes = 0;
@@ -138,8 +138,8 @@ public:
     return output;
   }
   static std::unique_ptr<Output> create(const std::string& path, const InputFile& input) {
-    auto output = std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(
-        path, OutputFile::Content::binary, &input)));
+    auto output =
+        std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(path, OutputFile::Content::binary, &input)));
     return output;
   }
   ~Output() {
@@ -159,7 +159,7 @@ public:
   }
   [[nodiscard]] std::uint64_t frames() const { return writer_.frames(); }
 
-private:
+ private:
   explicit Output(std::unique_ptr<OutputFile> file)
       : created_(std::move(file)), writer_(created_->descriptor(), created_->name()) {}
   Output(int descriptor, const std::string& path, std::uint64_t frames)
@@ -209,8 +209,8 @@ void stamp_next_output_time(Frame& frame, const LoopOptions& options) {
 // The ring's provenance is one line, not one a round.
 void record_once(Frame& frame, const std::string& line) {
   const formats::Array* array = frame.find("provenance");
-  if (line.empty() || (array != nullptr && ("\n" + std::string(array->text()) + "\n").find("\n1 " + line + "\n") !=
-                                               std::string::npos))
+  if (line.empty() ||
+      (array != nullptr && ("\n" + std::string(array->text()) + "\n").find("\n1 " + line + "\n") != std::string::npos))
     return;
   record_provenance(frame, line);
 }
@@ -247,7 +247,7 @@ void report_times(const PipelineEnd& end, std::uint64_t rounds, double elapsed) 
 }
 
 class Ring {
-public:
+ public:
   Ring(const LoopOptions& options, const std::string& provenance_line)
       : options_(options), keep_(parse_keep(options)), provenance_line_(provenance_line) {}
 
@@ -287,7 +287,7 @@ public:
     return 0;
   }
 
-private:
+ private:
   // Reads the first frame, opens the output.
   void start() {
     if (!options_.resume.empty()) {
@@ -318,8 +318,8 @@ private:
            (options_.steps && frame_.step >= static_cast<std::uint64_t>(*options_.steps));
   }
 
-  // One frame through all stages; false if the user interrupted. Sends from a thread of its own: a stage may answer before
-  // it has read everything, and neither end may wait for the other.
+  // One frame through all stages; false if the user interrupted. Sends from a thread of its own: a stage may answer
+  // before it has read everything, and neither end may wait for the other.
   bool round(Pipeline& pipeline, const Signals& signals, StreamWriter& sent, StreamReader& returned) {
     std::future<void> sending = std::async(std::launch::async, [&] { sent.write(frame_); });
     const bool readable = signals.wait_readable(pipeline.output());
@@ -380,10 +380,11 @@ private:
 
   // How to go on, for messages.
   [[nodiscard]] std::string whereabouts() const {
-    std::string text = fmt::format("step {}, t = {} s; {} whole frames kept", frame_.step, frame_.time,
-                                   output_->frames());
+    std::string text =
+        fmt::format("step {}, t = {} s; {} whole frames kept", frame_.step, frame_.time, output_->frames());
     const std::string& path = options_.resume.empty() ? options_.output : options_.resume;
-    text += path == "-" ? "; go on with --resume FILE if they are in one" : fmt::format("; go on with --resume {}", path);
+    text +=
+        path == "-" ? "; go on with --resume FILE if they are in one" : fmt::format("; go on with --resume {}", path);
     return text;
   }
 
@@ -431,8 +432,8 @@ private:
   Keep keep_;
   std::string provenance_line_;
   std::unique_ptr<Output> output_;
-  Frame frame_, back_;  // the newest state; the one that comes back (after a round: the one before)
-  bool kept_ = false;   // the newest state is in the output
+  Frame frame_, back_; // the newest state; the one that comes back (after a round: the one before)
+  bool kept_ = false;  // the newest state is in the output
 };
 
 } // namespace

@@ -15,17 +15,17 @@ struct LoopOptions {
   std::optional<double> until;       // [s] end when the frame's time is there
   std::optional<double> fps;         // output times are the multiples of 1/fps [1/s]
   std::optional<std::int64_t> steps; // end when the frame's step is there
-  std::string keep;                  // "output" | "last" | a number n, for every n-th step; "" is output with fps, else 1
-  std::string checkpoint;            // file that always holds the newest frame as a stream of its own
-  double checkpoint_every = 60;      // [s] of the clock on the wall
+  std::string keep;             // "output" | "last" | a number n, for every n-th step; "" is output with fps, else 1
+  std::string checkpoint;       // file that always holds the newest frame as a stream of its own
+  double checkpoint_every = 60; // [s] of the clock on the wall
 };
 
 // Checks the options against each other. Throws Error (usage), naming the option.
 void check(const LoopOptions& options);
 
-// Runs the ring. Throws Error when a stage fails (with the stage's exit code if it is one of ours, else internal), when the
-// time stands still though `until` asks for it (usage), on damaged input; StreamError (io) when the output cannot be
-// written. In each case the output holds whole frames only, and the message says where it ended and how to go on.
+// Runs the ring. Throws Error when a stage fails (with the stage's exit code if it is one of ours, else internal), when
+// the time stands still though `until` asks for it (usage), on damaged input; StreamError (io) when the output cannot
+// be written. In each case the output holds whole frames only, and the message says where it ended and how to go on.
 // Returns 0, or the number of the signal (SIGINT, SIGTERM) that ended the run in good order.
 [[nodiscard]] int run_loop(const LoopOptions& options, const std::string& provenance_line);
 

@@ -34,8 +34,9 @@ struct PipelineEnd {
 [[nodiscard]] std::vector<std::string> split_pipeline(const std::string& command);
 
 class Pipeline {
-public:
-  // Starts `command` under bash in a process group of its own, with this program's folder first in PATH. Throws Error (io).
+ public:
+  // Starts `command` under bash in a process group of its own, with this program's folder first in PATH. Throws Error
+  // (io).
   explicit Pipeline(const std::string& command);
   // Ends whatever still runs.
   ~Pipeline();
@@ -51,14 +52,14 @@ public:
   // Kills all stages now.
   void kill();
 
-private:
+ private:
   std::string command_;
   int input_ = -1, output_ = -1, report_ = -1;
   pid_t shell_ = -1;
 };
 
-// The stage to blame for a pipeline's end: the first from the left with a code other than 0 and SIGPIPE's, for those before
-// it saw a closed pipe and those behind it a stream that was cut short. Null if there is none.
+// The stage to blame for a pipeline's end: the first from the left with a code other than 0 and SIGPIPE's, for those
+// before it saw a closed pipe and those behind it a stream that was cut short. Null if there is none.
 [[nodiscard]] const StageStatus* first_failure(const PipelineEnd& end);
 
 } // namespace sheet

@@ -61,8 +61,8 @@ std::span<const double> volumes(const Frame& frame) { return required(frame, "vo
 std::span<Eigen::Vector3d> velocities(Frame& frame) {
   Array* array = frame.find("velocity");
   if (array == nullptr) {
-    array = &frame.put(formats::make_array("velocity", Place::vertex, Type::float64, 3, "m/s", Transfer::interpolate,
-                                           frame.vertices));
+    array = &frame.put(
+        formats::make_array("velocity", Place::vertex, Type::float64, 3, "m/s", Transfer::interpolate, frame.vertices));
     for (Eigen::Vector3d& v : array->values<Eigen::Vector3d>())
       v.setZero();
   }

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Evaluates chunks of elements in parallel; sums in the order of the chunks.
+#include "libsheet/energy/assembly.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+namespace sheet {
+
+namespace {
+
+constexpr std::size_t kChunk = 64; // elements
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+ElementGroup make_group(const Connectivity& mesh, const Term& term) {
+  ElementGroup group;
+  group.stencil = term.stencil();
+  group.width = stencil_vertices(group.stencil) + stencil_edges(group.stencil);
+  const bool triangles = group.stencil == Stencil::triangle || group.stencil == Stencil::triangle_edges;
+  const std::size_t count = triangles ? mesh.triangles.size() : term.size();
+  group.nodes.reserve(count * static_cast<std::size_t>(group.width));
+  for (std::size_t i = 0; i < count; ++i)
+    if (triangles) {
+      for (const auto v : mesh.triangles[i])
+        group.nodes.push_back(v);
+      if (group.stencil == Stencil::triangle_edges)
+        for (const auto e : mesh.triangle_edges[i])
+          group.nodes.push_back(static_cast<std::uint32_t>(mesh.vertices) + e);
+    } else {
+      for (const auto v : term.nodes(i))
+        group.nodes.push_back(v);
+    }
+  return group;
+}
+
+} // namespace
+
+Assembly::Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles)
+    : mesh_(std::move(mesh)), angles_(angles) {
+  // Terms on triangles share one group, with the edges if any of them needs those.
+  const auto on_triangles = [](Stencil s) { return s == Stencil::triangle || s == Stencil::triangle_edges; };
+  bool edges = false;
+  for (const auto& term : terms)
+    edges = edges || term->stencil() == Stencil::triangle_edges;
+  int triangle_group = -1;
+  for (const auto& term : terms) {
+    if (on_triangles(term->stencil()) && triangle_group >= 0) {
+      group_of_term_.push_back(triangle_group);
+      continue;
+    }
+    if (on_triangles(term->stencil())) {
+      triangle_group = static_cast<int>(groups_.size());
+      const auto widest = std::find_if(terms.begin(), terms.end(), [&](const auto& t) {
+        return t->stencil() == (edges ? Stencil::triangle_edges : Stencil::triangle);
+      });
+      groups_.push_back(make_group(*mesh_, **widest));
+    } else {
+      groups_.push_back(make_group(*mesh_, *term));
+    }
+    group_of_term_.push_back(static_cast<int>(groups_.size()) - 1);
+  }
+  std::size_t elements = 0;
+  for (ElementGroup& group : groups_) {
+    stride_ = std::max(stride_, stencil_unknowns(group.stencil));
+    group.first = elements;
+    elements += group.size();
+  }
+  gradients_.resize(elements * static_cast<std::size_t>(stride_));
+  hessians_.resize(elements * static_cast<std::size_t>(stride_ * stride_));
+  seconds_.assign(terms.size() + 1, 0.0);
+}
+
+std::vector<Edge> Assembly::vertex_graph() const {
+  std::vector<Edge> graph = mesh_->edges;
+  for (const ElementGroup& group : groups_) {
+    if (group.stencil == Stencil::triangle || group.stencil == Stencil::triangle_edges)
+      continue;
+    for (std::size_t i = 0; i < group.nodes.size(); i += 4)
+      for (int a = 0; a < 4; ++a)
+        for (int b = 0; b < a; ++b)
+          graph.push_back({std::min(group.nodes[i + a], group.nodes[i + b]), //
+                           std::max(group.nodes[i + a], group.nodes[i + b])});
+  }
+  std::sort(graph.begin(), graph.end());
+  graph.erase(std::unique(graph.begin(), graph.end()), graph.end());
+  return graph;
+}
+
+void Assembly::set_order(std::span<const std::uint32_t> vertex_order) {
+  std::vector<std::uint32_t> order;
+  order.reserve(vertex_order.size() + mesh_->edges.size());
+  if (angles_) {
+    std::vector<std::uint32_t> rank(mesh_->vertices), start(mesh_->vertices + 1, 0), edges(mesh_->edges.size());
+    for (std::uint32_t k = 0; k < vertex_order.size(); ++k)
+      rank[vertex_order[k]] = k;
+    const auto first = [&](std::size_t e) { return std::min(rank[mesh_->edges[e][0]], rank[mesh_->edges[e][1]]); };
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      ++start[first(e) + 1];
+    for (std::size_t k = 0; k < vertex_order.size(); ++k)
+      start[k + 1] += start[k];
+    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+    for (std::uint32_t e = 0; e < edges.size(); ++e)
+      edges[next[first(e)]++] = e;
+    for (std::size_t k = 0; k < vertex_order.size(); ++k) {
+      for (std::uint32_t s = start[k]; s < start[k + 1]; ++s)
+        order.push_back(static_cast<std::uint32_t>(mesh_->vertices) + edges[s]);
+      order.push_back(vertex_order[k]);
+    }
+  } else {
+    order.assign(vertex_order.begin(), vertex_order.end());
+  }
+  pattern_.emplace(mesh_->vertices, angles_ ? mesh_->edges.size() : 0, groups_, stride_, order);
+}
+
+template <class Visit> void Assembly::each_chunk(Visit&& visit) const {
+  struct Chunk {
+    int group;
+    std::size_t first, last;
+  };
+  std::vector<Chunk> chunks;
+  for (int g = 0; g < static_cast<int>(groups_.size()); ++g)
+    for (std::size_t i = 0; i < groups_[g].size(); i += kChunk)
+      chunks.push_back({g, i, std::min(groups_[g].size(), i + kChunk)});
+  tbb::parallel_for(std::size_t{0}, chunks.size(),
+                    [&](std::size_t c) { visit(c, chunks.size(), chunks[c].group, chunks[c].first, chunks[c].last); });
+}
+
+void Assembly::collect(const ElementGroup& group, std::size_t first, std::size_t last, const Unknowns& u,
+                       double* out) const {
+  const std::uint32_t vertices = static_cast<std::uint32_t>(mesh_->vertices);
+  for (std::size_t i = first; i < last; ++i, out += stride_) {
+    const std::uint32_t* n = &group.nodes[i * static_cast<std::size_t>(group.width)];
+    double* to = out;
+    for (int a = 0; a < group.width; ++a)
+      if (n[a] < vertices) {
+        const double* from = u.data() + 3 * std::size_t{n[a]};
+        to[0] = from[0], to[1] = from[1], to[2] = from[2];
+        to += 3;
+      } else {
+        *to++ = u[3 * std::size_t{vertices} + (n[a] - vertices)];
+      }
+  }
+}
+
+EnergySum Assembly::value(const Terms& terms, const Unknowns& u) {
+  for (const auto& term : terms)
+    term->prepare(u);
+  std::size_t total = 0;
+  for (const auto& group : groups_)
+    total += (group.size() + kChunk - 1) / kChunk;
+  std::vector<EnergySum> sums(total);
+  each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
+    double local[kChunk * 12];
+    collect(groups_[g], first, last, u, local);
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      if (group_of_term_[t] == g)
+        sums[c].add(terms[t]->values(first, last, local, stride_));
+  });
+  EnergySum sum;
+  for (const EnergySum& s : sums)
+    sum.add(s);
+  return sum;
+}
+
+EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool definite, std::span<const char> held,
+                                Eigen::VectorXd& gradient, SparseLower& matrix) {
+  for (const auto& term : terms)
+    term->prepare(u);
+  std::size_t total = 0;
+  for (const auto& group : groups_)
+    total += (group.size() + kChunk - 1) / kChunk;
+  std::vector<EnergySum> sums(total);
+  std::vector<double> seconds(total * terms.size(), 0.0);
+  each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
+    double local[kChunk * 12];
+    collect(groups_[g], first, last, u, local);
+    const std::size_t place = groups_[g].first + first, count = last - first;
+    double* gradients = &gradients_[place * static_cast<std::size_t>(stride_)];
+    double* hessians = &hessians_[place * static_cast<std::size_t>(stride_ * stride_)];
+    std::fill_n(gradients, count * static_cast<std::size_t>(stride_), 0.0);
+    std::fill_n(hessians, count * static_cast<std::size_t>(stride_ * stride_), 0.0);
+    double before = now();
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      if (group_of_term_[t] == g) {
+        sums[c].add(terms[t]->add_derivatives(first, last, local, stride_, gradients, hessians, definite));
+        const double after = now();
+        seconds[c * terms.size() + t] = after - before;
+        before = after;
+      }
+  });
+  const double before = now();
+  pattern_->gather_gradient(gradients_, gradient);
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (held[k])
+      gradient[static_cast<Eigen::Index>(k)] = 0;
+  pattern_->gather_matrix(hessians_, held, matrix);
+  seconds_.back() += now() - before;
+  EnergySum sum;
+  for (std::size_t c = 0; c < total; ++c) {
+    sum.add(sums[c]);
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      seconds_[t] += seconds[c * terms.size() + t];
+  }
+  return sum;
+}
+
+} // namespace sheet

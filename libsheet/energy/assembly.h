@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sum of all terms over all their elements: value [J], gradient [N, or N m for angles], Hessian. Written once for
+// every term. Elements with the same stencil share a place in one buffer, which the MatrixPattern gathers into the matrix.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libsheet/energy/pattern.h"
+#include "libsheet/energy/term.h"
+
+namespace sheet {
+
+class Assembly {
+ public:
+  Assembly() = default;
+  // angles: whether every edge has an unknown.
+  Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles);
+
+  [[nodiscard]] std::size_t unknowns() const { return 3 * mesh_->vertices + (angles_ ? mesh_->edges.size() : 0); }
+  [[nodiscard]] std::size_t vertices() const { return mesh_->vertices; }
+  [[nodiscard]] bool angles() const { return angles_; }
+  // Pairs of vertices that share an element (each once, either order); what a fill-reducing order is made from.
+  [[nodiscard]] std::vector<Edge> vertex_graph() const;
+  // Sets the order of elimination, from an order of the vertices: each edge comes just before the first of its
+  // vertices.
+  void set_order(std::span<const std::uint32_t> vertex_order);
+  [[nodiscard]] const MatrixPattern& pattern() const { return *pattern_; }
+
+  [[nodiscard]] EnergySum value(const Terms& terms, const Unknowns& u);
+  // held: one flag an unknown, or empty. Their gradient is zero, their rows and columns those of the unit matrix.
+  EnergySum derivatives(const Terms& terms, const Unknowns& u, bool definite, std::span<const char> held,
+                        Eigen::VectorXd& gradient, SparseLower& matrix);
+  // Seconds spent in each term (summed over threads) and, last, in gathering, since construction or the last reset.
+  [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
+
+ private:
+  template <class Visit> void each_chunk(Visit&& visit) const;
+  void collect(const ElementGroup& group, std::size_t first, std::size_t last, const Unknowns& u, double* out) const;
+
+  std::shared_ptr<const Connectivity> mesh_;
+  bool angles_ = false;
+  int stride_ = 9;
+  std::vector<ElementGroup> groups_;
+  std::vector<int> group_of_term_;
+  std::optional<MatrixPattern> pattern_;
+  std::vector<double> gradients_, hessians_;
+  std::vector<double> seconds_;
+};
+
+} // namespace sheet

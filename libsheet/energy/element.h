@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an energy term looks like. A term is a class of elements that all have the same stencil:
+//   static constexpr Stencil stencil;                         the nodes of an element, see below
+//   const char* name() const;
+//   std::size_t size() const;                                 number of elements
+//   std::array<std::uint32_t, 4> nodes(i) const;              the vertices; only where the stencil is hinge or four
+//   void begin(const Stage&);                                 start-of-stage quantities; called before each solve
+//   void prepare(const Unknowns&);                            optional: what is global (an enclosed volume)
+//   double value(i, u) const;                                 [J]
+//   double derivatives(i, u, gradient, hessian, definite) const;   value, [N] and [N/m]; overwrites both. If definite,
+//     the Hessian is a positive semidefinite approximation in closed form, otherwise it is exact
+// u holds the unknowns of the element: its vertices' coordinates, then its edges' angles.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "libsheet/energy/stage.h"
+
+namespace sheet {
+
+enum class Stencil {
+  triangle,       // its three vertices
+  triangle_edges, // its three vertices, then its three edges (edge i opposite vertex i)
+  hinge,          // four vertices: an interior edge, then the two apices
+  four            // any four vertices
+};
+
+constexpr int stencil_unknowns(Stencil s) { return s == Stencil::triangle ? 9 : 12; }
+constexpr int stencil_vertices(Stencil s) { return s == Stencil::hinge || s == Stencil::four ? 4 : 3; }
+constexpr int stencil_edges(Stencil s) { return s == Stencil::triangle_edges ? 3 : 0; }
+
+} // namespace sheet

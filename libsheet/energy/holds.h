@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Vertices and edges whose motion is prescribed: pinned (positions), clamped (positions and the angle of edges), or
+// held along some axes only. They stay in the list of unknowns; the assembly turns their rows into those of the unit
+// matrix.
+#pragma once
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "libsheet/energy/stage.h"
+
+namespace sheet {
+
+struct RigidMotion {
+  Matrix3 rotation = Matrix3::Identity();
+  Vector3 shift = Vector3::Zero();
+  [[nodiscard]] Vector3 operator()(const Vector3& x) const { return rotation * x + shift; }
+};
+
+struct Hold {
+  std::vector<std::uint32_t> vertices;
+  std::array<bool, 3> axes{true, true, true};
+  std::vector<std::uint32_t> clamped_edges; // their directors turn with the motion; ignored without angle unknowns
+  // Where what is at x at the time `from` [s] is at the time `to`; empty: at rest.
+  std::function<RigidMotion(double from, double to)> motion;
+
+  [[nodiscard]] RigidMotion moved(double from, double to) const { return motion ? motion(from, to) : RigidMotion{}; }
+};
+
+// One flag for each unknown.
+[[nodiscard]] std::vector<char> held_unknowns(const std::vector<Hold>& holds, const Stage& stage);
+
+// Puts held unknowns where they are at the time `to`.
+void place_held(const std::vector<Hold>& holds, const Stage& stage, double to, Unknowns& u);
+
+// Number of vertices held along all axes.
+[[nodiscard]] std::size_t fully_held(const std::vector<Hold>& holds);
+
+// Sets the velocities of held vertices at the time t [s]; `duration` is the step's, for a difference quotient.
+void set_held_velocities(const std::vector<Hold>& holds, double t, double duration, State& state);
+
+} // namespace sheet

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Viscous stretching of flat triangles [Batty et al. 2012, eq. (3), as a potential of one step of duration τ]:
+//   W = (V μ/τ) (tr(E²) + tr(E)²),   E = â⁻¹ (a - ā)/2.
+// a: first fundamental form, ā: its reference, â: the metric that raises indices (Stage::raised), V: the triangle's
+// volume [m³], μ: viscosity [Pa s]. With â the metric at the stage's end the weight μ V = μ h A couples thickness and
+// area exactly; with â the metric at the start it is the paper's explicit thickness.
+#pragma once
+#include "libsheet/energy/element.h"
+
+namespace sheet {
+
+class Membrane {
+ public:
+  static constexpr Stencil stencil = Stencil::triangle;
+  explicit Membrane(double viscosity) : viscosity_(viscosity) {}
+  [[nodiscard]] const char* name() const { return "membrane"; }
+  [[nodiscard]] std::size_t size() const { return reference_.size(); }
+  void begin(const Stage& stage);
+  [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const;
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
+                     bool definite) const;
+
+ private:
+  double viscosity_;
+  double rate_ = 0;                // μ/(4τ) [Pa]
+  const State* state_ = nullptr;   // volumes
+  const Stage* stage_ = nullptr;   // raised metrics
+  std::vector<Vector3> reference_; // squared edge lengths ā [m²]
+};
+
+} // namespace sheet

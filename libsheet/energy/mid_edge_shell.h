@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Viscous bending by mid-edge directors [Grinspun et al. 2006], as a potential of one stage of duration τ:
+//   W = (V μ ĥ²/(12 τ)) (tr(S²) + tr(S)²),   S = â⁻¹ (b - b̄),   ĥ = V/Â.
+// b: second fundamental form from the directors (geometry/director.h), b̄ its reference; the metric â that raises
+// indices and its area Â as in membrane.h. On edges: β_k = b(e_k, e_k) = -2 (g_i + g_j). With arcs, also the membrane,
+// edges taken for circular arcs: squared lengths |e_k|² + β_k²/12 in the first fundamental form, which takes away the
+// leading part of the locking of flat triangles (DESIGN.md section 4). The membrane term is then absent.
+#pragma once
+#include "libsheet/energy/element.h"
+
+namespace sheet {
+
+class MidEdgeShell {
+ public:
+  static constexpr Stencil stencil = Stencil::triangle_edges;
+  MidEdgeShell(double viscosity, bool arcs) : viscosity_(viscosity), arcs_(arcs) {}
+  [[nodiscard]] const char* name() const {
+    return arcs_ ? "membrane and bending (mid-edge, arcs)" : "bending (mid-edge)";
+  }
+  [[nodiscard]] std::size_t size() const { return reference_.size(); }
+  void begin(const Stage& stage);
+  [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const;
+  double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
+                     bool definite) const;
+
+ private:
+  struct Reference {
+    Vector3 curvature; // β̄ [m]
+    Vector3 lengths;   // reference squared arc lengths [m²]; with arcs only
+    double weight;     // V μ ĥ²/(6 τ) [J]: ∂²W/∂β² = weight C
+    double membrane;   // V μ/(2 τ) [J]
+  };
+  struct Corner { // of edge i: local indices of its lower and higher vertex
+    int low, high;
+  };
+  [[nodiscard]] Corner corner(std::size_t i, int k) const {
+    const Triangle& v = mesh_->triangles[i];
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    return v[a] < v[b] ? Corner{a, b} : Corner{b, a};
+  }
+  [[nodiscard]] Vector3 heights(std::size_t i, const VectorN<12>& u) const;
+
+  double viscosity_; // [Pa s]
+  bool arcs_;
+  const Stage* stage_ = nullptr;
+  const Connectivity* mesh_ = nullptr;
+  std::vector<Reference> reference_;
+};
+
+} // namespace sheet

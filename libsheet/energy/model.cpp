@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/model.h"
+
+#include "libsheet/energy/bath.h"
+#include "libsheet/energy/gravity.h"
+#include "libsheet/energy/hinge.h"
+#include "libsheet/energy/membrane.h"
+#include "libsheet/energy/mid_edge_shell.h"
+#include "libsheet/energy/surface_tension.h"
+
+namespace sheet {
+
+Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& mesh) {
+  Terms terms;
+  if (model.viscosity > 0) {
+    const bool arcs = model.has_angles() && model.arcs;
+    if (!arcs)
+      terms.push_back(make_term(Membrane(model.viscosity)));
+    if (model.has_angles())
+      terms.push_back(make_term(MidEdgeShell(model.viscosity, arcs)));
+    else if (model.bending != Bending::none)
+      terms.push_back(make_term(Hinge(model.viscosity, model.bending == Bending::hinge_paper, *mesh)));
+  }
+  if (model.surface_tension > 0)
+    terms.push_back(make_term(SurfaceTension(model.surface_tension)));
+  if (model.has_inertia())
+    terms.push_back(make_term(Inertia(model.density, model.mass)));
+  if (model.density > 0 && model.gravity.squaredNorm() > 0)
+    terms.push_back(make_term(Gravity(model.density, model.gravity)));
+  if (model.pressure)
+    terms.push_back(make_term(Pressure(*model.pressure)));
+  if (model.bath && model.gravity.squaredNorm() > 0)
+    terms.push_back(make_term(Bath(model.bath->density, model.gravity, model.bath->level)));
+  if (!model.contacts.empty())
+    terms.push_back(make_term(Contact(model.contacts)));
+  return terms;
+}
+
+} // namespace sheet

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The physics of a sheet as plain numbers, and the terms that follow from it: a term exists only if it is asked for.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "libsheet/energy/contact.h"
+#include "libsheet/energy/holds.h"
+#include "libsheet/energy/inertia.h"
+#include "libsheet/energy/pressure.h"
+#include "libsheet/energy/term.h"
+
+namespace sheet {
+
+// A bath below the sheet.
+struct BathModel {
+  double density = 0; // [kg/m³]
+  double level = 0;   // of its surface, along the upward direction [m]
+};
+
+enum class Bending { none, mid_edge, hinge, hinge_paper };
+
+struct Model {
+  double viscosity = 0;              // [Pa s]; 0: no viscous terms
+  double density = 0;                // [kg/m³]
+  double surface_tension = 0;        // [N/m]
+  Vector3 gravity = Vector3::Zero(); // [m/s²]
+  std::optional<PressureLaw> pressure;
+  std::optional<BathModel> bath; // needs gravity
+  bool inertia = true;
+  Bending bending = Bending::none;
+  bool arcs = false; // with mid-edge bending: edges are arcs in the membrane's strain
+  Mass mass = Mass::lumped;
+  std::vector<Hold> holds;
+  std::vector<ContactSpring> contacts;
+
+  [[nodiscard]] bool has_inertia() const { return inertia && density > 0; }
+  [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && viscosity > 0; }
+};
+
+[[nodiscard]] Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& mesh);
+
+} // namespace sheet

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The map from element entries to matrix slots: counting sorts over pairs of nodes.
+#include "libsheet/energy/pattern.h"
+
+#include <algorithm>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace sheet {
+
+namespace {
+constexpr std::size_t kColumnsAtOnce = 256;
+} // namespace
+
+MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
+                 std::span<const std::uint32_t> order)
+    : vertices_(vertices), stride_(stride), order_(order.begin(), order.end()) {
+  const std::size_t nodes = vertices + edges;
+  std::vector<std::uint32_t> rank(nodes);
+  column_start_.resize(nodes + 1, 0);
+  for (std::uint32_t k = 0; k < nodes; ++k) {
+    rank[order_[k]] = k;
+    column_start_[k + 1] = column_start_[k] + static_cast<std::uint32_t>(width(order_[k]));
+    for (int d = 0; d < width(order_[k]); ++d)
+      permutation_.push_back(first_unknown(order_[k]) + static_cast<std::uint32_t>(d));
+  }
+
+  // Every pair of nodes of an element, sorted by column (the earlier node), then row, then element.
+  struct Pair {
+    std::uint32_t row, source; // rank of the row's node; place in the buffer
+  };
+  std::vector<std::uint32_t> start(nodes + 1, 0), gradient_count(nodes + 1, 0);
+  const auto each_pair = [&](auto&& visit) {
+    for (const ElementGroup& group : groups) {
+      const std::size_t count = group.size();
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t* n = &group.nodes[i * static_cast<std::size_t>(group.width)];
+        const auto base = static_cast<std::uint32_t>((group.first + i) * static_cast<std::size_t>(stride * stride));
+        int at[6];
+        for (int a = 0, p = 0; a < group.width; p += width(n[a]), ++a)
+          at[a] = p;
+        for (int a = 0; a < group.width; ++a)
+          for (int b = 0; b < group.width; ++b)
+            if (rank[n[a]] >= rank[n[b]])
+              visit(rank[n[b]], Pair{rank[n[a]], base + static_cast<std::uint32_t>(at[b] * stride + at[a])});
+      }
+    }
+  };
+  each_pair([&](std::uint32_t column, const Pair&) { ++start[column + 1]; });
+  for (std::size_t k = 0; k < nodes; ++k)
+    start[k + 1] += start[k];
+  std::vector<Pair> pairs(start[nodes]);
+  {
+    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+    each_pair([&](std::uint32_t column, const Pair& pair) { pairs[next[column]++] = pair; });
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, kColumnsAtOnce), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k)
+      std::sort(pairs.begin() + start[k], pairs.begin() + start[k + 1],
+                [](const Pair& p, const Pair& q) { return p.row != q.row ? p.row < q.row : p.source < q.source; });
+  });
+
+  sources_.resize(pairs.size());
+  block_start_.assign(nodes + 1, 0);
+  structure_.size = static_cast<int>(permutation_.size());
+  structure_.starts.assign(permutation_.size() + 1, 0);
+  for (std::uint32_t k = 0; k < nodes; ++k) {
+    std::uint32_t offset = 0;
+    // A node without elements still has its diagonal.
+    if (start[k] == start[k + 1]) {
+      blocks_.push_back({order_[k], 0, start[k]});
+      offset = static_cast<std::uint32_t>(width(order_[k]));
+    }
+    for (std::uint32_t p = start[k]; p < start[k + 1]; ++p) {
+      sources_[p] = pairs[p].source;
+      if (p == start[k] || pairs[p].row != pairs[p - 1].row) {
+        blocks_.push_back({order_[pairs[p].row], offset, p});
+        offset += static_cast<std::uint32_t>(width(order_[pairs[p].row]));
+      }
+    }
+    block_start_[k + 1] = static_cast<std::uint32_t>(blocks_.size());
+    for (int d = 0; d < width(order_[k]); ++d)
+      structure_.starts[column_start_[k] + d + 1] = static_cast<int>(offset) - d;
+  }
+  blocks_.push_back({0, 0, static_cast<std::uint32_t>(sources_.size())}); // the end of the last block's sources
+  for (std::size_t c = 0; c < permutation_.size(); ++c)
+    structure_.starts[c + 1] += structure_.starts[c];
+  structure_.rows.resize(static_cast<std::size_t>(structure_.starts.back()));
+  structure_.values.assign(structure_.rows.size(), 0.0);
+  for (std::uint32_t k = 0; k < nodes; ++k)
+    for (int d = 0; d < width(order_[k]); ++d) {
+      int* rows = &structure_.rows[static_cast<std::size_t>(structure_.starts[column_start_[k] + d])];
+      for (std::uint32_t b = block_start_[k]; b < block_start_[k + 1]; ++b) {
+        const std::uint32_t row = column_start_[rank[blocks_[b].row_node]];
+        for (int r = b == block_start_[k] ? d : 0; r < width(blocks_[b].row_node); ++r)
+          *rows++ = static_cast<int>(row) + r;
+      }
+    }
+
+  // The gradient: each node's places in the gradient buffer.
+  const auto each_node = [&](auto&& visit) {
+    for (const ElementGroup& group : groups)
+      for (std::size_t i = 0, n = group.size() * static_cast<std::size_t>(group.width), p = 0; i < n; ++i) {
+        const std::uint32_t node = group.nodes[i];
+        if (i % static_cast<std::size_t>(group.width) == 0)
+          p = (group.first + i / static_cast<std::size_t>(group.width)) * static_cast<std::size_t>(stride);
+        visit(node, static_cast<std::uint32_t>(p));
+        p += static_cast<std::size_t>(width(node));
+      }
+  };
+  gradient_start_.assign(nodes + 1, 0);
+  each_node([&](std::uint32_t node, std::uint32_t) { ++gradient_start_[node + 1]; });
+  for (std::size_t n = 0; n < nodes; ++n)
+    gradient_start_[n + 1] += gradient_start_[n];
+  gradient_sources_.resize(gradient_start_[nodes]);
+  std::vector<std::uint32_t> next(gradient_start_.begin(), gradient_start_.end() - 1);
+  each_node([&](std::uint32_t node, std::uint32_t place) { gradient_sources_[next[node]++] = place; });
+}
+
+void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const {
+  gradient.resize(static_cast<Eigen::Index>(permutation_.size()));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order_.size(), 4 * kColumnsAtOnce), [&](const auto& range) {
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      double sum[3] = {0, 0, 0};
+      const int w = width(static_cast<std::uint32_t>(n));
+      for (std::uint32_t s = gradient_start_[n]; s < gradient_start_[n + 1]; ++s)
+        for (int d = 0; d < w; ++d)
+          sum[d] += buffer[gradient_sources_[s] + static_cast<std::size_t>(d)];
+      for (int d = 0; d < w; ++d)
+        gradient[first_unknown(static_cast<std::uint32_t>(n)) + d] = sum[d];
+    }
+  });
+}
+
+void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<const char> held, SparseLower& matrix) const {
+  const auto gather = [&](std::uint32_t k) {
+    const std::uint32_t column_node = order_[k];
+    const int columns = width(column_node);
+    const int* starts = &matrix.starts[column_start_[k]];
+    for (std::uint32_t b = block_start_[k]; b < block_start_[k + 1]; ++b) {
+      const Block& block = blocks_[b];
+      const int rows = width(block.row_node);
+      double sum[9] = {};
+      for (std::uint32_t s = block.first_source; s < blocks_[b + 1].first_source; ++s) {
+        const double* from = &buffer[sources_[s]];
+        for (int c = 0; c < columns; ++c, from += stride_)
+          for (int r = 0; r < rows; ++r)
+            sum[3 * c + r] += from[r];
+      }
+      const bool diagonal = block.row_node == column_node;
+      if (!held.empty())
+        for (int c = 0; c < columns; ++c)
+          for (int r = 0; r < rows; ++r)
+            if (held[first_unknown(block.row_node) + r] || held[first_unknown(column_node) + c])
+              sum[3 * c + r] = diagonal && r == c ? 1 : 0;
+      for (int c = 0; c < columns; ++c) {
+        // Column c of the node lists its rows from its own diagonal on.
+        double* to = &matrix.values[static_cast<std::size_t>(starts[c]) + block.offset] - (diagonal ? 0 : c);
+        for (int r = diagonal ? c : 0; r < rows; ++r)
+          *to++ = sum[3 * c + r];
+      }
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(order_.size()), kColumnsAtOnce),
+                    [&](const auto& range) {
+                      for (std::uint32_t k = range.begin(); k < range.end(); ++k)
+                        gather(k);
+                    });
+}
+
+} // namespace sheet

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where every element entry goes in the sparse matrix. Nodes are the vertices (three unknowns each), then the edges
+// (one each, if the sheet has angle unknowns). The matrix is the lower triangle, by columns, in a given order of the
+// nodes. Each block of it, a pair of nodes, knows all places in the element buffer that it is the sum of, in a fixed
+// order: so gathering is parallel over columns and the result does not depend on the number of threads.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libsheet/energy/element.h"
+
+namespace sheet {
+
+// Lower triangle of a symmetric matrix, compressed columns, rows ascending.
+struct SparseLower {
+  int size = 0;
+  std::vector<int> starts, rows;
+  std::vector<double> values;
+};
+
+// Elements of one stencil: the nodes of element i are nodes[i * width ...].
+struct ElementGroup {
+  Stencil stencil;
+  int width = 0;
+  std::vector<std::uint32_t> nodes;
+  std::size_t first = 0; // of its elements in the common buffer
+  [[nodiscard]] std::size_t size() const { return width ? nodes.size() / static_cast<std::size_t>(width) : 0; }
+};
+
+class MatrixPattern {
+ public:
+  // order: the nodes in the order of elimination. stride: unknowns of an element in the buffer.
+  MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
+          std::span<const std::uint32_t> order);
+
+  [[nodiscard]] std::size_t unknowns() const { return permutation_.size(); }
+  // permutation()[k] is the unknown in row k of the matrix.
+  [[nodiscard]] const std::vector<std::uint32_t>& permutation() const { return permutation_; }
+  [[nodiscard]] const SparseLower& structure() const { return structure_; }
+
+  void gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const;
+  // Rows and columns of held unknowns become those of the unit matrix. matrix must be a copy of structure().
+  void gather_matrix(const std::vector<double>& buffer, std::span<const char> held, SparseLower& matrix) const;
+
+ private:
+  struct Block {
+    std::uint32_t row_node;
+    std::uint32_t offset;       // of its first row among the rows of its column's nodes, counted from the node's own
+    std::uint32_t first_source; // in sources_
+  };
+  [[nodiscard]] std::uint32_t first_unknown(std::uint32_t node) const {
+    return node < vertices_ ? 3 * node : static_cast<std::uint32_t>(3 * vertices_ + (node - vertices_));
+  }
+  [[nodiscard]] int width(std::uint32_t node) const { return node < vertices_ ? 3 : 1; }
+
+  std::size_t vertices_;
+  int stride_;
+  std::vector<std::uint32_t> order_, permutation_;
+  std::vector<std::uint32_t> column_start_; // scalar column of each node, in elimination order
+  std::vector<std::uint32_t> block_start_;  // of each node column, in elimination order
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> sources_; // places in the Hessian buffer
+  std::vector<std::uint32_t> gradient_start_, gradient_sources_;
+  SparseLower structure_;
+};
+
+} // namespace sheet

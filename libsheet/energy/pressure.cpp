@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pressure as minus the work on the enclosed volume.
+#include "libsheet/energy/pressure.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace sheet {
+
+namespace {
+double ball_radius(double volume) { return std::cbrt(3 * volume / (4 * std::numbers::pi)); }
+} // namespace
+
+double Pressure::signed_volume(const VectorN<9>& u) const {
+  const Vector3 a = u.segment<3>(0) - origin_;
+  return a.dot((u.segment<3>(3) - origin_).cross(u.segment<3>(6) - origin_)) / 6;
+}
+
+void Pressure::begin(const Stage& stage) {
+  stage_ = &stage;
+  const State& state = *stage.start;
+  const Connectivity& mesh = *state.mesh;
+  origin_.setZero();
+  for (const Vector3& x : state.positions)
+    origin_ += x / static_cast<double>(state.positions.size());
+  start_.resize(mesh.triangles.size());
+  start_enclosed_ = 0;
+  bool rim = false;
+  for (std::size_t t = 0; t < start_.size(); ++t) {
+    const Triangle& v = mesh.triangles[t];
+    VectorN<9> u;
+    u << state.positions[v[0]], state.positions[v[1]], state.positions[v[2]];
+    start_enclosed_ += start_[t] = signed_volume(u);
+    for (const auto e : mesh.triangle_edges[t])
+      rim = rim || mesh.on_rim(e);
+  }
+  lagged_.clear();
+  if (rim) {
+    // A rim edge a -> b of a counter-clockwise triangle leaves -(a × b)/6 of the cap's cone at both its ends.
+    lagged_.assign(start_.size(), VectorN<9>::Zero());
+    for (std::size_t t = 0; t < start_.size(); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (mesh.on_rim(mesh.triangle_edges[t][k])) {
+          const int a = (k + 1) % 3, b = (k + 2) % 3;
+          const Vector3 cap =
+              (stage.predicted[mesh.triangles[t][a]] - origin_).cross(stage.predicted[mesh.triangles[t][b]] - origin_) /
+              6;
+          lagged_[t].segment<3>(3 * a) += cap;
+          lagged_[t].segment<3>(3 * b) += cap;
+        }
+  }
+  prepare(stage.begin);
+}
+
+void Pressure::prepare(const Unknowns& u) {
+  const auto& triangles = stage_->start->mesh->triangles;
+  double change = 0;
+  for (std::size_t t = 0; t < start_.size(); ++t) {
+    VectorN<9> x;
+    x << stage_->position(u, triangles[t][0]), stage_->position(u, triangles[t][1]),
+        stage_->position(u, triangles[t][2]);
+    change += signed_volume(x) - start_[t];
+  }
+  enclosed_ = start_enclosed_ + change;
+  switch (law_.kind) {
+  case PressureLaw::Kind::constant:
+    scale_ = pressure_ = law_.value;
+    break;
+  case PressureLaw::Kind::draining:
+    scale_ = pressure_ = law_.value * std::exp(-stage_->end_time / law_.decay_time);
+    break;
+  case PressureLaw::Kind::inverse_square: {
+    const double r = ball_radius(enclosed_), r_start = ball_radius(start_enclosed_);
+    const double k = 4 * std::numbers::pi * law_.value * law_.reference_radius * law_.reference_radius;
+    pressure_ = law_.value * (law_.reference_radius / r) * (law_.reference_radius / r);
+    // k (r - r_start)/(Ω - Ω_start), without cancellation: r³ - r_start³ = 3 (Ω - Ω_start)/(4π)
+    scale_ = k * 3 / (4 * std::numbers::pi) / (r * r + r * r_start + r_start * r_start);
+    break;
+  }
+  }
+}
+
+double Pressure::value(std::size_t i, const VectorN<9>& u) const {
+  double w = -scale_ * (signed_volume(u) - start_[i]);
+  if (!lagged_.empty()) {
+    const Triangle& v = stage_->start->mesh->triangles[i];
+    for (int a = 0; a < 3; ++a)
+      w -= pressure_ * lagged_[i].segment<3>(3 * a).dot(u.segment<3>(3 * a) - stage_->start->positions[v[a]]);
+  }
+  return w;
+}
+
+double Pressure::derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
+                             bool definite) const {
+  const Vector3 x[3] = {u.segment<3>(0) - origin_, u.segment<3>(3) - origin_, u.segment<3>(6) - origin_};
+  gradient << x[1].cross(x[2]), x[2].cross(x[0]), x[0].cross(x[1]);
+  gradient *= -pressure_ / 6;
+  if (!lagged_.empty())
+    gradient -= pressure_ * lagged_[i];
+  hessian.setZero();
+  if (!definite)
+    for (int a = 0; a < 3; ++a) { // ∂(x_b × x_c)/∂x_b = -[x_c]ₓ
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      hessian.block<3, 3>(3 * a, 3 * b) = (pressure_ / 6) * skew(x[c]);
+      hessian.block<3, 3>(3 * a, 3 * c) = (-pressure_ / 6) * skew(x[b]);
+    }
+  return value(i, u);
+}
+
+} // namespace sheet

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pressure on the side that the normals point away from: W = -∫ p dΩ, Ω the volume [m³] under the sheet, Σ det(x0, x1,
+// x2)/6 about a fixed point. Laws:
+//   constant         p
+//   inverse square   p (r0/r)², r the radius of the ball of volume Ω: W = -4π p r0² (r - r_start)
+//   draining         p exp(-t/t0)
+// On a closed sheet, or one whose rim is held, this is p n A exactly. On a free rim the gradient of Ω also holds a part
+// that belongs to the missing cap; it is taken away with the rim at its predicted place, so the sum stays a potential.
+#pragma once
+#include "libsheet/energy/element.h"
+
+namespace sheet {
+
+struct PressureLaw {
+  enum class Kind { constant, inverse_square, draining } kind = Kind::constant;
+  double value = 0;            // [Pa]
+  double reference_radius = 1; // r0 [m], inverse square
+  double decay_time = 1;       // t0 [s], draining
+};
+
+class Pressure {
+ public:
+  static constexpr Stencil stencil = Stencil::triangle;
+  explicit Pressure(const PressureLaw& law) : law_(law) {}
+  [[nodiscard]] const char* name() const { return "pressure"; }
+  [[nodiscard]] std::size_t size() const { return start_.size(); }
+  void begin(const Stage& stage);
+  void prepare(const Unknowns& u);
+  // The present pressure [Pa] and volume [m³], after prepare.
+  [[nodiscard]] double pressure() const { return pressure_; }
+  [[nodiscard]] double enclosed() const { return enclosed_; }
+  [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const;
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
+                     bool definite) const;
+
+ private:
+  [[nodiscard]] double signed_volume(const VectorN<9>& u) const;
+
+  PressureLaw law_;
+  const Stage* stage_ = nullptr;
+  Vector3 origin_ = Vector3::Zero();
+  std::vector<double> start_;      // each triangle's signed volume at the start of the step [m³]
+  std::vector<VectorN<9>> lagged_; // the cap's part of the gradient of Ω at the predicted rim [m²]; empty without rim
+  double start_enclosed_ = 0, enclosed_ = 0, pressure_ = 0;
+  double scale_ = 0; // W = -scale_ Σ (each triangle's change of volume) [Pa]
+};
+
+} // namespace sheet

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/stage_setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+
+namespace {
+
+// a0 + change, but no principal stretch (squared) outside [1/4, 4]: beyond that the change is scaled down.
+RaisedMetric predicted_metric(const Vector3& start, const Vector3& change) {
+  constexpr double kLeast = 0.25, kGreatest = 4;
+  const RaisedMetric a(start);
+  const double half = 0.5 * a.trace.dot(change);
+  const double root = std::sqrt(std::max(0.0, half * half - form_determinant(change) / a.determinant));
+  double part = 1;
+  if (half - root < kLeast - 1)
+    part = std::min(part, (kLeast - 1) / (half - root));
+  if (half + root > kGreatest - 1)
+    part = std::min(part, (kGreatest - 1) / (half + root));
+  return std::isfinite(part) ? RaisedMetric(start + part * change) : a;
+}
+
+// The mean of the face normals; where they cancel (a sheet folded flat) the direction away from the faces.
+std::vector<EdgeFrame> edge_frames(const State& state) {
+  const Connectivity& mesh = *state.mesh;
+  const auto& x = state.positions;
+  std::vector<Vector3> normals(mesh.triangles.size());
+  for (std::size_t t = 0; t < normals.size(); ++t) {
+    const Triangle& v = mesh.triangles[t];
+    normals[t] = TriangleArea(x[v[0]], x[v[1]], x[v[2]]).normal;
+  }
+  std::vector<EdgeFrame> frames(mesh.edges.size());
+  for (std::size_t e = 0; e < frames.size(); ++e) {
+    const Vector3 t = (x[mesh.edges[e][1]] - x[mesh.edges[e][0]]).normalized();
+    Vector3 n = Vector3::Zero();
+    for (const auto side : mesh.edge_triangles[e])
+      if (side != kNone)
+        n += normals[side];
+    n -= n.dot(t) * t;
+    if (n.norm() < 1e-8) {
+      const auto side = mesh.edge_triangles[e][0] != kNone ? mesh.edge_triangles[e][0] : mesh.edge_triangles[e][1];
+      n = normals[side].cross(t);
+    }
+    n -= n.dot(t) * t;
+    n.normalize();
+    frames[e] = {t, n, t.cross(n)};
+  }
+  return frames;
+}
+
+} // namespace
+
+Stage first_stage(const State& state, double duration, double end_time, bool angles) {
+  Stage stage;
+  const Connectivity& mesh = *state.mesh;
+  const std::size_t n = state.positions.size();
+  stage.start = &state;
+  stage.duration = duration;
+  stage.end_time = end_time;
+  stage.begin = Unknowns::Zero(static_cast<Eigen::Index>(3 * n + (angles ? mesh.edges.size() : 0)));
+  stage.predicted.resize(n);
+  for (std::size_t v = 0; v < n; ++v) {
+    stage.begin.segment<3>(static_cast<Eigen::Index>(3 * v)) = state.positions[v];
+    stage.predicted[v] = state.positions[v] + duration * state.velocities[v];
+  }
+  stage.inertial = stage.predicted;
+  if (angles)
+    stage.frames = edge_frames(state);
+  stage.raised.resize(mesh.triangles.size());
+  const auto& x = state.positions;
+  const auto& v = state.velocities;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& c = mesh.triangles[t];
+    Vector3 change;
+    for (int k = 0; k < 3; ++k) {
+      const auto a = c[(k + 1) % 3], b = c[(k + 2) % 3];
+      change[k] = 2 * duration * (x[b] - x[a]).dot(v[b] - v[a]);
+    }
+    stage.raised[t] = predicted_metric(squared_lengths(x[c[0]], x[c[1]], x[c[2]]), change);
+  }
+  return stage;
+}
+
+void second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) {
+  const State& state = *stage.start;
+  stage.previous = &first;
+  stage.ratio = (1 - gamma) / gamma;
+  stage.end_time = state.time + dt;
+  for (std::size_t v = 0; v < state.positions.size(); ++v) {
+    const Vector3& x0 = state.positions[v];
+    const Vector3 moved = first.segment<3>(static_cast<Eigen::Index>(3 * v)) - x0;
+    const Vector3 acceleration = (moved / stage.duration - state.velocities[v]) / stage.duration;
+    const Vector3 velocity = state.velocities[v] + (1 - gamma) * dt * acceleration;
+    stage.inertial[v] = x0 + stage.ratio * moved + stage.duration * velocity;
+    stage.predicted[v] = x0 + moved / gamma;
+  }
+  for (std::size_t t = 0; t < state.mesh->triangles.size(); ++t) {
+    const Triangle& c = state.mesh->triangles[t];
+    const auto& x = state.positions;
+    const Vector3 start = squared_lengths(x[c[0]], x[c[1]], x[c[2]]);
+    const Vector3 end =
+        squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
+    stage.raised[t] = predicted_metric(start, (end - start) / gamma);
+  }
+}
+
+void raise_as_started(Stage& stage) {
+  const State& state = *stage.start;
+  const auto& x = state.positions;
+  for (std::size_t t = 0; t < stage.raised.size(); ++t) {
+    const Triangle& c = state.mesh->triangles[t];
+    stage.raised[t] = RaisedMetric(squared_lengths(x[c[0]], x[c[1]], x[c[2]]));
+  }
+}
+
+Eigen::VectorXd step_scale(const State& state, Eigen::Index unknowns) {
+  const std::size_t n = state.positions.size();
+  std::vector<double> sum(n, 0), count(n, 0);
+  for (const Edge& e : state.mesh->edges) {
+    const double length = (state.positions[e[1]] - state.positions[e[0]]).norm();
+    for (const auto v : e)
+      sum[v] += length, count[v] += 1;
+  }
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(unknowns);
+  for (std::size_t v = 0; v < n; ++v)
+    if (count[v] > 0)
+      scale.segment<3>(static_cast<Eigen::Index>(3 * v)).setConstant(sum[v] / count[v]);
+  return scale;
+}
+
+} // namespace sheet

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stages of a time step: what they start from, refer to and predict.
+#pragma once
+#include "libsheet/energy/stage.h"
+
+namespace sheet {
+
+// The first (or only) stage: refers to the start; metrics predicted from the velocities.
+[[nodiscard]] Stage first_stage(const State& state, double duration, double end_time, bool angles);
+
+// Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it).
+void second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
+
+// Raises indices with the start-of-step metric.
+void raise_as_started(Stage& stage);
+
+// For each unknown the mean length of the edges at its vertex [m], or 1 for an angle.
+[[nodiscard]] Eigen::VectorXd step_scale(const State& state, Eigen::Index unknowns);
+
+} // namespace sheet

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surface tension of both faces: W = 2 γ (A - A0) [Batty et al. 2012, section 3.4], γ in N/m; A0, the area at the start
+// of the step, only keeps round-off small.
+#pragma once
+#include "libsheet/energy/element.h"
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+
+class SurfaceTension {
+ public:
+  static constexpr Stencil stencil = Stencil::triangle;
+  explicit SurfaceTension(double gamma) : gamma_(gamma) {}
+  [[nodiscard]] const char* name() const { return "surface tension"; }
+  [[nodiscard]] std::size_t size() const { return start_area_.size(); }
+
+  void begin(const Stage& stage) {
+    const auto& triangles = stage.start->mesh->triangles;
+    start_area_.resize(triangles.size());
+    const auto& x = stage.start->positions;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
+  }
+
+  [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
+    return 2 * gamma_ * (TriangleArea(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)).area - start_area_[i]);
+  }
+
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
+                     bool definite) const {
+    const TriangleArea a(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
+    gradient << a.gradient(0), a.gradient(1), a.gradient(2);
+    gradient *= 2 * gamma_;
+    hessian = 2 * gamma_ * a.hessian(!definite);
+    return 2 * gamma_ * (a.area - start_area_[i]);
+  }
+
+ private:
+  double gamma_;
+  std::vector<double> start_area_; // [m²]
+};
+
+} // namespace sheet

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All elements of one energy behind one interface, so that a sheet's model is a list of terms. TermOf wraps an element
+// class (element.h); calls are made for chunks of elements, never for single ones.
+#pragma once
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "libsheet/energy/element.h"
+
+namespace sheet {
+
+// A sum of energies and the sum of their magnitudes, which tells how much of it is round-off.
+struct EnergySum {
+  double value = 0, magnitude = 0; // [J]
+  void add(double w) { value += w, magnitude += std::abs(w); }
+  void add(const EnergySum& s) { value += s.value, magnitude += s.magnitude; }
+};
+
+class Term {
+ public:
+  virtual ~Term() = default;
+  [[nodiscard]] virtual const char* name() const = 0;
+  [[nodiscard]] virtual Stencil stencil() const = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual std::array<std::uint32_t, 4> nodes(std::size_t i) const = 0; // hinge and four only
+  virtual void begin(const Stage& stage) = 0;
+  virtual void prepare(const Unknowns& u) = 0;
+  // Elements first to last-1; u: their unknowns, `stride` apart.
+  [[nodiscard]] virtual EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const = 0;
+  // Adds to gradients (`stride` apart) and Hessians (stride x stride, column major).
+  virtual EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
+                                    double* hessians, bool definite) const = 0;
+};
+
+template <class E> class TermOf final : public Term {
+ public:
+  static constexpr int kSize = stencil_unknowns(E::stencil);
+  explicit TermOf(E element) : element_(std::move(element)) {}
+  [[nodiscard]] const E& element() const { return element_; }
+
+  [[nodiscard]] const char* name() const override { return element_.name(); }
+  [[nodiscard]] Stencil stencil() const override { return E::stencil; }
+  [[nodiscard]] std::size_t size() const override { return element_.size(); }
+  [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const override {
+    if constexpr (E::stencil == Stencil::hinge || E::stencil == Stencil::four)
+      return element_.nodes(i);
+    else
+      return {};
+  }
+  void begin(const Stage& stage) override { element_.begin(stage); }
+  void prepare(const Unknowns& u) override {
+    if constexpr (requires { element_.prepare(u); })
+      element_.prepare(u);
+  }
+
+  [[nodiscard]] EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const override {
+    EnergySum sum;
+    for (std::size_t i = first; i < last; ++i, u += stride)
+      sum.add(element_.value(i, Eigen::Map<const VectorN<kSize>>(u)));
+    return sum;
+  }
+
+  EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
+                            double* hessians, bool definite) const override {
+    EnergySum sum;
+    VectorN<kSize> g;
+    MatrixN<kSize> h;
+    for (std::size_t i = first; i < last; ++i, u += stride, gradients += stride, hessians += stride * stride) {
+      sum.add(element_.derivatives(i, Eigen::Map<const VectorN<kSize>>(u), g, h, definite));
+      Eigen::Map<VectorN<kSize>>(gradients, kSize) += g;
+      Eigen::Map<MatrixN<kSize>, 0, Eigen::OuterStride<>>(hessians, kSize, kSize, Eigen::OuterStride<>(stride)) += h;
+    }
+    return sum;
+  }
+
+ private:
+  E element_;
+};
+
+template <class E> std::unique_ptr<Term> make_term(E element) {
+  return std::make_unique<TermOf<E>>(std::move(element));
+}
+
+using Terms = std::vector<std::unique_ptr<Term>>;
+
+} // namespace sheet

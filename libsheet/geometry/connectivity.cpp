@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Edges of a triangle mesh, by sorting half edges within buckets of their lower vertex.
+#include "libsheet/geometry/connectivity.h"
+
+#include <algorithm>
+
+#include "libsheet/base/error.h"
+
+namespace sheet {
+
+Connectivity connect(std::size_t vertices, std::span<const Triangle> triangles) {
+  struct Half {
+    std::uint32_t high, triangle, corner;
+  };
+  std::vector<std::size_t> start(vertices + 1, 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Triangle& v = triangles[t];
+    for (int i = 0; i < 3; ++i) {
+      if (v[i] >= vertices)
+        fail(ExitCode::bad_input, "triangle {}: vertex {} of a mesh with {} vertices", t, v[i], vertices);
+      const auto a = v[(i + 1) % 3], b = v[(i + 2) % 3];
+      if (a == b)
+        fail(ExitCode::bad_input, "triangle {}: vertex {} appears twice", t, a);
+      if (std::min(a, b) < vertices)
+        ++start[std::min(a, b) + 1];
+    }
+  }
+  for (std::size_t v = 0; v < vertices; ++v)
+    start[v + 1] += start[v];
+  std::vector<Half> halves(3 * triangles.size());
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto a = triangles[t][(i + 1) % 3], b = triangles[t][(i + 2) % 3];
+      halves[next[std::min(a, b)]++] = {std::max(a, b), t, i};
+    }
+
+  Connectivity c;
+  c.vertices = vertices;
+  c.triangles.assign(triangles.begin(), triangles.end());
+  c.triangle_edges.resize(triangles.size());
+  c.edges.reserve(halves.size() / 2 + vertices);
+  c.edge_triangles.reserve(c.edges.capacity());
+  for (std::uint32_t low = 0; low < vertices; ++low) {
+    const auto first = halves.begin() + static_cast<std::ptrdiff_t>(start[low]);
+    const auto last = halves.begin() + static_cast<std::ptrdiff_t>(start[low + 1]);
+    std::sort(first, last, [](const Half& p, const Half& q) {
+      return p.high != q.high ? p.high < q.high : p.triangle < q.triangle;
+    });
+    for (auto h = first; h != last; ++h) {
+      if (h == first || h->high != (h - 1)->high) {
+        c.edges.push_back({low, h->high});
+        c.edge_triangles.push_back({kNone, kNone});
+      }
+      const int side = triangles[h->triangle][(h->corner + 1) % 3] == low ? 0 : 1;
+      auto& slot = c.edge_triangles.back()[side];
+      if (slot != kNone)
+        fail(ExitCode::bad_input,
+             "edge ({}, {}): triangles {} and {} run along it in the same direction (not a consistently oriented "
+             "surface; duplicate the edge's vertices)",
+             low, h->high, slot, h->triangle);
+      slot = h->triangle;
+      c.triangle_edges[h->triangle][h->corner] = static_cast<std::uint32_t>(c.edges.size() - 1);
+    }
+  }
+  return c;
+}
+
+} // namespace sheet

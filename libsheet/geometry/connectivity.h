@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Who meets whom in a triangle mesh. Triangles are counter-clockwise from their positive side; edge i of a triangle
+// lies opposite its vertex i; edges are (lower, higher) vertex, sorted, and point from the lower to the higher.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sheet {
+
+using Triangle = std::array<std::uint32_t, 3>;
+using Edge = std::array<std::uint32_t, 2>;
+inline constexpr std::uint32_t kNone = 0xffffffffU;
+
+struct Connectivity {
+  std::size_t vertices = 0;
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;
+  std::vector<std::array<std::uint32_t, 3>> triangle_edges; // [triangle][i]: the edge opposite vertex i
+  std::vector<std::array<std::uint32_t, 2>>
+      edge_triangles; // the triangle that runs lower to higher first; kNone: no such
+
+  [[nodiscard]] bool on_rim(std::size_t edge) const {
+    return edge_triangles[edge][0] == kNone || edge_triangles[edge][1] == kNone;
+  }
+};
+
+// Fails with bad_input on an index out of range, a triangle with a repeated vertex, an edge of more than two triangles,
+// or two triangles that run along their common edge in the same direction.
+[[nodiscard]] Connectivity connect(std::size_t vertices, std::span<const Triangle> triangles);
+
+} // namespace sheet

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/shape/build.h"
+
+#include <cmath>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/log.h"
+#include "libsheet/scene/overloaded.h"
+#include "libsheet/scene/write.h"
+#include "libsheet/shape/mesh_file.h"
+#include "libsheet/shape/mesh_measure.h"
+#include "libsheet/shape/perturb.h"
+#include "libsheet/shape/place.h"
+#include "libsheet/shape/random.h"
+#include "libsheet/shape/regions.h"
+#include "libsheet/shape/shapes.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+using Eigen::Vector3d;
+using scene::Overloaded;
+
+MeshOptions mesh_options(const scene::SheetTable& table) {
+  MeshOptions options;
+  options.pattern = table.pattern == scene::Pattern::structured    ? Pattern::structured
+                    : table.pattern == scene::Pattern::equilateral ? Pattern::equilateral
+                                                                   : Pattern::irregular;
+  options.edge_length = table.edge_length.value_or(0);
+  options.seed = static_cast<std::uint64_t>(table.seed);
+  if (table.segments)
+    options.segments = {static_cast<std::uint32_t>((*table.segments)[0]),
+                        static_cast<std::uint32_t>((*table.segments)[1])};
+  return options;
+}
+
+TriangleMesh load_scaled(const scene::SheetMesh& file) {
+  LoadedMesh loaded = load_mesh(file.file);
+  for (const std::string& note : loaded.notes)
+    log::warning("{}", note);
+  for (Vector3d& x : loaded.mesh.positions)
+    x *= file.scale;
+  return std::move(loaded.mesh);
+}
+
+// In the shape's local frame (shapes.h).
+TriangleMesh local_mesh(const scene::SheetTable& table) {
+  const MeshOptions options = mesh_options(table);
+  return std::visit(Overloaded{
+                        [&](const scene::Rectangle& r) { return make_rectangle(r.size_first, r.size_second, options); },
+                        [&](const scene::Disk& d) { return make_disk(d.radius, options); },
+                        [&](const scene::Annulus& a) { return make_annulus(a.inner_radius, a.outer_radius, options); },
+                        [&](const scene::Sphere& s) { return make_sphere(s.radius, options); },
+                        [&](const scene::Cap& c) { return make_cap(c.radius, c.angle, options, c.opening); },
+                        [&](const scene::Tube& t) { return make_tube(t.radius, t.height, options); },
+                        [&](const scene::SheetMesh& m) { return load_scaled(m); },
+                    },
+                    table.shape);
+}
+
+Plane plane_of(scene::Plane plane) {
+  return plane == scene::Plane::xy ? Plane::xy : plane == scene::Plane::xz ? Plane::xz : Plane::yz;
+}
+
+Field wave_field(const scene::Perturbation& perturbation, const scene::Wave& wave, const scene::SheetTable& table) {
+  if (wave.direction == scene::WaveDirection::radial) {
+    const auto* annulus = std::get_if<scene::Annulus>(&table.shape);
+    const Vector3d axis = Vector3d::Unit(scene::axes_of(table.plane).normal);
+    const double start = annulus == nullptr ? 0 : annulus->inner_radius;
+    return radial_wave(perturbation.amplitude, wave.wavelength, axis, Vector3d::Zero(),
+                       start - wave.phase / (2 * M_PI) * wave.wavelength);
+  }
+  const Vector3d direction = Vector3d::Unit(static_cast<int>(wave.direction));
+  return plane_wave(perturbation.amplitude, wave.wavelength, direction,
+                    -wave.phase / (2 * M_PI) * wave.wavelength * direction);
+}
+
+// The sheet stands in its plane around the origin, not yet rotated: perturbations and named borders are meant so.
+void perturb_positions(TriangleMesh& mesh, const scene::SheetTable& table) {
+  for (const scene::Perturbation& p : table.perturbations) {
+    if (p.of_thickness)
+      continue;
+    if (const auto* wave = std::get_if<scene::Wave>(&p.form)) {
+      displace_along_normals(mesh, wave_field(p, *wave, table));
+      continue;
+    }
+    Random random(static_cast<std::uint64_t>(std::get<scene::Noise>(p.form).seed));
+    const std::vector<Vector3d> normals = vertex_normals(mesh);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      mesh.positions[v] += random.uniform(-p.amplitude, p.amplitude) * normals[v];
+  }
+}
+
+// One thickness a triangle [m].
+std::vector<double> thicknesses(const TriangleMesh& mesh, const scene::SheetTable& table) {
+  std::vector<double> h(mesh.triangles.size());
+  if (const auto* uniform = std::get_if<double>(&table.thickness)) {
+    std::fill(h.begin(), h.end(), *uniform);
+  } else {
+    const auto& data = std::get<scene::ThicknessData>(table.thickness);
+    const std::vector<double>& values = data.per_face ? mesh.triangle_thickness : mesh.vertex_thickness;
+    if (data.data != "thickness" || values.empty())
+      fail(ExitCode::bad_input,
+           "sheet.thickness: the mesh file has no array \"{}\" per {} (\"thickness\" is read from PLY "
+           "and VTU files)",
+           data.data, data.per_face ? "face" : "vertex");
+    for (std::size_t t = 0; t < h.size(); ++t) {
+      const auto& c = mesh.triangles[t];
+      h[t] = data.scale * (data.per_face ? values[t] : (values[c[0]] + values[c[1]] + values[c[2]]) / 3);
+    }
+  }
+  for (const scene::Perturbation& p : table.perturbations) {
+    if (!p.of_thickness)
+      continue;
+    if (const auto* wave = std::get_if<scene::Wave>(&p.form)) {
+      const Field field = wave_field(p, *wave, table);
+      for (std::size_t t = 0; t < h.size(); ++t) {
+        const auto& c = mesh.triangles[t];
+        h[t] += field((mesh.positions[c[0]] + mesh.positions[c[1]] + mesh.positions[c[2]]) / 3);
+      }
+    } else {
+      Random random(static_cast<std::uint64_t>(std::get<scene::Noise>(p.form).seed));
+      for (double& thickness : h)
+        thickness += random.uniform(-p.amplitude, p.amplitude);
+    }
+  }
+  for (std::size_t t = 0; t < h.size(); ++t)
+    if (!(h[t] > 0))
+      fail(ExitCode::bad_input, "sheet.thickness: triangle {} gets {} m, it must be positive", t, h[t]);
+  return h;
+}
+
+std::string_view name_of(scene::Border border) {
+  constexpr std::array<std::string_view, 9> names{"rim",   "inner_rim", "outer_rim", "x_min", "x_max",
+                                                  "y_min", "y_max",     "z_min",     "z_max"};
+  return names[static_cast<std::size_t>(border)];
+}
+
+// Bits of all holds whose region is a named border (borders of the undisturbed shape), or all others.
+void add_holds(const TriangleMesh& mesh, const std::vector<scene::Hold>& table, bool borders,
+               std::vector<std::uint64_t>& bits) {
+  constexpr std::size_t most = 64; // bits of the array "hold"
+  if (table.size() > most)
+    fail(ExitCode::bad_input, "a scene may have {} [[hold]] tables, this one has {}", most, table.size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (std::holds_alternative<scene::Border>(table[i].region) != borders)
+      continue;
+    const VertexSet held =
+        std::visit(Overloaded{
+                       [&](scene::Border b) { return named_region(mesh, name_of(b)); },
+                       [&](const scene::BoxRegion& b) { return in_box(mesh, b.low, b.high); },
+                       [&](const scene::SphereRegion& s) { return in_sphere(mesh, s.center, s.radius); },
+                   },
+                   table[i].region);
+    if (held.empty())
+      fail(ExitCode::bad_input, "[[hold]] number {} (from 0): no vertex lies in its region", i);
+    for (const std::uint32_t v : held)
+      bits[v] |= std::uint64_t{1} << i;
+  }
+}
+
+} // namespace
+
+formats::Frame build_frame(const Scene& scene) {
+  const scene::SheetTable& table = scene.sheet;
+  TriangleMesh mesh = local_mesh(table);
+  if (!std::holds_alternative<scene::SheetMesh>(table.shape)) // a file's coordinates are taken as they are
+    place_mesh(mesh, {plane_of(table.plane), Eigen::Matrix3d::Identity(), Vector3d::Zero()});
+  std::vector<std::uint64_t> holds(mesh.positions.size());
+  add_holds(mesh, scene.holds, true, holds);
+  const std::vector<double> h = thicknesses(mesh, table);
+  perturb_positions(mesh, table);
+  place_mesh(mesh, {Plane::xy, scene::matrix(table.rotation), table.center});
+  add_holds(mesh, scene.holds, false, holds);
+
+  std::vector<double> volumes(h.size());
+  for (std::size_t t = 0; t < h.size(); ++t) {
+    const auto& c = mesh.triangles[t];
+    const Vector3d& x = mesh.positions[c[0]];
+    const double area = 0.5 * (mesh.positions[c[1]] - x).cross(mesh.positions[c[2]] - x).norm();
+    volumes[t] = h[t] * area;
+    if (!(volumes[t] > 0))
+      fail(ExitCode::bad_input, "triangle {} of the sheet has no area: repair the mesh first", t);
+  }
+  formats::Frame frame = make_frame(mesh.positions, mesh.triangles, volumes);
+  if (!mesh.velocities.empty() || table.velocity != Vector3d::Zero()) {
+    const std::span<Vector3d> v = velocities(frame);
+    for (std::size_t i = 0; i < v.size(); ++i)
+      v[i] = table.velocity + (mesh.velocities.empty() ? Vector3d::Zero() : mesh.velocities[i]);
+  }
+  if (!scene.holds.empty()) {
+    formats::Array array = formats::make_array("hold", formats::Place::vertex, formats::Type::uint64, 1, "1",
+                                               formats::Transfer::common, frame.vertices);
+    std::copy(holds.begin(), holds.end(), array.values<std::uint64_t>().begin());
+    frame.put(std::move(array));
+  }
+  frame.put_text("scene", to_toml(scene));
+  return frame;
+}
+
+} // namespace sheet

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Newton's method with a line search.
+#include "libsheet/solve/newton.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace sheet {
+
+namespace {
+
+constexpr double kLeastShift = 1e-14; // the first one tried when a factorisation fails, times 100 each
+constexpr double kGreatestShift = 1e2;
+constexpr double kSufficient = 1e-4; // of the predicted decrease [Armijo]
+constexpr double kRoundOff = 1e-14;  // of the sum of the magnitudes of the elements' energies
+constexpr int kHalvings = 40;
+
+class Clock {
+ public:
+  double lap() {
+    const auto t = std::chrono::steady_clock::now();
+    const double s = std::chrono::duration<double>(t - last_).count();
+    last_ = t;
+    return s;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// The unknowns' scale that gives the matrix a unit diagonal; the same for the three coordinates of a vertex.
+Eigen::VectorXd diagonal_scale(const SparseLower& a, const std::vector<std::uint32_t>& permutation,
+                               std::span<const char> held, std::size_t vertices) {
+  Eigen::VectorXd scale(a.size);
+  const auto diagonal = [&](int k) {
+    return a.values[static_cast<std::size_t>(a.starts[static_cast<std::size_t>(k)])];
+  };
+  for (int k = 0; k < a.size;) {
+    const int width = permutation[static_cast<std::size_t>(k)] < 3 * vertices ? 3 : 1;
+    double sum = 0;
+    int count = 0;
+    for (int d = 0; d < width; ++d)
+      if (held.empty() || !held[permutation[static_cast<std::size_t>(k + d)]]) {
+        sum += std::abs(diagonal(k + d));
+        ++count;
+      }
+    for (int d = 0; d < width; ++d) {
+      const bool fixed = !held.empty() && held[permutation[static_cast<std::size_t>(k + d)]];
+      scale[k + d] = fixed || sum == 0 ? 1 : std::sqrt(count / sum);
+    }
+    k += width;
+  }
+  return scale;
+}
+
+void apply_scale(SparseLower& a, const Eigen::VectorXd& s) {
+  for (int c = 0; c < a.size; ++c)
+    for (int p = a.starts[static_cast<std::size_t>(c)]; p < a.starts[static_cast<std::size_t>(c) + 1]; ++p)
+      a.values[static_cast<std::size_t>(p)] *= s[c] * s[a.rows[static_cast<std::size_t>(p)]];
+}
+
+} // namespace
+
+LinearSystem::LinearSystem(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles)
+    : assembly(mesh, terms, angles) {
+  Clock clock;
+  assembly.set_order(nested_dissection(mesh->vertices, assembly.vertex_graph()));
+  matrix = assembly.pattern().structure();
+  cholesky.analyze(matrix);
+  seconds_analysis = clock.lap();
+}
+
+NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const char> held,
+                      const Eigen::VectorXd& scale, double floor, const NewtonOptions& options, Unknowns& u) {
+  NewtonReport report;
+  Clock clock;
+  const auto& permutation = system.assembly.pattern().permutation();
+  Eigen::VectorXd gradient, rhs(u.size()), step(u.size());
+  bool positive = options.hessian == HessianChoice::positive;
+  double shift = floor;
+  for (;;) {
+    clock.lap();
+    EnergySum energy = system.assembly.derivatives(terms, u, positive, held, gradient, system.matrix);
+    report.seconds_assembly += clock.lap();
+    if (!std::isfinite(energy.value) || !gradient.allFinite())
+      return report;
+
+    // The direction: the exact Hessian, else the positive one, else that with a growing shift.
+    Eigen::VectorXd row_scale;
+    for (;;) {
+      row_scale = diagonal_scale(system.matrix, permutation, held, system.assembly.vertices());
+      apply_scale(system.matrix, row_scale);
+      bool good = false;
+      for (double s = shift; s <= kGreatestShift; s = std::max(kLeastShift, 100 * s)) {
+        ++report.factorizations;
+        report.positive += positive;
+        report.shifted += s > floor;
+        good = system.cholesky.factorize(system.matrix, s);
+        if (good) {
+          shift = s;
+          break;
+        }
+        if (!positive)
+          break;
+      }
+      report.seconds_factor += clock.lap();
+      if (good)
+        break;
+      if (positive)
+        return report;
+      positive = true;
+      system.assembly.derivatives(terms, u, positive, held, gradient, system.matrix);
+      report.seconds_assembly += clock.lap();
+    }
+    for (Eigen::Index k = 0; k < u.size(); ++k)
+      rhs[k] = -row_scale[k] * gradient[permutation[static_cast<std::size_t>(k)]];
+    const Eigen::VectorXd scaled = system.cholesky.solve(rhs);
+    for (Eigen::Index k = 0; k < u.size(); ++k)
+      step[permutation[static_cast<std::size_t>(k)]] = row_scale[k] * scaled[k];
+    report.seconds_solve += clock.lap();
+    ++report.iterations;
+    const double slope = gradient.dot(step);
+    report.last_step = step.cwiseQuotient(scale).cwiseAbs().maxCoeff();
+    if (!std::isfinite(report.last_step))
+      return report;
+
+    // Below round-off of the potential a full Newton step is the best there is.
+    const double noise = kRoundOff * energy.magnitude;
+    double length = 1;
+    if (-slope > noise) {
+      int halvings = 0;
+      for (;; ++halvings, length *= 0.5) {
+        const EnergySum trial = system.assembly.value(terms, u + length * step);
+        if (std::isfinite(trial.value) && trial.value <= energy.value + kSufficient * length * slope + noise) {
+          report.monotone = report.monotone && trial.value <= energy.value + noise;
+          break;
+        }
+        if (halvings == kHalvings) {
+          report.halvings += halvings;
+          report.seconds_search += clock.lap();
+          return report;
+        }
+      }
+      report.halvings += halvings;
+    }
+    u += length * step;
+    report.seconds_search += clock.lap();
+    if (length * report.last_step <= options.tolerance && length == 1) {
+      report.converged = true;
+      return report;
+    }
+    if (report.iterations >= options.iterations)
+      return report;
+  }
+}
+
+} // namespace sheet

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Minimises the incremental potential of one stage: Newton with exact gradients, line search on the potential, and a
+// stopping rule without units: the step of every vertex below `tolerance` of the length of its edges, of every angle
+// below `tolerance` radians. Matrices are scaled to a unit diagonal before they are factorised, so that the shift which
+// mends an indefinite one has no unit either.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "libsheet/energy/assembly.h"
+#include "libsheet/solve/cholesky.h"
+
+namespace sheet {
+
+enum class HessianChoice {
+  exact_first, // exact, the positive form where that cannot be factorised
+  positive     // always the positive form
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-8;
+  int iterations = 50;
+  HessianChoice hessian = HessianChoice::exact_first;
+};
+
+struct NewtonReport {
+  bool converged = false;
+  bool monotone = true; // the potential never rose by more than round-off
+  int iterations = 0;   // Newton steps
+  int factorizations = 0;
+  int positive = 0;     // of them with the positive form
+  int shifted = 0;      // of them with a shift
+  int halvings = 0;     // of the line search
+  double last_step = 0; // in the units of the stopping rule
+  double seconds_assembly = 0, seconds_factor = 0, seconds_solve = 0, seconds_search = 0;
+};
+
+// What is kept from one solve to the next while the connectivity stays.
+struct LinearSystem {
+  Assembly assembly;
+  Cholesky cholesky;
+  SparseLower matrix;
+  double seconds_analysis = 0;
+
+  LinearSystem(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles);
+};
+
+// scale: for each unknown the length [m] (or angle, 1) that its step is measured in. floor: the least shift of the
+// scaled matrix; positive where the potential does not determine a rigid motion. u: start, and result.
+[[nodiscard]] NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const char> held,
+                                    const Eigen::VectorXd& scale, double floor, const NewtonOptions& options,
+                                    Unknowns& u);
+
+} // namespace sheet

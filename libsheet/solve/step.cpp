@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solve/step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/base/error.h"
+#include "libsheet/energy/stage_setup.h"
+
+namespace sheet {
+
+namespace {
+
+const double kGamma = 1 - std::sqrt(0.5);
+
+void add(NewtonReport& sum, const NewtonReport& r) {
+  sum.converged = r.converged;
+  sum.monotone = sum.monotone && r.monotone;
+  sum.iterations += r.iterations;
+  sum.factorizations += r.factorizations;
+  sum.positive += r.positive;
+  sum.shifted += r.shifted;
+  sum.halvings += r.halvings;
+  sum.last_step = r.last_step;
+  sum.seconds_assembly += r.seconds_assembly;
+  sum.seconds_factor += r.seconds_factor;
+  sum.seconds_solve += r.seconds_solve;
+  sum.seconds_search += r.seconds_search;
+}
+
+bool same_mesh(const Connectivity& a, const Connectivity& b) {
+  return &a == &b || (a.vertices == b.vertices && a.triangles == b.triangles);
+}
+
+} // namespace
+
+// What stays from step to step while the connectivity does.
+struct Stepper::Cache {
+  std::shared_ptr<const Connectivity> mesh;
+  Terms terms;
+  std::unique_ptr<LinearSystem> system;
+};
+
+Stepper::Stepper(Model model, StepOptions options) : model_(std::move(model)), options_(options) {}
+Stepper::~Stepper() = default;
+Stepper::Stepper(Stepper&&) noexcept = default;
+Stepper& Stepper::operator=(Stepper&&) noexcept = default;
+
+void Stepper::prepare_cache(const State& state) {
+  if (cache_ && same_mesh(*cache_->mesh, *state.mesh))
+    return;
+  cache_ = std::make_unique<Cache>();
+  cache_->mesh = state.mesh;
+  cache_->terms = make_terms(model_, state.mesh);
+  if (cache_->terms.empty())
+    fail(ExitCode::bad_input, "the model has no term: neither viscosity nor inertia nor any force");
+  cache_->system = std::make_unique<LinearSystem>(state.mesh, cache_->terms, model_.has_angles());
+}
+
+bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, StepReport& report) {
+  const bool two = scheme == Scheme::sdirk2;
+  const double gamma = two ? kGamma : 1;
+  const std::size_t n = state.positions.size();
+  Stage stage = first_stage(state, gamma * dt, state.time + gamma * dt, model_.has_angles());
+  const Eigen::VectorXd scale = step_scale(state, stage.begin.size());
+  const std::vector<char> held = held_unknowns(model_.holds, stage);
+  // Without inertia a sheet that is not held is free to move rigidly, and a flat membrane to leave its plane.
+  const bool determined = model_.has_inertia() || (fully_held(model_.holds) >= 3 && model_.bending != Bending::none);
+  const double floor = determined ? 0 : 1e-10;
+
+  const auto solve = [&](const Unknowns& guess, const Unknowns& safe, Unknowns& u) {
+    if (options_.thickness == Thickness::as_started)
+      raise_as_started(stage);
+    for (const auto& term : cache_->terms)
+      term->begin(stage);
+    // The better of the extrapolated and of the last known state.
+    u = guess;
+    place_held(model_.holds, stage, stage.end_time, u);
+    Unknowns other = safe;
+    place_held(model_.holds, stage, stage.end_time, other);
+    const double w = cache_->system->assembly.value(cache_->terms, u).value;
+    const double w_other = cache_->system->assembly.value(cache_->terms, other).value;
+    if (!(w <= w_other))
+      u = other;
+    const NewtonReport r = minimize(*cache_->system, cache_->terms, held, scale, floor, options_.newton, u);
+    add(report.newton, r);
+    return r.converged;
+  };
+
+  Unknowns guess = stage.begin, first, last;
+  for (std::size_t v = 0; v < n; ++v)
+    guess.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
+  if (!solve(guess, stage.begin, first))
+    return false;
+  double error = 0;
+  if (two) {
+    second_stage(stage, first, gamma, dt);
+    guess = stage.begin + (first - stage.begin) / gamma;
+    if (!solve(guess, first, last))
+      return false;
+  } else {
+    last = first;
+  }
+
+  end = state;
+  end.time = state.time + dt;
+  for (std::size_t v = 0; v < n; ++v) {
+    const auto at = static_cast<Eigen::Index>(3 * v);
+    const Vector3 x = last.segment<3>(at), x0 = state.positions[v];
+    const Vector3 x1 = first.segment<3>(at);
+    const Vector3 reference = two ? Vector3(x0 + stage.ratio * (x1 - x0)) : x0;
+    end.positions[v] = x;
+    end.velocities[v] = (x - reference) / stage.duration;
+    // First-order result from the slope of the first stage, or backward Euler against the trapezoidal rule.
+    const Vector3 lower =
+        two ? Vector3(x0 + (x1 - x0) / gamma) : Vector3(x0 + 0.5 * dt * (state.velocities[v] + end.velocities[v]));
+    error = std::max(error, (x - lower).norm() / scale[at]);
+  }
+  set_held_velocities(model_.holds, end.time, dt, end);
+  report.error = std::max(report.error, error);
+  return true;
+}
+
+void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
+  State end;
+  if (attempt(state, dt, options_.scheme, end, report)) {
+    ++report.substeps;
+    state = std::move(end);
+    return;
+  }
+  ++report.failed;
+  if (depth < options_.retries) {
+    const double middle = state.time + 0.5 * dt, until = state.time + dt;
+    advance(state, middle - state.time, depth + 1, report);
+    advance(state, until - state.time, depth + 1, report);
+    return;
+  }
+  if (options_.scheme != Scheme::backward_euler && attempt(state, dt, Scheme::backward_euler, end, report)) {
+    ++report.substeps;
+    ++report.euler_fallbacks;
+    state = std::move(end);
+    return;
+  }
+  fail(ExitCode::not_converged,
+       "the step at t = {} s did not converge, not even with dt = {} s (last Newton step {} of an edge length)",
+       state.time, dt, report.newton.last_step);
+}
+
+StepReport Stepper::step(State& state, double dt) {
+  if (!(dt > 0) || !std::isfinite(dt))
+    fail(ExitCode::usage, "a time step of {} s is not possible", dt);
+  StepReport report;
+  const LinearSystem* before = cache_ ? cache_->system.get() : nullptr;
+  prepare_cache(state);
+  if (cache_->system.get() != before)
+    report.seconds_analysis = cache_->system->seconds_analysis;
+  const std::vector<double> seconds = cache_->system->assembly.seconds();
+  State next = state;
+  advance(next, dt, 0, report);
+  next.time = state.time + dt;
+  state = std::move(next);
+  const std::vector<double>& after = cache_->system->assembly.seconds();
+  for (std::size_t t = 0; t < after.size(); ++t)
+    report.terms.push_back({t < cache_->terms.size() ? cache_->terms[t]->name() : "gathering", after[t] - seconds[t]});
+  return report;
+}
+
+} // namespace sheet

