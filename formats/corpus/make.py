@@ -128,6 +128,13 @@ def hard_numbers():
                           single=Array(bits("f4", single).reshape(4, 4), "frame", "kg", "conserve"))
 
 
+def random_numbers():
+    """Any bits, and powers of two: shortest decimals on both sides of each."""
+    double = [xxhash.xxh3_64_intdigest(u(i)) for i in range(200)] + [i << 52 for i in range(1, 0x7ff, 11)]
+    single = [xxhash.xxh3_64_intdigest(u(i)) >> 32 for i in range(200)] + [i << 23 for i in range(1, 0xff, 3)]
+    return triangle_frame(double=Array(bits("f8", double), "frame"), single=Array(bits("f4", single), "frame"))
+
+
 def all_types():
     kinds = ("int8", "uint8", "int32", "uint32", "int64", "uint64")
     return triangle_frame(**{kind: integers(kind, "vertex", ("copy", "common", "drop")[i % 3])
@@ -170,6 +177,7 @@ passed = {
     "standard_arrays": stream(standard_arrays()),
     "all_types": stream(all_types()),
     "hard_numbers": stream(hard_numbers()),
+    "random_numbers": stream(random_numbers()),
     "texts": stream(triangle_frame(**{name: text_array(text) for name, text in texts.items()})),
     "edges": with_array("energy", edges),
     "extreme_header": stream(extreme_header()),

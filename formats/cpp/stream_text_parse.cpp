@@ -168,7 +168,7 @@ void TextParser::read_version() {
   if (word != "sheet-text")
     fail(word, "not the text form of a sheet stream: its first line is \"sheet-text 1.0\"");
   const std::string_view version = next_word();
-  if (!version.starts_with("1."))
+  if (!version.starts_with("1.") || version.size() < 3 || !std::all_of(version.begin() + 2, version.end(), is_digit))
     fail(version, fmt::format("version \"{}\" of the text form is not 1.0", version));
   expect_line_end("the version");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any text: the parser accepts or refuses it with a StreamError. What it accepts, printed and parsed again, is the same.
-// Seeds: formats/corpus/1.0/passed.
+// Any text: the parser accepts or refuses it with a StreamError. What it accepts, printed and parsed again, is the
+// same. Seeds: formats/corpus/1.0/passed.
 #include <cstdlib>
 #include <utility>
 #include <vector>

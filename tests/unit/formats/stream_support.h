@@ -110,8 +110,7 @@ inline std::string parse_text(std::string_view text) {
 template <class T>
 Array array_of(std::string_view name, Place place, std::string_view unit, Transfer transfer, std::uint32_t components,
                const std::vector<T>& values, bool critical = false) {
-  Array array =
-      make_array(name, place, type_of<T>(), components, unit, transfer, values.size() / components, critical);
+  Array array = make_array(name, place, type_of<T>(), components, unit, transfer, values.size() / components, critical);
   std::copy(values.begin(), values.end(), array.values<T>().begin());
   return array;
 }
@@ -150,15 +149,32 @@ inline Frame rich_frame() {
   frame.put(array_of<std::int64_t>("e", Place::frame, "1", Transfer::common, 1,
                                    {std::numeric_limits<std::int64_t>::min(), -1}));
   frame.put(array_of<std::uint64_t>("f", Place::edge, "1", Transfer::common, 1, {0, 1, ~std::uint64_t{0}}));
-  frame.put(array_of<float>(
-      "g.h:i-j_0", Place::frame, "m/s^2", Transfer::interpolate, 1,
-      {0.1f, -0.0f, 1e-45f, 3.4028235e38f, std::bit_cast<float>(0x7fc00000u), std::bit_cast<float>(0xff800001u),
-       -std::numeric_limits<float>::infinity(), 16777216.0f, 0.0001f, 0.00001f}));
-  frame.put(array_of<double>(
-      "h", Place::frame, "1", Transfer::conserve, 1,
-      {inf, -inf, nan, -nan, std::bit_cast<double>(0x7ff0000000000001), std::bit_cast<double>(0xffffffffffffffff), -0.0,
-       5e-324, 1.7976931348623157e308, 1e16, 1e15, 9999999999999998, 12345678901234568, 0.0001, 0.00001, 123.456, 1.5e-7,
-       -1200, 0.1 + 0.2, 2e-44, 1e100}));
+  frame.put(array_of<float>("g.h:i-j_0", Place::frame, "m/s^2", Transfer::interpolate, 1,
+                            {0.1f, -0.0f, 1e-45f, 3.4028235e38f, std::bit_cast<float>(0x7fc00000u),
+                             std::bit_cast<float>(0xff800001u), -std::numeric_limits<float>::infinity(), 16777216.0f,
+                             0.0001f, 0.00001f}));
+  frame.put(array_of<double>("h", Place::frame, "1", Transfer::conserve, 1,
+                             {inf,
+                              -inf,
+                              nan,
+                              -nan,
+                              std::bit_cast<double>(0x7ff0000000000001),
+                              std::bit_cast<double>(0xffffffffffffffff),
+                              -0.0,
+                              5e-324,
+                              1.7976931348623157e308,
+                              1e16,
+                              1e15,
+                              9999999999999998,
+                              12345678901234568,
+                              0.0001,
+                              0.00001,
+                              123.456,
+                              1.5e-7,
+                              -1200,
+                              0.1 + 0.2,
+                              2e-44,
+                              1e100}));
   frame.put(array_of<double>("none", Place::frame, "1", Transfer::drop, 7, {}));
   frame.put_text("empty", "");
   frame.put_text("note", "two lines\n\n# no comment\n  | \xc3\xa4\xe2\x82\xac\xf0\x9f\x92\xa7\r\n\n");

@@ -37,8 +37,8 @@ TEST(StreamText, OfOneTriangle) {
 }
 
 TEST(StreamText, ComesBackBitForBit) {
-  for (const std::string& bytes :
-       {encode({}), encode({empty_frame()}), encode({rich_frame()}), encode({rich_frame(), empty_frame(), one_triangle()})})
+  for (const std::string& bytes : {encode({}), encode({empty_frame()}), encode({rich_frame()}),
+                                   encode({rich_frame(), empty_frame(), one_triangle()})})
     EXPECT_EQ(parse_text(print_text(bytes)), bytes);
 }
 
@@ -56,12 +56,14 @@ TEST(StreamText, JoinsByCat) {
 
 TEST(StreamText, WritesNumbersPlainlyWithinSixteenDigits) {
   Frame frame = one_triangle();
-  frame.put(array_of<double>("x", Place::frame, "1", Transfer::copy, 1,
-                             {1e15, 1e16, 0.0001, 0.00001, 123.456, 1.5e-7, -0.0, 1e100, 2.5e-310, 100, 9999999999999998}));
+  frame.put(
+      array_of<double>("x", Place::frame, "1", Transfer::copy, 1,
+                       {1e15, 1e16, 0.0001, 0.00001, 123.456, 1.5e-7, -0.0, 1e100, 2.5e-310, 100, 9999999999999998}));
   frame.put(array_of<float>("y", Place::frame, "1", Transfer::copy, 1, {0.1f, 16777216.0f, 1e16f, 3e-5f}));
   const std::string text = print_text(encode({frame}));
-  EXPECT_THAT(text, testing::HasSubstr("\n1000000000000000\n1e+16\n0.0001\n1e-05\n123.456\n1.5e-07\n-0\n1e+100\n2.5e-310\n"
-                                       "100\n9999999999999998\n"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("\n1000000000000000\n1e+16\n0.0001\n1e-05\n123.456\n1.5e-07\n-0\n1e+100\n2.5e-310\n"
+                                 "100\n9999999999999998\n"));
   EXPECT_THAT(text, testing::HasSubstr("\n0.1\n16777216\n1e+16\n3e-05\n"));
 }
 
@@ -83,10 +85,11 @@ TEST(StreamText, RandomBitsComeBack) {
 }
 
 TEST(StreamText, MayBeWrittenByHand) {
-  const std::string text = "# a comment\n\n \t\nsheet-text 1.0\r\n  frame\ntime  0.0\nstep\t0\n# between\nvertices 3\n"
-                           "triangles 1\nedges 0\narray position vertex float64 3 m interpolate\n0 0 0\n\n1e0 .0 0\n 0 5e-1 -0\n"
-                           "array triangle triangle uint32 3 1 drop\n0  1 2\narray volume triangle float64 1 m^3 conserve\n"
-                           "0.00100\narray note frame text 1 1 copy\n| a\n# no text\n| b\nend";
+  const std::string text =
+      "# a comment\n\n \t\nsheet-text 1.0\r\n  frame\ntime  0.0\nstep\t0\n# between\nvertices 3\n"
+      "triangles 1\nedges 0\narray position vertex float64 3 m interpolate\n0 0 0\n\n1e0 .0 0\n 0 5e-1 -0\n"
+      "array triangle triangle uint32 3 1 drop\n0  1 2\narray volume triangle float64 1 m^3 conserve\n"
+      "0.00100\narray note frame text 1 1 copy\n| a\n# no text\n| b\nend";
   Frame frame = one_triangle();
   frame.find("position")->values<double>()[8] = -0.0;
   frame.put_text("note", "a\nb");
@@ -107,6 +110,7 @@ TEST(StreamText, RefusesWithLineAndColumn) {
   const std::string text = std::string(triangle_text) + "end\n";
   const std::vector<BadText> cases{
       {"sheet-text 1.0", "sheet-text 2.0", ":1:12: version \"2.0\" of the text form is not 1.0"},
+      {"sheet-text 1.0", "sheet-text 1.", ":1:12: version \"1.\" of the text form is not 1.0"},
       {"sheet-text 1.0", "SHEETFRM", ":1:1: this is a binary sheet stream already: it needs no parsing"},
       {"sheet-text 1.0", "sheet", ":1:1: not the text form of a sheet stream: its first line is \"sheet-text 1.0\""},
       {"frame\n", "", ":2:1: \"time\" stands where \"frame\" or \"end\" is expected"},
@@ -126,16 +130,19 @@ TEST(StreamText, RefusesWithLineAndColumn) {
       {"0 1 2", "0 1 2.5", ":13:5: \"2.5\" is not a uint32: whole number from 0 to 4294967295"},
       {"array volume", "array Volume", ":14:7: array \"Volume\": its name is not 1 to 47 characters of [a-z0-9_.:-]"},
       {"array volume", "array triangle", ":14:7: array \"triangle\" appears twice"},
-      {"volume triangle", "volume face", ":14:14: \"face\" is not a place: vertex, triangle, edge, frame[ROWS] or, for text, frame"},
+      {"volume triangle", "volume face",
+       ":14:14: \"face\" is not a place: vertex, triangle, edge, frame[ROWS] or, for text, frame"},
       {"volume triangle", "volume frame", ":14:14: how many rows? write \"frame[ROWS]\""},
       {"volume triangle", "volume frame[x]", ":14:14: \"frame[x]\" does not say how many rows: write \"frame[ROWS]\""},
-      {"float64 1", "float 1", ":14:23: \"float\" is not a type: int8 uint8 int32 uint32 int64 uint64 float32 float64 text"},
+      {"float64 1", "float 1",
+       ":14:23: \"float\" is not a type: int8 uint8 int32 uint32 int64 uint64 float32 float64 text"},
       {"float64 1", "float64 0", ":14:7: array \"volume\": it has no components"},
       {"m^3 conserve", "m^3 keep", ":14:37: \"keep\" is not a rule: drop copy interpolate conserve common"},
       {"m^3 conserve", "m^3 common", ":14:7: array \"volume\": transfer \"common\" is for integers"},
       {"m^3 conserve", "m^3 conserve crit", ":14:46: \"crit\" stands where \"critical\" or nothing is expected"},
       {"end\n", "array n frame text 1 1 copy\n|x\nend\n", ":17:1: a line of text starts with \"| \""},
-      {"end\n", "array n frame text 1 1 copy\n| a\xff\nend\n", ":18:1: array \"n\", which ends above: its byte 1 is not UTF-8"},
+      {"end\n", "array n frame text 1 1 copy\n| a\xff\nend\n",
+       ":18:1: array \"n\", which ends above: its byte 1 is not UTF-8"},
       {"end\n", "array n frame[1] text 1 1 copy\nend\n", ":16:9: text counts its rows itself: write \"frame\""},
       {"end\n", "end\nx\n", ":17:1: \"x\" stands where \"frame\" or \"end\" is expected"},
   };
