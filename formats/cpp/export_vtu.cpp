@@ -31,13 +31,14 @@ std::string escaped(std::string_view text) {
 }
 
 class Writer {
-public:
+ public:
   // Declares an array and appends its numbers, which put() appends one after the other.
   template <class Put>
   void array(const char* type, std::size_t number_bytes, const std::string& name, int components, std::size_t numbers,
              Put put) {
     xml += std::string("<DataArray type=\"") + type + "\" Name=\"" + escaped(name) + "\"" +
-           (components > 1 ? " NumberOfComponents=\"" + std::to_string(components) + "\"" : "") + " format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
+           (components > 1 ? " NumberOfComponents=\"" + std::to_string(components) + "\"" : "") +
+           " format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
     data.reserve(data.size() + 8 + numbers * number_bytes);
     store_number(data, std::uint64_t{numbers} * number_bytes);
     put();

@@ -33,7 +33,8 @@ void read_face(TextScan& text, std::size_t points_so_far, FaceList& faces) {
 } // namespace
 
 MeshImport import_obj(std::string_view bytes, const std::string& name) {
-  static const std::set<std::string_view> harmless = {"vn", "vt", "vp", "g", "o", "s", "usemtl", "mtllib", "mg", "usemap"};
+  static const std::set<std::string_view> harmless = {"vn", "vt",     "vp",     "g",  "o",
+                                                      "s",  "usemtl", "mtllib", "mg", "usemap"};
   TextScan text(bytes, name, '#', TextScan::Continuation::backslash);
   MeshAssembler mesh(name, "line");
   FaceList faces;
@@ -55,8 +56,8 @@ MeshImport import_obj(std::string_view bytes, const std::string& name) {
     }
   }
   if (passed_over > 0)
-    mesh.note(std::to_string(passed_over) + " lines that are no vertices and no faces passed over (first: " +
-              first_passed_over + ")");
+    mesh.note(std::to_string(passed_over) +
+              " lines that are no vertices and no faces passed over (first: " + first_passed_over + ")");
   std::size_t start = 0;
   for (std::size_t f = 0; f < faces.ends.size(); ++f) {
     mesh.add_face(std::span(faces.corners).subspan(start, faces.ends[f] - start), faces.lines[f], 1);

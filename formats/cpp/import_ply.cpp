@@ -34,10 +34,22 @@ struct Header {
 
 std::optional<NumberType> number_type(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, NumberType>, 16> names = {{
-      {"char", NumberType::i8},    {"int8", NumberType::i8},      {"uchar", NumberType::u8},   {"uint8", NumberType::u8},
-      {"short", NumberType::i16},  {"int16", NumberType::i16},    {"ushort", NumberType::u16}, {"uint16", NumberType::u16},
-      {"int", NumberType::i32},    {"int32", NumberType::i32},    {"uint", NumberType::u32},   {"uint32", NumberType::u32},
-      {"float", NumberType::f32},  {"float32", NumberType::f32},  {"double", NumberType::f64}, {"float64", NumberType::f64},
+      {"char", NumberType::i8},
+      {"int8", NumberType::i8},
+      {"uchar", NumberType::u8},
+      {"uint8", NumberType::u8},
+      {"short", NumberType::i16},
+      {"int16", NumberType::i16},
+      {"ushort", NumberType::u16},
+      {"uint16", NumberType::u16},
+      {"int", NumberType::i32},
+      {"int32", NumberType::i32},
+      {"uint", NumberType::u32},
+      {"uint32", NumberType::u32},
+      {"float", NumberType::f32},
+      {"float32", NumberType::f32},
+      {"double", NumberType::f64},
+      {"float64", NumberType::f64},
   }};
   for (const auto& [text, type] : names)
     if (text == name)
@@ -111,7 +123,7 @@ Header read_header(TextScan& text, const std::string& file) {
 
 // Numbers of the body, whichever way they are written.
 class Body {
-public:
+ public:
   Body(std::string_view bytes, TextScan& text, Encoding encoding, const std::string& file)
       : bytes_(bytes), text_(text), ascii_(encoding == Encoding::ascii),
         order_(encoding == Encoding::big ? ByteOrder::big : ByteOrder::little), at_(text.offset()), file_(file) {}
@@ -150,7 +162,7 @@ public:
     mesh_fail(file_, (ascii_ ? "line " : "byte ") + std::to_string(place()), problem);
   }
 
-private:
+ private:
   void need(std::size_t n) const {
     if (bytes_.size() - at_ < n)
       fail("the file ends too early; it was cut short");
@@ -225,8 +237,9 @@ struct Wanted {
     const bool any = seen[0] + seen[1] + seen[2] > 0;
     if (thickness_seen > 1 || (any && seen != std::array<int, 3>{1, 1, 1}))
       mesh_fail(file, "line " + std::to_string(element.line),
-                "element " + quoted(element.name) + " must declare thickness at most once and velocity_x, velocity_y, "
-                                                    "velocity_z all together, once each");
+                "element " + quoted(element.name) +
+                    " must declare thickness at most once and velocity_x, velocity_y, "
+                    "velocity_z all together, once each");
     if (thickness_seen > 0)
       thickness.values.resize(element.count);
     if (any)
@@ -251,14 +264,15 @@ void read_vertices(const Element& element, Body& body, const std::string& file, 
   std::vector<int> axis; // of each property, -1 for none
   std::array<int, 3> seen{};
   for (const Property& property : element.properties) {
-    const bool coordinate = !property.list_count && property.name.size() == 1 && property.name[0] >= 'x' &&
-                            property.name[0] <= 'z';
+    const bool coordinate =
+        !property.list_count && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
     axis.push_back(coordinate ? property.name[0] - 'x' : -1);
     if (coordinate)
       ++seen[axis.back()];
   }
   if (seen != std::array<int, 3>{1, 1, 1})
-    mesh_fail(file, "line " + std::to_string(element.line), "element 'vertex' needs the properties x, y and z, once each");
+    mesh_fail(file, "line " + std::to_string(element.line),
+              "element 'vertex' needs the properties x, y and z, once each");
   Wanted wanted(MeshPlace::point);
   const std::vector<Target> targets = wanted.prepare(element, file);
   mesh.points.resize(element.count);

@@ -27,7 +27,7 @@ struct PointHash {
 };
 
 class PointMerger {
-public:
+ public:
   explicit PointMerger(MeshAssembler& mesh) : mesh_(mesh) {}
   std::int64_t index(std::array<double, 3> p) {
     for (double& x : p)
@@ -38,7 +38,7 @@ public:
     return place->second;
   }
 
-private:
+ private:
   MeshAssembler& mesh_;
   std::unordered_map<std::array<double, 3>, std::int64_t, PointHash> index_;
 };
@@ -116,7 +116,7 @@ MeshImport import_stl(std::string_view bytes, const std::string& name) {
   // Some programs start binary files with "solid" too: the size decides, then the word.
   const bool size_fits = bytes.size() >= header_bytes &&
                          bytes.size() == header_bytes + triangle_bytes * std::uint64_t{load_number<std::uint32_t>(
-                                                                            bytes.data() + 80, ByteOrder::little)};
+                                                                             bytes.data() + 80, ByteOrder::little)};
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   const bool says_solid = first != bytes.npos && bytes.substr(first, 5) == "solid";
   if (!says_solid && bytes.size() < header_bytes)

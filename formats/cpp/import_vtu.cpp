@@ -11,8 +11,8 @@ namespace sheet::formats {
 
 namespace {
 
-constexpr const char* how_to_convert =
-    "save it uncompressed: in ParaView 'Compressor Type: None', or in Python meshio.write(name, mesh, compression=None)";
+constexpr const char* how_to_convert = "save it uncompressed: in ParaView 'Compressor Type: None', or in Python "
+                                       "meshio.write(name, mesh, compression=None)";
 
 struct Piece {
   std::uint64_t points = 0, cells = 0;
@@ -24,10 +24,16 @@ struct Piece {
 enum class Section { none, points, cells, point_data, cell_data };
 
 std::optional<NumberType> number_type(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, NumberType>, 10> names = {
-      {{"Int8", NumberType::i8}, {"UInt8", NumberType::u8}, {"Int16", NumberType::i16}, {"UInt16", NumberType::u16},
-       {"Int32", NumberType::i32}, {"UInt32", NumberType::u32}, {"Int64", NumberType::i64}, {"UInt64", NumberType::u64},
-       {"Float32", NumberType::f32}, {"Float64", NumberType::f64}}};
+  constexpr std::array<std::pair<std::string_view, NumberType>, 10> names = {{{"Int8", NumberType::i8},
+                                                                              {"UInt8", NumberType::u8},
+                                                                              {"Int16", NumberType::i16},
+                                                                              {"UInt16", NumberType::u16},
+                                                                              {"Int32", NumberType::i32},
+                                                                              {"UInt32", NumberType::u32},
+                                                                              {"Int64", NumberType::i64},
+                                                                              {"UInt64", NumberType::u64},
+                                                                              {"Float32", NumberType::f32},
+                                                                              {"Float64", NumberType::f64}}};
   for (const auto& [text, type] : names)
     if (text == name)
       return type;
@@ -35,7 +41,7 @@ std::optional<NumberType> number_type(std::string_view name) {
 }
 
 class Reader {
-public:
+ public:
   Reader(std::string_view bytes, const std::string& name) : file_(name), xml_(bytes, name), mesh_(name, "cell") {
     data_.file = name;
     data_.budget = 2 * bytes.size();
@@ -71,7 +77,7 @@ public:
     return std::move(mesh_).finish(std::move(arrays));
   }
 
-private:
+ private:
   [[noreturn]] void fail(std::size_t at, const std::string& problem) const {
     mesh_fail(file_, "byte " + std::to_string(at), problem);
   }
@@ -93,7 +99,8 @@ private:
         read_root(tag);
         is_vtu = true;
       } else if (!is_vtu) {
-        fail(tag.start, "the file starts with tag " + quoted(tag.name) + ", not with <VTKFile type=\"UnstructuredGrid\">");
+        fail(tag.start,
+             "the file starts with tag " + quoted(tag.name) + ", not with <VTKFile type=\"UnstructuredGrid\">");
       } else if (tag.name == "Piece" && !tag.closing) {
         pieces_.emplace_back();
         pieces_.back().start = tag.start;
@@ -194,15 +201,16 @@ private:
     *target = std::move(array);
   }
 
-  void expect_size(const VtuDeclaration& array, std::uint64_t tuples, std::uint64_t components, std::size_t values) const {
+  void expect_size(const VtuDeclaration& array, std::uint64_t tuples, std::uint64_t components,
+                   std::size_t values) const {
     if (array.components != components || values % components != 0 || values / components != tuples)
       fail(array.start, "array " + quoted(array.name) + " has " + std::to_string(values) + " values in tuples of " +
                             std::to_string(array.components) + "; expected " + std::to_string(tuples) + " tuples of " +
                             std::to_string(components));
   }
 
-  void append_array(const Piece& piece, const std::optional<VtuDeclaration>& array, bool of_cells, std::uint64_t components,
-                    const std::vector<std::uint64_t>& copies, std::vector<double>& values) {
+  void append_array(const Piece& piece, const std::optional<VtuDeclaration>& array, bool of_cells,
+                    std::uint64_t components, const std::vector<std::uint64_t>& copies, std::vector<double>& values) {
     const std::uint64_t tuples = of_cells ? piece.cells : piece.points;
     const std::vector<double> read = data_.reals(*array);
     expect_size(*array, tuples, components, read.size());

@@ -68,7 +68,8 @@ void MeshAssembler::drop_unused_points(std::vector<MeshArray>& arrays) {
       index = kept++;
   if (kept == points.size())
     return;
-  note(counted(points.size() - kept, "vertex that no face uses was dropped", "vertices that no face uses were dropped"));
+  note(
+      counted(points.size() - kept, "vertex that no face uses was dropped", "vertices that no face uses were dropped"));
   for (std::size_t v = 0; v < points.size(); ++v)
     if (new_index[v] != unused) {
       points[new_index[v]] = points[v];

@@ -74,7 +74,9 @@ std::vector<T> VtuData::numbers(const VtuDeclaration& array, Load load, Parse pa
   return values;
 }
 
-std::vector<double> VtuData::reals(const VtuDeclaration& array) { return numbers<double>(array, load_real, parse_real); }
+std::vector<double> VtuData::reals(const VtuDeclaration& array) {
+  return numbers<double>(array, load_real, parse_real);
+}
 
 std::vector<std::int64_t> VtuData::integers(const VtuDeclaration& array) {
   if (is_real(array.type))

@@ -25,10 +25,10 @@ struct VtuDeclaration {
 };
 
 class VtuData {
-public:
+ public:
   std::string file;
   ByteOrder order = ByteOrder::little;
-  std::size_t length_bytes = 4;            // of the byte count before binary data
+  std::size_t length_bytes = 4;             // of the byte count before binary data
   std::optional<std::string_view> appended; // from behind the underscore
   bool appended_is_base64 = false;
   std::uint64_t budget = 0; // bytes of binary data that may still be decoded: arrays may not share data without end
@@ -36,7 +36,7 @@ public:
   [[nodiscard]] std::vector<double> reals(const VtuDeclaration& array);
   [[nodiscard]] std::vector<std::int64_t> integers(const VtuDeclaration& array);
 
-private:
+ private:
   std::string_view binary(const VtuDeclaration& array, std::string& decoded);
   template <class T, class Load, class Parse>
   std::vector<T> numbers(const VtuDeclaration& array, Load load, Parse parse);

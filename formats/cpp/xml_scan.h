@@ -11,16 +11,16 @@ namespace sheet::formats {
 struct XmlTag {
   std::string_view name;
   std::vector<std::pair<std::string_view, std::string_view>> attributes;
-  bool closing = false;    // </name>
+  bool closing = false;     // </name>
   bool self_closed = false; // <name/>
-  std::size_t start = 0;   // byte of '<'
+  std::size_t start = 0;    // byte of '<'
 
   // The attribute's value, or the given one if it is absent.
   [[nodiscard]] std::string_view attribute(std::string_view key, std::string_view otherwise = {}) const;
 };
 
 class XmlScan {
-public:
+ public:
   XmlScan(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
 
   // Goes to the next tag, passing over text, comments and <? ?>; false at the end.
@@ -31,7 +31,7 @@ public:
   [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
   [[nodiscard]] std::size_t offset() const { return at_; }
 
-private:
+ private:
   [[noreturn]] void fail(std::size_t at, const std::string& problem) const;
   void read_attributes(XmlTag& tag);
   void skip_blanks();

@@ -31,8 +31,8 @@ struct MeshOptions {
   double edge_length = 0.0; // [m]
   std::uint64_t seed = 1;   // of the irregular pattern
   // Structured only; edge_length is not used then. Rectangle: along x and y; disk, annulus, cap: around and radially;
-  // tube: around and along the axis; sphere: the first along each edge of the cube. A disk or a cap without opening ends
-  // in a fan around its centre.
+  // tube: around and along the axis; sphere: the first along each edge of the cube. A disk or a cap without opening
+  // ends in a fan around its centre.
   std::optional<std::array<std::uint32_t, 2>> segments;
 };
 
