@@ -85,6 +85,33 @@ TEST(Shapes, AnglesAreGood) {
     }
 }
 
+// Shapes of one or a few edges, long, thin, tiny and huge ones.
+TEST(Shapes, IrregularPatternCopesWithExtremes) {
+  const auto expect_good = [](const TriangleMesh& mesh, long euler) {
+    const MeshFigures f = measure(mesh);
+    EXPECT_EQ(f.euler_characteristic(), euler);
+    EXPECT_EQ(f.bad_edges, 0U);
+    EXPECT_GT(f.angle_min, 25 * degree);
+  };
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto options = [&](double length) { return MeshOptions{Pattern::irregular, length, seed, {}}; };
+    expect_good(make_rectangle(1, 1, options(1)), 1);
+    expect_good(make_rectangle(1, 1, options(0.4)), 1);
+    expect_good(make_rectangle(10, 0.1, options(0.06)), 1);
+    expect_good(make_disk(1, options(1)), 1);
+    expect_good(make_disk(1e-3, options(2e-4)), 1);
+    expect_good(make_disk(1e5, options(2e4)), 1);
+    expect_good(make_annulus(0.9, 1, options(0.06)), 0);
+    expect_good(make_annulus(0.1, 1, options(0.1)), 0);
+    expect_good(make_sphere(1, options(1.05)), 2);
+    expect_good(make_cap(1, 3.0, options(0.14)), 1);
+    expect_good(make_cap(1, 0.1, options(0.1)), 1);
+    expect_good(make_tube(1, 1, options(1)), 0);
+    expect_good(make_tube(0.1, 5, options(0.1)), 0);
+  }
+}
+
 TEST(Shapes, AreaConvergesAtSecondOrder) {
   for (const Shape& shape : all_shapes())
     for (const Pattern pattern : patterns) {
