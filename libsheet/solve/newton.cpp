@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace sheet {
 
@@ -30,37 +32,6 @@ class Clock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// The unknowns' scale that gives the matrix a unit diagonal; the same for the three coordinates of a vertex.
-Eigen::VectorXd diagonal_scale(const SparseLower& a, const std::vector<std::uint32_t>& permutation,
-                               std::span<const char> held, std::size_t vertices) {
-  Eigen::VectorXd scale(a.size);
-  const auto diagonal = [&](int k) {
-    return a.values[static_cast<std::size_t>(a.starts[static_cast<std::size_t>(k)])];
-  };
-  for (int k = 0; k < a.size;) {
-    const int width = permutation[static_cast<std::size_t>(k)] < 3 * vertices ? 3 : 1;
-    double sum = 0;
-    int count = 0;
-    for (int d = 0; d < width; ++d)
-      if (held.empty() || !held[permutation[static_cast<std::size_t>(k + d)]]) {
-        sum += std::abs(diagonal(k + d));
-        ++count;
-      }
-    for (int d = 0; d < width; ++d) {
-      const bool fixed = !held.empty() && held[permutation[static_cast<std::size_t>(k + d)]];
-      scale[k + d] = fixed || sum == 0 ? 1 : std::sqrt(count / sum);
-    }
-    k += width;
-  }
-  return scale;
-}
-
-void apply_scale(SparseLower& a, const Eigen::VectorXd& s) {
-  for (int c = 0; c < a.size; ++c)
-    for (int p = a.starts[static_cast<std::size_t>(c)]; p < a.starts[static_cast<std::size_t>(c) + 1]; ++p)
-      a.values[static_cast<std::size_t>(p)] *= s[c] * s[a.rows[static_cast<std::size_t>(p)]];
-}
-
 } // namespace
 
 LinearSystem::LinearSystem(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles)
@@ -70,6 +41,31 @@ LinearSystem::LinearSystem(std::shared_ptr<const Connectivity> mesh, const Terms
   matrix = assembly.pattern().structure();
   cholesky.analyze(matrix);
   seconds_analysis = clock.lap();
+}
+
+Eigen::VectorXd scale_to_unit_diagonal(SparseLower& a, const std::vector<std::uint32_t>& permutation,
+                                       std::span<const char> held, std::size_t vertices) {
+  Eigen::VectorXd scale(a.size);
+  for (int k = 0; k < a.size;) {
+    const int width = permutation[static_cast<std::size_t>(k)] < 3 * vertices ? 3 : 1;
+    double sum = 0;
+    int count = 0;
+    const auto fixed = [&](int row) { return !held.empty() && held[permutation[static_cast<std::size_t>(row)]]; };
+    for (int row = k; row < k + width; ++row)
+      if (!fixed(row)) {
+        sum += std::abs(a.values[static_cast<std::size_t>(a.starts[static_cast<std::size_t>(row)])]);
+        ++count;
+      }
+    for (int row = k; row < k + width; ++row)
+      scale[row] = fixed(row) || sum == 0 ? 1 : std::sqrt(count / sum);
+    k += width;
+  }
+  tbb::parallel_for(tbb::blocked_range<int>(0, a.size, 1024), [&](const auto& range) {
+    for (int c = range.begin(); c < range.end(); ++c)
+      for (int p = a.starts[static_cast<std::size_t>(c)]; p < a.starts[static_cast<std::size_t>(c) + 1]; ++p)
+        a.values[static_cast<std::size_t>(p)] *= scale[c] * scale[a.rows[static_cast<std::size_t>(p)]];
+  });
+  return scale;
 }
 
 NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const char> held,
@@ -90,8 +86,8 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
     // The direction: the exact Hessian, else the positive one, else that with a growing shift.
     Eigen::VectorXd row_scale;
     for (;;) {
-      row_scale = diagonal_scale(system.matrix, permutation, held, system.assembly.vertices());
-      apply_scale(system.matrix, row_scale);
+      row_scale = scale_to_unit_diagonal(system.matrix, permutation, held, system.assembly.vertices());
+      report.seconds_assembly += clock.lap();
       bool good = false;
       for (double s = shift; s <= kGreatestShift; s = std::max(kLeastShift, 100 * s)) {
         ++report.factorizations;
