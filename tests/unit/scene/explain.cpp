@@ -74,6 +74,9 @@ TEST(Explain, NumbersByTheirFormulas) {
   EXPECT_DOUBLE_EQ(number(e, "Bond of the bath")->value, 2000 * 10 / 0.05);
   EXPECT_DOUBLE_EQ(number(e, "density to the bath's")->value, 0.5);
   EXPECT_NEAR(number(e, "buckling")->value, 12 * 2500 / (M_PI * M_PI), 1e-9);
+  EXPECT_EQ(number(e, "capillary")->meaning,
+            "In the sheet viscous stress rules over surface tension. (mu V h / (gamma L) = 126)");
+  EXPECT_EQ(number(e, "Bond")->meaning, "In the sheet weight rules over surface tension. (rho g L h / gamma = 4e+03)");
   EXPECT_THAT(e.warnings, IsEmpty());
 }
 
