@@ -124,19 +124,23 @@ std::vector<DimensionlessNumber> numbers_of(const Scene& scene, const Scales& sc
            : x < 10 ? "Viscosity and inertia both matter."
                     : "Inertia rules: it falls and flies before viscosity is felt.";
   });
-  add("capillary", "mu V / gamma", mu * V / gamma, [](double x) {
-    return x < 0.1  ? "Surface tension rules over viscous stress."
-           : x < 10 ? "Surface tension and viscous stress are alike."
-                    : "Viscous stress rules; surface tension shows at thin parts and rims only.";
-  });
-  const auto bond = [](double x) {
-    return x < 0.1  ? "Surface tension rules over weight."
-           : x < 10 ? "Surface tension and weight are alike."
-                    : "Weight rules over surface tension.";
+  // A sheet carries its load by its thickness, so its tension is judged by the numbers times h / L.
+  const double part = scales.thickness ? *scales.thickness / L : 1;
+  const auto against_tension = [](double x, std::string_view force) {
+    return x < 0.1  ? fmt::format("In the sheet surface tension rules over {}.", force)
+           : x < 10 ? fmt::format("In the sheet surface tension and {} are alike.", force)
+                    : fmt::format("In the sheet {} rules over surface tension.", force);
   };
-  add("Bond", "rho g L² / gamma", rho * g * L * L / gamma, bond);
+  add("capillary", "mu V / gamma", mu * V / gamma, [&](double x) {
+    return against_tension(x * part, "viscous stress") + fmt::format(" (mu V h / (gamma L) = {})", brief(x * part));
+  });
+  add("Bond", "rho g L² / gamma", rho * g * L * L / gamma, [&](double x) {
+    return against_tension(x * part, "weight") + fmt::format(" (rho g L h / gamma = {})", brief(x * part));
+  });
   if (const auto& bath = scene.environment.bath) {
-    add("Bond of the bath", "rho_bath g L² / gamma", bath->density * g * L * L / gamma, bond);
+    add("Bond of the bath", "rho_bath g L² / gamma", bath->density * g * L * L / gamma, [](double x) {
+      return x < 1 ? "Surface tension keeps the bath's surface flat." : "The bath's weight rules over surface tension.";
+    });
     add("density to the bath's", "rho / rho_bath", rho / bath->density,
         [](double x) { return x > 1 ? "The sheet is heavier than the bath and sinks." : "The sheet floats."; });
   }
