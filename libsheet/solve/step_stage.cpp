@@ -117,10 +117,13 @@ struct StepStage::Impl {
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
     // Arcs reduce locking where the sheet bends by directors (docs/design.md).
     Model model = model_of(*scene, frame, *mesh, options.bending, use_arcs);
-    if (stepper)
+    if (stepper) {
       stepper->set_model(std::move(model));
-    else
-      stepper.emplace(std::move(model), StepOptions{.scheme = options.scheme});
+    } else {
+      StepOptions step_options;
+      step_options.scheme = options.scheme;
+      stepper.emplace(std::move(model), step_options);
+    }
     State state = state_of(frame, mesh);
     const auto start = std::chrono::steady_clock::now();
     StepReport report;
