@@ -19,9 +19,11 @@ constexpr double kSufficient = 1e-4;   // of the predicted decrease [Armijo]
 constexpr double kRoundOff = 1e-14;    // of the sum of the magnitudes of the elements' energies
 constexpr double kSpreadShift = 1e-10; // for a starting point only
 constexpr int kHalvings = 40;
-constexpr double kNear = 1e-2;  // steps below this make the exact Hessian worth another try
-constexpr double kSmall = 1e-3; // steps below this are done if the potential has no more to gain
-constexpr int kReturns = 3;     // to the exact Hessian
+constexpr int kBeforeSlope = 3;    // halvings before the slope is asked
+constexpr double kSlopeKept = 0.5; // of the slope that may remain after a step accepted for its slope
+constexpr double kNear = 1e-2;     // steps below this make the exact Hessian worth another try
+constexpr double kSmall = 1e-3;    // steps below this are done if the potential has no more to gain
+constexpr int kReturns = 3;        // to the exact Hessian
 
 class Clock {
  public:
@@ -176,6 +178,16 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
         if (std::isfinite(trial.value) && trial.value <= energy.value + kSufficient * length * slope + noise) {
           report.monotone = report.monotone && trial.value <= energy.value + noise;
           break;
+        }
+        // A small step may gain less than the potential's own round-off, which strains that nearly cancel make large;
+        // then the slope decides [as in Hager and Zhang 2005].
+        if (halvings == kBeforeSlope && report.last_step <= kSmall) {
+          Eigen::VectorXd there;
+          system.assembly.derivatives(terms, u + step, positive, held, there, system.matrix);
+          if (std::abs(there.dot(step)) <= kSlopeKept * std::abs(slope)) {
+            length = 1;
+            break;
+          }
         }
         if (halvings == kHalvings) {
           report.halvings += halvings;
