@@ -50,6 +50,11 @@ struct LinearSystem {
 Eigen::VectorXd scale_to_unit_diagonal(SparseLower& matrix, const std::vector<std::uint32_t>& permutation,
                                        std::span<const char> held, std::size_t vertices);
 
+// Moves u by one linearised step that takes the held unknowns to their target, so that the others make way: a starting
+// point for motions of more than an edge. False if the matrix cannot be factorised.
+[[nodiscard]] bool spread_held_motion(LinearSystem& system, const Terms& terms, std::span<const char> held,
+                                      const Unknowns& target, Unknowns& u);
+
 // scale: for each unknown the length [m] (or angle, 1) that its step is measured in. floor: the least shift of the
 // scaled matrix; positive where the potential does not determine a rigid motion. u: start, and result.
 [[nodiscard]] NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const char> held,

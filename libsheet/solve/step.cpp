@@ -6,12 +6,27 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/geometry/area.h"
 
 namespace sheet {
 
 namespace {
 
 const double kGamma = 1 - std::sqrt(0.5);
+
+constexpr int kHalvingsBeforeEuler = 3;
+constexpr double kFarBehind = 0.1; // of an edge: held unknowns that are this far from where inertia takes them
+
+// Whether every triangle still has an area beyond round-off.
+bool sound(const State& s) {
+  for (const Triangle& t : s.mesh->triangles) {
+    const Vector3 q = squared_lengths(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]);
+    const double longest = q.maxCoeff();
+    if (!(TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area > 1e-9 * longest))
+      return false;
+  }
+  return true;
+}
 
 void add(NewtonReport& sum, const NewtonReport& r) {
   sum.converged = r.converged;
@@ -97,17 +112,28 @@ bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, 
       raise_as_started(stage);
     for (const auto& term : cache_->terms)
       term->begin(stage);
-    // The best of the extrapolated state, the last known one, and the sheet moved rigidly with what is held.
+    // The best of the extrapolated state, the last known one, the sheet moved rigidly with what is held, and, if what
+    // is held leaves the others behind, the linear response to its motion.
     Unknowns trial = safe;
     double best = 0;
-    for (const int k : {0, 1, 2}) {
+    double left_behind = 0;
+    for (const int k : {0, 1, 2, 3}) {
       if (k == 0)
         trial = guess;
-      else if (k == 1)
+      else if (k == 1 || k == 3)
         trial = safe;
-      else if (!move_with_held(model_.holds, stage, stage.end_time, trial))
-        break;
+      else if (k == 2 && !move_with_held(model_.holds, stage, stage.end_time, trial))
+        continue;
+      const Unknowns before = trial;
       place_held(model_.holds, stage, stage.end_time, trial);
+      if (k == 0)
+        left_behind = (trial - before).cwiseQuotient(scale).cwiseAbs().maxCoeff();
+      if (k == 3) {
+        const Unknowns target = trial;
+        trial = safe;
+        if (left_behind < kFarBehind || !spread_held_motion(*cache_->system, cache_->terms, held, target, trial))
+          continue;
+      }
       const double w = cache_->system->assembly.value(cache_->terms, trial).value;
       if (k == 0 || w < best || !std::isfinite(best)) {
         best = w;
@@ -150,7 +176,7 @@ bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, 
   }
   set_held_velocities(model_.holds, end.time, dt, end);
   report.error = std::max(report.error, error);
-  return true;
+  return sound(end);
 }
 
 void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
@@ -161,16 +187,17 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   ++report.failed;
+  if (options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
+      attempt(state, dt, Scheme::backward_euler, end, report)) {
+    ++report.substeps;
+    ++report.euler_fallbacks;
+    state = std::move(end);
+    return;
+  }
   if (depth < options_.retries) {
     const double middle = state.time + 0.5 * dt, until = state.time + dt;
     advance(state, middle - state.time, depth + 1, report);
     advance(state, until - state.time, depth + 1, report);
-    return;
-  }
-  if (options_.scheme != Scheme::backward_euler && attempt(state, dt, Scheme::backward_euler, end, report)) {
-    ++report.substeps;
-    ++report.euler_fallbacks;
-    state = std::move(end);
     return;
   }
   fail(ExitCode::not_converged,
