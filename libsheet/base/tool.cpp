@@ -205,6 +205,7 @@ void Tool::arguments(std::string_view name, std::vector<std::string>& values, st
 void Tool::example(std::string command, std::string text) {
   examples_.emplace_back(std::move(command), std::move(text));
 }
+void Tool::exit_status(std::string text) { exit_status_ = std::move(text); }
 void Tool::section(std::string title, std::string text) { sections_.emplace_back(std::move(title), std::move(text)); }
 
 void Tool::parse(int argc, char** argv) {
