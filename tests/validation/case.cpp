@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of cases. Defaults are the sizes that the tests run at.
+#include "tests/validation/case.h"
+
+#include "libsheet/base/error.h"
+#include "tests/validation/setup.h"
+
+namespace sheet::validation {
+
+namespace {
+
+Settings at(double edge, int steps, Pattern pattern = Pattern::irregular) {
+  Settings s;
+  s.edge = edge;
+  s.steps = steps;
+  s.pattern = pattern;
+  return s;
+}
+
+} // namespace
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> list = {
+      {"V1", "balloon, constant pressure, to 80 % of blow-up (set 1: h 0.1, p 0.1; 2: h 0.3, p 0.15)", "radius",
+       "t,r,speed,x,y", 2, at(0.15, 40, Pattern::equilateral), true, true, v1},
+      {"V2", "balloon, pressure as 1/r², to twice the radius (set 1: h 0.1, p 0.2; 2: h 0.3, p 0.3)", "radius",
+       "t,r,speed,x,y", 2, at(0.15, 40, Pattern::equilateral), true, true, v2},
+      {"V3", "inviscid sphere contracts to cos 1.2 (Fig. 7's four sets)", "radius", "t,r,speed,x,y", 4,
+       at(0.15, 40, Pattern::equilateral), true, true, v3},
+      {"V4", "sphere with viscosity, inertia, surface tension and pressure", "radius", "", 1,
+       at(0.15, 40, Pattern::equilateral), true, true, v4},
+      {"V5", "strip pulled by a force, sides free, to twice the length", "length", "", 1, at(0.0833, 40), true, false, v5},
+      {"V6", "strip pulled by a force, width held, to twice the length", "length", "", 1, at(0.0833, 40), true, false, v6},
+      {"V7", "tube under pressure, to twice the radius", "radius", "", 1, at(0.2, 40), true, true, v7},
+      {"V8", "free disk contracts to half its radius", "square root of the area", "", 1, at(0.15, 40), true, false, v8},
+      {"V9", "a hole opens (set 1: 0.3 of the radius; 2: 0.1)", "radius of the hole", "", 2, at(0.08, 40), true, true, v9},
+      {"V11", "circular plate under its weight (set 1: clamped; 2: simply supported)", "start speed near the centre", "",
+       2, at(1.0 / 16, 1), false, true, v11},
+      {"V12",
+       "strip under its weight (1 clamped, 2 supported, 3 cantilever, 4 quarter-cylinder cantilever, 5 quarter-cylinder "
+       "arch)",
+       "start speed of the middle or tip", "", 5, at(1.0 / 16, 1), false, true, v12},
+      {"V13", "viscous catenary, sag from 1 to 2 %", "sag", "", 1, at(1.0 / 16, 40), true, true, v13},
+      {"V14", "patch rolled up: h/edge 1, 0.1, 0.01, 0.001, mesh turned by 0 (1-4), 30 (5-8), 45 degrees (9-12)",
+       "dissipated power", "", 12, at(1.0 / 16, 1), false, true, v14},
+      {"V15", "growth of waves in a compressed strip on a bath (k over the fastest: 0.8, 0.9, 1, 1.25, 1.6)",
+       "growth rate", "", 5, at(1.0 / 16, 1), false, true, v15},
+      {"V16", "annulus sheared in its plane", "torque", "", 1, at(0.08, 1), false, true, v16},
+      {"V17", "pinned square film oscillates for one period", "1 + greatest deviation of the mode over its amplitude", "",
+       1, at(1.0 / 16, 64), true, true, v17},
+      {"V19", "quarter turn in one step (set 1: forces at the turned state; 2: the step itself)",
+       "1 + force over mu V/(dt edge), or greatest relative change of an edge", "", 2, at(0.15, 1), false, false, v19},
+      {"V20", "thrown disk (set 1: linear momentum; 2: angular momentum; 3: energy balance)", "1 + relative defect", "",
+       3, at(0.15, 20), true, false, v20},
+  };
+  return list;
+}
+
+const Case& find_case(const std::string& name) {
+  for (const Case& c : cases())
+    if (c.name == name)
+      return c;
+  fail(ExitCode::usage, "there is no case {}: see validate --list", name);
+}
+
+Result run(const Case& c, Settings settings) {
+  if (settings.edge == 0)
+    settings.edge = c.defaults.edge;
+  if (settings.steps == 0)
+    settings.steps = c.defaults.steps;
+  if (settings.set < 1 || settings.set > c.sets)
+    fail(ExitCode::usage, "{} has the sets 1 to {}, not {}", c.name, c.sets, settings.set);
+  return c.run(settings);
+}
+
+} // namespace sheet::validation

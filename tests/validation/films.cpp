@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// V7, V8, V9, V16, V17: films without bending.
+#include "tests/validation/instant.h"
+
+namespace sheet::validation {
+
+namespace {
+
+Hold all(const State& s, std::array<bool, 3> axes) {
+  return hold(s, [](const Vector3&) { return true; }, axes, false);
+}
+
+double mean_ring(const State& s, const std::vector<std::uint32_t>& ring) {
+  double sum = 0;
+  for (const auto v : ring)
+    sum += s.positions[v].head<2>().norm();
+  return sum / static_cast<double>(ring.size());
+}
+
+} // namespace
+
+// V7: a tube under pressure, its ends held along the axis: hoop strain rate ṙ/r alone, N = 4 μ h ṙ/r = p r, h r = h0 r0:
+// r⁻² = r0⁻² - p t/(2 μ h0 r0).
+Result v7(const Settings& s) {
+  constexpr double mu = 1, h = 0.05, p = 0.1, length = 2;
+  const double until = 0.75 * 2 * mu * h / p; // the radius doubles
+  State start = film(make_tube(1, length, mesh_options(s, 1)), h);
+  Model m = viscous(mu, s);
+  m.bending = Bending::none;
+  m.pressure = PressureLaw{PressureLaw::Kind::constant, p, 1, 1};
+  m.holds.push_back(hold(start, [](const Vector3& x) { return std::abs(x.z()) > length / 2 - 1e-9; },
+                         {false, false, true}, false));
+  for (std::size_t v = 0; v < start.positions.size(); ++v)
+    start.velocities[v] = p / (4 * mu * h) * Vector3(start.positions[v].x(), start.positions[v].y(), 0);
+  Run run(std::move(start), m, s, 1);
+  run.advance(until, s.steps);
+  double r = 0;
+  for (const Vector3& x : run.state().positions)
+    r += x.head<2>().norm();
+  return run.result(r / static_cast<double>(run.state().positions.size()) / 2);
+}
+
+// V8: a free disk: isotropic stress 6 μ h Ṙ/R = -2 γ: R⁻² = R0⁻² + 2π γ t/(3 μ V), until R = R0/2.
+Result v8(const Settings& s) {
+  constexpr double mu = 1, h = 0.05, tension = 0.1;
+  const double until = 3 * 3 * mu * h / (2 * tension);
+  State start = film(make_disk(1, mesh_options(s, 1)), h);
+  Model m = viscous(mu, s);
+  m.bending = Bending::none;
+  m.surface_tension = tension;
+  m.holds.push_back(all(start, {false, false, true}));
+  for (std::size_t v = 0; v < start.positions.size(); ++v)
+    start.velocities[v] = -tension / (3 * mu * h) * start.positions[v];
+  const double area = sheet_area(start);
+  Run run(std::move(start), m, s, 1);
+  run.advance(until, s.steps);
+  return run.result(2 * std::sqrt(sheet_area(run.state()) / area));
+}
+
+// V9: a hole opens. Sets: 1 outer rim held at Ro = 1, Ṙ = γ R (1-s²)/(μ h (1+3s²)), s = R/Ro,
+// h = h0 (Ro²-R0²)/(Ro²-R²), from R0 = 0.3 to about 0.42; 2 the rim at Ro = 1 far from R0 = 0.1, the same equation.
+Result v9(const Settings& s) {
+  constexpr double mu = 1, h0 = 0.05, tension = 0.1;
+  const double r0 = s.set == 1 ? 0.3 : 0.1, until = (s.set == 1 ? 0.3 : 0.4) * mu * h0 / tension;
+  State start = film(make_annulus(r0, 1, mesh_options(s, 1)), h0);
+  Model m = viscous(mu, s);
+  m.bending = Bending::none;
+  m.surface_tension = tension;
+  m.holds.push_back(all(start, {false, false, true}));
+  m.holds.push_back(hold(start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, {true, true, true}, false));
+  const std::vector<std::uint32_t> ring =
+      hold(start, [&](const Vector3& x) { return x.norm() < r0 + 1e-9; }, {true, true, true}, false).vertices;
+  using Y = Eigen::Matrix<double, 1, 1>;
+  const double exact = runge_kutta(Y(r0), 0, until, 20000, [&](double, const Y& y) {
+    const double q = y[0] * y[0], h = h0 * (1 - r0 * r0) / (1 - q);
+    return Y(tension * y[0] * (1 - q) / (mu * h * (1 + 3 * q)));
+  })[0];
+  Run run(std::move(start), m, s, 1);
+  run.advance(until, s.steps);
+  Result r = run.result(mean_ring(run.state(), ring) / exact);
+  r.more = {{"hole_radius", exact}, {"far_rim_law", r0 * std::exp(tension * until / (mu * h0))}};
+  return r;
+}
+
+// V16: an annulus (radii 0.4 and 1) whose inner rim turns: u = A r + B/r, torque -4π μ h B on the inner rim, from the
+// reactions there; also the greatest error of u over the rim's speed.
+Result v16(const Settings& s) {
+  constexpr double mu = 100, h = 0.01, ri = 0.4, spin = 1, dt = 1e-6;
+  State start = film(make_annulus(ri, 1, mesh_options(s, 1)), h);
+  Model m = viscous(mu, s);
+  m.bending = Bending::none;
+  m.holds.push_back(all(start, {false, false, true}));
+  m.holds.push_back(hold(start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, {true, true, true}, false));
+  Hold inner = hold(start, [](const Vector3& x) { return x.norm() < ri + 1e-9; }, {true, true, true}, false);
+  inner.motion = [](double from, double to) {
+    RigidMotion motion;
+    motion.rotation = Eigen::AngleAxisd(spin * (to - from), Vector3::UnitZ()).toRotationMatrix();
+    return motion;
+  };
+  m.holds.push_back(inner);
+  const Instant i = solve_instant(start, m, dt);
+  double torque = 0, worst = 0;
+  for (const auto v : inner.vertices) {
+    const Vector3 x = i.end.segment<3>(3 * v), f = i.reaction.segment<3>(3 * v);
+    torque += x.cross(f).z();
+  }
+  const double b = spin * ri * ri / (1 - ri * ri); // u = B (1/r - r)
+  for (std::size_t v = 0; v < start.positions.size(); ++v) {
+    const Vector3 x = start.positions[v];
+    const Vector3 u = (i.end - i.begin).segment<3>(static_cast<Eigen::Index>(3 * v)) / dt;
+    const double r = x.norm();
+    worst = std::max(worst, (u - b * (1 / (r * r) - 1) * Vector3::UnitZ().cross(x)).norm() / (spin * ri));
+  }
+  Result result;
+  result.value = torque / (4 * pi * mu * h * b);
+  result.error = result.value - 1;
+  result.vertices = start.positions.size();
+  result.edge = mean_edge(start);
+  result.steps = 1;
+  result.iterations = i.iterations;
+  result.seconds = i.seconds;
+  result.more = {{"velocity_error", worst}};
+  return result;
+}
+
+// V17: a pinned square inviscid film: z = a sin(π x) sin(π y) sin(ω t), ω = π sqrt(2) sqrt(2γ/(ρ h)), one period; the
+// amplitude a = 1e-3 is that of the start velocity. Error: the mode's greatest deviation from a sin(ω t), over a.
+Result v17(const Settings& s) {
+  constexpr double rho = 1000, h = 1e-3, tension = 0.05, a = 1e-3;
+  const double omega = pi * std::sqrt(2.0) * std::sqrt(2 * tension / (rho * h));
+  State start = film(make_rectangle(1, 1, mesh_options(s, 1)), h);
+  Model m;
+  m.density = rho;
+  m.surface_tension = tension;
+  const auto shape = [](const Vector3& x) { return std::cos(pi * x.x()) * std::cos(pi * x.y()); };
+  for (std::size_t v = 0; v < start.positions.size(); ++v)
+    start.velocities[v].z() = a * omega * shape(start.positions[v]);
+  m.holds.push_back(all(start, {true, true, false}));
+  m.holds.push_back(hold(start, [](const Vector3& x) { return std::max(std::abs(x.x()), std::abs(x.y())) > 0.5 - 1e-9; },
+                         {true, true, true}, false));
+  double worst = 0;
+  Run run(std::move(start), m, s, 1);
+  run.advance(2 * pi / omega, s.steps, [&](const State& at) {
+    double up = 0, down = 0;
+    for (const Vector3& x : at.positions)
+      up += shape(x) * x.z(), down += shape(x) * shape(x);
+    const double off = up / down / a - std::sin(omega * at.time);
+    worst = std::abs(off) > std::abs(worst) ? off : worst;
+  });
+  return run.result(1 + worst);
+}
+
+} // namespace sheet::validation

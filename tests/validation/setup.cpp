@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/validation/setup.h"
+
+#include <chrono>
+
+#include "libsheet/geometry/area.h"
+
+namespace sheet::validation {
+
+MeshOptions mesh_options(const Settings& s, double length) {
+  MeshOptions o;
+  o.pattern = s.pattern;
+  o.edge_length = s.edge * length;
+  o.seed = s.seed;
+  return o;
+}
+
+TriangleMesh strip_mesh(const Settings& s, double length, double width) {
+  TriangleMesh mesh = make_rectangle(length, width, mesh_options(s, length));
+  for (Vector3& x : mesh.positions)
+    x += Vector3(length / 2, width / 2, 0);
+  return mesh;
+}
+
+State film(const TriangleMesh& mesh, double thickness) {
+  State s;
+  s.mesh = std::make_shared<const Connectivity>(connect(mesh.positions.size(), mesh.triangles));
+  s.positions = mesh.positions;
+  s.velocities.assign(mesh.positions.size(), Vector3::Zero());
+  for (const Triangle& t : mesh.triangles)
+    s.volumes.push_back(thickness * TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area);
+  return s;
+}
+
+Model viscous(double viscosity, const Settings& s) {
+  Model m;
+  m.viscosity = viscosity;
+  m.inertia = false;
+  m.arcs = s.bending == Shell::arcs;
+  m.bending = s.bending == Shell::none          ? Bending::none
+              : s.bending == Shell::hinge       ? Bending::hinge
+              : s.bending == Shell::hinge_paper ? Bending::hinge_paper
+                                                : Bending::mid_edge;
+  return m;
+}
+
+Hold hold(const State& s, const Where& at, std::array<bool, 3> axes, bool clamped) {
+  Hold h;
+  h.axes = axes;
+  for (std::uint32_t v = 0; v < s.positions.size(); ++v)
+    if (at(s.positions[v]))
+      h.vertices.push_back(v);
+  if (clamped)
+    for (std::uint32_t e = 0; e < s.mesh->edges.size(); ++e)
+      if (s.mesh->on_rim(e) && at(s.positions[s.mesh->edges[e][0]]) && at(s.positions[s.mesh->edges[e][1]]))
+        h.clamped_edges.push_back(e);
+  return h;
+}
+
+Hold clamp_by_ears(State& s, const Where& at) {
+  Hold h = hold(s, at, {true, true, true}, false);
+  std::vector<Triangle> triangles = s.mesh->triangles;
+  for (std::size_t t = 0; t < s.mesh->triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triangle v = s.mesh->triangles[t];
+      const auto a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+      if (!s.mesh->on_rim(s.mesh->triangle_edges[t][k]) || !at(s.positions[a]) || !at(s.positions[b]))
+        continue;
+      const Vector3 along = (s.positions[b] - s.positions[a]).normalized(), arm = s.positions[v[k]] - s.positions[a];
+      const auto ear = static_cast<std::uint32_t>(s.positions.size());
+      s.positions.push_back(s.positions[a] + 2 * arm.dot(along) * along - arm);
+      s.velocities.push_back(Vector3::Zero());
+      s.volumes.push_back(s.volumes[t]);
+      triangles.push_back({b, a, ear});
+      h.vertices.push_back(ear);
+    }
+  s.mesh = std::make_shared<const Connectivity>(connect(s.positions.size(), triangles));
+  return h;
+}
+
+Hold clamp(State& s, const Settings& settings, const Where& at) {
+  if (settings.bending == Shell::hinge || settings.bending == Shell::hinge_paper)
+    return clamp_by_ears(s, at);
+  return hold(s, at, {true, true, true}, true);
+}
+
+Run::Run(State start, Model model, const Settings& settings, double length)
+    : state_(std::move(start)), model_(std::move(model)), settings_(settings), length_(length) {}
+
+void Run::advance(double duration, int steps, const std::function<void(const State&)>& each) {
+  StepOptions options;
+  options.scheme = settings_.scheme;
+  options.thickness = settings_.thickness;
+  options.newton.tolerance = tolerance;
+  Stepper stepper(model_, options);
+  for (int k = 0; k < steps; ++k) {
+    const auto before = std::chrono::steady_clock::now();
+    const StepReport r = stepper.step(state_, duration / steps);
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    iterations_ += r.newton.iterations;
+    failed_ += r.failed;
+    if (each)
+      each(state_);
+  }
+  steps_ += steps;
+}
+
+Result Run::result(double value) const {
+  Result r;
+  r.value = value;
+  r.error = value - 1;
+  r.seconds = seconds_;
+  r.vertices = state_.positions.size();
+  r.edge = mean_edge(state_) / length_;
+  r.steps = steps_;
+  r.iterations = iterations_;
+  r.failed = failed_;
+  return r;
+}
+
+double mean_radius(const State& s) {
+  double sum = 0;
+  for (const Vector3& x : s.positions)
+    sum += x.norm();
+  return sum / static_cast<double>(s.positions.size());
+}
+
+double radial_speed(const State& s) {
+  double sum = 0;
+  for (std::size_t v = 0; v < s.positions.size(); ++v)
+    sum += s.velocities[v].dot(s.positions[v].normalized());
+  return sum / static_cast<double>(s.positions.size());
+}
+
+double sheet_area(const State& s) {
+  double sum = 0;
+  for (const Triangle& t : s.mesh->triangles)
+    sum += TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area;
+  return sum;
+}
+
+double mean_edge(const State& s) {
+  double sum = 0;
+  for (const Edge& e : s.mesh->edges)
+    sum += (s.positions[e[1]] - s.positions[e[0]]).norm();
+  return sum / static_cast<double>(s.mesh->edges.size());
+}
+
+} // namespace sheet::validation

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// V5, V6: a strip pulled by a constant force. V13: the viscous catenary. V15: a strip compressed on a bath.
+#include "tests/validation/instant.h"
+
+namespace sheet::validation {
+
+namespace {
+
+constexpr double kWidth = 0.25;
+
+bool near(double a, double b) { return std::abs(a - b) < 1e-9; }
+
+// Edges of the rim along the two long sides.
+void clamp_sides(const State& s, Hold& side) {
+  for (std::uint32_t e = 0; e < s.mesh->edges.size(); ++e) {
+    const double a = s.positions[s.mesh->edges[e][0]].y(), b = s.positions[s.mesh->edges[e][1]].y();
+    if (s.mesh->on_rim(e) && near(a, b) && (near(a, 0) || near(a, kWidth)))
+      side.clamped_edges.push_back(e);
+  }
+}
+
+Hold sides_across(const State& s) {
+  Hold side = hold(s, [](const Vector3& x) { return near(x.y(), 0) || near(x.y(), kWidth); }, {false, true, false},
+                   false);
+  clamp_sides(s, side);
+  return side;
+}
+
+// The load is a very long, soft spring k (d - L) between each vertex of the moving end and one of the held end, in
+// proportion to the edges beside it; the reference is told so: L' = k (d - L) L²/(c μ V), c = 3 free, 4 planar.
+Result pulled(const Settings& s, bool planar) {
+  constexpr double mu = 100, h = 0.01, rest = 1e3, pull = 1.2; // N
+  const double c = planar ? 4 : 3, volume = kWidth * h, until = 0.5 * c * mu * volume / pull; // the length doubles
+  State start = film(strip_mesh(s, 1, kWidth), h);
+  Model m = viscous(mu, s);
+  m.bending = Bending::none;
+  m.holds.push_back(hold(start, [](const Vector3& x) { return near(x.x(), 0); }, {true, false, false}, false));
+  m.holds.push_back(planar ? sides_across(start)
+                           : hold(start, [](const Vector3& x) { return x.norm() < 1e-9; }, {true, true, true}, false));
+  m.holds.push_back(hold(start, [](const Vector3&) { return true; }, {false, false, true}, false));
+  const auto at_end = [&](std::uint32_t v) { return near(start.positions[v].x(), 1); };
+  std::uint32_t anchor = 0;
+  std::array<std::uint32_t, 2> idle{kNone, kNone}; // fill the spring's four places with weight 0
+  for (std::uint32_t v = 0; v < start.positions.size(); ++v)
+    if (near(start.positions[v].x(), 0)) {
+      anchor = start.positions[v].norm() < 1e-9 ? v : anchor;
+      if (start.positions[v].norm() > 1e-9)
+        idle = {idle[1], v};
+    }
+  std::vector<double> share(start.positions.size(), 0);
+  for (const Edge& e : start.mesh->edges)
+    if (at_end(e[0]) && at_end(e[1]))
+      for (const auto v : e)
+        share[v] += (start.positions[e[1]] - start.positions[e[0]]).norm() / (2 * kWidth);
+  for (std::uint32_t v = 0; v < share.size(); ++v)
+    if (share[v] > 0) {
+      ContactSpring spring;
+      spring.vertices = {v, anchor, idle[0], idle[1]};
+      spring.weights = {1, -1, 0, 0};
+      spring.normal = Vector3::UnitX();
+      spring.rest = rest;
+      spring.normal_stiffness = share[v] * pull / (rest - 1);
+      m.contacts.push_back(spring);
+    }
+  using Y = Eigen::Matrix<double, 1, 1>;
+  const double k = pull / (rest - 1);
+  const double exact = runge_kutta(Y(1.0), 0, until, 20000, [&](double, const Y& y) {
+    return Y(k * (rest - y[0]) * y[0] * y[0] / (c * mu * volume));
+  })[0];
+  Run run(std::move(start), m, s, 1);
+  run.advance(until, s.steps);
+  double length = 0;
+  for (std::size_t v = 0; v < share.size(); ++v)
+    length += share[v] * run.state().positions[v].x();
+  return run.result(length / exact);
+}
+
+} // namespace
+
+Result v5(const Settings& s) { return pulled(s, false); } // sides free: Trouton's 3 μ
+Result v6(const Settings& s) { return pulled(s, true); }  // width held: 4 μ
+
+// V13: stretching holds the weight: tension q L²/(8 s) = 4 μ h d/dt(8 s²/(3 L²)), so s³ = 9 ρ g L⁴ t/(512 μ): a parabola
+// that sags from 1 to 2 % of the span (the formula neglects (s/L)²: about 1e-3). Pinned ends, plane strain.
+Result v13(const Settings& s) {
+  constexpr double mu = 100, rho = 1000, g = 9.81, h = 1e-4, first = 0.01, last = 0.02;
+  const auto when = [](double sag) { return 512 * mu * sag * sag * sag / (9 * rho * g); };
+  State start = film(strip_mesh(s, 1, kWidth), h);
+  for (std::size_t v = 0; v < start.positions.size(); ++v) {
+    Vector3& x = start.positions[v];
+    const double shape = -4 * x.x() * (1 - x.x());
+    x.z() = first * shape;
+    start.velocities[v].z() = first / (3 * when(first)) * shape; // ds/dt = s/(3 t)
+  }
+  start.time = when(first);
+  Model m = viscous(mu, s);
+  m.density = rho;
+  m.gravity = {0, 0, -g};
+  m.holds.push_back(sides_across(start));
+  m.holds.push_back(hold(start, [](const Vector3& x) { return near(x.x(), 0) || near(x.x(), 1); }, {true, true, true},
+                         false));
+  Run run(std::move(start), m, s, 1);
+  run.advance(when(last) - when(first), s.steps);
+  // The parabola of least squares.
+  double up = 0, down = 0;
+  for (const Vector3& x : run.state().positions) {
+    const double shape = 4 * x.x() * (1 - x.x());
+    up -= shape * x.z(), down += shape * shape;
+  }
+  return run.result(up / down / last);
+}
+
+// V15: growth rate of a perturbation a cos(k x) of a strip that is shortened at the rate e, P = 4 μ h e, on a bath:
+// σ = ((P - 2γ) k² - ρ_b g)/(D k⁴), D = μ h³/3, fastest at k_m² = 2 ρ_b g/(P - 2γ). The strip is two wavelengths long,
+// its ends move inwards and keep their normals upright. Sets 1 to 5: k/k_m = 0.8, 0.9, 1, 1.25, 1.6. The edge length is
+// relative to the wavelength.
+Result v15(const Settings& s) {
+  constexpr double mu = 1000, h = 0.01, gravity = 10, bath = 1000, tension = 0.5, wave_m = 0.25;
+  constexpr double factors[5] = {0.8, 0.9, 1, 1.25, 1.6};
+  const double km = 2 * pi / wave_m, net = 2 * bath * gravity / (km * km); // P - 2γ
+  const double rate = (net + 2 * tension) / (4 * mu * h);
+  const double k = factors[s.set - 1] * km, wave = 2 * pi / k, length = 2 * wave, bending = mu * h * h * h / 3;
+  const auto sigma = [&](double q) { return (net * q * q - bath * gravity) / (bending * q * q * q * q); };
+  const double amplitude = 1e-4 * h;
+  Settings scaled = s;
+  scaled.edge = s.edge * wave;
+  TriangleMesh mesh = make_rectangle(length, kWidth * wave, mesh_options(scaled, 1));
+  State start = film(mesh, h);
+  const std::vector<Vector3> flat = start.positions;
+  for (std::size_t v = 0; v < flat.size(); ++v) {
+    const double shape = amplitude * std::cos(k * (flat[v].x() + length / 2));
+    start.positions[v].z() = shape;
+    start.velocities[v] = {-rate * flat[v].x(), 0, sigma(k) * shape};
+  }
+  Model m = viscous(mu, s);
+  m.surface_tension = tension;
+  m.gravity = {0, 0, -gravity};
+  m.bath = BathModel{bath, 0};
+  const double half = kWidth * wave / 2;
+  Hold side = hold(start, [&](const Vector3& x) { return near(std::abs(x.y()), half); }, {false, true, false}, false);
+  for (std::uint32_t e = 0; e < start.mesh->edges.size(); ++e) {
+    const double a = flat[start.mesh->edges[e][0]].y(), b = flat[start.mesh->edges[e][1]].y();
+    if (start.mesh->on_rim(e) && near(a, b) && near(std::abs(a), half))
+      side.clamped_edges.push_back(e);
+  }
+  m.holds.push_back(side);
+  for (const double end : {-0.5, 0.5}) {
+    Hold h_end = hold(start, [&](const Vector3& x) { return near(x.x(), end * length); }, {true, false, false}, true);
+    h_end.motion = [=](double from, double to) {
+      RigidMotion motion;
+      motion.shift = {-end * length * rate * (to - from), 0, 0};
+      return motion;
+    };
+    m.holds.push_back(h_end);
+  }
+  const double dt = 2e-3 / sigma(km);
+  Run run(std::move(start), m, s, wave);
+  run.tolerance = 1e-13;
+  run.advance(dt, 1);
+  double up = 0, down = 0;
+  for (std::size_t v = 0; v < flat.size(); ++v) {
+    const double shape = std::cos(k * (flat[v].x() + length / 2));
+    up += shape * run.state().positions[v].z(), down += shape * shape;
+  }
+  const double measured = std::log(up / down / amplitude) / dt;
+  Result r = run.result(measured / sigma(k));
+  r.more = {{"k_over_km", factors[s.set - 1]}, {"growth_rate", measured / sigma(km)}, {"exact", sigma(k) / sigma(km)}};
+  return r;
+}
+
+} // namespace sheet::validation
