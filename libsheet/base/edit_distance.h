@@ -12,7 +12,8 @@ namespace sheet {
 // (optimal string alignment distance [Damerau 1964]).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// The word nearest to `word`, or "" if none is near: more than a third of its letters (at least 2) would have to change.
+// The word nearest to `word`, or "" if none is near: more than a third of its letters (at least 2) would have to
+// change.
 [[nodiscard]] std::string nearest_word(std::string_view word, std::span<const std::string> known);
 
 } // namespace sheet

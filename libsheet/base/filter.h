@@ -18,9 +18,9 @@ struct FilterOptions {
 // Declares INPUT, -o and --no-provenance.
 void declare_filter_options(Tool& tool, FilterOptions& options);
 
-// Reads every frame of the input, lets `work` change it, adds the tool's provenance, writes it; at the end of the input the
-// end mark. An Error thrown by `work` gets the number of the frame; then the output has no end mark, so that everybody
-// downstream knows that it was cut short.
+// Reads every frame of the input, lets `work` change it, adds the tool's provenance, writes it; at the end of the input
+// the end mark. An Error thrown by `work` gets the number of the frame; then the output has no end mark, so that
+// everybody downstream knows that it was cut short.
 void run_filter(const Tool& tool, const FilterOptions& options, const std::function<void(formats::Frame&)>& work);
 
 // Counts `line` in the frame's provenance (formats/sheet.md, section 5).

@@ -14,7 +14,7 @@
 namespace sheet {
 
 class Tool {
-public:
+ public:
   // `summary`: one line without full stop; `description`: a paragraph or more for help and man page.
   Tool(std::string name, std::string summary, std::string description);
 
@@ -23,8 +23,8 @@ public:
     omit,   // it does not (verbosity, threads, file names)
   };
 
-  // `names`: "--fps" or "-o,--output". `placeholder` names the value and its unit ("FPS", "SECONDS"). The value that the
-  // variable has now is the default. An optional is a setting that may be absent; its default is that.
+  // `names`: "--fps" or "-o,--output". `placeholder` names the value and its unit ("FPS", "SECONDS"). The value that
+  // the variable has now is the default. An optional is a setting that may be absent; its default is that.
   void option(std::string_view names, double& value, std::string_view placeholder, std::string_view text);
   void option(std::string_view names, std::optional<double>& value, std::string_view placeholder,
               std::string_view text);
@@ -39,7 +39,8 @@ public:
   void flag(std::string_view names, bool& value, std::string_view text, Provenance provenance = Provenance::record);
   // One of several words; `value` is the index of the chosen one.
   void choice(std::string_view names, std::size_t& value, std::vector<std::string> words, std::string_view text);
-  // A value that the caller parses: `set` throws Error to refuse, `print` gives the text of the value now ("" for none).
+  // A value that the caller parses: `set` throws Error to refuse, `print` gives the text of the value now ("" for
+  // none).
   void custom(std::string_view names, std::string_view placeholder, std::string_view text,
               std::function<void(const std::string&)> set, std::function<std::string()> print,
               Provenance provenance = Provenance::record);
@@ -52,8 +53,9 @@ public:
   // Further man page section.
   void section(std::string title, std::string text);
 
-  // Declares the options of every program (--help, --version, -q, -v, --threads), parses, calls `body`, turns errors into
-  // messages on stderr and exit codes. SIGPIPE is ignored: writes to a closed pipe throw and end the program quietly.
+  // Declares the options of every program (--help, --version, -q, -v, --threads), parses, calls `body`, turns errors
+  // into messages on stderr and exit codes. SIGPIPE is ignored: writes to a closed pipe throw and end the program
+  // quietly.
   [[nodiscard]] int run(int argc, char** argv, const std::function<void()>& body);
 
   // The program, its version and the options that differ from their defaults, in the order of declaration:
@@ -62,7 +64,7 @@ public:
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
-private:
+ private:
   struct Option {
     std::string names, placeholder, text, default_text;
     bool is_flag = false, is_list = false, is_argument = false, is_required = false;
