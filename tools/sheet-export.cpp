@@ -59,7 +59,7 @@ void export_frames(const Options& o) {
                   "sheet-select",
                   in.name());
     const std::string path = name.of(index);
-    write_file(path, encode_mesh(o.solidify ? to_solid_mesh(frame) : to_foreign_mesh(frame), format));
+    write_file(path, encode_mesh(o.solidify ? sheet::to_solid_mesh(frame) : sheet::to_foreign_mesh(frame), format));
     collection.push_back({frame.time, std::filesystem::path(path).filename().string()});
   }
   if (reader.frames() == 0)

@@ -228,7 +228,7 @@ void Tool::parse(int argc, char** argv) {
       continue;
     }
     CLI::Option* o = app.add_option(option.names, set);
-    o->expected(option.is_list ? (option.is_argument ? -1 : 1) : 1);
+    o->expected(1, option.is_list && option.is_argument ? CLI::detail::expected_max_vector_size : 1);
     if (option.is_list && !option.is_argument)
       o->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1)->allow_extra_args(false);
     else if (!option.is_list)

@@ -63,7 +63,7 @@ bool has_shape(const Frame& frame) {
 }
 
 void check_rules(const Frame& frame, Findings& found) {
-  constexpr std::string_view text = "rules of the format are broken";
+  constexpr std::string_view text = "broken rules of the format";
   for (const std::string_view name : {"position", "triangle", "volume"})
     if (frame.find(name) == nullptr)
       found.add("rule", text, "array \"{}\" is missing", name);
@@ -86,7 +86,7 @@ void check_scene(const Frame& frame, Findings& found) {
   try {
     (void)parse_scene(scene->text(), "scene");
   } catch (const Error& error) {
-    found.add("scene", "the scene cannot be read", "{}", error.what());
+    found.add("scene", "scenes that cannot be read", "{}", error.what());
   }
 }
 
@@ -94,7 +94,7 @@ template <class T> void check_finite(const Array& array, Findings& found) {
   const auto values = array.values<T>();
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
-      found.add("not_finite", "values are not finite", "array \"{}\", row {}, component {} is {}", array.name,
+      found.add("not_finite", "values that are not finite", "array \"{}\", row {}, component {} is {}", array.name,
                 i / array.components, i % array.components, values[i]);
 }
 
@@ -109,24 +109,24 @@ std::vector<bool> check_indices(const Frame& frame, Findings& found) {
         used[v] = true;
       } else {
         usable[t] = false;
-        found.add("out_of_range", "triangles name vertices that do not exist", "triangle {} names vertex {} of {}", t,
+        found.add("out_of_range", "corners at vertices that do not exist", "triangle {} names vertex {} of {}", t,
                   v, frame.vertices);
       }
   for (std::uint64_t t = 0; t < corners.size(); ++t) {
     const Corners& c = corners[t];
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
       usable[t] = false;
-      found.add("repeated", "triangles name a vertex twice", "triangle {} names vertices {} {} {}", t, c[0], c[1],
+      found.add("repeated", "triangles that name a vertex twice", "triangle {} names vertices {} {} {}", t, c[0], c[1],
                 c[2]);
     }
   }
   const auto v = volumes(frame);
   for (std::uint64_t t = 0; t < v.size(); ++t)
     if (v[t] <= 0) // what is not a number has been found already
-      found.add("volume", "volumes are not positive", "triangle {} has {} m^3", t, v[t]);
+      found.add("volume", "volumes that are not positive", "triangle {} has {} m^3", t, v[t]);
   for (std::uint64_t i = 0; i < used.size(); ++i)
     if (!used[i])
-      found.add("unused", "vertices belong to no triangle", "vertex {}", i);
+      found.add("unused", "vertices that belong to no triangle", "vertex {}", i);
   for (std::uint64_t t = 0; t < corners.size(); ++t)
     usable[t] = usable[t] &&
                 std::all_of(corners[t].begin(), corners[t].end(), [&](std::uint32_t i) { return x[i].allFinite(); });
@@ -141,7 +141,7 @@ void check_duplicates(std::span<const Side> sides, std::span<const Corners> corn
       const std::uint32_t third = corners[edge[i].triangle][edge[i].opposite];
       const auto [at, is_new] = first.try_emplace(third, edge[i].triangle);
       if (!is_new && third > edge[i].high)
-        found.add("duplicate", "triangles have the same vertices as another", "triangle {} as triangle {}",
+        found.add("duplicate", "triangles with the same vertices as another", "triangle {} as triangle {}",
                   edge[i].triangle, at->second);
     }
   });
@@ -153,18 +153,18 @@ void check_connections(const Frame& frame, Findings& found) {
   check_duplicates(sides, corners, found);
   for_each_edge(sides, [&](std::span<const Side> edge) {
     if (edge.size() > 2)
-      found.add("non_manifold", "edges have more than two triangles", "edge {} {} has {}: {}, {}, {}{}", edge[0].low,
+      found.add("non_manifold", "edges with more than two triangles", "edge {} {} has {}: {}, {}, {}{}", edge[0].low,
                 edge[0].high, edge.size(), edge[0].triangle, edge[1].triangle, edge[2].triangle,
                 edge.size() > 3 ? ", ..." : "");
   });
   for_each_edge(sides, [&](std::span<const Side> edge) {
     if (edge.size() == 2 && edge[0].ascending == edge[1].ascending)
-      found.add("orientation", "edges have triangles with opposite positive sides", "edge {} {}: triangles {} and {}",
+      found.add("orientation", "edges whose triangles have opposite positive sides", "edge {} {}: triangles {} and {}",
                 edge[0].low, edge[0].high, edge[0].triangle, edge[1].triangle);
   });
   const Fans fans(corners, sides);
   for (const std::uint32_t v : find_pinched(corners, frame.vertices, fans))
-    found.add("pinched", "vertices join triangles that are no neighbours there", "vertex {}", v);
+    found.add("pinched", "vertices that join triangles which are no neighbours there", "vertex {}", v);
 }
 
 void check_geometry(const Frame& frame, std::vector<bool> usable, const CheckOptions& options, Findings& found) {
@@ -172,17 +172,17 @@ void check_geometry(const Frame& frame, std::vector<bool> usable, const CheckOpt
   const auto x = positions(frame);
   for (const std::uint64_t t : find_degenerate(x, corners, usable)) {
     usable[t] = false;
-    found.add("degenerate", "triangles have their corners on a line", "triangle {} at vertices {} {} {}", t,
+    found.add("degenerate", "triangles with their corners on a line", "triangle {} at vertices {} {} {}", t,
               corners[t][0], corners[t][1], corners[t][2]);
   }
   if (!options.intersections)
     return;
   const Intersections result = find_intersections(x, corners, usable, options.examples);
   for (const auto& [first, second] : result.pairs)
-    found.add("intersection", "pairs of triangles intersect", "triangles {} and {}", first, second);
+    found.add("intersection", "pairs of triangles that intersect", "triangles {} and {}", first, second);
   if (result.count > result.pairs.size()) {
     if (result.pairs.empty())
-      found.add("intersection", "pairs of triangles intersect", "");
+      found.add("intersection", "pairs of triangles that intersect", "");
     found.add_uncounted(result.count - std::max<std::size_t>(result.pairs.size(), 1));
   }
 }
@@ -197,7 +197,7 @@ std::vector<Finding> check(const Frame& frame, const CheckOptions& options) {
     std::uint64_t edges = 0;
     for_each_edge(sorted_sides(triangles(frame), frame.vertices), [&](std::span<const Side>) { ++edges; });
     if (edges != frame.edges)
-      found.add("rule", "rules of the format are broken", "the frame counts {} edges, its triangles have {}",
+      found.add("rule", "broken rules of the format", "the frame counts {} edges, its triangles have {}",
                 frame.edges, edges);
   }
   check_scene(frame, found);

@@ -16,7 +16,7 @@ struct CheckOptions {
 
 struct Finding {
   std::string_view kind;             // one word for programs: "intersection"
-  std::string_view text;             // for people: "pairs of triangles intersect"
+  std::string_view text;             // for people: "pairs of triangles that intersect"
   std::uint64_t count = 0;           // of places
   std::vector<std::string> examples; // the first places
 };

@@ -25,7 +25,7 @@ std::string check_kinds() {
 std::string findings_text(const formats::Frame& frame, std::uint64_t index, std::span<const Finding> findings) {
   std::string out;
   for (const Finding& f : findings) {
-    out += fmt::format("frame {} (step {}): {}: {} {}\n", index, frame.step, f.kind, f.count, f.text);
+    out += fmt::format("frame {} (step {}): {}: {} ({})\n", index, frame.step, f.kind, f.count, f.text);
     for (const std::string& example : f.examples)
       out += fmt::format("  {}\n", example);
     if (f.count > f.examples.size() && !f.examples.empty())
