@@ -56,8 +56,11 @@ Hold where(const State& s, auto&& chosen) {
   return hold;
 }
 
+bool arcs = false; // the first argument is "arcs"
+
 Model sag(const State& s) {
   Model m;
+  m.arcs = arcs;
   m.viscosity = 100;
   m.density = 1000;
   m.gravity = {0, 0, -9.81};
@@ -68,7 +71,8 @@ Model sag(const State& s) {
 
 } // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  arcs = argc > 1 && std::string(argv[1]) == "arcs";
   std::printf("case,dt,steps,substeps,failed,euler,newton,factorizations,positive,shifted,halvings,monotone,lowest_z,"
               "seconds,outcome\n");
   const test::Mesh square = test::rectangle(1, 1, 20, 20, 0.2);
