@@ -78,7 +78,20 @@ stream_reader() {
 @test "output to a full disk is exit code 6, a reader that has gone is none" {
   stream_reader || skip "reads no stream from standard input"
   [[ $PROGRAM != sheet-check ]] || skip "prints nothing if all is well"
-  make_grid 40 > grid.sheet
+  if [[ $PROGRAM == sheet-step ]]; then # it needs a scene
+    sheet-init - > grid.sheet << 'END'
+[sheet]
+shape = "disk"
+radius = 1
+edge_length = 0.2
+thickness = 0.01
+[material]
+viscosity = 100
+density = 1000
+END
+  else
+    make_grid 40 > grid.sheet
+  fi
   run -6 bash -c '"$PROGRAM" "$@" < grid.sheet > /dev/full' _ "${arguments[@]}"
   [[ $output == "$PROGRAM: "* ]]
   run -0 bash -c '(sleep 0.2; "$PROGRAM" "$@" < grid.sheet; echo $? > code) | true; cat code' _ "${arguments[@]}"
