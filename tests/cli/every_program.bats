@@ -63,6 +63,7 @@ stream_reader() {
   case $PROGRAM in
   sheet-init | sheet-loop | sheet-diff | sheet-parse) return 1 ;;
   sheet-export) arguments=(--format obj -o -) ;;
+  sheet-step) arguments=(--dt 0.01) ;;
   *) arguments=() ;;
   esac
 }
