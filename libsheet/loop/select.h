@@ -36,7 +36,7 @@ struct SelectOptions {
 };
 
 class Selector {
- public:
+public:
   using Write = std::function<void(const formats::Frame&)>;
   // Calls `write` with each frame that is picked, in the order of the stream.
   Selector(SelectOptions options, Write write);
@@ -46,7 +46,7 @@ class Selector {
   // The stream is at its end. Throws Error (bad_input), with the range there is, if no frame has been picked.
   void end();
 
- private:
+private:
   enum class Fate { out, in, open };
   struct Pending {
     std::int64_t index;
