@@ -40,7 +40,7 @@ const std::vector<Case>& cases() {
        "strip under its weight (1 clamped, 2 supported, 3 cantilever, 4 quarter-cylinder cantilever, 5 quarter-cylinder "
        "arch)",
        "start speed of the middle or tip", "", 5, at(1.0 / 16, 1), false, true, v12},
-      {"V13", "viscous catenary, sag from 1 to 2 %", "sag", "", 1, at(1.0 / 16, 40), true, true, v13},
+      {"V13", "viscous catenary, sag from 0.25 to 0.5 %", "sag", "", 1, at(1.0 / 16, 40), true, true, v13},
       {"V14", "patch rolled up: h/edge 1, 0.1, 0.01, 0.001, mesh turned by 0 (1-4), 30 (5-8), 45 degrees (9-12)",
        "dissipated power", "", 12, at(1.0 / 16, 1), false, true, v14},
       {"V15", "growth of waves in a compressed strip on a bath (k over the fastest: 0.8, 0.9, 1, 1.25, 1.6)",
