@@ -48,8 +48,8 @@ const std::vector<Case>& cases() {
       {"V16", "annulus sheared in its plane", "torque", "", 1, at(0.08, 1), false, true, v16},
       {"V17", "pinned square film oscillates for one period", "1 + greatest deviation of the mode over its amplitude", "",
        1, at(1.0 / 16, 64), true, true, v17},
-      {"V19", "quarter turn in one step (set 1: forces at the turned state; 2: the step itself)",
-       "1 + force over mu V/(dt edge), or greatest relative change of an edge", "", 2, at(0.15, 1), false, false, v19},
+      {"V19", "quarter turn in one step (set 1: forces at the turned state; 2: the step itself; 3: from rest)",
+       "1 + force over mu V/(dt edge), or greatest relative change of an edge", "", 3, at(0.15, 1), false, false, v19},
       {"V20", "thrown disk (set 1: linear momentum; 2: angular momentum; 3: energy balance)", "1 + relative defect", "",
        3, at(0.15, 20), true, false, v20},
   };
