@@ -3,7 +3,21 @@
 
 #include <cmath>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
 namespace sheet {
+
+namespace {
+
+// The angle that a director needs, beyond the smallest rotation of its edge, to turn as a rigid motion says.
+double angle_after(const RigidMotion& motion, const EdgeFrame& frame) {
+  const Vector3 t = motion.rotation * frame.tangent, wanted = motion.rotation * frame.director;
+  const Vector3 brought = frame.carried(0, t);
+  return std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
+}
+
+} // namespace
 
 std::vector<char> held_unknowns(const std::vector<Hold>& holds, const Stage& stage) {
   if (holds.empty())
@@ -33,15 +47,42 @@ void place_held(const std::vector<Hold>& holds, const Stage& stage, double to, U
     }
     if (stage.frames.empty())
       continue;
-    for (const auto e : hold.clamped_edges) {
-      // The angle between the director that the smallest rotation brings and the one that the motion brings.
-      const EdgeFrame& frame = stage.frames[e];
-      const Vector3 t = motion.rotation * frame.tangent, wanted = motion.rotation * frame.director;
-      const Vector3 brought = frame.carried(0, t);
-      u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] =
-          std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
-    }
+    for (const auto e : hold.clamped_edges)
+      u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] = angle_after(motion, stage.frames[e]);
   }
+}
+
+bool move_with_held(const std::vector<Hold>& holds, const Stage& stage, double to, Unknowns& u) {
+  const std::size_t count = fully_held(holds);
+  if (count < 3)
+    return false;
+  const auto& start = stage.start->positions;
+  Vector3 from = Vector3::Zero(), into = Vector3::Zero();
+  Matrix3 moment = Matrix3::Zero();
+  for (const int pass : {0, 1})
+    for (const Hold& hold : holds) {
+      if (!(hold.axes[0] && hold.axes[1] && hold.axes[2]))
+        continue;
+      const RigidMotion motion = hold.moved(stage.start->time, to);
+      for (const auto v : hold.vertices)
+        if (pass == 0) {
+          from += start[v] / static_cast<double>(count);
+          into += motion(start[v]) / static_cast<double>(count);
+        } else {
+          moment += (motion(start[v]) - into) * (start[v] - from).transpose();
+        }
+    }
+  const Eigen::JacobiSVD<Matrix3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3 flip = Matrix3::Identity();
+  flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  RigidMotion fit;
+  fit.rotation = svd.matrixU() * flip * svd.matrixV().transpose();
+  fit.shift = into - fit.rotation * from;
+  for (std::size_t v = 0; v < start.size(); ++v)
+    u.segment<3>(static_cast<Eigen::Index>(3 * v)) = fit(start[v]);
+  for (std::size_t e = 0; e < stage.frames.size(); ++e)
+    u[static_cast<Eigen::Index>(3 * start.size() + e)] = angle_after(fit, stage.frames[e]);
+  return true;
 }
 
 std::size_t fully_held(const std::vector<Hold>& holds) {

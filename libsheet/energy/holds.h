@@ -33,6 +33,10 @@ struct Hold {
 // Puts held unknowns where they are at the time `to`.
 void place_held(const std::vector<Hold>& holds, const Stage& stage, double to, Unknowns& u);
 
+// The unknowns of the whole sheet moved rigidly with what is held, the best fit [Kabsch 1976]; a starting point that
+// costs nothing if all holds move alike. False if fewer than three vertices are held.
+[[nodiscard]] bool move_with_held(const std::vector<Hold>& holds, const Stage& stage, double to, Unknowns& u);
+
 // Number of vertices held along all axes.
 [[nodiscard]] std::size_t fully_held(const std::vector<Hold>& holds);
 

@@ -148,8 +148,12 @@ double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
   gradient.noalias() += by_u.transpose() * sg;
   const Eigen::Matrix<double, 3, 12> cu = cg * by_u;
   hessian.noalias() += by_u.transpose() * cu;
-  if (definite)
+  if (definite) {
+    // ∂²g/∂θ² = -g: kept where it stiffens, without which Newton overshoots at sharp folds.
+    for (int k = 0; k < 3; ++k)
+      hessian(9 + k, 9 + k) += std::max(0.0, -sg[k] * height[k].value);
     return w;
+  }
 
   for (int k = 0; k < 3; ++k) {
     const Corner at = corner(i, k);

@@ -53,12 +53,15 @@ inline Dihedral dihedral(const Vector3& x0, const Vector3& x1, const Vector3& x2
       h.block<3, 3>(0, 3 + 3 * s) = force_e.transpose();
       h.block<3, 3>(0, 0) -= lambda[s] * force_e + force[s] * ((arm[s] - 2 * lambda[s] * e) / l2).transpose();
     }
-    Eigen::Matrix<double, 9, 12> map = Eigen::Matrix<double, 9, 12>::Zero();
-    for (int a = 0; a < 3; ++a) {
-      map.block<3, 3>(3 * a, 0) = -Matrix3::Identity();
-      map.block<3, 3>(3 * a, 3 + 3 * a) = Matrix3::Identity();
+    // From (e, arm1, arm2) to the vertices: x0 takes minus the sum of the others.
+    const auto sum = [](const Matrix3& p, const Matrix3& q, const Matrix3& r) { return Matrix3(-(p + q + r)); };
+    d.hessian.block<9, 9>(3, 3) = h;
+    for (int a = 0; a < 9; a += 3) {
+      d.hessian.block<3, 3>(0, 3 + a) = sum(h.block<3, 3>(0, a), h.block<3, 3>(3, a), h.block<3, 3>(6, a));
+      d.hessian.block<3, 3>(3 + a, 0) = d.hessian.block<3, 3>(0, 3 + a).transpose();
     }
-    d.hessian = map.transpose() * h * map;
+    d.hessian.block<3, 3>(0, 0) =
+        sum(d.hessian.block<3, 3>(0, 3), d.hessian.block<3, 3>(0, 6), d.hessian.block<3, 3>(0, 9));
   }
   return d;
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace sheet {
 
@@ -13,9 +15,15 @@ namespace {
 
 constexpr double kLeastShift = 1e-14; // the first one tried when a factorisation fails, times 100 each
 constexpr double kGreatestShift = 1e2;
-constexpr double kSufficient = 1e-4; // of the predicted decrease [Armijo]
-constexpr double kRoundOff = 1e-14;  // of the sum of the magnitudes of the elements' energies
+constexpr double kSufficient = 1e-4;   // of the predicted decrease [Armijo]
+constexpr double kRoundOff = 1e-14;    // of the sum of the magnitudes of the elements' energies
+constexpr double kSpreadShift = 1e-10; // for a starting point only
 constexpr int kHalvings = 40;
+constexpr int kBeforeSlope = 3;    // halvings before the slope is asked
+constexpr double kSlopeKept = 0.5; // of the slope that may remain after a step accepted for its slope
+constexpr double kNear = 1e-2;     // steps below this make the exact Hessian worth another try
+constexpr double kSmall = 1e-3;    // steps below this are done if the potential has no more to gain
+constexpr int kReturns = 3;        // to the exact Hessian
 
 class Clock {
  public:
@@ -30,37 +38,6 @@ class Clock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// The unknowns' scale that gives the matrix a unit diagonal; the same for the three coordinates of a vertex.
-Eigen::VectorXd diagonal_scale(const SparseLower& a, const std::vector<std::uint32_t>& permutation,
-                               std::span<const char> held, std::size_t vertices) {
-  Eigen::VectorXd scale(a.size);
-  const auto diagonal = [&](int k) {
-    return a.values[static_cast<std::size_t>(a.starts[static_cast<std::size_t>(k)])];
-  };
-  for (int k = 0; k < a.size;) {
-    const int width = permutation[static_cast<std::size_t>(k)] < 3 * vertices ? 3 : 1;
-    double sum = 0;
-    int count = 0;
-    for (int d = 0; d < width; ++d)
-      if (held.empty() || !held[permutation[static_cast<std::size_t>(k + d)]]) {
-        sum += std::abs(diagonal(k + d));
-        ++count;
-      }
-    for (int d = 0; d < width; ++d) {
-      const bool fixed = !held.empty() && held[permutation[static_cast<std::size_t>(k + d)]];
-      scale[k + d] = fixed || sum == 0 ? 1 : std::sqrt(count / sum);
-    }
-    k += width;
-  }
-  return scale;
-}
-
-void apply_scale(SparseLower& a, const Eigen::VectorXd& s) {
-  for (int c = 0; c < a.size; ++c)
-    for (int p = a.starts[static_cast<std::size_t>(c)]; p < a.starts[static_cast<std::size_t>(c) + 1]; ++p)
-      a.values[static_cast<std::size_t>(p)] *= s[c] * s[a.rows[static_cast<std::size_t>(p)]];
-}
-
 } // namespace
 
 LinearSystem::LinearSystem(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles)
@@ -72,6 +49,70 @@ LinearSystem::LinearSystem(std::shared_ptr<const Connectivity> mesh, const Terms
   seconds_analysis = clock.lap();
 }
 
+Eigen::VectorXd scale_to_unit_diagonal(SparseLower& a, const std::vector<std::uint32_t>& permutation,
+                                       std::span<const char> held, std::size_t vertices) {
+  Eigen::VectorXd scale(a.size);
+  for (int k = 0; k < a.size;) {
+    const int width = permutation[static_cast<std::size_t>(k)] < 3 * vertices ? 3 : 1;
+    double sum = 0;
+    int count = 0;
+    const auto fixed = [&](int row) { return !held.empty() && held[permutation[static_cast<std::size_t>(row)]]; };
+    for (int row = k; row < k + width; ++row)
+      if (!fixed(row)) {
+        sum += std::abs(a.values[static_cast<std::size_t>(a.starts[static_cast<std::size_t>(row)])]);
+        ++count;
+      }
+    for (int row = k; row < k + width; ++row)
+      scale[row] = fixed(row) || sum == 0 ? 1 : std::sqrt(count / sum);
+    k += width;
+  }
+  tbb::parallel_for(tbb::blocked_range<int>(0, a.size, 1024), [&](const auto& range) {
+    for (int c = range.begin(); c < range.end(); ++c)
+      for (int p = a.starts[static_cast<std::size_t>(c)]; p < a.starts[static_cast<std::size_t>(c) + 1]; ++p)
+        a.values[static_cast<std::size_t>(p)] *= scale[c] * scale[a.rows[static_cast<std::size_t>(p)]];
+  });
+  return scale;
+}
+
+bool spread_held_motion(LinearSystem& system, const Terms& terms, std::span<const char> held, const Unknowns& target,
+                        Unknowns& u) {
+  const auto& permutation = system.assembly.pattern().permutation();
+  Eigen::VectorXd gradient;
+  system.assembly.derivatives(terms, u, true, {}, gradient, system.matrix);
+  SparseLower& a = system.matrix;
+  Eigen::VectorXd rhs(u.size()), move(u.size());
+  for (Eigen::Index k = 0; k < u.size(); ++k) {
+    const auto unknown = permutation[static_cast<std::size_t>(k)];
+    move[k] = held[unknown] ? target[unknown] - u[unknown] : 0;
+    rhs[k] = -gradient[unknown];
+  }
+  for (int c = 0; c < a.size; ++c) {
+    const bool fixed = held[permutation[static_cast<std::size_t>(c)]];
+    for (auto p = static_cast<std::size_t>(a.starts[static_cast<std::size_t>(c)]);
+         p < static_cast<std::size_t>(a.starts[static_cast<std::size_t>(c) + 1]); ++p) {
+      const int r = a.rows[p];
+      rhs[r] -= a.values[p] * move[c];
+      if (r != c)
+        rhs[c] -= a.values[p] * move[r];
+      if (fixed || held[permutation[static_cast<std::size_t>(r)]])
+        a.values[p] = r == c ? 1 : 0;
+    }
+  }
+  for (Eigen::Index k = 0; k < u.size(); ++k)
+    if (held[permutation[static_cast<std::size_t>(k)]])
+      rhs[k] = move[k];
+  const Eigen::VectorXd scale = scale_to_unit_diagonal(a, permutation, held, system.assembly.vertices());
+  if (!system.cholesky.factorize(a, kSpreadShift))
+    return false;
+  const Eigen::VectorXd step = system.cholesky.solve(rhs.cwiseProduct(scale));
+  for (Eigen::Index k = 0; k < u.size(); ++k)
+    if (!held[permutation[static_cast<std::size_t>(k)]])
+      u[permutation[static_cast<std::size_t>(k)]] += scale[k] * step[k];
+    else
+      u[permutation[static_cast<std::size_t>(k)]] += move[k];
+  return u.allFinite();
+}
+
 NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const char> held,
                       const Eigen::VectorXd& scale, double floor, const NewtonOptions& options, Unknowns& u) {
   NewtonReport report;
@@ -80,6 +121,7 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
   Eigen::VectorXd gradient, rhs(u.size()), step(u.size());
   bool positive = options.hessian == HessianChoice::positive;
   double shift = floor;
+  int returns = 0;
   for (;;) {
     clock.lap();
     EnergySum energy = system.assembly.derivatives(terms, u, positive, held, gradient, system.matrix);
@@ -90,8 +132,8 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
     // The direction: the exact Hessian, else the positive one, else that with a growing shift.
     Eigen::VectorXd row_scale;
     for (;;) {
-      row_scale = diagonal_scale(system.matrix, permutation, held, system.assembly.vertices());
-      apply_scale(system.matrix, row_scale);
+      row_scale = scale_to_unit_diagonal(system.matrix, permutation, held, system.assembly.vertices());
+      report.seconds_assembly += clock.lap();
       bool good = false;
       for (double s = shift; s <= kGreatestShift; s = std::max(kLeastShift, 100 * s)) {
         ++report.factorizations;
@@ -137,6 +179,16 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
           report.monotone = report.monotone && trial.value <= energy.value + noise;
           break;
         }
+        // A small step may gain less than the potential's own round-off, which strains that nearly cancel make large;
+        // then the slope decides [as in Hager and Zhang 2005].
+        if (halvings == kBeforeSlope && report.last_step <= kSmall) {
+          Eigen::VectorXd there;
+          system.assembly.derivatives(terms, u + step, positive, held, there, system.matrix);
+          if (std::abs(there.dot(step)) <= kSlopeKept * std::abs(slope)) {
+            length = 1;
+            break;
+          }
+        }
         if (halvings == kHalvings) {
           report.halvings += halvings;
           report.seconds_search += clock.lap();
@@ -147,9 +199,15 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
     }
     u += length * step;
     report.seconds_search += clock.lap();
-    if (length * report.last_step <= options.tolerance && length == 1) {
+    const bool nothing_to_gain = -slope <= noise && report.last_step <= kSmall;
+    if (length == 1 && (report.last_step <= options.tolerance || nothing_to_gain)) {
       report.converged = true;
       return report;
+    }
+    if (positive && options.hessian == HessianChoice::exact_first && length == 1 && report.last_step < kNear &&
+        returns < kReturns) {
+      positive = false;
+      ++returns;
     }
     if (report.iterations >= options.iterations)
       return report;

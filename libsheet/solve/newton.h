@@ -18,7 +18,7 @@ enum class HessianChoice {
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-8;
+  double tolerance = 1e-6; // of a converging Newton step: its successor is about the square
   int iterations = 50;
   HessianChoice hessian = HessianChoice::exact_first;
 };
@@ -44,6 +44,16 @@ struct LinearSystem {
 
   LinearSystem(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles);
 };
+
+// Scales the matrix symmetrically to a diagonal of ones (of mean one over the three coordinates of a vertex) and
+// returns the factors, one a row. Held rows keep theirs.
+Eigen::VectorXd scale_to_unit_diagonal(SparseLower& matrix, const std::vector<std::uint32_t>& permutation,
+                                       std::span<const char> held, std::size_t vertices);
+
+// Moves u by one linearised step that takes the held unknowns to their target, so that the others make way: a starting
+// point for motions of more than an edge. False if the matrix cannot be factorised.
+[[nodiscard]] bool spread_held_motion(LinearSystem& system, const Terms& terms, std::span<const char> held,
+                                      const Unknowns& target, Unknowns& u);
 
 // scale: for each unknown the length [m] (or angle, 1) that its step is measured in. floor: the least shift of the
 // scaled matrix; positive where the potential does not determine a rigid motion. u: start, and result.

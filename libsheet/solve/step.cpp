@@ -6,12 +6,27 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/geometry/area.h"
 
 namespace sheet {
 
 namespace {
 
 const double kGamma = 1 - std::sqrt(0.5);
+
+constexpr int kHalvingsBeforeEuler = 3;
+constexpr double kFarBehind = 0.1; // of an edge: held unknowns that are this far from where inertia takes them
+
+// Whether every triangle still has an area beyond round-off.
+bool sound(const State& s) {
+  for (const Triangle& t : s.mesh->triangles) {
+    const Vector3 q = squared_lengths(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]);
+    const double longest = q.maxCoeff();
+    if (!(TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area > 1e-9 * longest))
+      return false;
+  }
+  return true;
+}
 
 void add(NewtonReport& sum, const NewtonReport& r) {
   sum.converged = r.converged;
@@ -37,6 +52,7 @@ bool same_mesh(const Connectivity& a, const Connectivity& b) {
 // What stays from step to step while the connectivity does.
 struct Stepper::Cache {
   std::shared_ptr<const Connectivity> mesh;
+  std::vector<std::uint32_t> signature;
   Terms terms;
   std::unique_ptr<LinearSystem> system;
 };
@@ -46,15 +62,38 @@ Stepper::~Stepper() = default;
 Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 
-void Stepper::prepare_cache(const State& state) {
-  if (cache_ && same_mesh(*cache_->mesh, *state.mesh))
+void Stepper::prepare_cache(const State& state, StepReport& report) {
+  const bool same = cache_ && same_mesh(*cache_->mesh, *state.mesh);
+  if (same && !cache_->terms.empty())
     return;
+  Terms terms = make_terms(model_, state.mesh);
+  if (terms.empty())
+    fail(ExitCode::bad_input, "the model has no term: neither viscosity nor inertia nor any force");
+  // The elements that the matrix has, beyond those of the mesh.
+  std::vector<std::uint32_t> signature;
+  for (const auto& term : terms) {
+    signature.push_back(static_cast<std::uint32_t>(term->stencil()));
+    if (term->stencil() == Stencil::four)
+      for (std::size_t i = 0; i < term->size(); ++i)
+        for (const auto v : term->nodes(i))
+          signature.push_back(v);
+  }
+  if (same && signature == cache_->signature) {
+    cache_->terms = std::move(terms);
+    return;
+  }
   cache_ = std::make_unique<Cache>();
   cache_->mesh = state.mesh;
-  cache_->terms = make_terms(model_, state.mesh);
-  if (cache_->terms.empty())
-    fail(ExitCode::bad_input, "the model has no term: neither viscosity nor inertia nor any force");
+  cache_->signature = std::move(signature);
+  cache_->terms = std::move(terms);
   cache_->system = std::make_unique<LinearSystem>(state.mesh, cache_->terms, model_.has_angles());
+  report.seconds_analysis = cache_->system->seconds_analysis;
+}
+
+void Stepper::set_model(Model model) {
+  model_ = std::move(model);
+  if (cache_)
+    cache_->terms.clear();
 }
 
 bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, StepReport& report) {
@@ -73,15 +112,34 @@ bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, 
       raise_as_started(stage);
     for (const auto& term : cache_->terms)
       term->begin(stage);
-    // The better of the extrapolated and of the last known state.
-    u = guess;
-    place_held(model_.holds, stage, stage.end_time, u);
-    Unknowns other = safe;
-    place_held(model_.holds, stage, stage.end_time, other);
-    const double w = cache_->system->assembly.value(cache_->terms, u).value;
-    const double w_other = cache_->system->assembly.value(cache_->terms, other).value;
-    if (!(w <= w_other))
-      u = other;
+    // The best of the extrapolated state, the last known one, the sheet moved rigidly with what is held, and, if what
+    // is held leaves the others behind, the linear response to its motion.
+    Unknowns trial = safe;
+    double best = 0;
+    double left_behind = 0;
+    for (const int k : {0, 1, 2, 3}) {
+      if (k == 0)
+        trial = guess;
+      else if (k == 1 || k == 3)
+        trial = safe;
+      else if (k == 2 && !move_with_held(model_.holds, stage, stage.end_time, trial))
+        continue;
+      const Unknowns before = trial;
+      place_held(model_.holds, stage, stage.end_time, trial);
+      if (k == 0)
+        left_behind = (trial - before).cwiseQuotient(scale).cwiseAbs().maxCoeff();
+      if (k == 3) {
+        const Unknowns target = trial;
+        trial = safe;
+        if (left_behind < kFarBehind || !spread_held_motion(*cache_->system, cache_->terms, held, target, trial))
+          continue;
+      }
+      const double w = cache_->system->assembly.value(cache_->terms, trial).value;
+      if (k == 0 || w < best || !std::isfinite(best)) {
+        best = w;
+        u = trial;
+      }
+    }
     const NewtonReport r = minimize(*cache_->system, cache_->terms, held, scale, floor, options_.newton, u);
     add(report.newton, r);
     return r.converged;
@@ -118,7 +176,7 @@ bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, 
   }
   set_held_velocities(model_.holds, end.time, dt, end);
   report.error = std::max(report.error, error);
-  return true;
+  return sound(end);
 }
 
 void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
@@ -129,16 +187,17 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   ++report.failed;
+  if (options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
+      attempt(state, dt, Scheme::backward_euler, end, report)) {
+    ++report.substeps;
+    ++report.euler_fallbacks;
+    state = std::move(end);
+    return;
+  }
   if (depth < options_.retries) {
     const double middle = state.time + 0.5 * dt, until = state.time + dt;
     advance(state, middle - state.time, depth + 1, report);
     advance(state, until - state.time, depth + 1, report);
-    return;
-  }
-  if (options_.scheme != Scheme::backward_euler && attempt(state, dt, Scheme::backward_euler, end, report)) {
-    ++report.substeps;
-    ++report.euler_fallbacks;
-    state = std::move(end);
     return;
   }
   fail(ExitCode::not_converged,
@@ -146,22 +205,66 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
        state.time, dt, report.newton.last_step);
 }
 
+void Stepper::finish(StepReport& report, const std::vector<double>& seconds_before) const {
+  const std::vector<double>& after = cache_->system->assembly.seconds();
+  for (std::size_t t = 0; t < after.size(); ++t)
+    report.terms.push_back(
+        {t < cache_->terms.size() ? cache_->terms[t]->name() : "gathering", after[t] - seconds_before[t]});
+}
+
 StepReport Stepper::step(State& state, double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     fail(ExitCode::usage, "a time step of {} s is not possible", dt);
   StepReport report;
-  const LinearSystem* before = cache_ ? cache_->system.get() : nullptr;
-  prepare_cache(state);
-  if (cache_->system.get() != before)
-    report.seconds_analysis = cache_->system->seconds_analysis;
+  prepare_cache(state, report);
   const std::vector<double> seconds = cache_->system->assembly.seconds();
   State next = state;
   advance(next, dt, 0, report);
   next.time = state.time + dt;
   state = std::move(next);
-  const std::vector<double>& after = cache_->system->assembly.seconds();
-  for (std::size_t t = 0; t < after.size(); ++t)
-    report.terms.push_back({t < cache_->terms.size() ? cache_->terms[t]->name() : "gathering", after[t] - seconds[t]});
+  finish(report, seconds);
+  return report;
+}
+
+StepReport Stepper::step_within(State& state, double until, StepControl& control) {
+  constexpr double kSafety = 0.9, kLeast = 0.2, kGreatest = 4;
+  const double remaining = until - state.time;
+  if (!(remaining > 0) || !std::isfinite(remaining))
+    fail(ExitCode::usage, "cannot step from t = {} s to {} s", state.time, until);
+  if (!(control.tolerance > 0))
+    fail(ExitCode::usage, "--tolerance: {} is not above 0", control.tolerance);
+  StepReport report;
+  prepare_cache(state, report);
+  const std::vector<double> seconds = cache_->system->assembly.seconds();
+  const double wanted = control.dt > 0 ? control.dt : remaining;
+  // No sliver of a step before the output time: two equal steps instead.
+  double dt = wanted >= remaining ? remaining : wanted > 0.5 * remaining ? 0.5 * remaining : wanted;
+  State end;
+  for (int tries = 0;; ++tries) {
+    report.error = 0;
+    const bool last = dt >= remaining;
+    if (attempt(state, dt, options_.scheme, end, report)) {
+      const double factor = std::clamp(kSafety * std::sqrt(control.tolerance / report.error), kLeast, kGreatest);
+      if (report.error <= control.tolerance) {
+        end.time = last ? until : state.time + dt;
+        // A step that was cut to land says nothing against the longer one that was wanted.
+        control.dt = std::max(dt * factor, factor >= 1 ? std::min(wanted, kGreatest * dt) : 0.0);
+        ++report.substeps;
+        state = std::move(end);
+        break;
+      }
+      dt *= std::min(factor, kSafety);
+      ++report.rejected;
+    } else {
+      dt *= kLeast;
+      ++report.failed;
+    }
+    if (tries == 4 * options_.retries || state.time + dt == state.time)
+      fail(ExitCode::not_converged,
+           "no step from t = {} s keeps the error below {} of an edge length (last tried {} s)", state.time,
+           control.tolerance, dt);
+  }
+  finish(report, seconds);
   return report;
 }
 

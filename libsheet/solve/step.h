@@ -37,11 +37,18 @@ struct TermTime {
 struct StepReport {
   int substeps = 0;        // 1 unless the step had to be cut
   int failed = 0;          // attempts that did not converge
+  int rejected = 0;        // that were not accurate enough (step_within)
   int euler_fallbacks = 0; // substeps that only backward Euler could do
   NewtonReport newton;     // sums over all stages; last_step of the last one
   double error = 0;        // difference to the first-order result, in edge lengths, greatest of the substeps
   double seconds_analysis = 0;
   std::vector<TermTime> terms; // assembled terms, their element work summed over threads; last: gathering
+};
+
+// Steps chosen by the error estimate. `dt` is the next step to try [s]; 0: not known yet.
+struct StepControl {
+  double tolerance = 1e-3; // of an edge length a step
+  double dt = 0;
 };
 
 class Stepper {
@@ -53,14 +60,19 @@ class Stepper {
 
   // Advances the state by exactly dt [s].
   StepReport step(State& state, double dt);
+  // Advances the state by one step that keeps the error estimate below control.tolerance and does not pass `until` [s];
+  // lands on it exactly. Leaves the next step in control.dt.
+  StepReport step_within(State& state, double until, StepControl& control);
+  // New contacts, holds or forces; the analysis is kept if the same elements remain.
+  void set_model(Model model);
   [[nodiscard]] const Model& model() const { return model_; }
 
  private:
-  struct Attempt;
   struct Cache;
   bool attempt(const State& state, double dt, Scheme scheme, State& end, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);
-  void prepare_cache(const State& state);
+  void prepare_cache(const State& state, StepReport& report);
+  void finish(StepReport& report, const std::vector<double>& seconds_before) const;
 
   Model model_;
   StepOptions options_;

@@ -17,6 +17,7 @@
 #include "libsheet/energy/pressure.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/energy/surface_tension.h"
+#include "libsheet/geometry/area.h"
 #include "tests/support/meshes.h"
 
 namespace sheet {
@@ -140,6 +141,33 @@ TEST(Derivatives, InertiaConsistent) { check(Inertia(3, Mass::consistent), {fals
 TEST(Derivatives, Gravity) { check(Gravity(3, {0.3, -9, 2}), {false, false}); }
 TEST(Derivatives, Bath) { check(Bath(3, {0.3, -9, 2}, 0.1), {false, false}); }
 TEST(Derivatives, Pressure) { check(Pressure({PressureLaw::Kind::constant, 3, 1, 1}), {false, false}); }
+// On a free rim the force is p n A/3 at each corner, at rest exactly: the cap's part of the enclosed volume is taken
+// away.
+TEST(Pressure, ActsAlongTheNormalsOfAnOpenSheet) {
+  test::Mesh mesh = test::disk(1, 4, 0.2);
+  for (Vector3& x : mesh.positions)
+    x += Vector3(3, -2, 1 + 0.5 * x.x() * x.x() - 0.2 * x.y());
+  const State s = test::at_rest(mesh, 0.1);
+  const Stage stage = first_stage(s, 0.1, 0.1, false);
+  Pressure pressure({PressureLaw::Kind::constant, 3, 1, 1});
+  pressure.begin(stage);
+  std::vector<Vector3> force(s.positions.size(), Vector3::Zero()), expected = force;
+  for (std::size_t t = 0; t < s.mesh->triangles.size(); ++t) {
+    const Triangle& v = s.mesh->triangles[t];
+    VectorN<9> u, g;
+    MatrixN<9> h;
+    u << s.positions[v[0]], s.positions[v[1]], s.positions[v[2]];
+    pressure.derivatives(t, u, g, h, false);
+    const TriangleArea a(s.positions[v[0]], s.positions[v[1]], s.positions[v[2]]);
+    for (int k = 0; k < 3; ++k) {
+      force[v[static_cast<std::size_t>(k)]] -= g.segment<3>(3 * k);
+      expected[v[static_cast<std::size_t>(k)]] += a.area * a.normal; // p/3 = 1
+    }
+  }
+  for (std::size_t v = 0; v < force.size(); ++v)
+    EXPECT_LE((force[v] - expected[v]).norm(), 1e-13);
+}
+
 // The angles of the directors turn with the sheet, so their torque belongs to the balance: only exact at θ as a
 // function of a rotation, which RigidMotion tests.
 TEST(Derivatives, MidEdge) { check(MidEdgeShell(2, false), {true, false}); }

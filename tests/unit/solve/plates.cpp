@@ -65,10 +65,11 @@ TEST(Plate, CircularMidEdge) {
   }
 }
 
-TEST(Plate, CircularHinge) {
-  for (const Bending b : {Bending::hinge, Bending::hinge_paper})
-    for (int k = 0; k < 3; ++k)
-      std::printf("V11 hinge %d rings %d ratio %.4f\n", static_cast<int>(b), 8 << k, disk_ratio(8 << k, false, b));
+// Simply supported: a hinge has no moment to clamp a rim with (hold two rows of vertices for that). The printed
+// constant is far too stiff, the one divided by six still depends on the mesh (VALIDATION.md).
+TEST(Plate, CircularHingesDoNotConverge) {
+  EXPECT_LT(disk_ratio(16, false, Bending::hinge_paper), 0.4);
+  EXPECT_GT(disk_ratio(16, false, Bending::hinge), 1.5);
 }
 
 } // namespace

@@ -19,11 +19,7 @@ double mean_radius(const State& s) {
   return r / static_cast<double>(s.positions.size());
 }
 
-// A sphere of unit radius whose triangles together hold the volume of the exact sphere's film.
-State sphere(int level, double thickness) {
-  State s = test::at_rest(test::icosphere(level), thickness);
-  return s;
-}
+State sphere(int level, double thickness) { return test::at_rest(test::icosphere(level), thickness); }
 
 double run(const Model& model, Scheme scheme, State s, double until, int steps,
            Thickness thickness = Thickness::coupled) {
@@ -31,14 +27,11 @@ double run(const Model& model, Scheme scheme, State s, double until, int steps,
   options.scheme = scheme;
   options.thickness = thickness;
   Stepper stepper(model, options);
-  int iterations = 0;
   for (int k = 0; k < steps; ++k) {
     const StepReport r = stepper.step(s, until / steps);
-    iterations += r.newton.iterations;
     EXPECT_EQ(r.failed, 0);
     EXPECT_TRUE(r.newton.monotone);
   }
-  ::testing::Test::RecordProperty("newton_iterations", iterations);
   return mean_radius(s);
 }
 
@@ -54,28 +47,46 @@ Model balloon(PressureLaw::Kind kind) {
   return m;
 }
 
-TEST(Balloon, TimeOrderConstantPressure) {
-  const Model m = balloon(PressureLaw::Kind::constant);
-  const double until = 0.8 * 4 * 0.1 * 0.1 / 0.1;
-  const double exact = std::pow(1 - 0.8, -1.0 / 3);
-  for (const auto& [scheme, least] : {std::pair{Scheme::sdirk2, 1.9}, std::pair{Scheme::backward_euler, 0.8}}) {
-    double r[3];
-    for (int k = 0; k < 3; ++k)
-      r[k] = run(m, scheme, sphere(2, 0.1), until, 20 << k);
-    std::printf("V1 level 2 %s: r %.6f %.6f %.6f exact %.6f order %.3f\n", scheme == Scheme::sdirk2 ? "sdirk2" : "BE",
-                r[0], r[1], r[2], exact, order(r[0], r[1], r[2]));
-    EXPECT_GE(order(r[0], r[1], r[2]), least);
-  }
+struct SchemeCase {
+  Scheme scheme;
+  int steps; // of the coarsest of three runs, each with twice the steps
+  double least_order;
+};
+const SchemeCase kSchemes[] = {{Scheme::sdirk2, 20, 1.9}, {Scheme::backward_euler, 160, 0.95}};
+
+constexpr double kBlowUp = 4 * 0.1 * 0.1 / 0.1; // 4 μ h0/(p r0) [s]
+
+TEST(Balloon, TimeOrder) {
+  for (const auto kind : {PressureLaw::Kind::constant, PressureLaw::Kind::inverse_square})
+    for (const SchemeCase& c : kSchemes) {
+      double r[3];
+      for (int k = 0; k < 3; ++k)
+        r[k] = run(balloon(kind), c.scheme, sphere(1, 0.1), 0.8 * kBlowUp, c.steps << k);
+      EXPECT_GE(order(r[0], r[1], r[2]), c.least_order);
+    }
 }
 
-TEST(Balloon, SpaceConstantPressure) {
-  const Model m = balloon(PressureLaw::Kind::constant);
-  const double until = 0.8 * 4 * 0.1 * 0.1 / 0.1;
-  const double exact = std::pow(1 - 0.8, -1.0 / 3);
-  double e[3];
-  for (int l = 1; l <= 3; ++l) {
-    e[l - 1] = run(m, Scheme::sdirk2, sphere(l, 0.1), until, 80) / exact - 1;
-    std::printf("V1 level %d error %.5f\n", l, e[l - 1]);
+// With the explicit thickness of the paper the order is one at best.
+TEST(Balloon, ExplicitThicknessIsOfFirstOrder) {
+  double r[3];
+  for (int k = 0; k < 3; ++k)
+    r[k] = run(balloon(PressureLaw::Kind::constant), Scheme::sdirk2, sphere(1, 0.1), 0.8 * kBlowUp, 40 << k,
+               Thickness::as_started);
+  EXPECT_LT(order(r[0], r[1], r[2]), 1.3);
+  EXPECT_GT(order(r[0], r[1], r[2]), 0.8);
+}
+
+TEST(Balloon, SpaceOrderAndRadius) {
+  for (const auto kind : {PressureLaw::Kind::constant, PressureLaw::Kind::inverse_square}) {
+    const bool constant = kind == PressureLaw::Kind::constant;
+    // V1: r = (1 - t/t*)^(-1/3); V2: r = 1/(1 - t/(3 t*)), t* = 4 μ h0/(p r0).
+    const double exact = constant ? std::pow(1 - 0.5, -1.0 / 3) : 1 / (1 - 0.5 / 3);
+    double e[3];
+    for (int l = 1; l <= 3; ++l)
+      e[l - 1] = run(balloon(kind), Scheme::sdirk2, sphere(l, 0.1), 0.5 * kBlowUp, 40) / exact - 1;
+    std::printf("V%d levels 1 2 3: errors %.5f %.5f %.5f\n", constant ? 1 : 2, e[0], e[1], e[2]);
+    EXPECT_LT(std::abs(e[2]), 0.006); // 642 vertices
+    EXPECT_GE(std::log2(std::abs(e[1] / e[2])), 1.85);
   }
 }
 
@@ -83,21 +94,24 @@ TEST(Sphere, ContractsUnderSurfaceTension) {
   Model m;
   m.density = 1;
   m.surface_tension = 0.001;
-  const double h = 0.01, T = 0.5 * std::sqrt(m.density * h / m.surface_tension);
-  for (const Mass mass : {Mass::lumped, Mass::consistent})
-    for (int l = 1; l <= 3; ++l) {
-      m.mass = mass;
-      const double r = run(m, Scheme::sdirk2, sphere(l, h), T, 100);
-      std::printf("V3 %s level %d r %.6f exact %.6f\n", mass == Mass::lumped ? "lumped" : "consistent", l, r,
-                  std::cos(1.0));
+  const double h = 0.01, period = 0.5 * std::sqrt(m.density * h / m.surface_tension);
+  for (const Mass mass : {Mass::lumped, Mass::consistent}) {
+    m.mass = mass;
+    double e[2];
+    for (int l = 1; l <= 2; ++l)
+      e[l - 1] = run(m, Scheme::sdirk2, sphere(l, h), period, 100) / std::cos(1.0) - 1;
+    std::printf("V3 %s mass, levels 1 2: errors %.5f %.5f\n", mass == Mass::lumped ? "lumped" : "consistent", e[0],
+                e[1]);
+    if (mass == Mass::lumped) {
+      EXPECT_LT(std::abs(e[1]), 1e-3);
     }
+  }
   m.mass = Mass::lumped;
-  for (const auto& [scheme, least] : {std::pair{Scheme::sdirk2, 1.9}, std::pair{Scheme::backward_euler, 0.9}}) {
+  for (const SchemeCase& c : kSchemes) {
     double r[3];
     for (int k = 0; k < 3; ++k)
-      r[k] = run(m, scheme, sphere(2, h), T, 20 << k);
-    std::printf("V3 time order %.3f\n", order(r[0], r[1], r[2]));
-    EXPECT_GE(order(r[0], r[1], r[2]), least);
+      r[k] = run(m, c.scheme, sphere(1, h), period, c.steps << k);
+    EXPECT_GE(order(r[0], r[1], r[2]), c.least_order);
   }
 }
 
