@@ -118,18 +118,25 @@ Result Run::result(double value) const {
   return r;
 }
 
+namespace {
+
+// Mean over the mass: each corner of a triangle weighs a third of it.
+template <class F> double weighted_mean(const State& s, F&& f) {
+  double sum = 0, weight = 0;
+  for (std::size_t t = 0; t < s.volumes.size(); ++t)
+    for (const auto v : s.mesh->triangles[t])
+      sum += s.volumes[t] * f(v), weight += s.volumes[t];
+  return sum / weight;
+}
+
+} // namespace
+
 double mean_radius(const State& s) {
-  double sum = 0;
-  for (const Vector3& x : s.positions)
-    sum += x.norm();
-  return sum / static_cast<double>(s.positions.size());
+  return weighted_mean(s, [&](std::uint32_t v) { return s.positions[v].norm(); });
 }
 
 double radial_speed(const State& s) {
-  double sum = 0;
-  for (std::size_t v = 0; v < s.positions.size(); ++v)
-    sum += s.velocities[v].dot(s.positions[v].normalized());
-  return sum / static_cast<double>(s.positions.size());
+  return weighted_mean(s, [&](std::uint32_t v) { return s.velocities[v].dot(s.positions[v].normalized()); });
 }
 
 double sheet_area(const State& s) {

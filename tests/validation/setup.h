@@ -45,8 +45,8 @@ class Run {
   double seconds_ = 0;
 };
 
-[[nodiscard]] double mean_radius(const State& s);  // of all vertices about the origin
-[[nodiscard]] double radial_speed(const State& s); // mean of v.x/|x|
+[[nodiscard]] double mean_radius(const State& s);  // about the origin, weighted by mass
+[[nodiscard]] double radial_speed(const State& s); // mean of v·x/|x|, likewise
 [[nodiscard]] double sheet_area(const State& s);
 [[nodiscard]] double mean_edge(const State& s);
 

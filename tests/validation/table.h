@@ -25,7 +25,7 @@ struct Stored {
 [[nodiscard]] std::vector<Stored> read_table(const std::string& path);
 
 // Observed orders by halving the step twice, or the edge twice; the other is fixed. In time from differences of the
-// value between step sizes, in space from its error.
+// value between step sizes, in space from its error, with the error in time extrapolated away.
 struct Orders {
   double value[3], error[3], order;
 };

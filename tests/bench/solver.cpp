@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cost of a time step and of its parts at 5,000, 15,000 and 50,000 vertices: one Newton iteration (assembly + factorise +
+// solve) over the numeric factorisation alone, analysis over factorisation, the mid-edge step over the hinge step, each
+// term's share, peak memory. Medians; models take turns step by step, so that a busy machine slows them all alike.
+//   bench_solver [--steps 5] [--threads 1] [VERTICES...]
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "libsheet/base/parallel.h"
+#include "libsheet/solve/step.h"
+#include "tests/support/meshes.h"
+
+using namespace sheet;
+
+namespace {
+
+struct Choice {
+  const char* name;
+  Bending bending;
+  bool gravity, tension;
+};
+constexpr Choice kChoices[] = {{"membrane", Bending::none, true, false},
+                               {"hinge", Bending::hinge, true, false},
+                               {"mid-edge", Bending::mid_edge, true, false},
+                               {"mid-edge without weight", Bending::mid_edge, false, false},
+                               {"mid-edge with tension", Bending::mid_edge, true, true}};
+
+// A square sheet of edge length 1 that sags between two held sides.
+State sheet_of(int vertices) {
+  const int n = std::max(2, static_cast<int>(std::lround(std::sqrt(vertices))) - 1);
+  return test::at_rest(test::rectangle(1, 1, n, n, 0.2), 0.01);
+}
+
+Model model_of(const Choice& choice, const State& s) {
+  Model m;
+  m.viscosity = 100;
+  m.density = 1000;
+  m.gravity = choice.gravity ? Vector3(0, 0, -9.81) : Vector3(0, 0, 0);
+  m.surface_tension = choice.tension ? 0.03 : 0;
+  m.bending = choice.bending;
+  Hold hold;
+  for (std::uint32_t v = 0; v < s.positions.size(); ++v)
+    if (s.positions[v].x() == 0 || s.positions[v].x() == 1)
+      hold.vertices.push_back(v);
+  m.holds.push_back(hold);
+  return m;
+}
+
+double median(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  return x.empty() ? 0 : x[x.size() / 2];
+}
+
+double peak_megabytes(int who) {
+  rusage usage{};
+  getrusage(who, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+constexpr double kStep = 0.02; // [s]
+
+// In a process of its own: peak memory of a step, less what the mesh alone needs.
+double step_megabytes(const Choice& choice, int vertices) {
+  int channel[2];
+  if (pipe(channel) != 0)
+    return 0;
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    State s = sheet_of(vertices);
+    const double before = peak_megabytes(RUSAGE_SELF);
+    Stepper stepper(model_of(choice, s), {});
+    stepper.step(s, kStep);
+    const double used = peak_megabytes(RUSAGE_SELF) - before;
+    const bool told = write(channel[1], &used, sizeof used) == sizeof used;
+    _exit(told ? 0 : 1);
+  }
+  double used = 0;
+  close(channel[1]);
+  if (read(channel[0], &used, sizeof used) != sizeof used)
+    used = 0;
+  close(channel[0]);
+  waitpid(child, nullptr, 0);
+  return used;
+}
+
+void bench(int vertices, int steps) {
+  struct Sample {
+    std::vector<double> assembly, factor, solve, search, step, over_factor;
+    std::vector<TermTime> terms;
+    double analysis = 0, later_analysis = 0;
+    int iterations = 0, factorizations = 0;
+  };
+  std::vector<double> memory; // first, while this process is small: a child starts with its parent's peak
+  for (const Choice& choice : kChoices)
+    memory.push_back(step_megabytes(choice, vertices));
+  std::vector<Stepper> steppers;
+  std::vector<State> states;
+  std::vector<Sample> samples(std::size(kChoices));
+  for (const Choice& choice : kChoices) {
+    states.push_back(sheet_of(vertices));
+    steppers.emplace_back(model_of(choice, states.back()), StepOptions{});
+  }
+  for (int k = 0; k <= steps; ++k)
+    for (std::size_t c = 0; c < steppers.size(); ++c) {
+      const auto before = std::chrono::steady_clock::now();
+      const StepReport r = steppers[c].step(states[c], kStep);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+      Sample& s = samples[c];
+      if (k == 0) {
+        s.analysis = r.seconds_analysis;
+        continue;
+      }
+      const NewtonReport& t = r.newton;
+      const double f = t.seconds_factor / t.factorizations, a = t.seconds_assembly / t.factorizations,
+                   b = t.seconds_solve / t.iterations;
+      s.assembly.push_back(a), s.factor.push_back(f), s.solve.push_back(b);
+      s.search.push_back(t.seconds_search / t.iterations);
+      s.over_factor.push_back((a + f + b) / f);
+      s.step.push_back(seconds);
+      s.later_analysis += r.seconds_analysis;
+      s.terms = r.terms;
+      s.iterations += t.iterations, s.factorizations += t.factorizations;
+    }
+  for (std::size_t c = 0; c < steppers.size(); ++c) {
+    const Sample& s = samples[c];
+    std::printf("%zu,%s,%.1f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.1f,%.3f,%.1f,%.1f\n", states[c].positions.size(),
+                kChoices[c].name, static_cast<double>(s.iterations) / steps, 1e3 * median(s.assembly),
+                1e3 * median(s.factor), 1e3 * median(s.solve), 1e3 * median(s.search), median(s.over_factor),
+                s.analysis / median(s.factor), s.later_analysis, 1e3 * median(s.step),
+                median(s.step) / median(samples[1].step), memory[c],
+                1024 * memory[c] / static_cast<double>(states[c].positions.size()));
+    std::fflush(stdout);
+  }
+  std::printf("# shares of a step's element work, %s:", kChoices[4].name);
+  double sum = 0;
+  for (const TermTime& t : samples[4].terms)
+    sum += t.seconds;
+  for (const TermTime& t : samples[4].terms)
+    std::printf(" %s %.1f %%;", t.name.c_str(), 100 * t.seconds / sum);
+  std::printf("\n");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  int steps = 5, threads = 1;
+  std::vector<int> sizes;
+  for (int k = 1; k < argc; ++k) {
+    const std::string a = argv[k];
+    if ((a == "--steps" || a == "--threads") && k + 1 < argc)
+      (a == "--steps" ? steps : threads) = std::max(1, std::atoi(argv[++k]));
+    else if (const int n = std::atoi(argv[k]); n > 0)
+      sizes.push_back(n);
+    else {
+      std::fprintf(stderr, "bench_solver [--steps N] [--threads N] [VERTICES...]\n");
+      return 2;
+    }
+  }
+  if (sizes.empty())
+    sizes = {5000, 15000, 50000};
+  const ThreadLimit limit(threads);
+  std::printf("# BLAS core %s, %d threads, medians of %d SDIRK2 steps\n", blas_core_name().c_str(), threads, steps);
+  std::printf("vertices,model,newton_per_step,assembly_ms,factor_ms,solve_ms,search_ms,iteration_over_factor,"
+              "analysis_over_factor,analysis_later_s,step_ms,step_over_hinge_step,peak_MB,kB_per_vertex\n");
+  for (const int n : sizes)
+    bench(n, steps);
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bars of accuracy: what each case must keep to, at a small size. Long ones (name Long...) have the issue's own
+// sizes.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/validation/table.h"
+
+namespace sheet::validation {
+namespace {
+
+Settings settings(const std::string& name, double edge, int steps, int set = 1) {
+  Settings s = find_case(name).defaults;
+  s.edge = edge;
+  s.steps = steps;
+  s.set = set;
+  return s;
+}
+
+double error(const std::string& name, const Settings& s) { return std::abs(run(find_case(name), s).error); }
+
+double order_in_time(const std::string& name, Settings s, Scheme scheme) {
+  s.scheme = scheme;
+  return time_order(find_case(name), s).order;
+}
+
+TEST(Validation, SpheresTimeOrder) {
+  for (const char* name : {"V1", "V2", "V3", "V4"}) {
+    const Settings s = settings(name, 0.5, 40);
+    EXPECT_GE(order_in_time(name, s, Scheme::sdirk2), 1.9) << name;
+    Settings fine = s;
+    fine.steps = 160;
+    EXPECT_GE(order_in_time(name, fine, Scheme::backward_euler), 0.95) << name;
+  }
+}
+
+TEST(Validation, SpheresSpaceOrder) {
+  for (const char* name : {"V2", "V4"})
+    EXPECT_GE(space_order(find_case(name), settings(name, 0.6, 10)).order, 1.9) << name;
+}
+
+TEST(Validation, PulledStripsTubeDiskHole) {
+  for (const char* name : {"V5", "V6", "V7", "V8", "V9", "V17"}) {
+    const double edge = std::string(name) == "V7" ? 0.4 : std::string(name) == "V17" ? 0.125 : 0.1;
+    EXPECT_GE(order_in_time(name, settings(name, edge, 40), Scheme::sdirk2), 1.9) << name;
+  }
+  EXPECT_LT(error("V5", settings("V5", 0.1, 40)), 0.01);
+  EXPECT_LT(error("V6", settings("V6", 0.1, 40)), 0.01);
+  EXPECT_LT(error("V7", settings("V7", 0.2, 40)), 0.01);
+  EXPECT_LT(error("V8", settings("V8", 0.15, 20)), 0.01);
+  EXPECT_LT(error("V9", settings("V9", 0.08, 20, 1)), 0.01);
+  EXPECT_LT(error("V16", settings("V16", 0.07, 1)), 0.01);
+  EXPECT_LT(error("V17", settings("V17", 0.04, 64)), 0.01);
+  EXPECT_LT(error("V13", settings("V13", 0.0625, 20)), 0.01);
+}
+
+TEST(Validation, CircularPlate) {
+  for (const int set : {1, 2}) {
+    EXPECT_LT(error("V11", settings("V11", 1.0 / 32, 1, set)), 0.01) << "set " << set;
+    EXPECT_GE(space_order(find_case("V11"), settings("V11", 1.0 / 8, 1, set)).order, 1.8) << "set " << set;
+  }
+}
+
+// A strip's R is half its span: the edge 1/64.
+TEST(Validation, Strips) {
+  for (const int set : {1, 2, 3, 4, 5}) {
+    EXPECT_LT(error("V12", settings("V12", 1.0 / 64, 1, set)), 0.01) << "set " << set;
+    EXPECT_GE(space_order(find_case("V12"), settings("V12", 1.0 / 16, 1, set)).order, 1.8) << "set " << set;
+  }
+}
+
+// Rolled up to 1.5 rad: within 2 % below k l²/h = 0.5, whatever the mesh.
+TEST(Validation, RolledPatch) {
+  for (const int set : {2, 6, 10})
+    for (const Pattern pattern : {Pattern::irregular, Pattern::structured}) {
+      Settings s = settings("V14", 1.0 / 24, 1, set);
+      s.pattern = pattern;
+      EXPECT_LT(error("V14", s), 0.02) << "set " << set;
+    }
+}
+
+TEST(Validation, WavesOnABath) {
+  for (const int set : {1, 2, 3, 4, 5})
+    EXPECT_LT(error("V15", settings("V15", 1.0 / 32, 1, set)), 0.03) << "set " << set;
+}
+
+TEST(Validation, RigidTurnCostsNothing) {
+  for (const Shell shell : {Shell::mid_edge, Shell::arcs, Shell::hinge, Shell::none}) {
+    Settings s = settings("V19", 0.15, 1, 1);
+    s.bending = shell;
+    EXPECT_LT(error("V19", s), 1e-14);
+  }
+  for (const int set : {2, 3})
+    for (const Scheme scheme : {Scheme::sdirk2, Scheme::backward_euler}) {
+      Settings s = settings("V19", 0.15, 1, set);
+      s.scheme = scheme;
+      EXPECT_LT(error("V19", s), 1e-13) << "set " << set;
+    }
+}
+
+TEST(Validation, MomentumAndEnergy) {
+  EXPECT_LT(error("V20", settings("V20", 0.15, 20, 1)), 1e-12);
+  EXPECT_GE(order_in_time("V20", settings("V20", 0.3, 20, 2), Scheme::sdirk2), 1.9); // angular momentum
+  EXPECT_GE(order_in_time("V20", settings("V20", 0.3, 20, 3), Scheme::sdirk2), 1.9); // balance of energy
+  EXPECT_LT(error("V20", settings("V20", 0.15, 20, 3)), 3e-3);
+}
+
+// Figures 6 and 7: 2,562 vertices, 100 steps, radius within 0.3 %.
+TEST(Validation, LongFiguresOfThePaper) {
+  for (const char* name : {"V1", "V2", "V3"})
+    for (int set = 1; set <= find_case(name).sets; ++set)
+      EXPECT_LT(error(name, settings(name, 0.075, 100, set)), 0.003) << name << " set " << set;
+}
+
+TEST(Validation, LongSpaceOrders) {
+  for (const char* name : {"V1", "V2", "V3"})
+    EXPECT_GE(space_order(find_case(name), settings(name, 0.3, 20)).order, 1.9) << name;
+  EXPECT_GE(space_order(find_case("V9"), settings("V9", 0.1, 10)).order, 1.8);
+  EXPECT_GE(space_order(find_case("V7"), settings("V7", 0.4, 10)).order, 1.8);
+  EXPECT_GE(space_order(find_case("V17"), settings("V17", 0.125, 32)).order, 1.8);
+}
+
+} // namespace
+} // namespace sheet::validation
