@@ -123,7 +123,15 @@ public:
       } catch (const StreamError& error) {
         if (error.kind() == StreamError::Kind::io)
           throw;
-        log::detail("{}; what is before it is whole", error.what());
+        // A run that was cut off leaves a torn last frame, or no end mark: mended. Damage before that is not ours to
+        // drop.
+        const off_t damage = ::lseek(input.descriptor(), 0, SEEK_CUR);
+        if (damage < ::lseek(input.descriptor(), 0, SEEK_END))
+          fail(ExitCode::corrupt,
+               "{}; more follows behind it, so the file is left as it is: save what is before with "
+               "sheet-select --first {} and resume that",
+               error.what(), reader.frames());
+        log::detail("{}; going on from the frame before", error.what());
       }
       bytes = reader.bytes_of_frames();
       if (reader.frames() == 0)

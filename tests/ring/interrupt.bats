@@ -140,3 +140,12 @@ whole_frames() { # FILE COUNT: so many whole frames and nothing behind them
   run -3 sheet-loop --resume run.sheet "${run_options[@]}" -- cat
   [[ $output == *'holds no whole frame'* ]]
 }
+
+@test "a stream that is damaged in its middle is not resumed, and nothing of it is dropped" {
+  cp "$straight" run.sheet
+  printf 'x' | dd of=run.sheet bs=1 seek=500000 conv=notrunc status=none
+  cp run.sheet before.sheet
+  run -4 sheet-loop --resume run.sheet "${run_options[@]}" -- cat
+  [[ $output == *'checksum mismatch; more follows behind it, so the file is left as it is'* ]]
+  cmp run.sheet before.sheet
+}
