@@ -24,10 +24,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-std::string nearest_word(std::string_view word, std::span<const std::string> known) {
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
+  constexpr std::size_t longest = 100; // the work grows with the product of the lengths
+  if (word.size() > longest)
+    return {};
   std::size_t best = std::max<std::size_t>(2, word.size() / 3) + 1;
-  std::string nearest;
-  for (const std::string& candidate : known)
+  std::string_view nearest;
+  for (const std::string_view candidate : known)
     if (const std::size_t d = edit_distance(word, candidate); d < best && d < std::max(word.size(), candidate.size())) {
       best = d;
       nearest = candidate;

@@ -265,12 +265,13 @@ void Tool::parse(int argc, char** argv) {
       continue;
     if (extra.size() < 2 || extra[0] != '-')
       fail(ExitCode::usage, "argument \"{}\" is one too many (see {} --help)", extra, name_);
-    std::vector<std::string> known;
+    std::vector<std::string> names;
     for (const Option& option : options_)
       for (const std::string& name : CLI::detail::split(option.names, ','))
         if (name[0] == '-')
-          known.push_back(name);
-    const std::string nearest = nearest_word(extra.substr(0, extra.find('=')), known);
+          names.push_back(name);
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::string_view nearest = nearest_word(extra.substr(0, extra.find('=')), known);
     fail(ExitCode::usage, "unknown option {}{} (see {} --help)", extra,
          nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), name_);
   }

@@ -4,30 +4,10 @@
 #include <algorithm>
 #include <tuple>
 
+#include "libsheet/base/edit_distance.h"
 #include "libsheet/base/error.h"
 
 namespace sheet::scene {
-namespace {
-
-// Insertions, deletions, replacements and swaps of neighbours that turn a into b.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j)
-    last[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    std::swap(before, last);
-    std::swap(last, row);
-  }
-  return last[b.size()];
-}
-
-} // namespace
 
 void Problems::throw_if_any() {
   if (found_.empty())
@@ -52,24 +32,8 @@ void Problems::throw_if_any() {
   throw Error(ExitCode::bad_input, text);
 }
 
-std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
-  constexpr std::size_t longest = 40;
-  if (word.size() > longest)
-    return {};
-  std::string_view best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3 + 1);
-  for (const std::string_view candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least || (distance == least && best.empty() && distance < candidate.size())) {
-      best = candidate;
-      least = distance;
-    }
-  }
-  return best;
-}
-
 std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
-  if (const auto near = nearest(word, known); !near.empty())
+  if (const auto near = nearest_word(word, known); !near.empty())
     return fmt::format("; did you mean \"{}\"?", near);
   if (known.empty())
     return "";

@@ -31,9 +31,6 @@ class Problems {
   std::vector<Problem> found_;
 };
 
-// The word most like `word`, or an empty text if none is much like it.
-[[nodiscard]] std::string_view nearest(std::string_view word, std::span<const std::string_view> known);
-
 // "; did you mean "viscosity"?", or "; known: a, b, c" if nothing is near.
 [[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> known);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libsheet/base/edit_distance.h"
+
 namespace sheet::scene {
 
 Place TableReader::place_of(std::string_view key) const {
@@ -163,7 +165,7 @@ std::optional<std::size_t> TableReader::choice(std::string_view key, std::span<c
   const auto found = std::find(words.begin(), words.end(), value->text);
   if (found != words.end())
     return static_cast<std::size_t>(found - words.begin());
-  const auto near = nearest(value->text, words);
+  const auto near = nearest_word(value->text, words);
   wrong(key, fmt::format("\"{}\" is none of {}{}", value->text.substr(0, 60), list,
                          near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
   return {};

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libsheet/base/edit_distance.h"
 #include "scenes.h"
 
 namespace sheet::scene {
@@ -13,14 +14,14 @@ namespace {
 constexpr std::array<std::string_view, 4> known{"viscosity", "density", "until", "axes"};
 
 TEST(Problems, NearestWord) {
-  EXPECT_EQ(nearest("viscocity", known), "viscosity");
-  EXPECT_EQ(nearest("Viscosity", known), "viscosity");
-  EXPECT_EQ(nearest("viscostiy", known), "viscosity");
-  EXPECT_EQ(nearest("desity", known), "density");
-  EXPECT_EQ(nearest("untill", known), "until");
-  EXPECT_EQ(nearest("axis", known), "axes");
-  EXPECT_EQ(nearest("stiffness", known), "");
-  EXPECT_EQ(nearest(std::string(100000, 'x'), known), "");
+  EXPECT_EQ(nearest_word("viscocity", known), "viscosity");
+  EXPECT_EQ(nearest_word("Viscosity", known), "viscosity");
+  EXPECT_EQ(nearest_word("viscostiy", known), "viscosity");
+  EXPECT_EQ(nearest_word("desity", known), "density");
+  EXPECT_EQ(nearest_word("untill", known), "until");
+  EXPECT_EQ(nearest_word("axis", known), "axes");
+  EXPECT_EQ(nearest_word("stiffness", known), "");
+  EXPECT_EQ(nearest_word(std::string(100000, 'x'), known), "");
 }
 
 TEST(Problems, Suggestions) {
