@@ -159,6 +159,18 @@ def standard_arrays():
     return frame
 
 
+def contacts(vertex=2, rests=2):
+    one = np.array([[1.0, -0.5, -0.25, -0.25]] * 2)
+    return triangle_frame(
+        touch=Array(np.array([0, 0, 2], "u8"), "vertex", "1", "common"),
+        contact_vertex=Array(np.array([[0, 1, 2, 2], [1, vertex, 0, 0]], "u4"), "frame", "1", "drop"),
+        contact_weight=Array(one, "frame", "1", "drop"),
+        contact_normal=Array(np.array([[0, 0, 1.0], [0, 1.0, 0]]), "frame", "1", "drop"),
+        contact_rest=Array(np.full(rests, 0.125), "frame", "m", "drop"),
+        contact_anchor=Array(np.zeros((2, 3)), "frame", "m", "drop"),
+        contact_stiffness=Array(np.array([[1.5, 0.5], [1.5, 0]]), "frame", "N/m", "drop"))
+
+
 def extreme_header():
     frame = empty_frame()
     frame.time, frame.step = -0.0, (1 << 64) - 1
@@ -188,6 +200,7 @@ passed = {
     "joined": one + one,
     "joined_empty": stream() + stream(empty_frame()) + stream() + stream() + one + stream(),
     "newer_minor": forge_end(forge_end(newer, 10, u(1, 2)), 24, b"reserved"),
+    "contacts": stream(contacts()),
 }
 
 failed = {
@@ -287,6 +300,10 @@ failed = {
     "scene_not_text": with_array("scene", Array(np.zeros(1, "u1"), "frame")),
     "edges_miscounted": with_array("energy", Array(np.zeros(4), "edge", "J", "drop")),
     "second_frame_volume": stream(triangle_frame(), *sheetstream.read(io.BytesIO(with_value("volume", 0, -1)), None, False)),
+    "contact_out_of_range": stream(contacts(vertex=3)),
+    "contact_rows": stream(contacts(rests=1)),
+    "contact_alone": with_array("contact_vertex", Array(np.zeros((1, 4), "u4"), "frame", "1", "drop")),
+    "touch_rule": with_array("touch", Array(np.zeros(3, "u8"), "vertex", "1", "copy")),
 }
 
 

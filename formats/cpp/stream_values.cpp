@@ -33,6 +33,13 @@ constexpr std::array standards{
     Standard{"velocity", Place::vertex, Type::float64, 3, "m/s", Transfer::interpolate, false},
     Standard{"start_position", Place::vertex, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"hold", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
+    Standard{"touch", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
+    Standard{"contact_vertex", Place::frame, Type::uint32, 4, "1", Transfer::drop, false},
+    Standard{"contact_weight", Place::frame, Type::float64, 4, "1", Transfer::drop, false},
+    Standard{"contact_normal", Place::frame, Type::float64, 3, "1", Transfer::drop, false},
+    Standard{"contact_rest", Place::frame, Type::float64, 1, "m", Transfer::drop, false},
+    Standard{"contact_anchor", Place::frame, Type::float64, 3, "m", Transfer::drop, false},
+    Standard{"contact_stiffness", Place::frame, Type::float64, 2, "N/m", Transfer::drop, false},
     Standard{"next_output_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"step_size", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"scene", Place::frame, Type::text, 1, "1", Transfer::copy, false},
@@ -82,6 +89,29 @@ std::string find_triangle_error(const Frame& frame, const Array& array) {
   return {};
 }
 
+// The contact arrays go together: whichever is there has as many rows as contact_vertex.
+std::uint64_t rows_wanted(const Frame& frame, const Standard& standard) {
+  if (standard.place != Place::frame)
+    return frame.rows_at(standard.place);
+  if (!standard.name.starts_with("contact_"))
+    return 1;
+  const Array* vertices = frame.find("contact_vertex");
+  return vertices == nullptr ? 0 : vertices->rows;
+}
+
+std::string find_contact_error(const Frame& frame, const Array& array) {
+  const auto vertices = array.values<std::uint32_t>();
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (vertices[i] >= frame.vertices)
+      return fmt::format("array \"contact_vertex\": contact {} names vertex {}, the frame has {}", i / 4, vertices[i],
+                         frame.vertices);
+  for (const std::string_view other :
+       {"contact_weight", "contact_normal", "contact_rest", "contact_anchor", "contact_stiffness"})
+    if (frame.find(other) == nullptr)
+      return fmt::format("array \"{}\" is missing beside \"contact_vertex\"", other);
+  return {};
+}
+
 std::string find_error(const Frame& frame, const Standard& standard, const Array& array) {
   if (array.place != standard.place || array.type != standard.type || array.components != standard.components)
     return fmt::format("array \"{}\" is {} {} x {}, it must be {} {} x {}", array.name, name_of(array.place),
@@ -94,10 +124,12 @@ std::string find_error(const Frame& frame, const Standard& standard, const Array
                        name_of(standard.transfer));
   if (array.name == "triangle")
     return find_triangle_error(frame, array);
+  if (array.name == "contact_vertex")
+    return find_contact_error(frame, array);
   if (array.type != Type::float64)
     return {};
-  if (array.place == Place::frame && array.rows != 1)
-    return fmt::format("array \"{}\" has {} rows, it must have 1", array.name, array.rows);
+  if (const std::uint64_t rows = rows_wanted(frame, standard); array.rows != rows)
+    return fmt::format("array \"{}\" has {} rows, it must have {}", array.name, array.rows, rows);
   const auto values = array.values<double>();
   const std::size_t row = first_not_finite(values, array.components);
   if (row < array.rows)

@@ -54,6 +54,13 @@ _STANDARD = {
     "hold": ("vertex", "uint64", 1, "1", "common"),
     "next_output_time": ("frame", "float64", 1, "s", "copy"),
     "step_size": ("frame", "float64", 1, "s", "copy"),
+    "touch": ("vertex", "uint64", 1, "1", "common"),
+    "contact_vertex": ("frame", "uint32", 4, "1", "drop"),
+    "contact_weight": ("frame", "float64", 4, "1", "drop"),
+    "contact_normal": ("frame", "float64", 3, "1", "drop"),
+    "contact_rest": ("frame", "float64", 1, "m", "drop"),
+    "contact_anchor": ("frame", "float64", 3, "m", "drop"),
+    "contact_stiffness": ("frame", "float64", 2, "N/m", "drop"),
     "scene": ("frame", "text", 1, "1", "copy"),
     "provenance": ("frame", "text", 1, "1", "copy"),
 }
@@ -224,6 +231,18 @@ def _find_edge_error(arrays, edges):
     return None
 
 
+def _find_contact_error(frame, vertices):
+    bad = vertices.reshape(-1) >= frame.vertices
+    if bad.any():
+        i = int(bad.argmax())
+        return (f'array "contact_vertex": contact {i // 4} names vertex {vertices.flat[i]}, '
+                f"the frame has {frame.vertices}")
+    for other in ("weight", "normal", "rest", "anchor", "stiffness"):
+        if f"contact_{other}" not in frame.arrays:
+            return f'array "contact_{other}" is missing beside "contact_vertex"'
+    return None
+
+
 def _find_standard_error(frame, name, array):
     place, kind, components, unit, transfer = _STANDARD[name]
     if (array.place, array.type, array.components) != (place, kind, components):
@@ -245,10 +264,15 @@ def _find_standard_error(frame, name, array):
             return (f'array "triangle": triangle {i} names vertex {t[outside[i].argmax()]}, '
                     f"the frame has {frame.vertices}")
         return f'array "triangle": triangle {i} names vertex {t[0] if t[0] == t[1] else t[2]} twice'
+    if place == "frame" and kind != "text":
+        contacts = frame.arrays.get("contact_vertex")
+        rows = 1 if not name.startswith("contact_") else contacts.rows if contacts else 0
+        if array.rows != rows:
+            return f'array "{name}" has {array.rows} rows, it must have {rows}'
+    if name == "contact_vertex":
+        return _find_contact_error(frame, values)
     if kind != "float64":
         return None
-    if place == "frame" and array.rows != 1:
-        return f'array "{name}" has {array.rows} rows, it must have 1'
     finite = np.isfinite(values).reshape(array.rows, -1).all(axis=1) if array.rows else np.ones(0, bool)
     if not finite.all():
         return f'array "{name}": row {finite.argmin()} is not finite'

@@ -23,9 +23,7 @@ PressureLaw pressure_law(const scene::Pressure& pressure) {
                                  law.value = p.value;
                                  law.reference_radius = p.reference_radius;
                                },
-                               [&](const scene::DrainingPressure&) {
-                                 fail(ExitCode::bad_input, "draining pressure");
-                               }},
+                               [&](const scene::DrainingPressure&) { fail(ExitCode::bad_input, "draining pressure"); }},
              pressure);
   return law;
 }
@@ -86,6 +84,29 @@ void add_touching(const Scene& scene, const Frame& frame, Model& model) {
   }
 }
 
+// Springs between near features of the sheet, as sheet-collide has set them up.
+void add_contacts(const Scene& scene, const Frame& frame, Model& model) {
+  const Array* vertices = frame.find("contact_vertex");
+  if (vertices == nullptr)
+    return;
+  const auto column = [&](std::string_view name) { return frame.find(name)->values<double>(); };
+  const auto weight = column("contact_weight"), normal = column("contact_normal"), rest = column("contact_rest"),
+             anchor = column("contact_anchor"), stiffness = column("contact_stiffness");
+  const auto v = vertices->values<std::array<std::uint32_t, 4>>();
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    ContactSpring spring;
+    spring.vertices = v[i];
+    std::copy_n(weight.begin() + 4 * i, 4, spring.weights.begin());
+    spring.normal = Vector3(normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]);
+    spring.rest = rest[i];
+    spring.anchor = Vector3(anchor[3 * i], anchor[3 * i + 1], anchor[3 * i + 2]);
+    spring.normal_stiffness = stiffness[2 * i];
+    spring.tangential_stiffness = stiffness[2 * i + 1];
+    spring.adhesion = scene.contact && scene.contact->adhesion;
+    model.contacts.push_back(spring);
+  }
+}
+
 } // namespace
 
 State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
@@ -130,6 +151,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
     model.bath = BathModel{scene.environment.bath->density, scene.environment.bath->level};
   add_holds(scene, frame, mesh, model);
   add_touching(scene, frame, model);
+  add_contacts(scene, frame, model);
   return model;
 }
 

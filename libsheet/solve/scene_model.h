@@ -17,8 +17,8 @@ namespace sheet {
 void put_state(const State& state, formats::Frame& frame);
 
 // The terms that the scene asks for, and its holds that are in force at the frame's time: those of the scene's [[hold]]
-// tables (array "hold") and the vertices that touch a solid and move with it (array "touch"). Bending is as `bending` says,
-// unless the scene wants none. Throws Error (bad_input) where the scene has too little for a model.
+// tables (array "hold") and the vertices that touch a solid and move with it (array "touch"); contact springs (arrays
+// "contact_..."). Bending is as `bending` says, unless the scene wants none. Throws Error (bad_input) where the scene has too little for a model.
 [[nodiscard]] Model model_of(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh, Bending bending,
                              bool arcs);
 
