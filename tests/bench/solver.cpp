@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of a time step and of its parts at 5,000, 15,000 and 50,000 vertices: one Newton iteration (assembly + factorise +
-// solve) over the numeric factorisation alone, analysis over factorisation, the mid-edge step over the hinge step, each
-// term's share, peak memory. Medians; models take turns step by step, so that a busy machine slows them all alike.
+// Cost of a time step and of its parts at 5,000, 15,000 and 50,000 vertices: one Newton iteration (assembly + factorise
+// + solve) over the numeric factorisation alone, analysis over factorisation, the mid-edge step over the hinge step,
+// each term's share, peak memory. Medians; models take turns step by step, so that a busy machine slows them all alike.
 //   bench_solver [--steps 5] [--threads 1] [VERTICES...]
 #include <algorithm>
 #include <chrono>

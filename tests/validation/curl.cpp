@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // V14: bending moment of a sheet that is being rolled up, on a square patch of a mesh. The patch lies on a cylinder, is
-// half as long again as the radius, and its rim follows the exact motion (curvature k to k + dk, no stretching), normals
-// too; inside it is free. The rim's uniform stretching along the arc is chosen so that it costs least, that is, no force
-// pulls at the ends. Power over that of pure bending, D k̇² a unit of area, D = μ h³/3: what exceeds 1 is locking.
+// half as long again as the radius, and its rim follows the exact motion (curvature k to k + dk, no stretching),
+// normals too; inside it is free. The rim's uniform stretching along the arc is chosen so that it costs least, that is,
+// no force pulls at the ends. Power over that of pure bending, D k̇² a unit of area, D = μ h³/3: what exceeds 1 is
+// locking.
 #include <algorithm>
 
 #include "tests/validation/instant.h"
@@ -50,7 +51,9 @@ Result v14(const Settings& s) {
       const Edge& ends = start.mesh->edges[e];
       return roll.along(0.5 * (flat.positions[ends[0]] + flat.positions[ends[1]]));
     };
-    const auto turned_by = [](double angle) -> Matrix3 { return Eigen::AngleAxisd(-angle, Vector3::UnitY()).toRotationMatrix(); };
+    const auto turned_by = [](double angle) -> Matrix3 {
+      return Eigen::AngleAxisd(-angle, Vector3::UnitY()).toRotationMatrix();
+    };
     // The rim's directors are the cylinder's normals, not those of the triangles beside it.
     const auto exact_rim = [&](Stage& stage) {
       if (stage.frames.empty())
