@@ -16,10 +16,10 @@ void declare(std::string& header, const MeshArray& array) {
   for (int k = 0; k < array.components; ++k) {
     header += "property double " + name;
     if (array.components == 3)
-      header += std::string("_") + static_cast<char>('x' + k);
+      header.append(1, '_').append(1, static_cast<char>('x' + k));
     else if (array.components > 1)
-      header += "_" + std::to_string(k);
-    header += "\n";
+      header.append(1, '_').append(std::to_string(k));
+    header.append(1, '\n');
   }
 }
 

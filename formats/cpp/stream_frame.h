@@ -131,6 +131,9 @@ class StreamError : public std::runtime_error {
 // positive volumes, number of edges), with row; empty if none does. Cost: one pass; arrays at place edge: a sort.
 [[nodiscard]] std::string find_value_error(const Frame& frame);
 
+// The same for one array; empty for arrays that are not standard.
+[[nodiscard]] std::string find_array_error(const Frame& frame, const Array& array);
+
 // Says which critical array this version does not know; empty if there is none.
 [[nodiscard]] std::string find_critical_error(const Frame& frame);
 

@@ -117,19 +117,20 @@ std::string find_value_error(const Frame& frame) {
   for (const Standard& s : standards)
     if (s.required && frame.find(s.name) == nullptr)
       return fmt::format("array \"{}\" is missing", s.name);
-  for (const Array& array : frame.arrays) {
-    const Standard* standard = find_standard(array.name);
-    if (standard == nullptr)
-      continue;
-    if (const std::string error = find_error(frame, *standard, array); !error.empty())
+  for (const Array& array : frame.arrays)
+    if (const std::string error = find_array_error(frame, array); !error.empty())
       return error;
-  }
   if (frame.edges != 0) {
     const std::size_t edges = count_edges(frame.find("triangle")->values<std::array<std::uint32_t, 3>>());
     if (edges != frame.edges)
       return fmt::format("the frame counts {} edges, its triangles have {}", frame.edges, edges);
   }
   return {};
+}
+
+std::string find_array_error(const Frame& frame, const Array& array) {
+  const Standard* standard = find_standard(array.name);
+  return standard == nullptr ? std::string() : find_error(frame, *standard, array);
 }
 
 std::string find_critical_error(const Frame& frame) {

@@ -205,6 +205,7 @@ void Tool::arguments(std::string_view name, std::vector<std::string>& values, st
 void Tool::example(std::string command, std::string text) {
   examples_.emplace_back(std::move(command), std::move(text));
 }
+void Tool::exit_status(std::string text) { exit_status_ = std::move(text); }
 void Tool::section(std::string title, std::string text) { sections_.emplace_back(std::move(title), std::move(text)); }
 
 void Tool::parse(int argc, char** argv) {
@@ -227,7 +228,9 @@ void Tool::parse(int argc, char** argv) {
       continue;
     }
     CLI::Option* o = app.add_option(option.names, set);
-    o->expected(option.is_list ? (option.is_argument ? -1 : 1) : 1);
+    o->expected(1);
+    if (option.is_list && option.is_argument)
+      o->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args();
     if (option.is_list && !option.is_argument)
       o->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1)->allow_extra_args(false);
     else if (!option.is_list)

@@ -53,6 +53,8 @@ class Tool {
   void example(std::string command, std::string text);
   // Further man page section.
   void section(std::string title, std::string text);
+  // Where a program's exit codes are not those of ExitCode.
+  void exit_status(std::string text);
 
   // Declares the options of every program (--help, --version, -q, -v, --threads), parses, calls `body`, turns errors
   // into messages on stderr and exit codes. SIGPIPE is ignored: writes to a closed pipe throw and end the program
@@ -85,6 +87,8 @@ class Tool {
   std::string name_, summary_, description_;
   std::vector<Option> options_;
   std::vector<std::pair<std::string, std::string>> examples_, sections_;
+  std::string exit_status_ = "0 success, 1 internal error, 2 wrong usage, 3 bad input, 4 truncated or corrupt stream, "
+                             "5 the numerical solution did not converge, 6 input or output error.";
   std::int64_t threads_ = 0;
   bool quiet_ = false, verbose_ = false;
   std::size_t first_common_ = 0; // options_ from here on are those of every program

@@ -96,6 +96,7 @@ std::string Tool::help_text() const {
   out += fmt::format("  {:<24}{}\n  {:<24}{}\n", "-h, --help", "this text", "--version", "name and version");
   for (const auto& [title, text] : sections_)
     out += fmt::format("\n{}:\n{}", title, wrapped(text, 2));
+  out += "\nExit status:\n" + wrapped(exit_status_, 2);
   if (!examples_.empty())
     out += "\nExamples:\n";
   for (const auto& [command, text] : examples_)
@@ -123,9 +124,7 @@ std::string Tool::man_page() const {
       c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     out += fmt::format(".SH {}\n{}\n", troff(upper), troff(text));
   }
-  out += ".SH EXIT STATUS\n"
-         "0 success, 1 internal error, 2 wrong usage, 3 bad input, 4 truncated or corrupt stream,\n"
-         "5 the numerical solution did not converge, 6 input or output error.\n";
+  out += fmt::format(".SH EXIT STATUS\n{}\n", troff(exit_status_));
   if (!examples_.empty())
     out += ".SH EXAMPLES\n";
   for (const auto& [command, text] : examples_)

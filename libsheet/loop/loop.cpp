@@ -65,7 +65,7 @@ Keep parse_keep(const LoopOptions& options) {
 
 // SIGINT and SIGTERM as something to wait for, from construction on; as before after destruction.
 class Signals {
- public:
+public:
   Signals() {
     sigemptyset(&set_);
     sigaddset(&set_, SIGINT);
@@ -100,14 +100,14 @@ class Signals {
     return ::read(descriptor_, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : SIGINT;
   }
 
- private:
+private:
   sigset_t set_{}, old_{};
   int descriptor_ = -1;
 };
 
 // The stream of kept frames: a new one, or one that a run before has left.
 class Output {
- public:
+public:
   // Reads what is there, cuts off what is behind the last whole frame, and leaves that frame in `last`.
   static std::unique_ptr<Output> resume(const std::string& path, Frame& last) {
     std::uint64_t frames = 0, bytes = 0;
@@ -159,7 +159,7 @@ class Output {
   }
   [[nodiscard]] std::uint64_t frames() const { return writer_.frames(); }
 
- private:
+private:
   explicit Output(std::unique_ptr<OutputFile> file)
       : created_(std::move(file)), writer_(created_->descriptor(), created_->name()) {}
   Output(int descriptor, const std::string& path, std::uint64_t frames)
@@ -247,7 +247,7 @@ void report_times(const PipelineEnd& end, std::uint64_t rounds, double elapsed) 
 }
 
 class Ring {
- public:
+public:
   Ring(const LoopOptions& options, const std::string& provenance_line)
       : options_(options), keep_(parse_keep(options)), provenance_line_(provenance_line) {}
 
@@ -287,7 +287,7 @@ class Ring {
     return 0;
   }
 
- private:
+private:
   // Reads the first frame, opens the output.
   void start() {
     if (!options_.resume.empty()) {
@@ -394,11 +394,12 @@ class Ring {
   }
 
   [[noreturn]] void fail_round(Pipeline& pipeline, const std::string& error) {
+    pipeline.note_early_ends();
     const PipelineEnd end = pipeline.finish(5);
     save_state();
-    if (const StageStatus* stage = first_failure(end))
+    if (const StageStatus* stage = first_failure(end, true))
       fail(exit_code_of(*stage), "{} in the step after {}", describe(*stage), whereabouts());
-    fail(ExitCode::corrupt, "{}, though every stage ended well; in the step after {}", error, whereabouts());
+    fail(ExitCode::corrupt, "{}; in the step after {}", error, whereabouts());
   }
 
   void interrupted(Pipeline& pipeline) {
@@ -420,7 +421,7 @@ class Ring {
       error = e.what();
     }
     const PipelineEnd end = pipeline.finish(60);
-    if (const StageStatus* stage = first_failure(end))
+    if (const StageStatus* stage = first_failure(end, false))
       fail(exit_code_of(*stage), "{} at the end of the stream, after {}", describe(*stage), whereabouts());
     if (!error.empty())
       fail(ExitCode::corrupt, "{}; after {}", error, whereabouts());

@@ -27,8 +27,6 @@ namespace {
 // The descriptor on which shell and stages report; out of the way of what people redirect.
 constexpr int report_descriptor = 19;
 
-void set_close_on_exec(int descriptor) { ::fcntl(descriptor, F_SETFD, FD_CLOEXEC); }
-
 std::array<int, 2> make_pipe() {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -57,6 +55,9 @@ std::string path_with_own_folder() {
 } // namespace
 
 std::vector<std::string> split_pipeline(const std::string& command) {
+  const auto refuse = [](std::string_view what) {
+    fail(ExitCode::usage, "{} in the pipeline: give stages joined by |, and put other commands into a script", what);
+  };
   std::vector<std::string> stages(1);
   const std::string text = trimmed(command);
   int depth = 0;
@@ -73,37 +74,53 @@ std::vector<std::string> split_pipeline(const std::string& command) {
       stage += text.substr(i, end - i + 1);
       i = end;
     } else if (depth == 0 && c == '|') {
-      if (i + 1 < text.size() && text[i + 1] == '|')
-        return {};
+      if (i + 1 < text.size() && (text[i + 1] == '|' || text[i + 1] == '&'))
+        refuse(text.substr(i, 2));
       stages.emplace_back();
-    } else if (depth == 0 && (c == ';' || c == '\n' || (c == '&' && (i == 0 || text[i - 1] != '>')))) {
-      return {};
+    } else if (depth == 0 &&
+               (c == ';' || c == '\n' || (c == '&' && (i == 0 || (text[i - 1] != '>' && text[i - 1] != '<'))))) {
+      refuse(c == '\n' ? "a line break" : std::string(1, c));
     } else {
       depth += (c == '(' || c == '{') ? 1 : (c == ')' || c == '}') ? -1 : 0;
       stage += c;
     }
   }
   for (std::string& stage : stages)
-    stage = trimmed(stage);
+    if ((stage = trimmed(stage)).empty())
+      refuse("an empty stage");
   return stages;
 }
 
-Pipeline::Pipeline(const std::string& command) : command_(command) {
-  auto [in_read, in_write] = make_pipe();
-  auto [out_read, out_write] = make_pipe();
+Pipeline::Pipeline(const std::string& command) {
+  for (const std::string& stage : split_pipeline(command))
+    stages_.push_back({stage, -1, false, false, 0});
+  auto [first_read, first_write] = make_pipe();
   auto [report_read, report_write] = make_pipe();
-  widen_pipe(in_write);
-  widen_pipe(out_read);
-  const std::string script =
-      command + "\nstatus=(\"${PIPESTATUS[@]}\")\necho \"status ${status[*]}\" >&" + std::to_string(report_descriptor);
+  input_ = first_write;
+  report_ = report_read;
+  widen_pipe(input_);
+  int from = first_read;
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    auto [read_end, write_end] = make_pipe();
+    widen_pipe(read_end);
+    start_stage(i, from, write_end, report_write);
+    ::close(from);
+    ::close(write_end);
+    from = read_end;
+  }
+  ::close(report_write);
+  output_ = from;
+}
+
+void Pipeline::start_stage(std::size_t index, int from, int to, int report) {
   const std::string path = path_with_own_folder();
-  const std::string report = std::to_string(report_descriptor);
+  const std::string descriptor = std::to_string(report_descriptor);
   const pid_t parent = ::getpid();
-  shell_ = ::fork();
-  if (shell_ < 0)
-    fail(ExitCode::io, "cannot start the pipeline: {}", std::strerror(errno));
-  if (shell_ == 0) {
-    ::setpgid(0, 0);
+  const pid_t child = ::fork();
+  if (child < 0)
+    fail(ExitCode::io, "cannot start stage \"{}\": {}", stages_[index].command, std::strerror(errno));
+  if (child == 0) {
+    ::setpgid(0, group_);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != parent)
       ::_exit(1);
@@ -112,30 +129,22 @@ Pipeline::Pipeline(const std::string& command) : command_(command) {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
-    if (::dup2(in_read, STDIN_FILENO) < 0 || ::dup2(out_write, STDOUT_FILENO) < 0 ||
-        ::dup2(report_write, report_descriptor) < 0)
+    if (::dup2(from, STDIN_FILENO) < 0 || ::dup2(to, STDOUT_FILENO) < 0 || ::dup2(report, report_descriptor) < 0)
       ::_exit(1);
     ::setenv("PATH", path.c_str(), 1);
-    ::setenv(report_descriptor_variable, report.c_str(), 1);
-    ::execl("/bin/bash", "bash", "-c", script.c_str(), static_cast<char*>(nullptr));
+    ::setenv(report_descriptor_variable, descriptor.c_str(), 1);
+    ::execl("/bin/bash", "bash", "-c", stages_[index].command.c_str(), static_cast<char*>(nullptr));
     ::_exit(127);
   }
-  ::setpgid(shell_, shell_); // both sides do it: whoever is first
-  ::close(in_read);
-  ::close(out_write);
-  ::close(report_write);
-  input_ = in_write;
-  output_ = out_read;
-  report_ = report_read;
-  for (const int descriptor : {input_, output_, report_})
-    set_close_on_exec(descriptor);
+  stages_[index].process = child;
+  if (group_ == 0)
+    group_ = child;
+  ::setpgid(child, group_); // both sides do it: whoever is first
 }
 
 Pipeline::~Pipeline() {
-  if (shell_ > 0) {
-    kill();
-    ::waitpid(shell_, nullptr, 0);
-  }
+  kill();
+  reap(0);
   close_if_open(input_);
   close_if_open(output_);
   close_if_open(report_);
@@ -143,12 +152,44 @@ Pipeline::~Pipeline() {
 
 void Pipeline::close_input() { close_if_open(input_); }
 
-void Pipeline::kill() { ::kill(-shell_, SIGKILL); }
+void Pipeline::kill() {
+  for (const Stage& stage : stages_)
+    if (!stage.ended && stage.process > 0) {
+      ::kill(-group_, SIGKILL); // their own children too
+      break;
+    }
+}
+
+// Notes the stages that have ended; waits for all of them unless options is WNOHANG.
+void Pipeline::reap(int options) {
+  for (Stage& stage : stages_) {
+    int status = 0;
+    pid_t got = 0;
+    while (!stage.ended && stage.process > 0 && (got = ::waitpid(stage.process, &status, options)) < 0 &&
+           errno == EINTR) {
+    }
+    if (stage.ended || got != stage.process)
+      continue;
+    stage.ended = true;
+    stage.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+}
+
+void Pipeline::note_early_ends() {
+  for (int wait = 0; wait < 50; ++wait) {
+    reap(WNOHANG);
+    if (stages_.back().ended)
+      break;
+    ::poll(nullptr, 0, 10); // [ms]
+  }
+  for (Stage& stage : stages_)
+    stage.early = stage.ended;
+}
 
 PipelineEnd Pipeline::finish(double patience) {
   close_if_open(input_);
   close_if_open(output_);
-  // The report's end is reached when the shell and every stage have gone.
+  // The report's end is reached when every stage has gone.
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
   std::string report;
   for (bool killed = false;;) {
@@ -160,6 +201,7 @@ PipelineEnd Pipeline::finish(double patience) {
     if (ready == 0) {
       if (killed)
         break;
+      reap(WNOHANG); // so that those keep their codes who ended before we lost patience
       kill();
       killed = true;
       continue;
@@ -172,40 +214,35 @@ PipelineEnd Pipeline::finish(double patience) {
       break;
     report.append(buffer.data(), static_cast<std::size_t>(got));
   }
-  int status = 0;
-  while (::waitpid(shell_, &status, 0) < 0 && errno == EINTR) {
-  }
-  shell_ = -1;
+  reap(0);
 
   PipelineEnd end;
-  end.shell_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  const std::vector<std::string> commands = split_pipeline(command_);
+  for (const Stage& stage : stages_)
+    end.stages.push_back({stage.command, stage.code, stage.early});
   std::istringstream lines(report);
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string kind;
-    words >> kind;
-    if (kind == "time") {
-      StageTime time;
-      if (words >> time.process >> time.name >> time.frames >> time.seconds)
-        end.times.push_back(std::move(time));
-    } else if (kind == "status") {
-      std::vector<int> codes;
-      for (int code = 0; words >> code;)
-        codes.push_back(code);
-      for (std::size_t i = 0; i < codes.size(); ++i)
-        end.stages.push_back({codes.size() == commands.size() ? commands[i] : command_, codes[i]});
-    }
+    pid_t process = 0;
+    StageTime time;
+    if (!(words >> kind >> process >> time.name >> time.frames >> time.seconds) || kind != "time")
+      continue;
+    // bash replaces itself by a simple command; what a stage starts beside that counts as the pipeline's last
+    const auto it =
+        std::find_if(stages_.begin(), stages_.end(), [&](const Stage& stage) { return stage.process == process; });
+    time.stage = static_cast<std::size_t>(it - stages_.begin());
+    end.times.push_back(std::move(time));
   }
-  // bash starts stages from left to right
-  std::sort(end.times.begin(), end.times.end(),
-            [](const StageTime& a, const StageTime& b) { return a.process < b.process; });
+  std::stable_sort(end.times.begin(), end.times.end(),
+                   [](const StageTime& a, const StageTime& b) { return a.stage < b.stage; });
   return end;
 }
 
-const StageStatus* first_failure(const PipelineEnd& end) {
+const StageStatus* first_failure(const PipelineEnd& end, bool only_early) {
   constexpr int closed_pipe = 128 + SIGPIPE;
-  const auto failed = [](const StageStatus& s) { return s.code != 0 && s.code != closed_pipe; };
+  const auto failed = [only_early](const StageStatus& s) {
+    return s.code != 0 && s.code != closed_pipe && (s.early || !only_early);
+  };
   const auto it = std::find_if(end.stages.begin(), end.stages.end(), failed);
   return it == end.stages.end() ? nullptr : &*it;
 }

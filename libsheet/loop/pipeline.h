@@ -13,28 +13,31 @@ namespace sheet {
 struct StageStatus {
   std::string command; // as written in the pipeline
   int code = 0;        // exit code; 128 + signal if a signal ended it
+  bool early = false;  // it ended of itself, before its input was closed
 };
 
 // What a stage that knows how (run_filter) says of its own time.
 struct StageTime {
-  pid_t process = 0;
+  std::size_t stage = 0; // its place in the pipeline
   std::string name;
   std::uint64_t frames = 0;
   double seconds = 0; // wall-clock, from a frame's arrival to its departure, all frames
 };
 
 struct PipelineEnd {
-  std::vector<StageStatus> stages; // empty if the shell could not tell
-  int shell_code = 0;              // of the shell itself
-  std::vector<StageTime> times;    // in the order of the pipeline
+  std::vector<StageStatus> stages;
+  std::vector<StageTime> times; // in the order of the pipeline
 };
 
-// Splits a command at its top-level pipes: "a 'x|y' | b" gives "a 'x|y'" and "b". Empty if it is more than one pipeline
-// (;, &&, ||, &, newline outside quotes), for then stages cannot be told apart.
+// Splits a command at its top-level pipes: "a 'x|y' | b" gives "a 'x|y'" and "b". Throws Error (usage) if it is more
+// than one pipeline (;, &&, ||, &, newline outside quotes and brackets) or a stage is empty: what else a user wants to
+// run belongs into a script.
 [[nodiscard]] std::vector<std::string> split_pipeline(const std::string& command);
 
+// Every stage is a process (bash -c STAGE) of its own, so that the death of one is seen at once: no shell keeps its
+// pipes open.
 class Pipeline {
- public:
+public:
   // Starts `command` under bash in a process group of its own, with this program's folder first in PATH. Throws Error
   // (io).
   explicit Pipeline(const std::string& command);
@@ -47,19 +50,32 @@ class Pipeline {
   [[nodiscard]] int output() const noexcept { return output_; } // read frames here
   void close_input();
 
+  // The output has ended: notes which stages ended early, waiting a moment for the last one to be gone.
+  void note_early_ends();
+
   // Closes both ends and waits until all stages have ended; those that have not after `patience` seconds are killed.
   [[nodiscard]] PipelineEnd finish(double patience);
   // Kills all stages now.
   void kill();
 
- private:
-  std::string command_;
+private:
+  void start_stage(std::size_t index, int from, int to, int report);
+  void reap(int options);
+
+  struct Stage {
+    std::string command;
+    pid_t process = -1;
+    bool ended = false, early = false;
+    int code = 0;
+  };
+  std::vector<Stage> stages_;
   int input_ = -1, output_ = -1, report_ = -1;
-  pid_t shell_ = -1;
+  pid_t group_ = 0;
 };
 
 // The stage to blame for a pipeline's end: the first from the left with a code other than 0 and SIGPIPE's, for those
-// before it saw a closed pipe and those behind it a stream that was cut short. Null if there is none.
-[[nodiscard]] const StageStatus* first_failure(const PipelineEnd& end);
+// before it saw a closed pipe and those behind it a stream that was cut short. Where the pipeline broke down, only
+// stages that ended early count: the others died of it. Null if there is none.
+[[nodiscard]] const StageStatus* first_failure(const PipelineEnd& end, bool only_early);
 
 } // namespace sheet

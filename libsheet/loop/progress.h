@@ -12,7 +12,7 @@ namespace sheet {
 [[nodiscard]] std::string duration_text(double seconds);
 
 class Progress {
- public:
+public:
   // The run goes from this time and step to `until` and/or `steps`.
   Progress(double time, std::uint64_t step, std::optional<double> until, std::optional<std::int64_t> steps);
   ~Progress();
@@ -24,7 +24,7 @@ class Progress {
   [[nodiscard]] std::string line(double time, std::uint64_t step, std::uint64_t frames_kept, double elapsed) const;
   void clear();
 
- private:
+private:
   using Clock = std::chrono::steady_clock;
   double first_time_;
   std::uint64_t first_step_;

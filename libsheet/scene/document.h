@@ -44,7 +44,7 @@ struct Member {
 [[nodiscard]] std::string_view describe(Node::Type type);
 
 // A text without control characters as a TOML value, in quotes.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string toml_text(std::string_view text);
 
 // Throws Error (bad_input), "name:line:column: reason", at the first place that is not TOML. Safe with any text: size,
 // nesting and dotted keys are limited, and texts over several lines are refused.

@@ -98,7 +98,7 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
   if (auto table = optional("contact"))
     scene.contact = read_contact(*table);
   top.finish();
-  if (has_sheet && has_material && !problems.any())
+  if (has_sheet && has_material)
     check_together(scene, document, problems);
   return scene;
 }

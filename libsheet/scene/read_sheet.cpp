@@ -33,9 +33,11 @@ Rectangle read_rectangle(TableReader& table) {
 Annulus read_annulus(TableReader& table) {
   const Annulus annulus{table.required("inner_radius", quantity::length),
                         table.required("outer_radius", quantity::length)};
-  if (annulus.inner_radius >= annulus.outer_radius)
+  if (annulus.inner_radius >= annulus.outer_radius) {
     table.wrong("inner_radius", fmt::format("must be less than outer_radius, but {} m is not less than {} m",
                                             shortest(annulus.inner_radius), shortest(annulus.outer_radius)));
+    return {annulus.inner_radius, NAN};
+  }
   return annulus;
 }
 
@@ -49,7 +51,9 @@ Cap read_cap(TableReader& table) {
   else if (cap.opening >= cap.angle)
     table.wrong("opening", fmt::format("must be less than the cap's angle, but {} deg is not less than {} deg",
                                        degrees(cap.opening), degrees(cap.angle)));
-  return cap;
+  else
+    return cap;
+  return {cap.radius, NAN, 0};
 }
 
 SheetShape read_shape(TableReader& table, const Files& files) {

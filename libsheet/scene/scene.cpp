@@ -45,7 +45,7 @@ std::vector<Border> borders(const Cap& cap, const PlaneAxes&) {
   std::vector<Border> result;
   if (cap.opening > 0)
     result.push_back(Border::inner_rim);
-  if (cap.angle < pi)
+  if (!(cap.angle >= pi))
     result.push_back(Border::outer_rim);
   if (!result.empty())
     result.insert(result.begin(), Border::rim);

@@ -41,7 +41,7 @@ Node read_value(std::string_view text, std::string_view set) {
   if (printable) {
     if (auto value = read_toml_value(std::string(text)))
       return *value;
-    if (auto value = read_toml_value(quoted(text)))
+    if (auto value = read_toml_value(toml_text(text)))
       return *value;
   }
   fail(ExitCode::usage, "--set {}: the value must be one line of UTF-8 text", set);

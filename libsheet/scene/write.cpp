@@ -13,7 +13,7 @@ namespace {
 std::string number(double value) { return shortest(value == 0 ? 0 : value); }
 std::string list(const Vector3d& v) { return fmt::format("[{}, {}, {}]", number(v[0]), number(v[1]), number(v[2])); }
 std::string_view flag(bool value) { return value ? "true" : "false"; }
-template <class Words> std::string word(const Words& words, std::size_t index) { return quoted(words[index]); }
+template <class Words> std::string word(const Words& words, std::size_t index) { return toml_text(words[index]); }
 template <class Words, class Enum>
 requires std::is_enum_v<Enum> std::string word(const Words& words, Enum value) {
   return word(words, static_cast<std::size_t>(value));
@@ -112,7 +112,7 @@ void write_sheet(Writer& out, const SheetTable& sheet) {
                           out.line("height", s.height);
                         },
                         [&](const SheetMesh& s) {
-                          out.line("file", quoted(s.file));
+                          out.line("file", toml_text(s.file));
                           out.line("scale", s.scale);
                         }},
              sheet.shape);
@@ -127,7 +127,7 @@ void write_sheet(Writer& out, const SheetTable& sheet) {
   std::visit(Overloaded{[&](double uniform) { out.line("thickness", uniform); },
                         [&](const ThicknessData& t) {
                           out.line("thickness",
-                                   fmt::format("{{data = {}, place = {}, scale = {}}}", quoted(t.data),
+                                   fmt::format("{{data = {}, place = {}, scale = {}}}", toml_text(t.data),
                                                word(words::places, t.per_face ? 1UL : 0UL), number(t.scale)));
                         }},
              sheet.thickness);
@@ -178,7 +178,7 @@ void write_hold(Writer& out, const Hold& hold) {
     for (std::size_t i = 0; i < 3; ++i)
       if (hold.axes[i])
         axes += "xyz"[i];
-    out.line("axes", quoted(axes));
+    out.line("axes", toml_text(axes));
   }
   write_motion(out, hold.motion);
   out.line("until", hold.until);
@@ -199,7 +199,7 @@ void write_solid(Writer& out, const Solid& solid) {
                         },
                         [&](const HalfSpace& s) { out.line("normal", list(s.normal)); },
                         [&](const SolidMesh& s) {
-                          out.line("file", quoted(s.file));
+                          out.line("file", toml_text(s.file));
                           out.line("scale", s.scale);
                           out.line("voxel_size", s.voxel_size);
                         }},

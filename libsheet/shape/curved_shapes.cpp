@@ -136,7 +136,8 @@ TriangleMesh tube_irregular(double radius, double height, const MeshOptions& opt
 TriangleMesh make_cap(double radius, double angle, const MeshOptions& options, double opening) {
   check_length("cap", "radius", radius);
   if (!(angle > 0.0 && angle < std::numbers::pi))
-    fail(ExitCode::bad_input, "cap: angle = {:g} rad must lie between 0 and pi (a whole sphere is shape = \"sphere\")", angle);
+    fail(ExitCode::bad_input, "cap: angle = {:g} rad must lie between 0 and pi (a whole sphere is shape = \"sphere\")",
+         angle);
   if (!(opening >= 0.0 && opening < angle))
     fail(ExitCode::bad_input, "cap: opening = {:g} rad must lie between 0 and the angle of {:g} rad", opening, angle);
   if (const auto segments = explicit_segments("cap", options, {3, 1}))
@@ -168,7 +169,8 @@ TriangleMesh make_tube(double radius, double height, const MeshOptions& options)
     return tube_grid(radius, height, even_segments_of(two_pi * radius, right_leg * length),
                      segments_of(height, right_leg * length), false);
   case Pattern::equilateral:
-    return tube_grid(radius, height, segments_of(two_pi * radius, length, 6), segments_of(height, row_height * length), true);
+    return tube_grid(radius, height, segments_of(two_pi * radius, length, 6), segments_of(height, row_height * length),
+                     true);
   case Pattern::irregular:
     break;
   }

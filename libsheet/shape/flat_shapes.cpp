@@ -133,7 +133,8 @@ TriangleMesh fitted_lattice(const ScatterSurface& surface, Points points, double
       if (surface.rim_distance(p) > 0.55 * edge_length)
         points.push_back(p);
     }
-  relax(surface, rim, 25, [&](const Eigen::Vector3d& p) { return surface.rim_distance(p) < 3.0 * edge_length; }, points);
+  relax(
+      surface, rim, 25, [&](const Eigen::Vector3d& p) { return surface.rim_distance(p) < 3.0 * edge_length; }, points);
   TriangleMesh mesh;
   mesh.triangles = surface.triangulate(points);
   mesh.positions = std::move(points);
@@ -195,7 +196,8 @@ TriangleMesh make_rectangle(double size_x, double size_y, const MeshOptions& opt
   check_edge_length("rectangle", length, std::min(size_x, size_y), size_x * size_y);
   switch (options.pattern) {
   case Pattern::structured:
-    return rectangle_grid(size_x, size_y, segments_of(size_x, right_leg * length), segments_of(size_y, right_leg * length));
+    return rectangle_grid(size_x, size_y, segments_of(size_x, right_leg * length),
+                          segments_of(size_y, right_leg * length));
   case Pattern::equilateral:
     return rectangle_rows(size_x, size_y, length);
   case Pattern::irregular:

@@ -9,8 +9,8 @@ namespace sheet {
 
 struct MeshFigures {
   std::size_t vertices = 0, edges = 0, triangles = 0;
-  std::size_t boundary_edges = 0;    // edges of one triangle
-  std::size_t bad_edges = 0;         // edges of more than two triangles, or of two that run through them the same way
+  std::size_t boundary_edges = 0; // edges of one triangle
+  std::size_t bad_edges = 0;      // edges of more than two triangles, or of two that run through them the same way
   double edge_min = 0.0, edge_mean = 0.0, edge_max = 0.0; // [m]
   double angle_min = 0.0, angle_max = 0.0;                // [rad]
   double area = 0.0;                                      // [m²]
@@ -35,8 +35,8 @@ struct MeshEdge {
 // All edges, sorted by (a, b).
 [[nodiscard]] std::vector<MeshEdge> mesh_edges(const std::vector<TriangleIndices>& triangles);
 
-// Unit normals at the vertices: triangle normals weighted by the angle at the vertex [Thürmer, Wüthrich 1998]; zero at a
-// vertex without triangles.
+// Unit normals at the vertices: triangle normals weighted by the angle at the vertex [Thürmer, Wüthrich 1998]; zero at
+// a vertex without triangles.
 [[nodiscard]] std::vector<Eigen::Vector3d> vertex_normals(const TriangleMesh& mesh);
 
 // The smallest angle of one triangle [rad]; 0 if it has no area.

@@ -18,13 +18,15 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 
 void check(double amplitude, double wavelength) {
   if (!std::isfinite(amplitude) || !std::isfinite(wavelength) || !(wavelength > 0.0))
-    fail(ExitCode::bad_input, "perturbation: amplitude = {:g} m must be finite, wavelength = {:g} m positive and finite",
-         amplitude, wavelength);
+    fail(ExitCode::bad_input,
+         "perturbation: amplitude = {:g} m must be finite, wavelength = {:g} m positive and finite", amplitude,
+         wavelength);
 }
 
 Eigen::Vector3d unit(const Eigen::Vector3d& v) {
   if (!(v.stableNorm() > 0.0) || !v.allFinite())
-    fail(ExitCode::bad_input, "perturbation: direction [{:g}, {:g}, {:g}] must be finite and not zero", v.x(), v.y(), v.z());
+    fail(ExitCode::bad_input, "perturbation: direction [{:g}, {:g}, {:g}] must be finite and not zero", v.x(), v.y(),
+         v.z());
   return v.stableNormalized();
 }
 
@@ -45,7 +47,8 @@ Field radial_wave(double amplitude, double wavelength, const Eigen::Vector3d& ax
   };
 }
 
-Field band_noise(double amplitude, double wavelength, std::uint64_t seed, const std::optional<Eigen::Vector3d>& normal) {
+Field band_noise(double amplitude, double wavelength, std::uint64_t seed,
+                 const std::optional<Eigen::Vector3d>& normal) {
   check(amplitude, wavelength);
   constexpr int waves = 48;
   constexpr double width = 1.25;

@@ -31,14 +31,16 @@ double loop_length(const TriangleMesh& mesh, const std::vector<std::uint32_t>& l
 VertexSet extreme_loop(const TriangleMesh& mesh, double sign, const char* name) {
   const auto loops = boundary_loops(mesh);
   if (loops.size() < 2)
-    fail(ExitCode::bad_input, "region \"{}\": the mesh has {} boundary loop(s), so inner and outer make no sense; use \"rim\"",
-         name, loops.size());
+    fail(ExitCode::bad_input,
+         "region \"{}\": the mesh has {} boundary loop(s), so inner and outer make no sense; use \"rim\"", name,
+         loops.size());
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < loops.size(); ++i)
     order.emplace_back(sign * loop_length(mesh, loops[i]), i);
   std::sort(order.begin(), order.end());
   if (order[1].first - order[0].first < 1e-6 * std::abs(order[0].first))
-    fail(ExitCode::bad_input, "region \"{}\": two boundary loops are equally long; use a side such as \"y_min\" or a box", name);
+    fail(ExitCode::bad_input,
+         "region \"{}\": two boundary loops are equally long; use a side such as \"y_min\" or a box", name);
   VertexSet set = loops[order[0].second];
   std::sort(set.begin(), set.end());
   return set;

@@ -15,13 +15,13 @@ namespace sheet {
 
 namespace {
 
-constexpr double rim_gap = 0.6;    // free points stay that many edge lengths off the rims, so that rims are Delaunay edges
-constexpr int relax_rounds = 12;   // enough for good angles, too few for a lattice to grow
+constexpr double rim_gap = 0.6; // free points stay that many edge lengths off the rims, so that rims are Delaunay edges
+constexpr int relax_rounds = 12; // enough for good angles, too few for a lattice to grow
 constexpr double good_angle = 26.5 * std::numbers::pi / 180.0;
 
 // Points in cubes of a given size, to find those near a place.
 class NearbyPoints {
-public:
+ public:
   explicit NearbyPoints(double cube) : cube_(cube) {}
 
   void add(const Eigen::Vector3d& point) {
@@ -45,7 +45,7 @@ public:
     return false;
   }
 
-private:
+ private:
   using Cell = std::array<std::int64_t, 3>;
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 
@@ -177,7 +177,8 @@ TriangleMesh irregular_mesh(const ScatterSurface& surface, Points fixed, double 
     relax(surface, rim, 2, everywhere, points);
   if (bad > 0)
     fail(ExitCode::bad_input,
-         "the irregular pattern finds no good triangles at edge_length = {:g} m (seed {}): the shape is only a few edges "
+         "the irregular pattern finds no good triangles at edge_length = {:g} m (seed {}): the shape is only a few "
+         "edges "
          "wide; use a smaller edge_length, another seed or another pattern",
          edge_length, seed);
   TriangleMesh mesh;

@@ -15,19 +15,20 @@ using Points = std::vector<Eigen::Vector3d>;
 
 // A surface as the engine sees it.
 struct ScatterSurface {
-  std::function<Eigen::Vector3d(Random&)> sample;                           // a point, uniform by area
-  std::function<double(const Eigen::Vector3d&)> rim_distance;               // [m] to the nearest rim, large if none
-  std::function<Eigen::Vector3d(const Eigen::Vector3d&)> project;           // back onto the surface
-  std::function<std::vector<TriangleIndices>(const Points&)> triangulate;   // Delaunay, rims as boundary
-  double area = 0.0;                                                        // [m²]
+  std::function<Eigen::Vector3d(Random&)> sample;                         // a point, uniform by area
+  std::function<double(const Eigen::Vector3d&)> rim_distance;             // [m] to the nearest rim, large if none
+  std::function<Eigen::Vector3d(const Eigen::Vector3d&)> project;         // back onto the surface
+  std::function<std::vector<TriangleIndices>(const Points&)> triangulate; // Delaunay, rims as boundary
+  double area = 0.0;                                                      // [m²]
   long euler_characteristic = 1;
 };
 
 // Number of free vertices for which a mesh of that surface has the mean edge length.
-[[nodiscard]] std::size_t free_vertex_count(const ScatterSurface& surface, std::size_t rim_vertices, double edge_length);
+[[nodiscard]] std::size_t free_vertex_count(const ScatterSurface& surface, std::size_t rim_vertices,
+                                            double edge_length);
 
-// Adds `count` points to `points` (rims and other fixed points), none close to another: Poisson disc sampling whose disc
-// shrinks until all find room [after Dunbar, Humphreys 2006].
+// Adds `count` points to `points` (rims and other fixed points), none close to another: Poisson disc sampling whose
+// disc shrinks until all find room [after Dunbar, Humphreys 2006].
 void scatter(const ScatterSurface& surface, std::size_t count, double edge_length, Random& random, Points& points);
 
 // Moves the points from `fixed` on, if `may_move` agrees, to the mean of the centroids of their Delaunay triangles

@@ -16,7 +16,8 @@ void check_edge_length(const char* shape, double edge_length, double largest, do
 
 // The explicit segments, checked, or nothing. `least` is the smallest number along the first and the second direction,
 // `triangles` a product of constants: the mesh has triangles * first * second triangles.
-[[nodiscard]] std::optional<std::array<std::uint32_t, 2>> explicit_segments(const char* shape, const MeshOptions& options,
+[[nodiscard]] std::optional<std::array<std::uint32_t, 2>> explicit_segments(const char* shape,
+                                                                            const MeshOptions& options,
                                                                             std::array<std::uint32_t, 2> least,
                                                                             double triangles = 2.0);
 

@@ -11,10 +11,10 @@ namespace sheet {
 // Error (bad_input) if the mesh has no thickness.
 [[nodiscard]] std::vector<double> thickness_at_vertices(const TriangleMesh& mesh);
 
-// A closed mesh facing outward. Vertex i of n becomes i (x + h/2 normal) and n + i (x - h/2 normal). A closed mid-surface
-// gives two closed surfaces, the inner one facing inward. The enclosed volume is that of the sheet up to the square of
-// thickness times curvature. Where the thickness exceeds the radius of curvature or a fold, the surface may cross itself.
-// Throws Error (bad_input) unless the mesh is an oriented manifold.
+// A closed mesh facing outward. Vertex i of n becomes i (x + h/2 normal) and n + i (x - h/2 normal). A closed
+// mid-surface gives two closed surfaces, the inner one facing inward. The enclosed volume is that of the sheet up to
+// the square of thickness times curvature. Where the thickness exceeds the radius of curvature or a fold, the surface
+// may cross itself. Throws Error (bad_input) unless the mesh is an oriented manifold.
 [[nodiscard]] TriangleMesh solidify(const TriangleMesh& mesh, const std::vector<double>& vertex_thickness);
 
 } // namespace sheet

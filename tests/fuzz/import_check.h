@@ -15,8 +15,7 @@ inline int check_import(const std::uint8_t* data, std::size_t size, sheet::forma
       std::abort();
   };
   try {
-    const MeshImport result =
-        import_mesh(std::string_view(reinterpret_cast<const char*>(data), size), format, "fuzz");
+    const MeshImport result = import_mesh(std::string_view(reinterpret_cast<const char*>(data), size), format, "fuzz");
     const ForeignMesh& mesh = result.mesh;
     require(!mesh.triangles.empty());
     for (const auto& point : mesh.points)

@@ -19,12 +19,15 @@ setup() {
 }
 
 # usage: ring_with_accident COMMAND [OPTION]...: runs the ring; at step 35 its middle stage runs COMMAND, which knows the
-# stage's process id as $stage and the ring's as $(pgrep ...). Leaves exit code in $code, messages in `log`.
+# stage's process id as $stage and the ring's as $(ring). Leaves the exit code in $code, messages in `log`.
 ring_with_accident() {
-  export accident=$1
+  export accident="ring() { until [ -s ring.pid ]; do sleep 0.01; done; cat ring.pid; }; $1"
   shift
   code=0
-  sheet-loop -i start.sheet "${run_options[@]}" "$@" -- 'sheet-pass | accident_at 35 | sheet-pass' 2> log || code=$?
+  rm -f ring.pid
+  sheet-loop -i start.sheet "${run_options[@]}" "$@" -- 'sheet-pass | accident_at 35 | sheet-pass' 2> log &
+  echo $! > ring.pid
+  wait $! || code=$?
   unset accident
 }
 
@@ -39,7 +42,7 @@ whole_frames() { # FILE COUNT: so many whole frames and nothing behind them
 }
 
 @test "SIGINT to sheet-loop: the stream ends well, exit by the signal, resume gives the straight run" {
-  ring_with_accident 'kill -INT $(ps -o ppid= -p $(ps -o ppid= -p $stage)); sleep 10' -o run.sheet
+  ring_with_accident 'kill -INT $(ring); sleep 10' -o run.sheet
   [[ $code == 130 ]]
   grep -q 'interrupted in the step after step 35, t = 0 s; 4 whole frames kept; go on with --resume run.sheet' log
   sheet-pass run.sheet > /dev/null
@@ -57,7 +60,7 @@ whole_frames() { # FILE COUNT: so many whole frames and nothing behind them
 }
 
 @test "kill -9 of sheet-loop: whole frames, no stage stays behind, resume gives the straight run" {
-  ring_with_accident 'kill -9 $(ps -o ppid= -p $(ps -o ppid= -p $stage))' -o run.sheet
+  ring_with_accident 'kill -9 $(ring)' -o run.sheet
   [[ $code == 137 ]]
   for _ in $(seq 50); do
     left=$(pgrep -r R,S,D -f 'accident_at 35' || true)
@@ -100,9 +103,20 @@ whole_frames() { # FILE COUNT: so many whole frames and nothing behind them
 }
 
 @test "closed pipe downstream: everybody ends quietly" {
-  ring_with_accident true 2>&1 | head -c 700000 > /dev/null
-  [[ ${PIPESTATUS[0]} == 0 ]]
+  { accident=true sheet-loop -i start.sheet "${run_options[@]}" -- 'sheet-pass | accident_at 35' 2> log; echo $? > code; } |
+    head -c 700000 > /dev/null
+  [[ $(cat code) == 0 ]]
   [[ ! -s log ]]
+}
+
+@test "a stage that dies behind one that waits for its next frame is seen at once" {
+  for pipeline in 'sheet-pass | nonesuch' 'sheet-pass | sheet-pass --nonsense | sheet-pass' 'sheet-pass | false'; do
+    start=$SECONDS
+    make_grid 3 > small.sheet
+    run timeout 20 sheet-loop -i small.sheet --steps 3 -o run.sheet -- "$pipeline"
+    ((status >= 1 && status <= 2))
+    ((SECONDS - start < 5))
+  done
 }
 
 @test "checkpoint: the newest frame survives a dying stage, and resume starts from it" {

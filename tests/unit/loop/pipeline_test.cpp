@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "libsheet/base/error.h"
 #include "libsheet/loop/loop.h"
 #include "libsheet/loop/pipeline.h"
 #include "libsheet/loop/progress.h"
@@ -12,7 +13,6 @@ namespace sheet {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 TEST(SplitPipeline, FindsTheStages) {
   EXPECT_THAT(split_pipeline("a"), ElementsAre("a"));
@@ -22,18 +22,19 @@ TEST(SplitPipeline, FindsTheStages) {
   EXPECT_THAT(split_pipeline("a 2>&1 | b"), ElementsAre("a 2>&1", "b"));
 }
 
-TEST(SplitPipeline, IsEmptyForMoreThanOnePipeline) {
-  for (const char* command : {"a; b", "a && b", "a || b", "a & b", "a | b\nc"})
-    EXPECT_THAT(split_pipeline(command), IsEmpty()) << command;
+TEST(SplitPipeline, RefusesMoreThanOnePipeline) {
+  for (const char* command : {"a; b", "a && b", "a || b", "a & b", "a | b\nc", "a |& b", "a | | b", "| a", ""})
+    EXPECT_THROW((void)split_pipeline(command), Error) << command;
 }
 
 TEST(FirstFailure, BlamesTheOneThatDiedFirst) {
   PipelineEnd end;
-  end.stages = {{"a", 0}, {"b", 141}, {"c", 137}, {"d", 4}};
-  ASSERT_NE(first_failure(end), nullptr);
-  EXPECT_EQ(first_failure(end)->command, "c");
-  end.stages = {{"a", 0}, {"b", 0}};
-  EXPECT_EQ(first_failure(end), nullptr);
+  end.stages = {{"a", 4, false}, {"b", 141, true}, {"c", 137, true}, {"d", 4, true}};
+  ASSERT_NE(first_failure(end, true), nullptr);
+  EXPECT_EQ(first_failure(end, true)->command, "c");
+  EXPECT_EQ(first_failure(end, false)->command, "a");
+  end.stages = {{"a", 4, false}, {"b", 0, true}};
+  EXPECT_EQ(first_failure(end, true), nullptr);
 }
 
 TEST(NextOutputTime, IsTheNextMultipleAndNeverTheSame) {

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/measure/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/log.h"
+#include "libsheet/scene/read.h"
+
+namespace sheet {
+
+namespace {
+
+using Eigen::Vector3d;
+
+class Sum {
+ public:
+  void add(double x) {
+    const double total = sum_ + x;
+    rest_ += std::abs(sum_) >= std::abs(x) ? (sum_ - total) + x : (x - total) + sum_;
+    sum_ = total;
+  }
+  [[nodiscard]] double value() const { return std::isfinite(rest_) ? sum_ + rest_ : sum_; }
+
+ private:
+  double sum_ = 0, rest_ = 0;
+};
+
+class VectorSum {
+ public:
+  void add(const Vector3d& x) {
+    for (int i = 0; i < 3; ++i)
+      sums_[i].add(x[i]);
+  }
+  [[nodiscard]] Vector3d value() const { return {sums_[0].value(), sums_[1].value(), sums_[2].value()}; }
+
+ private:
+  std::array<Sum, 3> sums_;
+};
+
+// fmin and fmax pass over the NaN that stands for nothing yet.
+void widen(double& least, double& greatest, double x) {
+  least = std::fmin(least, x);
+  greatest = std::fmax(greatest, x);
+}
+
+void measure_triangles(const formats::Frame& frame, Measurements& m) {
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  const auto v = volumes(frame);
+  Sum area, volume;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const std::array<Vector3d, 3> side = {x[corners[t][2]] - x[corners[t][1]], x[corners[t][0]] - x[corners[t][2]],
+                                          x[corners[t][1]] - x[corners[t][0]]};
+    const double twice_area = side[0].cross(side[1]).norm();
+    area.add(twice_area / 2);
+    volume.add(v[t]);
+    widen(m.thickness.least, m.thickness.greatest, v[t] / (twice_area / 2));
+    double longest = 0; // squared
+    for (std::size_t i = 0; i < 3; ++i) {
+      // tan = |a × b| / (a·b) is accurate for every angle
+      widen(m.angle_min, m.angle_max, std::atan2(twice_area, -side[(i + 1) % 3].dot(side[(i + 2) % 3])));
+      longest = std::max(longest, side[i].squaredNorm());
+    }
+    m.aspect_max = std::fmax(m.aspect_max, std::sqrt(3) / 2 * longest / twice_area);
+  }
+  m.area = area.value();
+  m.volume = volume.value();
+  if (!corners.empty())
+    m.thickness.mean = m.volume / m.area;
+}
+
+void measure_edges(const formats::Frame& frame, std::span<const Side> sides, Measurements& m) {
+  const auto x = positions(frame);
+  Sum length;
+  std::uint64_t edges = 0;
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    const double l = (x[edge[0].high] - x[edge[0].low]).norm();
+    widen(m.edge.least, m.edge.greatest, l);
+    length.add(l);
+    ++edges;
+  });
+  if (edges > 0)
+    m.edge.mean = length.value() / static_cast<double>(edges);
+}
+
+void measure_motion(const formats::Frame& frame, double density, Measurements& m) {
+  Sum energy;
+  VectorSum momentum, angular;
+  const auto x = positions(frame);
+  const auto u = velocities(frame);
+  if (!u.empty()) {
+    const auto corners = triangles(frame);
+    const auto v = volumes(frame);
+    for (std::size_t t = 0; t < corners.size(); ++t) {
+      const double mass = density * v[t] / 3;
+      for (const std::uint32_t c : corners[t]) {
+        energy.add(mass / 2 * u[c].squaredNorm());
+        momentum.add(mass * u[c]);
+        angular.add(mass * x[c].cross(u[c]));
+      }
+    }
+  }
+  m.kinetic_energy = energy.value();
+  m.momentum = momentum.value();
+  m.angular_momentum = angular.value();
+}
+
+} // namespace
+
+Measurements measure(const formats::Frame& frame, std::optional<double> density) {
+  Measurements m;
+  for (const Vector3d& x : positions(frame))
+    for (int i = 0; i < 3; ++i)
+      widen(m.low[i], m.high[i], x[i]);
+  measure_triangles(frame, m);
+  const std::vector<Side> sides = sorted_sides(triangles(frame), frame.vertices);
+  measure_edges(frame, sides, m);
+  if (density)
+    measure_motion(frame, *density, m);
+  m.topology = find_topology(triangles(frame), frame.vertices, sides);
+  return m;
+}
+
+std::optional<double> SceneDensity::of(const formats::Frame& frame) {
+  const formats::Array* scene = frame.find("scene");
+  if (scene == nullptr)
+    return {};
+  if (scene->text() != scene_) {
+    scene_ = scene->text();
+    density_.reset();
+    try {
+      const double density = parse_scene(scene_, "the frame's scene").material.density;
+      if (density > 0)
+        density_ = density;
+    } catch (const Error& error) {
+      log::warning("no density: {}", error.what());
+    }
+  }
+  return density_;
+}
+
+} // namespace sheet

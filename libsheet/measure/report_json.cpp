@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "libsheet/measure/report.h"
+
+namespace sheet {
+
+namespace {
+
+using Json = nlohmann::ordered_json; // writes what is not finite as null
+
+Json vector_json(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+Json range_json(const Range& r) { return {{"min", r.least}, {"mean", r.mean}, {"max", r.greatest}}; }
+
+Json arrays_json(const formats::Frame& frame) {
+  Json out = Json::array();
+  for (const formats::Array& a : frame.arrays)
+    out.push_back({{"name", a.name},
+                   {"place", name_of(a.place)},
+                   {"type", name_of(a.type)},
+                   {"components", a.components},
+                   {"rows", a.rows},
+                   {"unit", a.unit},
+                   {"rule", name_of(a.transfer)},
+                   {"critical", a.critical},
+                   {"bytes", a.data.size()}});
+  return out;
+}
+
+Json provenance_json(const formats::Frame& frame) {
+  Json out = Json::array();
+  const formats::Array* array = frame.find("provenance");
+  const std::string_view text = array == nullptr ? std::string_view() : array->text();
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    out.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return out;
+}
+
+Json measurements_json(const Measurements& m) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const Topology& t = m.topology;
+  return {{"area", m.area},
+          {"volume", m.volume},
+          {"thickness", range_json(m.thickness)},
+          {"kinetic_energy", m.kinetic_energy},
+          {"momentum", vector_json(m.momentum)},
+          {"angular_momentum", vector_json(m.angular_momentum)},
+          {"box", {{"min", vector_json(m.low)}, {"max", vector_json(m.high)}}},
+          {"edge", range_json(m.edge)},
+          {"angle_degrees", {{"min", m.angle_min * degrees}, {"max", m.angle_max * degrees}}},
+          {"aspect_max", m.aspect_max},
+          {"topology",
+           {{"components", t.components},
+            {"edges", t.edges},
+            {"boundary_edges", t.boundary_edges},
+            {"boundary_loops", t.boundary_loops},
+            {"euler_characteristic", t.euler_characteristic},
+            {"closed", t.closed},
+            {"unused_vertices", t.unused_vertices},
+            {"pinched_vertices", t.pinched_vertices},
+            {"non_manifold_edges", t.non_manifold_edges}}}};
+}
+
+class JsonReport : public Report {
+ public:
+  std::string begin() override { return "["; }
+  std::string add(const ReportEntry& e) override {
+    const Json object = {{"file", e.file},
+                         {"frame", e.index},
+                         {"time", e.frame->time},
+                         {"step", e.frame->step},
+                         {"vertices", e.frame->vertices},
+                         {"triangles", e.frame->triangles},
+                         {"edges", e.frame->edges},
+                         {"measurements", measurements_json(e.measurements)},
+                         {"arrays", arrays_json(*e.frame)},
+                         {"provenance", provenance_json(*e.frame)}};
+    const std::string separator = first_ ? "\n" : ",\n";
+    first_ = false;
+    // A file's name may be any bytes: those that are not UTF-8 are replaced.
+    return separator + object.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  std::string end() override { return "\n]\n"; }
+
+ private:
+  bool first_ = true;
+};
+
+} // namespace
+
+std::unique_ptr<Report> make_json_report() { return std::make_unique<JsonReport>(); }
+
+} // namespace sheet

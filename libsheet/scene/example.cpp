@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/example.h"
+
+#include <string>
+
+namespace sheet::scene {
+
+// In two pieces: compilers need not take longer literals.
+static constexpr std::string_view sheet_and_physics = R"toml(# A square sheet of caramel falls on a ball.
+#
+# A scene says what is physical; how it is computed is said by each program's options.
+# A number is in SI units (m, kg, s, Pa, N, radians). A text carries its unit: "2.5 mm", "100 Pa*s", "45 deg", "21 mN/m".
+# Tables that are absent cost nothing. Lines that begin with # and no blank are settings to choose from.
+# Override any value from the command line: --set material.viscosity=50   --set hold.0.kind=clamped
+
+[sheet] # ---------------------------------------------------------------- the liquid sheet at the start
+
+# Its shape. Flat shapes lie in `plane`; caps and tubes stand on it.
+shape = "rectangle"
+size = ["1 m", "1 m"]           # along the plane's first and second letter
+
+#shape = "disk"
+#radius = "0.5 m"
+
+#shape = "annulus"
+#inner_radius = "0.1 m"
+#outer_radius = "0.25 m"
+
+#shape = "sphere"
+#radius = "0.5 m"
+
+# A part of a sphere: all within `angle` of its pole (90 deg: a hemisphere), less a hole of `opening` around the pole.
+#shape = "cap"
+#radius = "0.1 m"
+#angle = "90 deg"
+#opening = "18 deg"
+
+# Open at both ends, its axis along the plane's normal.
+#shape = "tube"
+#radius = "0.2 m"
+#height = "0.5 m"
+
+# Triangles fine enough to begin with; or counts: along both sides, or around and along. "structured", "equilateral" or
+# "irregular" (different for each seed, and the best for honest results: no direction is preferred).
+edge_length = "25 mm"
+pattern = "irregular"
+seed = 1
+
+#segments = [60, 60]            # a structured pattern
+
+# The thickness at the start.
+thickness = "10 mm"
+
+# Or any mesh file (.obj .off .ply .stl .vtu), taken as it is; also its thickness, from an array at each vertex or face.
+# `scale`: metres per unit of the file. File names start in the folder of this file.
+#shape = "mesh"
+#file = "leaf.ply"
+#scale = 0.001
+#thickness = {data = "thickness", place = "vertex", scale = 0.001}
+
+# Small deviations, to let wrinkles begin: a wave of the position (along the normal) or of the thickness, along x, y, z or
+# "radial" (outwards), or noise at each vertex. Several may be given in a list.
+#perturbation = {amplitude = "0.1 mm", wavelength = "75 mm", direction = "x", phase = "0 deg"}
+
+#perturbation = {of = "thickness", amplitude = "0.1 mm", seed = 7}
+
+# "xy", "xz" or "yz"; by default horizontal, as gravity says.
+plane = "xz"
+
+# Where its middle is (a cap's: that of its sphere), how it is turned, how fast it moves at the start.
+center = [0, 0, 0]
+rotation = {axis = [0, 1, 0], angle = "0 deg"}
+velocity = [0, 0, 0]
+
+[material] # ------------------------------------------------------------- the liquid
+
+viscosity = "80 Pa*s"           # resists stretching and bending; also "800 P" or "2 cP"
+density = "1300 kg/m^3"         # or "1.3 g/cm^3"; needed for inertia and gravity
+
+# Of each of the two surfaces. Absent or 0: no such term.
+#surface_tension = "40 mN/m"
+
+[environment] # ---------------------------------------------------------- what acts on it from outside; may be absent
+
+gravity = [0, "-9.81 m/s^2", 0]
+
+# Pressure inside less pressure outside (from the negative side of the triangles to the positive one): constant;
+#pressure = {law = "constant", value = "10 Pa"}
+
+# or falling with the square of the radius of a sphere with the enclosed volume (with shape = "sphere" or alike);
+#[sheet]
+#shape = "sphere"
+#radius = "0.5 m"
+#[environment]
+#pressure = {law = "inverse_square", value = "10 Pa", reference_radius = "0.5 m"}
+
+# or of enclosed gas that leaves by a hole, `conductance` cubic metres a second for each pascal: a³ / (3 mu) for a small hole
+# of radius a and a gas of viscosity mu (air: 1.8e-5 Pa*s).
+#[sheet]
+#shape = "cap"
+#radius = "0.1 m"
+#angle = "90 deg"
+#[environment]
+#pressure = {law = "draining", conductance = "1e-4 m^3/(Pa*s)"}
+
+# A heavy liquid below the sheet, up to the height `level` against gravity.
+#bath = {density = "1200 kg/m^3", level = "-0.5 m"}
+
+[model] # ---------------------------------------------------------------- what to leave out; may be absent
+
+inertia = true                  # false: creeping flow, when viscosity stops everything at once
+bending = true                  # false: a membrane
+)toml";
+
+static constexpr std::string_view things = R"toml(
+# ------------------------------------------------------------------------ what is held in place: any number of [[hold]]
+
+# region: "rim" (all of the border), "inner_rim", "outer_rim", or the side "x_min", "x_max", ... "z_max" (as the sheet lies
+# before `rotation`), or what is in a part of space at the start. "pinned" holds the position, "clamped" the slope too.
+#[[hold]]
+#region = "x_min"
+#kind = "pinned"
+
+# Held in some directions only, until a time when it is let go.
+#[[hold]]
+#region = {box = [[-0.5, -0.1, -0.5], [-0.4, 0.1, 0.5]]}
+#kind = "pinned"
+#axes = "xz"
+#until = "2 s"
+
+# Turned about an axis through `center` (by default the sheet's), faster and faster for 5 s, then steadily. Rows are
+# [time, rate], straight lines between them.
+#[[hold]]
+#region = {sphere = {center = [0, 0, 0], radius = "0.1 m"}}
+#kind = "clamped"
+#motion = {kind = "rotating", axis = [0, 1, 0], center = [0, 0, 0], rate = [[0, 0], ["5 s", "0.3 rad/s"]]}
+
+# Moved; a velocity that changes has rows [time, x, y, z].
+#[[hold]]
+#region = "z_max"
+#motion = {kind = "translating", velocity = [0, 0, "0.1 m/s"]}
+
+#[[hold]]
+#region = "z_max"
+#motion = {kind = "translating", velocity = [["0 s", 0, 0, 0], ["1 s", 0, 0, 0.1]]}
+
+# ------------------------------------------------------------------------ solids: any number of [[solid]]
+# Liquid that touches a solid sticks to it. `motion` as for holds (turning about the solid's own center).
+
+[[solid]]
+shape = "sphere"
+radius = "0.2 m"
+center = [0, "-0.3 m", 0]
+
+#[[solid]]
+#shape = "box"
+#size = [0.2, 0.1, 0.2]
+#center = [0, -0.4, 0]
+#rotation = {axis = [0, 1, 0], angle = "30 deg"}
+
+# Capsules and cylinders stand along y unless they are turned. `length` of a capsule: between the centers of its ends.
+#[[solid]]
+#shape = "capsule"
+#radius = "0.05 m"
+#length = "0.4 m"
+#center = [0, -0.4, 0]
+#motion = {kind = "translating", velocity = [0.4, 0, 0]}
+
+#[[solid]]
+#shape = "cylinder"
+#radius = "0.1 m"
+#height = "0.6 m"
+#center = [0, -0.4, 0]
+#rotation = {axis = [1, 0, 0], angle = "90 deg"}
+#motion = {kind = "rotating", axis = [0, 0, 1], rate = "10 rpm"}
+
+# The ground, or a conveyor belt: its surface moves, its shape stays. `normal`: by default upwards.
+#[[solid]]
+#shape = "plane"
+#center = [0, "-0.8 m", 0]
+#normal = [0, 1, 0]
+#surface_velocity = [0, 0, "25 mm/s"]
+
+# A mesh (.obj .off .ply .stl) or a distance field (.vdb).
+#[[solid]]
+#shape = "mesh"
+#file = "bunny.off"
+#scale = 2.0
+#voxel_size = "5 mm"
+#center = [0, -0.6, 0]
+
+# ------------------------------------------------------------------------ new liquid that flows in at a border
+
+# A velocity at an angle to the border makes a slanted curtain. Without `thickness`: as thick as the sheet. Without `until`:
+# for ever. A velocity that changes has rows [time, x, y, z].
+#[inflow]
+#region = "z_max"
+#velocity = [0, 0, "-0.1 m/s"]
+#thickness = "2.5 mm"
+#until = "10 s"
+
+# ------------------------------------------------------------------------ where the sheet tears
+
+# Where it is thinner than `below`. Small pieces that come off: "keep" or "drop".
+#[tear]
+#below = "0.8 mm"
+#crumbs = "keep"
+
+# ------------------------------------------------------------------------ contact of the sheet with itself
+
+# All keys may be absent. stiffness: of the springs that hold touching layers together; adhesion: the tension at which touching
+# surfaces part again (absent: never); distance: between the middles of touching layers (absent: their mean thickness).
+[contact]
+self = true
+
+#[contact]
+#self = true
+#stiffness = "1.5 N/m"
+#adhesion = "100 Pa"
+#distance = "5 mm"
+)toml";
+
+std::string_view example() {
+  static const std::string text = std::string(sheet_and_physics).append(things);
+  return text;
+}
+
+} // namespace sheet::scene

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/explain.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "libsheet/scene/overloaded.h"
+#include "libsheet/scene/scales.h"
+
+namespace sheet::scene {
+namespace {
+
+std::string brief(double value) { return fmt::format("{:.3g}", value); }
+
+std::string count(std::size_t n, std::string_view one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
+
+std::vector<Term> terms_of(const Scene& scene) {
+  const auto& [sheet, material, environment, model, holds, solids, inflow, tear, contact] = scene;
+  std::vector<Term> terms;
+  const auto term = [&](std::string_view name, bool modelled, std::string_view because, std::string_view because_not) {
+    terms.push_back({name, modelled, std::string(modelled ? because : because_not)});
+  };
+  const bool viscous = material.viscosity > 0;
+  term("membrane", viscous, "viscosity resists stretching", "viscosity is 0");
+  term("bending", viscous && model.bending, "viscosity resists bending (bending = false leaves a membrane)",
+       viscous ? "[model] bending = false" : "viscosity is 0");
+  term("surface tension", material.surface_tension > 0,
+       fmt::format("{} N/m on each of the two surfaces", brief(material.surface_tension)),
+       "no surface_tension in [material]");
+  term("inertia", model.inertia, "mass resists acceleration (inertia = false: creeping flow)",
+       "[model] inertia = false");
+  term("gravity", environment.gravity.has_value(),
+       environment.gravity ? fmt::format("{} m/s²", brief(environment.gravity->norm())) : "",
+       "no gravity in [environment]");
+  const auto law = [](const Pressure& pressure) {
+    return std::visit(
+        Overloaded{[](const ConstantPressure& p) { return fmt::format("constant, {} Pa", brief(p.value)); },
+                   [](const InverseSquarePressure& p) {
+                     return fmt::format("{} Pa at radius {} m, falling with its square", brief(p.value),
+                                        brief(p.reference_radius));
+                   },
+                   [](const DrainingPressure& p) {
+                     return fmt::format("enclosed gas leaves at {} m³/s per Pa", brief(p.conductance));
+                   }},
+        pressure);
+  };
+  term("pressure", environment.pressure.has_value(), environment.pressure ? law(*environment.pressure) : "",
+       "no pressure in [environment]");
+  term("bath", environment.bath.has_value(),
+       environment.bath ? fmt::format("liquid of {} kg/m³ below level {} m", brief(environment.bath->density),
+                                      brief(environment.bath->level))
+                        : "",
+       "no bath in [environment]");
+  term("holds", !holds.empty(), count(holds.size(), "hold"), "no [[hold]]");
+  term("solids", !solids.empty(), count(solids.size(), "solid") + "; liquid that touches sticks", "no [[solid]]");
+  term("contact", contact && contact->self, "the sheet cannot pass through itself",
+       contact ? "[contact] self = false" : "no [contact]: the sheet may pass through itself");
+  term("inflow", inflow.has_value(),
+       inflow ? fmt::format("new liquid, {} m thick, {}", brief(inflow->thickness),
+                            inflow->until ? fmt::format("until {} s", brief(*inflow->until)) : "without end")
+              : "",
+       "no [inflow]: the volume stays the same");
+  term("tear", tear.has_value(), tear ? fmt::format("where thinner than {} m", brief(tear->below)) : "",
+       "no [tear]: the sheet only thins");
+  return terms;
+}
+
+std::vector<Scale> scale_list(const Scene& scene, const Scales& scales) {
+  std::vector<Scale> list;
+  const auto add = [&](std::string_view symbol, std::string_view name, double value, std::string_view unit,
+                       std::string source) {
+    if (std::isfinite(value) && value > 0)
+      list.push_back({symbol, name, value, unit, std::move(source)});
+  };
+  const double L = scales.length.value_or(0), h = scales.thickness.value_or(0), g = scales.gravity;
+  const double mu = scene.material.viscosity, rho = scene.material.density, gamma = scene.material.surface_tension;
+  add("L", "length", L, "m", "the shape's shortest side, radius or width");
+  add("h", "thickness", h, "m", "the sheet's, at the start");
+  add("V", "speed", scales.speed, "m/s", "the fastest drive: " + scales.speed_source);
+  add("t_V", "time of the flow", L / scales.speed, "s", "L / V");
+  if (rho > 0)
+    add("t_g", "time in which gravity stretches it", mu / (rho * g * L), "s", "mu / (rho g L)");
+  add("t_f", "time of free fall", std::sqrt(L / g), "s", "sqrt(L / g)");
+  add("t_c", "time in which surface tension contracts it", mu * h / gamma, "s", "mu h / gamma");
+  add("t_p", "time in which pressure stretches it", mu * h / (scales.pressure * L), "s", "mu h / (p L)");
+  if (const auto& bath = scene.environment.bath) {
+    const double excess = 4 * mu * h * scales.speed / L - 2 * gamma;
+    add("lambda", "wavelength of the fastest wrinkles on the bath",
+        2 * std::numbers::pi * std::sqrt(excess / (2 * bath->density * g)), "m",
+        "2 pi sqrt((P - 2 gamma) / (2 rho_bath g)), P = 4 mu h V / L, if it is compressed so fast");
+  }
+  return list;
+}
+
+std::vector<DimensionlessNumber> numbers_of(const Scene& scene, const Scales& scales) {
+  std::vector<DimensionlessNumber> list;
+  const auto add = [&](std::string_view name, std::string_view formula, double value, auto meaning) {
+    if (std::isfinite(value) && value > 0)
+      list.push_back({name, formula, value, std::string(meaning(value))});
+  };
+  if (!scales.length)
+    return list;
+  const double L = *scales.length, V = scales.speed, g = scales.gravity;
+  const double mu = scene.material.viscosity, rho = scene.material.density, gamma = scene.material.surface_tension;
+  if (scales.thickness) {
+    const double slenderness = *scales.thickness / L;
+    add("thickness to length", "h / L", slenderness, [](double x) {
+      return x > 0.2    ? "Not a thin sheet: its equations are doubtful here."
+             : x > 0.02 ? "A thick sheet: bending matters."
+                        : "Thin: it folds and wrinkles far more easily than it stretches.";
+    });
+    add("bending to stretching", "(h / L)²", slenderness * slenderness,
+        [](double x) { return fmt::format("Bending by a length L dissipates {} of what stretching does.", brief(x)); });
+    add("buckling", "(12 / pi²) (L / h)²", 12 / (std::numbers::pi * std::numbers::pi * slenderness * slenderness),
+        [](double x) {
+          return x > 1 ? fmt::format("Under compression it buckles {} times as fast as it thickens.", brief(x))
+                       : std::string("Under compression it thickens rather than buckles.");
+        });
+  }
+  add("Reynolds", "rho V L / mu", rho * V * L / mu, [](double x) {
+    return x < 0.01 ? "Creeping flow: viscosity stops everything at once, inertia hardly matters."
+           : x < 10 ? "Viscosity and inertia both matter."
+                    : "Inertia rules: it falls and flies before viscosity is felt.";
+  });
+  // A sheet carries its load by its thickness, so its tension is judged by the numbers times h / L.
+  const double part = scales.thickness ? *scales.thickness / L : 1;
+  const auto against_tension = [](double x, std::string_view force) {
+    return x < 0.1  ? fmt::format("In the sheet surface tension rules over {}.", force)
+           : x < 10 ? fmt::format("In the sheet surface tension and {} are alike.", force)
+                    : fmt::format("In the sheet {} rules over surface tension.", force);
+  };
+  add("capillary", "mu V / gamma", mu * V / gamma, [&](double x) {
+    return against_tension(x * part, "viscous stress") + fmt::format(" (mu V h / (gamma L) = {})", brief(x * part));
+  });
+  add("Bond", "rho g L² / gamma", rho * g * L * L / gamma, [&](double x) {
+    return against_tension(x * part, "weight") + fmt::format(" (rho g L h / gamma = {})", brief(x * part));
+  });
+  if (const auto& bath = scene.environment.bath) {
+    add("Bond of the bath", "rho_bath g L² / gamma", bath->density * g * L * L / gamma, [](double x) {
+      return x < 1 ? "Surface tension keeps the bath's surface flat." : "The bath's weight rules over surface tension.";
+    });
+    add("density to the bath's", "rho / rho_bath", rho / bath->density,
+        [](double x) { return x > 1 ? "The sheet is heavier than the bath and sinks." : "The sheet floats."; });
+  }
+  return list;
+}
+
+std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
+                                     const std::vector<DimensionlessNumber>& numbers) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
+  for (const auto& number : numbers) {
+    if (number.name != "Reynolds")
+      continue;
+    if (scene.model.inertia && number.value < 1e-4)
+      warn(fmt::format("inertia is on, but the Reynolds number is {}: inertia = false gives the same motion",
+                       brief(number.value)));
+    if (!scene.model.inertia && number.value > 1)
+      warn(fmt::format("inertia is off, but the Reynolds number is {}: the real sheet would move differently",
+                       brief(number.value)));
+  }
+  if (const auto edge = scene.sheet.edge_length; edge && scales.thickness) {
+    const double h = *scales.thickness, locking = std::sqrt(h / scales.curvature);
+    if (scene.model.bending && scales.curvature > 0 && *edge > locking)
+      warn(fmt::format(
+          "edge_length {} m is above sqrt(h / curvature) = {} m: flat triangles resist bending too much there",
+          brief(*edge), brief(locking)));
+    if (*edge < h)
+      warn(fmt::format("edge_length {} m is below the thickness {} m: a sheet has no detail that fine", brief(*edge),
+                       brief(h)));
+  }
+  if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
+    warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
+  const bool carried = !scene.holds.empty() || scene.environment.bath || scene.inflow;
+  if (scene.environment.gravity && !scene.model.inertia && !carried)
+    warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
+  else if (scene.environment.gravity && !carried && scene.solids.empty())
+    warn("nothing holds or catches the sheet: it falls for ever");
+  if (scales.speed == 0 && !scene.environment.pressure)
+    warn("nothing drives the sheet: it stays as it is");
+  return warnings;
+}
+
+} // namespace
+
+Explanation explain(const Scene& scene, const Measured& measured) {
+  const Scales scales = scales_of(scene, measured);
+  Explanation result;
+  result.terms = terms_of(scene);
+  result.scales = scale_list(scene, scales);
+  result.numbers = numbers_of(scene, scales);
+  result.warnings = warnings_of(scene, scales, result.numbers);
+  return result;
+}
+
+std::string to_text(const Explanation& explanation) {
+  std::string modelled = "Modelled\n", not_modelled;
+  for (const Term& term : explanation.terms)
+    (term.modelled ? modelled : not_modelled) += fmt::format("  {:<16}{}\n", term.name, term.why);
+  std::string text = modelled;
+  if (!not_modelled.empty())
+    text += "\nNot modelled, and at no cost\n" + not_modelled;
+  if (!explanation.scales.empty())
+    text += "\nScales\n";
+  for (const Scale& scale : explanation.scales)
+    text += fmt::format("  {:<7}{:>10} {:<4} {}: {}\n", scale.symbol, brief(scale.value), scale.unit, scale.name,
+                        scale.source);
+  if (!explanation.numbers.empty())
+    text += "\nDimensionless numbers\n";
+  for (const auto& number : explanation.numbers)
+    text += fmt::format("  {} = {} = {}\n      {}\n", number.name, number.formula, brief(number.value), number.meaning);
+  if (!explanation.warnings.empty())
+    text += "\nWarnings\n";
+  for (const std::string& warning : explanation.warnings)
+    text += fmt::format("  {}\n", warning);
+  return text;
+}
+
+} // namespace sheet::scene

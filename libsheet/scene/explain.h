@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a scene will model, what not and why, and the dimensionless numbers that say what matters (sheet-init --check).
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libsheet/scene/scene.h"
+
+namespace sheet::scene {
+
+struct Term {
+  std::string_view name;
+  bool modelled;
+  std::string why; // why it is there or is not
+};
+
+// A length, time or speed by which the scene is judged.
+struct Scale {
+  std::string_view symbol, name;
+  double value; // SI
+  std::string_view unit;
+  std::string source; // formula, or where in the scene it comes from
+};
+
+struct DimensionlessNumber {
+  std::string_view name, formula;
+  double value;
+  std::string meaning; // a sentence about this value
+};
+
+struct Explanation {
+  std::vector<Term> terms;
+  std::vector<Scale> scales;
+  std::vector<DimensionlessNumber> numbers;
+  std::vector<std::string> warnings; // a modelling choice that looks wrong
+};
+
+// What a mesh file says about a sheet and the scene cannot know.
+struct Measured {
+  std::optional<double> length, thickness, curvature; // [m], [m], [1/m]
+};
+
+[[nodiscard]] Explanation explain(const Scene& scene, const Measured& measured = {});
+
+// Plain text for a terminal.
+[[nodiscard]] std::string to_text(const Explanation& explanation);
+
+} // namespace sheet::scene

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/scales.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libsheet/scene/overloaded.h"
+
+namespace sheet::scene {
+namespace {
+
+double curvature_of(const SheetShape& shape) {
+  return std::visit(Overloaded{[](const Sphere& s) { return 1 / s.radius; }, [](const Cap& s) { return 1 / s.radius; },
+                               [](const Tube& s) { return 1 / s.radius; }, [](const auto&) { return 0.0; }},
+                    shape);
+}
+
+double stated(const Pressure& pressure) {
+  return std::visit(Overloaded{[](const ConstantPressure& p) { return std::abs(p.value); },
+                               [](const InverseSquarePressure& p) { return std::abs(p.value); },
+                               [](const DrainingPressure&) { return 0.0; }},
+                    pressure);
+}
+
+void offer(Scales& scales, double speed, std::string_view source) {
+  if (!std::isfinite(speed) || speed <= scales.speed)
+    return;
+  scales.speed = speed;
+  scales.speed_source = source;
+}
+
+void offer(Scales& scales, const Motion& motion, std::string_view source) {
+  const double arm = std::holds_alternative<Rotating>(motion) ? scales.length.value_or(0) : 1;
+  offer(scales, largest_rate(motion) * arm, source);
+}
+
+void offer_forces(Scales& scales, const Scene& scene) {
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  const double viscosity = scene.material.viscosity, density = scene.material.density;
+  const double tension = scene.material.surface_tension;
+  const double L = scales.length.value_or(0), h = scales.thickness.value_or(0);
+  const bool inertia = scene.model.inertia && density > 0;
+  const auto least = [&](double viscous, double inertial) {
+    return std::min(viscosity > 0 ? viscous : unlimited, inertia ? inertial : unlimited);
+  };
+  if (L <= 0)
+    return;
+  offer(scales, least(density * scales.gravity * L * L / viscosity, std::sqrt(scales.gravity * L)), "gravity");
+  if (h <= 0)
+    return;
+  offer(scales, least(2 * tension * L / (viscosity * h), std::sqrt(2 * tension / (density * h))), "surface tension");
+  offer(scales, least(scales.pressure * L * L / (viscosity * h), std::sqrt(scales.pressure * L / (density * h))),
+        "pressure");
+}
+
+} // namespace
+
+Scales scales_of(const Scene& scene, const Measured& measured) {
+  Scales scales;
+  const auto size = size_of(scene.sheet.shape);
+  const auto* uniform = std::get_if<double>(&scene.sheet.thickness);
+  scales.length = size ? std::optional(size->length) : measured.length;
+  scales.thickness = uniform ? std::optional(*uniform) : measured.thickness;
+  scales.curvature = size ? curvature_of(scene.sheet.shape) : measured.curvature.value_or(0);
+  if (scene.environment.gravity)
+    scales.gravity = scene.environment.gravity->norm();
+  if (scene.environment.pressure)
+    scales.pressure = stated(*scene.environment.pressure);
+
+  if (scene.inflow)
+    for (const auto& entry : scene.inflow->velocity.entries)
+      offer(scales, entry.value.norm(), "inflow");
+  offer(scales, scene.sheet.velocity.norm(), "the sheet's velocity at the start");
+  for (const Hold& hold : scene.holds)
+    offer(scales, hold.motion, "a moving hold");
+  for (const Solid& solid : scene.solids) {
+    offer(scales, solid.motion, "a moving solid");
+    offer(scales, solid.surface_velocity.norm(), "a belt");
+  }
+  offer_forces(scales, scene);
+  return scales;
+}
+
+} // namespace sheet::scene

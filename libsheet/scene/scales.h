@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The lengths, speeds and stresses by which a scene is judged, for explain.cpp.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "libsheet/scene/explain.h"
+
+namespace sheet::scene {
+
+struct Scales {
+  std::optional<double> length;    // L [m]
+  std::optional<double> thickness; // h [m]
+  double curvature = 0;            // k, of the shape at the start [1/m]
+  double gravity = 0;              // g [m/s²]
+  double pressure = 0;             // |p|, where the scene states one [Pa]
+  double speed = 0;                // V, the fastest that anything drives the sheet [m/s]
+  std::string speed_source;
+};
+
+// V is the largest of: inflow, start, holds, solids and belts as the scene states them, and what the forces can drive,
+// a balance with viscosity and, with inertia, not more than the balance with inertia:
+//   gravity          rho g L²/mu        sqrt(g L)
+//   surface tension  2 gamma L/(mu h)   sqrt(2 gamma/(rho h))  [Taylor 1959, Culick 1960]
+//   pressure         p L²/(mu h)        sqrt(p L/(rho h))
+[[nodiscard]] Scales scales_of(const Scene& scene, const Measured& measured);
+
+} // namespace sheet::scene

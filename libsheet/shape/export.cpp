@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/shape/export.h"
+
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+
+#include <Eigen/Geometry>
+
+#include "libsheet/base/error.h"
+#include "libsheet/shape/solidify.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::Array;
+using formats::ForeignMesh;
+using formats::Frame;
+using formats::MeshArray;
+using formats::MeshPlace;
+using formats::Type;
+
+template <class T> std::vector<double> as_doubles(const Array& array) {
+  const auto values = array.values<T>();
+  std::vector<double> out(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    out[i] = static_cast<double>(values[i]);
+  return out;
+}
+
+std::vector<double> numbers(const Array& array) {
+  switch (array.type) {
+  case Type::int8:
+    return as_doubles<std::int8_t>(array);
+  case Type::uint8:
+    return as_doubles<std::uint8_t>(array);
+  case Type::int32:
+    return as_doubles<std::int32_t>(array);
+  case Type::uint32:
+    return as_doubles<std::uint32_t>(array);
+  case Type::int64:
+    return as_doubles<std::int64_t>(array);
+  case Type::uint64:
+    return as_doubles<std::uint64_t>(array);
+  case Type::float32:
+    return as_doubles<float>(array);
+  case Type::float64:
+    return as_doubles<double>(array);
+  case Type::text:
+    break;
+  }
+  return {};
+}
+
+struct Thickness {
+  std::vector<double> of_triangles, of_vertices; // [m]
+};
+
+Thickness thickness(const Frame& frame) {
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  const auto v = volumes(frame);
+  Thickness h;
+  std::vector<double> area_around(x.size(), 0), volume_around(x.size(), 0);
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const Corners& c = corners[t];
+    const double area = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
+    h.of_triangles.push_back(v[t] / area);
+    for (const std::uint32_t i : c) {
+      area_around[i] += area;
+      volume_around[i] += v[t];
+    }
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    h.of_vertices.push_back(volume_around[i] > 0 ? volume_around[i] / area_around[i] : 0);
+  return h;
+}
+
+void add_arrays(const Frame& frame, formats::Place from, MeshPlace to, ForeignMesh& mesh) {
+  for (const Array& array : frame.arrays)
+    if (array.place == from && array.type != Type::text && array.name != "position" && array.name != "triangle" &&
+        array.name != "thickness")
+      mesh.arrays.push_back({array.name, to, static_cast<int>(array.components), numbers(array)});
+}
+
+std::array<double, 3> coordinates(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
+
+} // namespace
+
+ForeignMesh to_foreign_mesh(const Frame& frame) {
+  ForeignMesh mesh;
+  for (const Eigen::Vector3d& x : positions(frame))
+    mesh.points.push_back(coordinates(x));
+  mesh.triangles.assign(triangles(frame).begin(), triangles(frame).end());
+  Thickness h = thickness(frame);
+  mesh.arrays.push_back({"thickness", MeshPlace::point, 1, std::move(h.of_vertices)});
+  mesh.arrays.push_back({"thickness", MeshPlace::cell, 1, std::move(h.of_triangles)});
+  add_arrays(frame, formats::Place::vertex, MeshPlace::point, mesh);
+  add_arrays(frame, formats::Place::triangle, MeshPlace::cell, mesh);
+  return mesh;
+}
+
+ForeignMesh to_solid_mesh(const Frame& frame) {
+  TriangleMesh middle;
+  middle.positions.assign(positions(frame).begin(), positions(frame).end());
+  middle.triangles.assign(triangles(frame).begin(), triangles(frame).end());
+  const Thickness h = thickness(frame);
+  const TriangleMesh solid = solidify(middle, h.of_vertices);
+  ForeignMesh mesh;
+  for (const Eigen::Vector3d& x : solid.positions)
+    mesh.points.push_back(coordinates(x));
+  mesh.triangles = solid.triangles;
+  mesh.arrays.push_back({"thickness", MeshPlace::point, 1, h.of_vertices});
+  add_arrays(frame, formats::Place::vertex, MeshPlace::point, mesh);
+  for (MeshArray& array : mesh.arrays) {
+    const std::vector<double> once = array.values;
+    array.values.insert(array.values.end(), once.begin(), once.end());
+  }
+  return mesh;
+}
+
+NumberedName::NumberedName(const std::string& pattern) {
+  std::string* part = &before_;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    if (pattern[i] != '%') {
+      *part += pattern[i];
+      continue;
+    }
+    if (++i < pattern.size() && pattern[i] == '%') {
+      *part += '%';
+      continue;
+    }
+    const std::size_t start = i;
+    while (i < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[i])) != 0)
+      ++i;
+    Number number;
+    std::from_chars(pattern.data() + start, pattern.data() + i, number.width);
+    if (i == pattern.size() || pattern[i] != 'd' || i - start > 3 || number_)
+      fail(ExitCode::usage, "\"{}\": one %d, such as %04d, may stand for the frame's number; %% is a percent sign",
+           pattern);
+    number.fill = pattern[start] == '0' ? '0' : ' ';
+    number_ = number;
+    part = &after_;
+  }
+}
+
+std::string NumberedName::of(std::uint64_t index) const {
+  if (!number_)
+    return before_;
+  std::string digits = std::to_string(index);
+  if (digits.size() < number_->width)
+    digits.insert(0, number_->width - digits.size(), number_->fill);
+  return before_ + digits + after_;
+}
+
+std::string NumberedName::collection(const std::string& ending) const {
+  const std::filesystem::path all(before_ + after_);
+  std::string stem = std::filesystem::path(before_).filename().string();
+  while (!stem.empty() && std::string_view("_-. ").find(stem.back()) != std::string_view::npos)
+    stem.pop_back();
+  return (all.parent_path() / ((stem.empty() ? "frames" : stem) + ending)).string();
+}
+
+} // namespace sheet

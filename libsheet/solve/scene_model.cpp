@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solve/scene_model.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "libsheet/base/error.h"
+#include "libsheet/scene/overloaded.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::Array;
+using formats::Frame;
+
+PressureLaw pressure_law(const scene::Pressure& pressure) {
+  PressureLaw law;
+  std::visit(scene::Overloaded{[&](const scene::ConstantPressure& p) { law.value = p.value; },
+                               [&](const scene::InverseSquarePressure& p) {
+                                 law.kind = PressureLaw::Kind::inverse_square;
+                                 law.value = p.value;
+                                 law.reference_radius = p.reference_radius;
+                               },
+                               [&](const scene::DrainingPressure&) {
+                                 fail(ExitCode::bad_input, "draining pressure");
+                               }},
+             pressure);
+  return law;
+}
+
+RigidMotion rigid(const Eigen::Isometry3d& motion) { return {motion.linear(), motion.translation()}; }
+
+// Vertices whose mask has bit i.
+std::vector<std::uint32_t> with_bit(std::span<const std::uint64_t> masks, std::size_t i) {
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < masks.size(); ++v)
+    if ((masks[v] >> i & 1) != 0)
+      vertices.push_back(v);
+  return vertices;
+}
+
+std::span<const std::uint64_t> masks_of(const Frame& frame, std::string_view name) {
+  const Array* array = frame.find(name);
+  return array == nullptr ? std::span<const std::uint64_t>() : array->values<std::uint64_t>();
+}
+
+void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
+  const auto masks = masks_of(frame, "hold");
+  for (std::size_t i = 0; i < scene.holds.size(); ++i) {
+    const scene::Hold& table = scene.holds[i];
+    if (table.until && frame.time >= *table.until)
+      continue;
+    Hold hold;
+    hold.vertices = with_bit(masks, i);
+    if (hold.vertices.empty())
+      continue;
+    hold.axes = table.axes;
+    if (table.clamped)
+      for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
+        if (((masks[mesh.edges[e][0]] & masks[mesh.edges[e][1]]) >> i & 1) != 0)
+          hold.clamped_edges.push_back(e);
+    if (!std::holds_alternative<scene::Fixed>(table.motion))
+      hold.motion = [motion = table.motion](double from, double to) {
+        return rigid(scene::motion_between(motion, from, to));
+      };
+    model.holds.push_back(std::move(hold));
+  }
+}
+
+// No slip: what touches a solid moves with its surface [Batty et al. 2012, section 3.5].
+void add_touching(const Scene& scene, const Frame& frame, Model& model) {
+  const auto masks = masks_of(frame, "touch");
+  for (std::size_t i = 0; i < scene.solids.size() && !masks.empty(); ++i) {
+    Hold hold;
+    hold.vertices = with_bit(masks, i);
+    if (hold.vertices.empty())
+      continue;
+    hold.motion = [solid = scene.solids[i]](double from, double to) {
+      RigidMotion motion = rigid(scene::motion_between(solid.motion, from, to));
+      motion.shift += (to - from) * solid.surface_velocity;
+      return motion;
+    };
+    model.holds.push_back(std::move(hold));
+  }
+}
+
+} // namespace
+
+State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
+  State state;
+  state.mesh = std::move(mesh);
+  const auto x = positions(frame), v = velocities(frame);
+  state.positions.assign(x.begin(), x.end());
+  if (v.empty())
+    state.velocities.assign(x.size(), Vector3::Zero());
+  else
+    state.velocities.assign(v.begin(), v.end());
+  const auto volume = volumes(frame);
+  state.volumes.assign(volume.begin(), volume.end());
+  state.time = frame.time;
+  return state;
+}
+
+void put_state(const State& state, Frame& frame) {
+  Array start = formats::make_array("start_position", formats::Place::vertex, formats::Type::float64, 3, "m",
+                                    formats::Transfer::drop, frame.vertices);
+  std::copy_n(positions(frame).begin(), frame.vertices, start.values<Vector3>().begin());
+  frame.put(std::move(start));
+  std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
+  std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
+  frame.time = state.time;
+  ++frame.step;
+}
+
+Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh, Bending bending, bool arcs) {
+  Model model;
+  model.viscosity = scene.material.viscosity;
+  model.density = scene.material.density;
+  model.surface_tension = scene.material.surface_tension;
+  model.inertia = scene.model.inertia;
+  model.bending = scene.model.bending ? bending : Bending::none;
+  model.arcs = arcs;
+  if (scene.environment.gravity)
+    model.gravity = *scene.environment.gravity;
+  if (scene.environment.pressure)
+    model.pressure = pressure_law(*scene.environment.pressure);
+  if (scene.environment.bath)
+    model.bath = BathModel{scene.environment.bath->density, scene.environment.bath->level};
+  add_holds(scene, frame, mesh, model);
+  add_touching(scene, frame, model);
+  return model;
+}
+
+double next_event(const Scene& scene, double t) {
+  double next = std::numeric_limits<double>::infinity();
+  const auto consider = [&](double event) {
+    if (event > t)
+      next = std::min(next, event);
+  };
+  const auto consider_motion = [&](const scene::Motion& motion) {
+    std::visit(scene::Overloaded{[](const scene::Fixed&) {},
+                                 [&](const scene::Translating& m) {
+                                   for (const auto& entry : m.velocity.entries)
+                                     consider(entry.time);
+                                 },
+                                 [&](const scene::Rotating& m) {
+                                   for (const auto& entry : m.rate.entries)
+                                     consider(entry.time);
+                                 }},
+               motion);
+  };
+  for (const scene::Hold& hold : scene.holds) {
+    consider_motion(hold.motion);
+    if (hold.until)
+      consider(*hold.until);
+  }
+  for (const scene::Solid& solid : scene.solids)
+    consider_motion(solid.motion);
+  return next;
+}
+
+} // namespace sheet

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a frame and the scene in it to what the Stepper understands, and back.
+#pragma once
+#include <memory>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/energy/model.h"
+#include "libsheet/energy/state.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+// The frame's positions [m], velocities [m/s] and volumes [m³] on that connectivity (which must be the frame's).
+[[nodiscard]] State state_of(const formats::Frame& frame, std::shared_ptr<const Connectivity> mesh);
+
+// Writes the end of a step into the frame: positions, velocities, time, step + 1, and where the step started.
+void put_state(const State& state, formats::Frame& frame);
+
+// The terms that the scene asks for, and its holds that are in force at the frame's time: those of the scene's [[hold]]
+// tables (array "hold") and the vertices that touch a solid and move with it (array "touch"). Bending is as `bending` says,
+// unless the scene wants none. Throws Error (bad_input) where the scene has too little for a model.
+[[nodiscard]] Model model_of(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh, Bending bending,
+                             bool arcs);
+
+// The first time after t [s] at which a prescribed motion has a kink or a hold is released; infinity if there is none. A
+// step that does not pass it keeps its order.
+[[nodiscard]] double next_event(const Scene& scene, double t);
+
+} // namespace sheet

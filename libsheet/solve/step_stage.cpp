@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solve/step_stage.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "formats/cpp/stream_writer.h"
+#include "libsheet/base/error.h"
+#include "libsheet/base/files.h"
+#include "libsheet/base/log.h"
+#include "libsheet/scene/read.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/scene_model.h"
+
+namespace sheet {
+
+using formats::Frame;
+
+namespace {
+
+// What the whole run took.
+struct Totals {
+  std::uint64_t steps = 0;
+  int substeps = 0, failed = 0, rejected = 0, fallbacks = 0;
+  NewtonReport newton;
+  double seconds = 0, analysis = 0;
+  std::vector<TermTime> terms;
+
+  void add(const StepReport& r, double elapsed) {
+    ++steps;
+    substeps += r.substeps;
+    failed += r.failed;
+    rejected += r.rejected;
+    fallbacks += r.euler_fallbacks;
+    newton.iterations += r.newton.iterations;
+    newton.seconds_factor += r.newton.seconds_factor;
+    newton.seconds_solve += r.newton.seconds_solve;
+    newton.seconds_assembly += r.newton.seconds_assembly;
+    newton.seconds_search += r.newton.seconds_search;
+    analysis += r.seconds_analysis;
+    seconds += elapsed;
+    for (const TermTime& t : r.terms) {
+      const auto it = std::find_if(terms.begin(), terms.end(), [&](const TermTime& s) { return s.name == t.name; });
+      if (it == terms.end())
+        terms.push_back(t);
+      else
+        it->seconds += t.seconds;
+    }
+  }
+};
+
+void check_mesh(const Connectivity& mesh) {
+  std::vector<bool> used(mesh.vertices);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      used[v] = true;
+  const auto lonely = std::find(used.begin(), used.end(), false);
+  if (lonely != used.end())
+    fail(ExitCode::bad_input, "vertex {} belongs to no triangle, so it has no mass and no place: remove it",
+         lonely - used.begin());
+}
+
+// The end of a fixed step from t: dt, or a little less so that equal steps land exactly on `until`.
+double fixed_step(double t, double until, double dt) {
+  if (std::isinf(until))
+    return dt;
+  const double left = until - t;
+  const double count = std::max(1.0, std::ceil(left / dt * (1 - 1e-9)));
+  return left / count;
+}
+
+} // namespace
+
+struct StepStage::Impl {
+  StepStageOptions options;
+  std::string scene_text;
+  std::optional<Scene> scene;
+  std::shared_ptr<const Connectivity> mesh;
+  std::optional<Stepper> stepper;
+  Totals totals;
+
+  void read_scene_of(const Frame& frame) {
+    const formats::Array* array = frame.find("scene");
+    if (array == nullptr)
+      fail(ExitCode::bad_input, "the frame has no scene, so nothing is known of its material: make it with sheet-init");
+    if (scene && array->text() == scene_text)
+      return;
+    scene = parse_scene(array->text(), "the frame's scene");
+    scene_text = array->text();
+  }
+
+  void connect_mesh(const Frame& frame) {
+    const auto corners = triangles(frame);
+    if (mesh && mesh->vertices == frame.vertices && std::equal(corners.begin(), corners.end(), mesh->triangles.begin(),
+                                                               mesh->triangles.end()))
+      return;
+    auto connected = std::make_shared<Connectivity>(connect(frame.vertices, corners));
+    check_mesh(*connected);
+    mesh = std::move(connected);
+  }
+
+  [[nodiscard]] double end_of_step(const Frame& frame) const {
+    double until = next_event(*scene, frame.time);
+    const double output = number(frame, "next_output_time", std::numeric_limits<double>::infinity());
+    if (output > frame.time)
+      until = std::min(until, output);
+    return until;
+  }
+
+  void step(Frame& frame) {
+    read_scene_of(frame);
+    connect_mesh(frame);
+    const double until = end_of_step(frame);
+    if (mesh->triangles.empty())
+      fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
+    // Arcs reduce locking where the sheet bends by directors (docs/design.md).
+    Model model = model_of(*scene, frame, *mesh, options.bending, use_arcs);
+    if (stepper) {
+      stepper->set_model(std::move(model));
+    } else {
+      StepOptions step_options;
+      step_options.scheme = options.scheme;
+      stepper.emplace(std::move(model), step_options);
+    }
+    State state = state_of(frame, mesh);
+    const auto start = std::chrono::steady_clock::now();
+    StepReport report;
+    if (options.dt) {
+      const double dt = fixed_step(frame.time, until, *options.dt);
+      const bool lands = frame.time + dt >= until * (1 - 1e-15);
+      report = stepper->step(state, dt);
+      if (lands)
+        state.time = until;
+    } else {
+      StepControl control{.tolerance = options.tolerance, .dt = number(frame, "step_size", 0)};
+      if (std::isinf(until))
+        fail(ExitCode::usage, "without --dt the frame must say how far to go: let sheet-loop stamp it (--until, --fps), "
+                              "or give --dt");
+      report = stepper->step_within(state, until, control);
+      put_number(frame, "step_size", "s", control.dt);
+    }
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    totals.add(report, elapsed);
+    log::detail("step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge, {:.1f} ms",
+                frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error, 1e3 * elapsed);
+    put_state(state, frame);
+  }
+
+  static constexpr bool use_arcs = true;
+};
+
+StepStage::StepStage(StepStageOptions options) : impl_(std::make_unique<Impl>()) {
+  if (options.dt && !(*options.dt > 0 && std::isfinite(*options.dt)))
+    fail(ExitCode::usage, "--dt: {} is not a positive time", *options.dt);
+  if (!(options.tolerance > 0 && std::isfinite(options.tolerance)))
+    fail(ExitCode::usage, "--tolerance: {} is not a positive number", options.tolerance);
+  impl_->options = std::move(options);
+}
+
+StepStage::~StepStage() = default;
+
+void StepStage::step(Frame& frame) {
+  try {
+    impl_->step(frame);
+  } catch (const Error& error) {
+    const std::string& path = impl_->options.failed;
+    if (error.code() != ExitCode::not_converged || path.empty())
+      throw;
+    OutputFile file(path, OutputFile::Content::binary);
+    formats::StreamWriter writer(file.descriptor(), file.name());
+    writer.write(frame);
+    writer.end();
+    file.close();
+    fail(error.code(), "{}; the frame before it is in {}", error.what(), path);
+  }
+}
+
+void StepStage::report() const {
+  const Totals& t = impl_->totals;
+  if (t.steps == 0)
+    return;
+  log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler), {} Newton iterations, {:.3g} s", t.steps,
+              t.substeps, t.failed, t.rejected, t.fallbacks, t.newton.iterations, t.seconds);
+  log::detail("  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it",
+              100 * t.analysis / t.seconds, 100 * t.newton.seconds_assembly / t.seconds,
+              100 * t.newton.seconds_factor / t.seconds, 100 * t.newton.seconds_solve / t.seconds,
+              100 * t.newton.seconds_search / t.seconds);
+  for (const TermTime& term : t.terms)
+    log::detail("  term {:<40} {:8.3f} s {:5.1f} %", term.name, term.seconds, 100 * term.seconds / t.seconds);
+}
+
+} // namespace sheet

@@ -1,0 +1,40 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The check of the layers itself: it must see what it is there to see.
+
+setup() {
+  mkdir -p "$BATS_TEST_TMPDIR/root"/{formats/cpp,libsheet/{sheet,solve,measure,new},tools}
+  cd "$BATS_TEST_TMPDIR/root"
+  echo 'int main() {}' > tools/sheet-x.cpp
+}
+check() { "$BATS_TEST_DIRNAME/includes" "$PWD"; }
+
+@test "this repository" {
+  "$BATS_TEST_DIRNAME/includes"
+}
+@test "an allowed include" {
+  echo '#include "libsheet/sheet/sheet.h"' > libsheet/solve/a.cpp
+  run check
+  [[ $status == 0 && $output == "" ]]
+}
+@test "a layer above" {
+  echo '#include "libsheet/solve/newton.h"' > libsheet/measure/a.h
+  run check
+  [[ $status == 1 && $output == *"libsheet/measure/a.h:1: measure must not include libsheet/solve/newton.h"* ]]
+}
+@test "the library in formats" {
+  echo '#include "libsheet/base/error.h"' > formats/cpp/a.cpp
+  run check
+  [[ $status == 1 && $output == *"formats must not include"* ]]
+}
+@test "a heavy library in a header, and in a wrong layer" {
+  echo '#include <CGAL/Surface_mesh.h>' > libsheet/measure/a.h
+  echo '#  include <cholmod.h>' > libsheet/sheet/a.cpp
+  run check
+  [[ $status == 1 && $output == *"must not stand in a header"* && $output == *"CHOLMOD belongs to: solve"* ]]
+}
+@test "an unknown layer" {
+  echo '#include <vector>' > libsheet/new/a.h
+  run check
+  [[ $status == 1 && $output == *"not known"* ]]
+}

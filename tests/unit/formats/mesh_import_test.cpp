@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cpp/mesh_import.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace sheet::formats {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string seed(const std::string& name) {
+  std::ifstream file(std::string(SHEET_SOURCE_DIR "/tests/fuzz/seeds/") + name, std::ios::binary);
+  EXPECT_TRUE(file) << name;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+MeshImport import_seed(const std::string& name) { return import_mesh(seed(name), *mesh_format_of(name), name); }
+
+std::string error_of(const std::string& bytes, MeshFormat format) {
+  try {
+    (void)import_mesh(bytes, format, "file");
+  } catch (const MeshFileError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("file: "));
+    EXPECT_EQ(error.kind(), MeshFileError::Kind::content);
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(MeshImport, EveryFormatGivesTheSameSquare) {
+  for (const char* name : {"import_obj/square.obj", "import_off/square.off"}) {
+    const ForeignMesh mesh = import_seed(name).mesh;
+    ASSERT_EQ(mesh.points.size(), 4U) << name;
+    EXPECT_THAT(mesh.points[2], ElementsAre(1, 1, 0));
+    EXPECT_THAT(mesh.triangles[0], ElementsAre(0, 1, 2)) << name;
+  }
+  EXPECT_THAT(import_seed("import_obj/square.obj").mesh.triangles[1], ElementsAre(0, 2, 3)); // by negative indices
+  for (const char* name : {"import_stl/ascii.stl", "import_stl/binary.stl"}) {
+    const ForeignMesh mesh = import_seed(name).mesh;
+    EXPECT_EQ(mesh.points.size(), 4U) << name; // merged
+    EXPECT_THAT(mesh.triangles, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(1, 3, 2))) << name;
+  }
+}
+
+TEST(MeshImport, PolygonsBecomeFans) {
+  EXPECT_THAT(import_seed("import_obj/quad.obj").mesh.triangles,
+              ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 2, 3)));
+  EXPECT_THAT(import_seed("import_off/color.off").mesh.triangles,
+              ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 2, 3)));
+}
+
+TEST(MeshImport, ThicknessAndVelocityOfPly) {
+  for (const char* name : {"import_ply/ascii.ply", "import_ply/le.ply", "import_ply/be.ply"}) {
+    SCOPED_TRACE(name);
+    const ForeignMesh mesh = import_seed(name).mesh;
+    ASSERT_TRUE(mesh.find("thickness", MeshPlace::point));
+    EXPECT_NEAR(mesh.find("thickness", MeshPlace::point)->values.at(3), 0.01, 1e-9);
+    EXPECT_THAT(mesh.find("thickness", MeshPlace::cell)->values, ElementsAre(0.1, 0.2, 0.2)); // the quad twice
+    EXPECT_THAT(mesh.find("velocity", MeshPlace::point)->values, ElementsAre(1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3));
+  }
+}
+
+TEST(MeshImport, EveryEncodingOfVtu) {
+  for (const char* name :
+       {"import_vtu/ascii.vtu", "import_vtu/inline.vtu", "import_vtu/raw.vtu", "import_vtu/base64.vtu"}) {
+    SCOPED_TRACE(name);
+    const ForeignMesh mesh = import_seed(name).mesh;
+    EXPECT_THAT(mesh.points[3], ElementsAre(0, 1, 0.5));
+    EXPECT_THAT(mesh.triangles, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 2, 3), ElementsAre(0, 3, 1)));
+    EXPECT_NEAR(mesh.find("thickness", MeshPlace::point)->values.at(3), 0.2, 1e-7);
+    EXPECT_THAT(mesh.find("thickness", MeshPlace::cell)->values, ElementsAre(0.1, 0.2, 0.2));
+    EXPECT_EQ(mesh.find("velocity", MeshPlace::point)->values.at(11), 11.0);
+  }
+}
+
+TEST(MeshImport, SeveralPiecesOfVtuBecomeOneMesh) {
+  const auto piece = [](const std::string& x) {
+    return "<Piece NumberOfPoints=\"3\" NumberOfCells=\"2\"><Points><DataArray type='Float32' NumberOfComponents='3'>" +
+           x +
+           " 0 0 1 0 0 0 1 0</DataArray></Points><Cells><DataArray type='Int32' Name='connectivity'>0 1 2 0</DataArray>"
+           "<DataArray type='Int32' Name='offsets'>3 4</DataArray><DataArray type='UInt8' Name='types'>5 1</DataArray>"
+           "</Cells><CellData><DataArray type='Float64' Name='thickness'>" +
+           x + " 9</DataArray></CellData></Piece>";
+  };
+  const MeshImport import = import_vtu("<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>" + piece("0.25") +
+                                           piece("0.5") + "</UnstructuredGrid></VTKFile>",
+                                       "file");
+  EXPECT_THAT(import.mesh.triangles, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4, 5)));
+  EXPECT_THAT(import.mesh.find("thickness", MeshPlace::cell)->values, ElementsAre(0.25, 0.5));
+  EXPECT_THAT(import.notes, ElementsAre(HasSubstr("2 cells that are points or lines")));
+}
+
+TEST(MeshImport, DropsAndTellsWhatIsUseless) {
+  const MeshImport import =
+      import_off("OFF\n6 4 0\n9 9 9\n0 0 0\n1 0 0\n1 1 0\n2 2 0\n8 8 8\n3 1 2 3\n3 1 1 2\n2 1 2\n3 1 3 4\n", "f.off");
+  EXPECT_EQ(import.mesh.points.size(), 4U);
+  EXPECT_THAT(import.mesh.triangles, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 2, 3)));
+  EXPECT_THAT(import.notes,
+              ElementsAre(HasSubstr("fewer than three corners dropped (first: line 11)"),
+                          HasSubstr("names a vertex twice; triangles without area dropped (first: line 10)"),
+                          HasSubstr("2 vertices that no face uses"), HasSubstr("no area (first: face 3")));
+}
+
+TEST(MeshImport, ErrorsNamePlaceAndRemedy) {
+  using enum MeshFormat;
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_THAT(error_of("", obj), HasSubstr("no vertices"));
+  EXPECT_THAT(error_of(triangle, obj), HasSubstr("triangulate"));
+  EXPECT_THAT(error_of(triangle + "f 1 2 4\n", obj),
+              HasSubstr("line 4: vertex index 4 is out of range: the file has 3"));
+  EXPECT_THAT(error_of(triangle + "f 1 2 0\n", obj), HasSubstr("line 4"));
+  EXPECT_THAT(error_of(triangle + "f 1 2 -4\n", obj), HasSubstr("before the first"));
+  EXPECT_THAT(error_of(triangle + "f 1 2 -9223372036854775808\n", obj), HasSubstr("before the first"));
+  EXPECT_THAT(error_of(triangle + "f 1 2 9223372036854775807\n", obj), HasSubstr("out of range"));
+  EXPECT_THAT(error_of("v 0 0\n", obj), HasSubstr("line 1: a coordinate is missing"));
+  EXPECT_THAT(error_of("v 0 0,5 1\n", obj), HasSubstr("decimal point"));
+  EXPECT_THAT(error_of("v 0 nan 1\n", obj), HasSubstr("not finite"));
+  EXPECT_THAT(error_of("v 0 1e999 1\n", obj), HasSubstr("not a number"));
+  EXPECT_THAT(error_of("PLY\n", off), HasSubstr("starts with OFF"));
+  EXPECT_THAT(error_of("4OFF\n", off), HasSubstr("three-dimensional"));
+  EXPECT_THAT(error_of("OFF BINARY\n", off), HasSubstr("ASCII"));
+  EXPECT_THAT(error_of("OFF\n1000000000000 1 0\n0 0 0\n", off), HasSubstr("too short"));
+  EXPECT_THAT(error_of("OFF\n3 1 0\n0 0 0\n0 0 1\n", off), HasSubstr("line 4: the file ends after 2 of 3 vertices"));
+  EXPECT_THAT(error_of("OFF\n3 1 0\n0 0 0\n0 1 0\n1 0 0\n3 0 1 -1\n", off), HasSubstr("line 6: vertex index -1"));
+  EXPECT_THAT(error_of("OFF\n3 1 0\n0 0 0\n0 1 0\n1 0 0\n999999999999 0 1 2\n", off), HasSubstr("missing"));
+  EXPECT_THAT(error_of("short", stl), HasSubstr("neither"));
+  EXPECT_THAT(error_of(seed("import_stl/binary.stl").substr(0, 150), stl), HasSubstr("no triangles"));
+  EXPECT_THAT(error_of(replaced(seed("import_stl/binary.stl"), "solid", "SOLID").substr(0, 150), stl),
+              HasSubstr("184 bytes but has 150"));
+  EXPECT_THAT(error_of(replaced(seed("import_stl/ascii.stl"), "outer loop", "outer ring"), stl),
+              HasSubstr("line 3: expected 'loop'"));
+  EXPECT_THAT(error_of(replaced(seed("import_ply/le.ply"), "vertex 4", "vertex 4000000000"), ply),
+              HasSubstr("too short"));
+  EXPECT_THAT(error_of(replaced(seed("import_ply/le.ply"), "float vx", "float vq"), ply), HasSubstr("velocity_x"));
+  EXPECT_THAT(error_of(replaced(seed("import_ply/le.ply"), "property float x", "property foat x"), ply),
+              HasSubstr("foat"));
+  EXPECT_THAT(error_of(replaced(seed("import_ply/ascii.ply"), "4 0 2 3 1", "4 0 2 3 7"), ply),
+              HasSubstr("face 1: vertex index 7"));
+  EXPECT_THAT(error_of(seed("import_ply/be.ply").substr(0, 420), ply), HasSubstr("too short"));
+  EXPECT_THAT(
+      error_of(replaced(seed("import_vtu/raw.vtu"), "byte_order", "compressor=\"vtkZLibDataCompressor\" byte_order"),
+               vtu),
+      HasSubstr("compression=None"));
+  EXPECT_THAT(error_of(replaced(seed("import_vtu/ascii.vtu"), "UnstructuredGrid", "PolyData"), vtu),
+              HasSubstr("UnstructuredGrid"));
+  EXPECT_THAT(error_of(replaced(seed("import_vtu/ascii.vtu"), ">5 7<", ">10 7<"), vtu), HasSubstr("Extract Surface"));
+  EXPECT_THAT(error_of(replaced(seed("import_vtu/ascii.vtu"), ">3 7<", ">3 9<"), vtu), HasSubstr("offset of cell 1"));
+  EXPECT_THAT(error_of(replaced(seed("import_vtu/raw.vtu"), "offset=\"0\"", "offset=\"99999\""), vtu),
+              HasSubstr("lies behind"));
+  EXPECT_THAT(
+      error_of(replaced(seed("import_vtu/ascii.vtu"), "NumberOfPoints=\"4\"", "NumberOfPoints=\"99999999999\""), vtu),
+      HasSubstr("expected 99999999999 tuples"));
+}
+
+// No prefix of a file may crash the reader; most are errors, some are smaller meshes.
+TEST(MeshImport, EveryPrefixIsSafe) {
+  const std::filesystem::path seeds = SHEET_SOURCE_DIR "/tests/fuzz/seeds";
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(seeds)) {
+    const std::optional<MeshFormat> format = mesh_format_of(entry.path().string());
+    if (!format)
+      continue;
+    ++files;
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    for (std::size_t n = 0; n < bytes.size(); ++n)
+      try {
+        const std::string prefix = bytes.substr(0, n); // a copy, so that reading past its end is noticed
+        (void)import_mesh(prefix, *format, "file");
+      } catch (const MeshFileError&) {
+      }
+  }
+  EXPECT_GE(files, 13U);
+}
+
+TEST(MeshImport, FormatFollowsFromTheEnding) {
+  EXPECT_EQ(mesh_format_of("a/b.OBJ"), MeshFormat::obj);
+  EXPECT_EQ(mesh_format_of("a.vtu"), MeshFormat::vtu);
+  EXPECT_EQ(mesh_format_of("a.ply/b"), std::nullopt);
+  EXPECT_EQ(mesh_format_of("obj"), std::nullopt);
+  try {
+    (void)import_mesh("/nonexistent/a.off");
+    FAIL();
+  } catch (const MeshFileError& error) {
+    EXPECT_EQ(error.kind(), MeshFileError::Kind::io);
+  }
+}
+
+// The meshes of Debian's package libcgal-demo.
+TEST(MeshImport, RealMeshes) {
+  const std::string archive = "/usr/share/doc/libcgal-dev/data.tar.gz";
+  if (!std::filesystem::exists(archive))
+    GTEST_SKIP() << archive << " is not installed";
+  const std::string folder = testing::TempDir() + "sheet_real_meshes";
+  std::filesystem::create_directories(folder);
+  const auto extract = [&](const std::string& file) {
+    return std::system(("tar xzf " + archive + " -C '" + folder + "' data/meshes/" + file).c_str()) == 0;
+  };
+  struct Case {
+    const char* file;
+    std::size_t vertices, triangles;
+  };
+  for (const Case& c : {Case{"bunny00.off", 37706, 75408}, Case{"elephant.off", 2775, 5558},
+                        Case{"armadillo.off", 26002, 52000}, Case{"knot1.off", 3200, 6400},
+                        Case{"camel.off", 9770, 19536}, Case{"pig.stl", 8642, 16848}, Case{"sphere.ply", 162, 320}}) {
+    SCOPED_TRACE(c.file);
+    ASSERT_TRUE(extract(c.file));
+    const MeshImport import = import_mesh(folder + "/data/meshes/" + c.file);
+    EXPECT_EQ(import.mesh.points.size(), c.vertices);
+    EXPECT_EQ(import.mesh.triangles.size(), c.triangles);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+} // namespace
+} // namespace sheet::formats

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/measure/measure.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace sheet {
+namespace {
+
+using Eigen::Vector3d;
+
+// The unit square as two triangles of thickness 0.01 and 0.02.
+formats::Frame square() {
+  const std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const std::vector<Corners> t = {{0, 1, 2}, {0, 2, 3}};
+  return make_frame(x, t, std::vector<double>{0.005, 0.01});
+}
+
+TEST(Measure, Square) {
+  formats::Frame frame = square();
+  for (Vector3d& v : velocities(frame))
+    v = {0, 0, 2};
+  const Measurements m = measure(frame, 1000);
+  EXPECT_DOUBLE_EQ(m.area, 1);
+  EXPECT_DOUBLE_EQ(m.volume, 0.015);
+  EXPECT_DOUBLE_EQ(m.thickness.least, 0.01);
+  EXPECT_DOUBLE_EQ(m.thickness.mean, 0.015);
+  EXPECT_DOUBLE_EQ(m.thickness.greatest, 0.02);
+  EXPECT_DOUBLE_EQ(m.kinetic_energy, 15 * 4 / 2.0);
+  EXPECT_NEAR((m.momentum - Vector3d(0, 0, 30)).norm(), 0, 1e-12);
+  // m x × v with the centers of mass (2/3, 1/3) and (1/3, 2/3) of 5 and 10 kg
+  const double cx = 5 * 2.0 / 3 + 10 / 3.0, cy = 5 / 3.0 + 10 * 2.0 / 3;
+  EXPECT_NEAR((m.angular_momentum - Vector3d(2 * cy, -2 * cx, 0)).norm(), 0, 1e-12);
+  EXPECT_EQ(m.low, Vector3d(0, 0, 0));
+  EXPECT_EQ(m.high, Vector3d(1, 1, 0));
+  EXPECT_DOUBLE_EQ(m.edge.least, 1);
+  EXPECT_DOUBLE_EQ(m.edge.greatest, std::numbers::sqrt2);
+  EXPECT_DOUBLE_EQ(m.edge.mean, (4 + std::numbers::sqrt2) / 5);
+  EXPECT_DOUBLE_EQ(m.angle_min, std::numbers::pi / 4);
+  EXPECT_DOUBLE_EQ(m.angle_max, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(m.aspect_max, std::sqrt(3));
+  EXPECT_EQ(m.topology.boundary_loops, 1);
+  EXPECT_EQ(m.topology.euler_characteristic, 1);
+}
+
+TEST(Measure, WithoutDensityAndAtRest) {
+  EXPECT_TRUE(std::isnan(measure(square(), {}).kinetic_energy));
+  EXPECT_EQ(measure(square(), 1000).kinetic_energy, 0);
+}
+
+TEST(Measure, EmptyFrame) {
+  const Measurements m = measure(make_frame({}, {}, {}), 1000);
+  EXPECT_EQ(m.area, 0);
+  EXPECT_EQ(m.volume, 0);
+  EXPECT_EQ(m.kinetic_energy, 0);
+  EXPECT_TRUE(std::isnan(m.thickness.mean));
+  EXPECT_TRUE(std::isnan(m.low[0]));
+  EXPECT_TRUE(std::isnan(m.edge.mean));
+  EXPECT_FALSE(m.topology.closed);
+}
+
+Topology topology(const std::vector<Corners>& t, std::uint64_t vertices) {
+  return find_topology(t, vertices, sorted_sides(t, vertices));
+}
+
+TEST(Topology, Tetrahedron) {
+  const Topology t = topology({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4);
+  EXPECT_TRUE(t.closed);
+  EXPECT_EQ(t.edges, 6);
+  EXPECT_EQ(t.euler_characteristic, 2);
+  EXPECT_EQ(t.boundary_loops, 0);
+  EXPECT_EQ(t.components, 1);
+}
+
+TEST(Topology, BowTieIsOnePieceWithTwoLoops) {
+  const Topology t = topology({{0, 1, 2}, {0, 3, 4}}, 6);
+  EXPECT_EQ(t.components, 1);
+  EXPECT_EQ(t.boundary_loops, 2);
+  EXPECT_EQ(t.pinched_vertices, 1);
+  EXPECT_EQ(t.unused_vertices, 1);
+}
+
+TEST(Topology, RingHasTwoLoops) {
+  std::vector<Corners> t;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t j = (i + 1) % 6;
+    t.push_back({i, j, i + 6});
+    t.push_back({j, j + 6, i + 6});
+  }
+  const Topology ring = topology(t, 12);
+  EXPECT_EQ(ring.boundary_loops, 2);
+  EXPECT_EQ(ring.euler_characteristic, 0);
+  EXPECT_EQ(ring.pinched_vertices, 0);
+}
+
+TEST(Topology, ThreeTrianglesAtAnEdge) {
+  const Topology t = topology({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, 5);
+  EXPECT_EQ(t.non_manifold_edges, 1);
+  EXPECT_EQ(t.pinched_vertices, 0);
+}
+
+} // namespace
+} // namespace sheet

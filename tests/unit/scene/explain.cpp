@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/explain.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace sheet::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const DimensionlessNumber* number(const Explanation& e, std::string_view name) {
+  for (const auto& n : e.numbers)
+    if (n.name == name)
+      return &n;
+  return nullptr;
+}
+double scale(const Explanation& e, std::string_view symbol) {
+  for (const auto& s : e.scales)
+    if (s.symbol == symbol)
+      return s.value;
+  return 0;
+}
+bool modelled(const Explanation& e, std::string_view name) {
+  for (const auto& t : e.terms)
+    if (t.name == name)
+      return t.modelled;
+  ADD_FAILURE() << name;
+  return false;
+}
+
+Explanation of(const std::string& text) { return explain(parse_scene(text, "s")); }
+
+TEST(Explain, TermsFollowTheTables) {
+  const Explanation all = of(everything), little = of(disk + liquid);
+  EXPECT_EQ(all.terms.size(), 12U);
+  for (const Term& term : all.terms) {
+    EXPECT_TRUE(term.modelled) << term.name;
+    EXPECT_EQ(modelled(little, term.name), term.name == "membrane" || term.name == "bending" || term.name == "inertia");
+    EXPECT_FALSE(term.why.empty());
+  }
+  const Explanation inviscid = of(disk + "[material]\nviscosity = 0\ndensity = 1\nsurface_tension = 1\n");
+  EXPECT_FALSE(modelled(inviscid, "membrane"));
+  EXPECT_FALSE(modelled(inviscid, "bending"));
+  EXPECT_TRUE(modelled(inviscid, "surface tension"));
+  EXPECT_FALSE(modelled(of(disk + liquid + "[contact]\nself = false\n"), "contact"));
+}
+
+TEST(Explain, NumbersByTheirFormulas) {
+  // L = 1, h = 0.02, mu = 100, rho = 1000, gamma = 0.05, g = 10
+  const Explanation e = of(disk + liquid +
+                           "surface_tension = 0.05\n[environment]\ngravity = [0, 0, -10]\n"
+                           "bath = {density = 2000}\n[[hold]]\nregion = \"rim\"\n");
+  const double V = std::sqrt(10.0); // sqrt(g L) is less than rho g L²/mu = 100
+  EXPECT_DOUBLE_EQ(scale(e, "L"), 1);
+  EXPECT_DOUBLE_EQ(scale(e, "h"), 0.02);
+  EXPECT_DOUBLE_EQ(scale(e, "V"), V);
+  EXPECT_DOUBLE_EQ(scale(e, "t_V"), 1 / V);
+  EXPECT_DOUBLE_EQ(scale(e, "t_g"), 100 / (1000 * 10.0));
+  EXPECT_DOUBLE_EQ(scale(e, "t_f"), std::sqrt(0.1));
+  EXPECT_DOUBLE_EQ(scale(e, "t_c"), 100 * 0.02 / 0.05);
+  EXPECT_DOUBLE_EQ(scale(e, "t_p"), 0);
+  EXPECT_DOUBLE_EQ(scale(e, "lambda"), 2 * M_PI * std::sqrt((4 * 100 * 0.02 * V - 0.1) / (2 * 2000 * 10)));
+  EXPECT_DOUBLE_EQ(number(e, "thickness to length")->value, 0.02);
+  EXPECT_DOUBLE_EQ(number(e, "bending to stretching")->value, 0.0004);
+  EXPECT_DOUBLE_EQ(number(e, "Reynolds")->value, 1000 * V / 100);
+  EXPECT_DOUBLE_EQ(number(e, "capillary")->value, 100 * V / 0.05);
+  EXPECT_DOUBLE_EQ(number(e, "Bond")->value, 1000 * 10 / 0.05);
+  EXPECT_DOUBLE_EQ(number(e, "Bond of the bath")->value, 2000 * 10 / 0.05);
+  EXPECT_DOUBLE_EQ(number(e, "density to the bath's")->value, 0.5);
+  EXPECT_NEAR(number(e, "buckling")->value, 12 * 2500 / (M_PI * M_PI), 1e-9);
+  EXPECT_EQ(number(e, "capillary")->meaning,
+            "In the sheet viscous stress rules over surface tension. (mu V h / (gamma L) = 126)");
+  EXPECT_EQ(number(e, "Bond")->meaning, "In the sheet weight rules over surface tension. (rho g L h / gamma = 4e+03)");
+  EXPECT_THAT(e.warnings, IsEmpty());
+}
+
+TEST(Explain, TheFastestDriveGivesTheSpeed) {
+  EXPECT_DOUBLE_EQ(scale(of(disk + liquid + "[environment]\npressure = {law = \"constant\", value = -2}\n"), "V"),
+                   std::sqrt(2 / (1000 * 0.02))); // less than p L²/(mu h) = 1
+  EXPECT_DOUBLE_EQ(scale(of(disk + liquid + "surface_tension = 3\n"), "V"), std::sqrt(2 * 3 / (1000 * 0.02)));
+  EXPECT_DOUBLE_EQ(scale(of(disk + liquid + "[inflow]\nregion = \"rim\"\nvelocity = [0, -3, 4]\n"), "V"), 5);
+  EXPECT_DOUBLE_EQ(scale(of(disk + liquid + "[[solid]]\nshape = \"plane\"\nsurface_velocity = [0, 0, 0.4]\n"), "V"),
+                   0.4);
+  EXPECT_DOUBLE_EQ(
+      scale(of("[sheet]\nshape = \"disk\"\nradius = 2\nedge_length = 0.1\nthickness = 0.2\n" + liquid +
+               "[[hold]]\nregion = \"rim\"\nmotion = {kind = \"rotating\", axis = [0, 1, 0], rate = 0.3}\n"),
+            "V"),
+      0.6);
+}
+
+TEST(Explain, MeshesAreAsTheyAreMeasured) {
+  const Scene mesh = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"a.off\"\nthickness = 0.1\n" + liquid, "s");
+  EXPECT_THAT(explain(mesh).numbers, IsEmpty());
+  EXPECT_DOUBLE_EQ(number(explain(mesh, {.length = 2, .thickness = {}, .curvature = {}}), "thickness to length")->value,
+                   0.05);
+}
+
+TEST(Explain, Warnings) {
+  const std::string fall = "[environment]\ngravity = [0, -10, 0]\n", creep = "[model]\ninertia = false\n";
+  const std::string hold = "[[hold]]\nregion = \"rim\"\n";
+  EXPECT_THAT(of(disk + liquid).warnings, ElementsAre("nothing drives the sheet: it stays as it is"));
+  EXPECT_THAT(of(disk + liquid + fall).warnings, ElementsAre("nothing holds or catches the sheet: it falls for ever"));
+  EXPECT_THAT(
+      of(disk + liquid + fall + creep).warnings,
+      ElementsAre("inertia is off, but the Reynolds number is 1e+03: the real sheet would move differently",
+                  "creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no "
+                  "solution"));
+  EXPECT_THAT(of(disk + "[material]\nviscosity = 1e8\ndensity = 1000\n" + fall + hold).warnings,
+              ElementsAre("inertia is on, but the Reynolds number is 1e-09: inertia = false gives the same motion"));
+  EXPECT_THAT(
+      of("[sheet]\nshape = \"sphere\"\nradius = 1\nedge_length = 0.5\nthickness = 0.01\n" + liquid +
+         "surface_tension = 1\n")
+          .warnings,
+      ElementsAre("edge_length 0.5 m is above sqrt(h / curvature) = 0.1 m: flat triangles resist bending too much "
+                  "there"));
+  EXPECT_THAT(
+      of("[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.3\n" + liquid + fall + hold).warnings,
+      ElementsAre("edge_length 0.1 m is below the thickness 0.3 m: a sheet has no detail that fine",
+                  "the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful"));
+}
+
+TEST(Explain, Text) {
+  EXPECT_EQ(to_text(of(disk + liquid + "[environment]\npressure = {law = \"constant\", value = 2}\n")),
+            R"(Modelled
+  membrane        viscosity resists stretching
+  bending         viscosity resists bending (bending = false leaves a membrane)
+  inertia         mass resists acceleration (inertia = false: creeping flow)
+  pressure        constant, 2 Pa
+
+Not modelled, and at no cost
+  surface tension no surface_tension in [material]
+  gravity         no gravity in [environment]
+  bath            no bath in [environment]
+  holds           no [[hold]]
+  solids          no [[solid]]
+  contact         no [contact]: the sheet may pass through itself
+  inflow          no [inflow]: the volume stays the same
+  tear            no [tear]: the sheet only thins
+
+Scales
+  L               1 m    length: the shape's shortest side, radius or width
+  h            0.02 m    thickness: the sheet's, at the start
+  V           0.316 m/s  speed: the fastest drive: pressure
+  t_V          3.16 s    time of the flow: L / V
+  t_p             1 s    time in which pressure stretches it: mu h / (p L)
+
+Dimensionless numbers
+  thickness to length = h / L = 0.02
+      Thin: it folds and wrinkles far more easily than it stretches.
+  bending to stretching = (h / L)² = 0.0004
+      Bending by a length L dissipates 0.0004 of what stretching does.
+  buckling = (12 / pi²) (L / h)² = 3.04e+03
+      Under compression it buckles 3.04e+03 times as fast as it thickens.
+  Reynolds = rho V L / mu = 3.16
+      Viscosity and inertia both matter.
+)");
+}
+
+} // namespace
+} // namespace sheet::scene

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/read.h"
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace sheet::scene {
+namespace {
+
+TEST(Read, EveryTable) {
+  const Scene s = parse_scene(everything, "s", {}, "scenes");
+  const auto& annulus = std::get<Annulus>(s.sheet.shape);
+  EXPECT_EQ(annulus.inner_radius, 0.1);
+  EXPECT_EQ(annulus.outer_radius, 0.25);
+  EXPECT_EQ(s.sheet.edge_length, 0.01);
+  EXPECT_EQ(s.sheet.seed, 3);
+  EXPECT_EQ(std::get<double>(s.sheet.thickness), 0.002);
+  ASSERT_EQ(s.sheet.perturbations.size(), 2U);
+  EXPECT_EQ(std::get<Wave>(s.sheet.perturbations[0].form), (Wave{0.075, 0, WaveDirection::radial}));
+  EXPECT_TRUE(s.sheet.perturbations[1].of_thickness);
+  EXPECT_EQ(std::get<Noise>(s.sheet.perturbations[1].form).seed, 7);
+  EXPECT_EQ(s.sheet.rotation->angle, std::numbers::pi / 4);
+  EXPECT_EQ(s.sheet.velocity, Vector3d(0, -1, 0));
+  EXPECT_EQ(s.material, (Material{100, 978, 0.0728}));
+  EXPECT_EQ(*s.environment.gravity, Vector3d(0, -9.81, 0));
+  EXPECT_EQ(std::get<ConstantPressure>(*s.environment.pressure).value, 10);
+  EXPECT_EQ(s.environment.bath, (Bath{1200, 0.5}));
+  ASSERT_EQ(s.holds.size(), 3U);
+  EXPECT_TRUE(s.holds[0].clamped);
+  const auto& turning = std::get<Rotating>(s.holds[0].motion);
+  EXPECT_EQ(turning.center, Vector3d(0, 1, 0)); // the sheet's
+  EXPECT_EQ(turning.rate.entries[1], (Timed<double>::Entry{5, 0.3}));
+  EXPECT_EQ(s.holds[1].axes, (std::array{true, false, true}));
+  EXPECT_EQ(s.holds[1].until, 2);
+  EXPECT_EQ(std::get<Translating>(s.holds[1].motion).velocity.entries[1].value, Vector3d(0, 0, 0.4));
+  EXPECT_EQ(std::get<SphereRegion>(s.holds[2].region).radius, 0.01);
+  EXPECT_FALSE(s.holds[2].clamped);
+  const auto& mesh = std::get<SolidMesh>(s.solids[0].shape);
+  EXPECT_EQ(mesh.file, "scenes/meshes/b.off");
+  EXPECT_EQ(std::get<Rotating>(s.solids[0].motion).center, Vector3d(0, -1, 0)); // the solid's
+  EXPECT_EQ(std::get<HalfSpace>(s.solids[1].shape).normal, Vector3d(0, 1, 0));  // against gravity
+  EXPECT_EQ(s.inflow->thickness, 0.002);                                        // the sheet's
+  EXPECT_EQ(s.tear, (Tear{0.0008, true}));
+  EXPECT_EQ(s.contact->stiffness, 1.5);
+}
+
+TEST(Read, WhatIsAbsentIsNotThere) {
+  const Scene s = parse_scene(disk + liquid, "s");
+  EXPECT_EQ(s.environment, Environment{});
+  EXPECT_TRUE(s.model.inertia && s.model.bending);
+  EXPECT_TRUE(s.holds.empty() && s.solids.empty());
+  EXPECT_FALSE(s.inflow || s.tear || s.contact);
+  EXPECT_EQ(s.sheet.plane, Plane::xz);
+  EXPECT_EQ(s.sheet.pattern, Pattern::irregular);
+  EXPECT_FALSE(parse_scene(disk + liquid + "[environment]\ngravity = [0, 0, 0]\n", "s").environment.gravity);
+}
+
+TEST(Read, HorizontalIsWhatGravitySays) {
+  const auto plane = [](const std::string& gravity) {
+    return parse_scene(disk + liquid + "[environment]\ngravity = " + gravity, "s").sheet.plane;
+  };
+  EXPECT_EQ(plane("[0, 0, -9.81]"), Plane::xy);
+  EXPECT_EQ(plane("[9.81, 0, 1]"), Plane::yz);
+  EXPECT_EQ(plane("[0, -9.81, 0]"), Plane::xz);
+}
+
+TEST(Read, AllProblemsTogetherInTheOrderOfTheFile) {
+  EXPECT_EQ(problem("[sheet]\nshape = \"disc\"\nthickness = -1\n[material]\n  viscocity = 3\n[modell]\n"),
+            "s:2:9: shape: \"disc\" is none of \"rectangle\", \"disk\", \"annulus\", \"sphere\", \"cap\", \"tube\", "
+            "\"mesh\"; did you mean \"disk\"?\n"
+            "s:3:13: thickness must be positive, got -1 m\n"
+            "s:4:1: missing key \"viscosity\" in [material], such as viscosity = \"100 Pa*s\"\n"
+            "s:4:1: missing key \"density\" in [material]: inertia needs it (or switch it off: inertia = false in "
+            "[model])\n"
+            "s:5:3: unknown key \"viscocity\" in [material]; did you mean \"viscosity\"?\n"
+            "s:6:2: unknown key \"modell\" in the scene; did you mean \"model\"?");
+}
+
+TEST(Read, ErrorsAreBadInput) {
+  try {
+    (void)parse_scene("", "s");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_STREQ(error.what(), "s: missing table [sheet]\ns: missing table [material]");
+  }
+}
+
+struct Case {
+  std::string text, problem;
+};
+
+// Problems in [sheet]: `text` follows the header in line 2.
+TEST(Read, ProblemsOfTheSheet) {
+  const std::string rest = "\nthickness = 0.02\nedge_length = 0.01\n" + liquid;
+  for (const auto& [text, expected] : std::vector<Case>{
+           {"radius = 1", "s:1:1: missing key \"shape\" in [sheet], such as shape = \"disk\""},
+           {"shape = 3", "s:2:9: shape: expected one of \"rectangle\", \"disk\", \"annulus\", \"sphere\", \"cap\", "
+                         "\"tube\", \"mesh\", got a number"},
+           {"shape = \"disk\"", "s:1:1: missing key \"radius\" in [sheet], such as radius = \"2.5 mm\""},
+           {"shape = \"disk\"\nradius = \"1 Pa\"",
+            "s:3:10: radius: expected a length such as \"2.5 mm\", got a pressure (Pa)"},
+           {"shape = \"disk\"\nradius = true",
+            "s:3:10: radius: expected a length such as \"2.5 mm\", got true or false"},
+           {"shape = \"disk\"\nradius = nan", "s:3:10: radius must be finite, got nan m"},
+           {"shape = \"disk\"\nradius = 1\nheight = 2",
+            "s:4:1: key \"height\" has no meaning in [sheet]: shape \"disk\" takes radius"},
+           {"shape = \"disk\"\nradius = 0.001",
+            "s:5:15: edge_length: 0.01 m is larger than the shape, whose least measure is 0.001 m"},
+           {"shape = \"disk\"\nradius = 1e6",
+            "s:5:15: edge_length: 0.01 m makes about 7.3e+16 triangles; at most 1e+09 are possible"},
+           {"shape = \"rectangle\"", "s:1:1: missing key \"size\" in [sheet], such as size = [\"1 m\", \"0.5 m\"]"},
+           {"shape = \"rectangle\"\nsize = 3", "s:3:8: size: expected two lengths such as [\"1 m\", \"0.5 m\"]"},
+           {"shape = \"rectangle\"\nsize = [1, -1]", "s:3:12: size must be positive, got -1 m"},
+           {"shape = \"annulus\"\ninner_radius = 2\nouter_radius = 1",
+            "s:3:16: inner_radius: must be less than outer_radius, but 2 m is not less than 1 m"},
+           {"shape = \"cap\"\nradius = 1\nangle = 90",
+            "s:4:9: angle: must be above 0 and at most 180 deg, got 5156.620156177409 deg (a number is in radians)"},
+           {"shape = \"cap\"\nradius = 1\nangle = \"0 deg\"",
+            "s:4:9: angle: must be above 0 and at most 180 deg, got 0 deg (a number is in radians)"},
+           {"shape = \"cap\"\nradius = 1\nangle = \"90 deg\"\nopening = \"90 deg\"",
+            "s:5:11: opening: must be less than the cap's angle, but 90 deg is not less than 90 deg"},
+           {"shape = \"disk\"\nradius = 1\nsegments = [30, 20]",
+            "s:4:12: segments: give either edge_length or segments, not both"},
+           {"shape = \"disk\"\nradius = 1\npattern = \"iregular\"",
+            "s:4:11: pattern: \"iregular\" is none of \"structured\", \"equilateral\", \"irregular\"; did you mean "
+            "\"irregular\"?"},
+           {"shape = \"disk\"\nradius = 1\npattern = \"structured\"\nseed = 1",
+            "s:5:1: key \"seed\" has no meaning in [sheet]: only the pattern \"irregular\" has one"},
+           {"shape = \"disk\"\nradius = 1\nseed = -1", "s:4:8: seed: must not be negative, got -1"},
+           {"shape = \"disk\"\nradius = 1\nseed = 1.5", "s:4:8: seed: expected an integer, got a number"},
+           {"shape = \"disk\"\nradius = 1\ncenter = [0, 0]",
+            "s:4:10: center: expected [x, y, z], each a length such as \"2.5 mm\", got 2 of them"},
+           {"shape = \"disk\"\nradius = 1\ncenter = [0, 0, \"1 s\"]",
+            "s:4:17: center: expected a length such as \"2.5 mm\", got a time (s)"},
+           {"shape = \"disk\"\nradius = 1\nrotation = {axis = [0, 0, 0], angle = 1}",
+            "s:4:20: axis: a direction must not be zero"},
+           {"shape = \"disk\"\nradius = 1\nrotation = {angel = 1}",
+            "s:4:12: missing key \"axis\" in rotation, such as axis = [0, 1, 0]\n"
+            "s:4:12: missing key \"angle\" in rotation, such as angle = \"45 deg\"\n"
+            "s:4:13: unknown key \"angel\" in rotation; did you mean \"angle\"?"},
+           {"shape = \"disk\"\nradius = 1\nrotation = 3", "s:4:12: rotation: expected a table, got a number"},
+           {"shape = \"disk\"\nradius = 1\nperturbation = {amplitude = 1e-3}",
+            "s:4:16: perturbation: give either a wavelength or a seed (for noise)"},
+           {"shape = \"disk\"\nradius = 1\nperturbation = {amplitude = 1e-3, wavelength = 1, direction = \"y\"}",
+            "s:4:63: direction: is the normal of the sheet's plane, along which a flat sheet has no extent"},
+           {"shape = \"disk\"\nradius = 1\nperturbation = {amplitude = 1e-3, seed = 1, phase = 1}",
+            "s:4:45: key \"phase\" has no meaning in perturbation: noise has none"},
+           {"shape = \"disk\"\nradius = 1\nperturbation = {of = \"thickness\", amplitude = 1, seed = 1}",
+            "s:4:47: amplitude: must be less than the sheet's thickness, but 1 m is not less than 0.02 m"},
+           {"shape = \"disk\"\nradius = 1\nperturbation = [3]", "s:4:17: perturbation: expected tables, got a number"},
+           {"shape = \"mesh\"\nfile = \"a.off\"",
+            "s:5:1: key \"edge_length\" has no meaning in [sheet]: a mesh is taken as it is"},
+           {"shape = \"mesh\"", "s:1:1: missing key \"file\" in [sheet], such as file = \"bunny.obj\"\n"
+                                "s:4:1: key \"edge_length\" has no meaning in [sheet]: a mesh is taken as it is"},
+       })
+    EXPECT_EQ(problem("[sheet]\n" + text + rest), expected) << text;
+}
+
+TEST(Read, ProblemsOfMeshesAndCounts) {
+  for (const auto& [text, expected] : std::vector<Case>{
+           {"shape = \"mesh\"\nfile = \"a.step\"\nthickness = 1",
+            "s:3:8: file: \"a.step\" is of no known kind; known: .obj, .off, .ply, .stl, .vtu"},
+           {"shape = \"mesh\"\nfile = \"\"\nthickness = 1", "s:3:8: file: must not be empty"},
+           {"shape = \"mesh\"\nfile = \"a\\nb.off\"\nthickness = 1", "s:3:8: file: must not hold control characters"},
+           {"shape = \"mesh\"\nfile = \"a.off\"\nthickness = {place = \"edge\"}",
+            "s:4:13: missing key \"data\" in thickness, such as data = \"thickness\"\n"
+            "s:4:22: place: \"edge\" is none of \"vertex\", \"face\""},
+           {"shape = \"sphere\"\nradius = 1\nedge_length = 0.1\nthickness = {data = \"h\"}",
+            "s:5:13: thickness: only shape \"mesh\" has data to take it from; expected a length such as \"2.5 mm\""},
+           {"shape = \"sphere\"\nradius = 1\nthickness = 0.1",
+            "s:1:1: missing key \"edge_length\" in [sheet], such as edge_length = \"20 mm\""},
+           {"shape = \"sphere\"\nradius = 1\nthickness = 0.1\nsegments = [2, 5]",
+            "s:5:12: segments: expected two integers such as [30, 20], from 3 to 1000000 around and from 1 along"},
+           {"shape = \"rectangle\"\nsize = [1, 1]\nthickness = 0.1\nsegments = [2, 5.5]",
+            "s:5:12: segments: expected two integers such as [30, 20], from 1 to 1000000"},
+           {"shape = \"sphere\"\nradius = 1\nthickness = 0.1\nsegments = [9, 5]\npattern = \"irregular\"",
+            "s:6:11: pattern: segments need the pattern \"structured\""},
+           {"shape = \"sphere\"\nradius = 1\nedge_length = 0.1",
+            "s:1:1: missing key \"thickness\" in [sheet], such as thickness = \"2.5 mm\""}})
+    EXPECT_EQ(problem("[sheet]\n" + text + "\n" + liquid), expected) << text;
+}
+
+// Problems in tables after a good disk and liquid: `text` begins in line 9.
+TEST(Read, ProblemsOfTheOtherTables) {
+  for (const auto& [text, expected] : std::vector<Case>{
+           {"[environment]\nbath = {density = 3}", "s:10:8: bath: needs gravity, which says where up is"},
+           {"[environment]\ngravity = -9.81", "s:10:11: gravity: expected [x, y, z], each an acceleration such as "
+                                              "\"9.81 m/s^2\", got a number"},
+           {"[environment]\npressure = {law = \"draining\", value = 3}",
+            "s:10:12: missing key \"conductance\" in pressure, such as conductance = \"1e-6 m^3/(Pa*s)\"\n"
+            "s:10:12: pressure: this law needs a shape that encloses a volume, or a mesh\n"
+            "s:10:31: key \"value\" has no meaning in pressure: law \"draining\" takes conductance"},
+           {"[environment]\npressure = {law = \"inverse_square\", value = 3, reference_radius = 1}",
+            "s:10:12: pressure: this law needs a shape that encloses a volume, or a mesh"},
+           {"[environment]\npressure = {value = 3}",
+            "s:10:12: missing key \"law\" in pressure, such as law = \"constant\"\n"
+            "s:10:13: key \"value\" has no meaning in pressure: the law is not known"},
+           {"[model]\ninertia = 1", "s:10:11: inertia: expected true or false, got a number"},
+           {"[model]\nbending = false\n[[hold]]\nregion = \"rim\"\nkind = \"clamped\"",
+            "s:13:8: kind: a clamped hold needs bending, which [model] switches off; use \"pinned\""},
+           {"[[hold]]", "s:9:1: missing key \"region\" in [[hold]], such as region = \"rim\""},
+           {"[hold]\nregion = \"rim\"", "s:9:1: hold: expected tables [[hold]], got a table"},
+           {"[[hold]]\nregion = \"inner_rim\"",
+            "s:10:10: region: this sheet has no \"inner_rim\"; it has rim, outer_rim"},
+           {"[[hold]]\nregion = \"rimm\"", "s:10:10: region: \"rimm\" is none of \"rim\", \"inner_rim\", "
+                                           "\"outer_rim\", \"x_min\", \"x_max\", \"y_min\", "
+                                           "\"y_max\", \"z_min\", \"z_max\"; did you mean \"rim\"?"},
+           {"[[hold]]\nregion = {box = [[0, 0, 0], [1, -1, 1]]}",
+            "s:10:17: box: the first corner must not exceed the second in any coordinate"},
+           {"[[hold]]\nregion = {box = 3}", "s:10:17: box: expected two corners such as [[0, 0, 0], [1, 1, 1]]"},
+           {"[[hold]]\nregion = {}", "s:10:10: region: expected \"rim\", {box = [[0, 0, 0], [1, 1, 1]]} or {sphere = "
+                                     "{center = [0, 0, 0], radius = 1}}"},
+           {"[[hold]]\nregion = \"rim\"\naxes = \"yy\"",
+            "s:11:8: axes: expected some of the letters x, y, z, such as \"y\" or \"xz\""},
+           {"[[hold]]\nregion = \"rim\"\naxes = \"y\"\nkind = \"clamped\"",
+            "s:11:8: axes: a clamped hold holds all axes; use kind = \"pinned\""},
+           {"[[hold]]\nregion = \"rim\"\naxes = \"y\"\nmotion = {kind = \"rotating\", axis = [0, 1, 0], rate = 1}",
+            "s:11:8: axes: a rotating hold holds all axes"},
+           {"[[hold]]\nregion = \"rim\"\nuntil = 0", "s:11:9: until must be positive, got 0 s"},
+           {"[[hold]]\nregion = \"rim\"\nmotion = {}",
+            "s:11:10: missing key \"kind\" in motion, such as kind = \"rotating\""},
+           {"[[hold]]\nregion = \"rim\"\nmotion = {kind = \"translating\", rate = 1}",
+            "s:11:10: missing key \"velocity\" in motion, such as velocity = [0, 0, \"0.4 m/s\"]\n"
+            "s:11:33: key \"rate\" has no meaning in motion: a translating motion takes velocity"},
+           {"[[hold]]\nregion = \"rim\"\nmotion = {kind = \"rotating\", axis = [0, 1, 0], rate = [[0, 1], [0, 2]]}",
+            "s:11:64: rate: times must increase, but 0 s follows 0 s"},
+           {"[[hold]]\nregion = \"rim\"\nmotion = {kind = \"rotating\", axis = [0, 1, 0], rate = [1, 2]}",
+            "s:11:56: rate: expected rows [time, rate]"},
+           {"[[hold]]\nregion = \"rim\"\nmotion = {kind = \"translating\", velocity = [[0, 1]]}",
+            "s:11:45: velocity: expected rows [time, x, y, z]"},
+           {"[[solid]]\nradius = 1", "s:9:1: missing key \"shape\" in [[solid]], such as shape = \"sphere\""},
+           {"[[solid]]\nshape = \"sphere\"\nradius = 1\nrotation = {axis = [0, 1, 0], angle = 1}",
+            "s:12:1: key \"rotation\" has no meaning in [[solid]]: shape \"sphere\" takes radius"},
+           {"[[solid]]\nshape = \"box\"\nsize = [1, 0, 1]", "s:11:8: size: every edge must be positive"},
+           {"[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 0]", "s:11:10: normal: a direction must not be zero"},
+           {"[[solid]]\nshape = \"mesh\"\nfile = \"a.vtu\"",
+            "s:11:8: file: \"a.vtu\" is of no known kind; known: .obj, .off, .ply, .stl, .vdb"},
+           {"[inflow]\nregion = \"outer_rim\"\nvelocity = [0, 0, 0]",
+            "s:11:12: velocity: with no velocity nothing flows in"},
+           {"[inflow]", "s:9:1: missing key \"region\" in [inflow], such as region = \"y_max\"\n"
+                        "s:9:1: missing key \"velocity\" in [inflow], such as velocity = [0, \"-0.1 m/s\", 0]"},
+           {"[tear]\nbelow = 0.02",
+            "s:10:9: below: the whole sheet would tear at once: 0.02 m is not less than its thickness 0.02 m"},
+           {"[tear]\nbelow = 0.01\ncrumbs = \"eat\"", "s:11:10: crumbs: \"eat\" is none of \"keep\", \"drop\""},
+           {"[contact]\nadhesion = -1", "s:10:12: adhesion must not be negative, got -1 Pa"},
+           {"[contact]\nfriction = 1",
+            "s:10:1: unknown key \"friction\" in [contact]; known: self, stiffness, adhesion, "
+            "distance"}})
+    EXPECT_EQ(problem(disk + liquid + text), expected) << text;
+}
+
+TEST(Read, WhatTheModelNeeds) {
+  EXPECT_EQ(problem(disk + "[material]\nviscosity = 1\n[model]\ninertia = false\n"), "fine");
+  EXPECT_EQ(
+      problem(disk + "[material]\nviscosity = 1\n"),
+      "s:6:1: missing key \"density\" in [material]: inertia needs it (or switch it off: inertia = false in [model])");
+  EXPECT_EQ(
+      problem(disk + "[material]\nviscosity = 1\n[model]\ninertia = false\n[environment]\ngravity = [0, -1, 0]\n"),
+      "s:6:1: missing key \"density\" in [material]: gravity needs it");
+  EXPECT_EQ(problem(disk + "[material]\nviscosity = 0\n[model]\ninertia = false\n"),
+            "s:7:13: viscosity: 0 needs inertia: nothing else would resist the forces");
+  EXPECT_EQ(problem(disk + "[material]\nviscosity = 1\ndensity = 0\n"),
+            "s:8:11: density must be positive, got 0 kg/m^3");
+}
+
+TEST(Read, BordersOfShapes) {
+  const auto hold = [](const std::string& sheet, const std::string& region) {
+    return problem("[sheet]\nedge_length = 0.1\nthickness = 0.01\n" + sheet + "\n" + liquid + "[[hold]]\nregion = \"" +
+                   region + "\"");
+  };
+  EXPECT_EQ(hold("shape = \"rectangle\"\nsize = [1, 1]", "z_min"), "fine");
+  EXPECT_EQ(hold("shape = \"rectangle\"\nsize = [1, 1]", "y_min"),
+            "s:10:10: region: this sheet has no \"y_min\"; it has rim, x_min, x_max, z_min, z_max");
+  EXPECT_EQ(hold("shape = \"rectangle\"\nsize = [1, 1]\nplane = \"xy\"", "y_min"), "fine");
+  EXPECT_EQ(hold("shape = \"tube\"\nradius = 1\nheight = 1", "y_max"), "fine");
+  EXPECT_EQ(hold("shape = \"sphere\"\nradius = 1", "rim"),
+            "s:10:10: region: this sheet has no \"rim\"; it has no border");
+  EXPECT_EQ(hold("shape = \"cap\"\nradius = 1\nangle = \"90 deg\"", "inner_rim"),
+            "s:11:10: region: this sheet has no \"inner_rim\"; it has rim, outer_rim");
+  EXPECT_EQ(hold("shape = \"cap\"\nradius = 1\nangle = \"180 deg\"\nopening = 1", "inner_rim"), "fine");
+}
+
+class ReadFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("sheet-scene-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_ / "meshes");
+    before_ = std::filesystem::current_path();
+    std::filesystem::current_path(folder_);
+  }
+  void TearDown() override {
+    std::filesystem::current_path(before_);
+    std::filesystem::remove_all(folder_);
+  }
+  static void write(const std::string& name, const std::string& text) { std::ofstream(name) << text; }
+  std::filesystem::path folder_, before_;
+};
+
+TEST_F(ReadFile, FilesAreLookedForBesideTheScene) {
+  std::filesystem::create_directories("scenes");
+  write("scenes/a.toml", disk + liquid + "[[solid]]\nshape = \"mesh\"\nfile = \"../meshes/b.off\"\n");
+  const auto read = [](const std::filesystem::path& path) {
+    try {
+      return std::get<SolidMesh>(read_scene(path).solids[0].shape).file;
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(read("scenes/a.toml"), "scenes/a.toml:11:8: file: there is no \"meshes/b.off\"");
+  std::filesystem::create_directories("meshes/b.off");
+  EXPECT_EQ(read("scenes/a.toml"), "scenes/a.toml:11:8: file: \"meshes/b.off\" is not a file");
+  std::filesystem::remove("meshes/b.off");
+  write("meshes/b.off", "OFF");
+  EXPECT_EQ(read("scenes/a.toml"), "meshes/b.off");
+  // An absolute name of the scene puts no absolute name into it.
+  EXPECT_EQ(read(folder_ / "scenes/a.toml"), "meshes/b.off");
+  // An absolute name in the scene stays.
+  write("scenes/a.toml",
+        disk + liquid + "[[solid]]\nshape = \"mesh\"\nfile = \"" + (folder_ / "meshes/b.off").string() + "\"\n");
+  EXPECT_EQ(read("scenes/a.toml"), (folder_ / "meshes/b.off").string());
+}
+
+TEST_F(ReadFile, UnreadableFiles) {
+  for (const char* name : {"none.toml", "meshes"})
+    try {
+      (void)read_scene(name);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::io);
+      EXPECT_EQ(error.what(), std::string(name) + ": cannot be read");
+    }
+}
+
+} // namespace
+} // namespace sheet::scene

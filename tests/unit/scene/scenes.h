@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Texts of scenes for these tests.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "libsheet/base/error.h"
+#include "libsheet/scene/read.h"
+
+namespace sheet::scene {
+
+inline const std::string disk = "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.02\n";
+inline const std::string liquid = "[material]\nviscosity = 100\ndensity = 1000\n";
+
+// What is wrong with a text, or "fine".
+inline std::string problem(const std::string& text, const std::vector<std::string>& sets = {}) {
+  try {
+    (void)parse_scene(text, "s", sets);
+    return "fine";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+// A scene that uses every table.
+inline const std::string everything = R"([sheet]
+shape = "annulus"
+inner_radius = "0.1 m"
+outer_radius = 0.25
+edge_length = "10 mm"
+pattern = "irregular"
+seed = 3
+thickness = "2 mm"
+perturbation = [{amplitude = "0.1 mm", wavelength = "75 mm", direction = "radial"}, {of = "thickness", amplitude = 1e-4, seed = 7}]
+plane = "xz"
+center = [0, 1, 0]
+rotation = {axis = [0, 0, 1], angle = "45 deg"}
+velocity = [0, "-1 m/s", 0]
+[material]
+viscosity = "100 Pa*s"
+density = "0.978 g/cm^3"
+surface_tension = "72.8 mN/m"
+[environment]
+gravity = [0, -9.81, 0]
+pressure = {law = "constant", value = "10 Pa"}
+bath = {density = 1200, level = 0.5}
+[model]
+inertia = true
+bending = true
+[[hold]]
+region = "inner_rim"
+kind = "clamped"
+motion = {kind = "rotating", axis = [0, 1, 0], rate = [[0, 0.0], [5, "0.3 rad/s"]]}
+[[hold]]
+region = {box = [[-1, -1, -1], [0, 1, 1]]}
+axes = "zx"
+motion = {kind = "translating", velocity = [[0, 0, 0, 0], [1, 0, 0, "0.4 m/s"]]}
+until = "2 s"
+[[hold]]
+region = {sphere = {center = [0, 0, 0], radius = "1 cm"}}
+[[solid]]
+shape = "mesh"
+file = "meshes/b.off"
+scale = 0.01
+voxel_size = "1 mm"
+center = [0, -1, 0]
+motion = {kind = "rotating", axis = [0, 1, 0], rate = 1}
+[[solid]]
+shape = "plane"
+surface_velocity = [0, 0, 0.4]
+[inflow]
+region = "outer_rim"
+velocity = [0, -1, 0]
+until = 1
+[tear]
+below = "0.8 mm"
+crumbs = "drop"
+[contact]
+self = true
+stiffness = 1.5
+adhesion = "10 Pa"
+distance = "1.5 mm"
+)";
+
+} // namespace sheet::scene

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/shape/mesh_file.h"
+
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/base/error.h"
+#include "libsheet/shape/perturb.h"
+#include "libsheet/shape/shapes.h"
+
+namespace sheet {
+namespace {
+
+ExitCode code_of(const std::string& path) {
+  try {
+    (void)load_mesh(path);
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return ExitCode::ok;
+}
+
+TEST(MeshFile, RoundTripWithThicknessAndVelocity) {
+  TriangleMesh mesh = make_disk(1.0, {Pattern::irregular, 0.2, 1, {}});
+  set_thickness(mesh, 0.02, plane_wave(0.01, 0.5, {1, 0, 0}));
+  mesh.triangle_thickness.assign(mesh.triangles.size(), 0.1 / 3.0);
+  mesh.velocities.assign(mesh.positions.size(), {0.1, -2, 1e-9});
+  for (const char* ending : {"ply", "vtu"}) {
+    const std::string path = testing::TempDir() + "mesh_file_test." + ending;
+    save_mesh(path, mesh);
+    const LoadedMesh back = load_mesh(path);
+    EXPECT_EQ(back.mesh.positions, mesh.positions);
+    EXPECT_EQ(back.mesh.triangles, mesh.triangles);
+    EXPECT_EQ(back.mesh.vertex_thickness, mesh.vertex_thickness);
+    EXPECT_EQ(back.mesh.triangle_thickness, mesh.triangle_thickness);
+    EXPECT_EQ(back.mesh.velocities, mesh.velocities);
+    EXPECT_TRUE(back.notes.empty());
+    std::remove(path.c_str());
+  }
+}
+
+TEST(MeshFile, ErrorsHaveTheirExitCodes) {
+  EXPECT_EQ(code_of("/nonexistent/a.obj"), ExitCode::io);
+  EXPECT_EQ(code_of("/nonexistent/a.xyz"), ExitCode::bad_input);
+  TriangleMesh mesh = make_disk(1.0, {Pattern::irregular, 0.5, 1, {}});
+  mesh.vertex_thickness.assign(mesh.positions.size(), -1.0);
+  const std::string path = testing::TempDir() + "mesh_file_test_negative.ply";
+  save_mesh(path, mesh);
+  EXPECT_EQ(code_of(path), ExitCode::bad_input);
+  std::remove(path.c_str());
+  EXPECT_THROW(save_mesh("/nonexistent/a.ply", mesh), Error);
+}
+
+} // namespace
+} // namespace sheet

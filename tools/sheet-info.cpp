@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sheet-info: what is in a stream, and what it measures.
+#include "formats/cpp/stream_reader.h"
+#include "libsheet/base/files.h"
+#include "libsheet/base/tool.h"
+#include "libsheet/measure/report.h"
+
+int main(int argc, char** argv) {
+  sheet::Tool tool(
+      "sheet-info", "tell what is in a stream and measure it",
+      "Prints for each frame its arrays, the programs that made it, and measurements: area, volume, thickness, "
+      "energy and momentum, bounding box, quality of the mesh, topology. Quantities are SI.\n"
+      "Energy and momentum need the density, which the frame's scene states; without it they are unknown: nan "
+      "in CSV, null in JSON. Thickness is volume divided by area of each triangle; its mean is that of the "
+      "whole sheet.");
+  std::vector<std::string> inputs;
+  bool json = false, csv = false;
+  std::optional<double> density;
+  std::string output = "-";
+  tool.arguments("INPUT", inputs, "streams to read; - for standard input, as is none");
+  tool.flag("--csv", csv, "a time series: one row a frame");
+  tool.flag("--json", json, "one JSON document: an array with an object for each frame, a line each");
+  tool.option("--density", density, "KG/M3", "density to reckon with, whatever the scene states");
+  tool.option("-o,--output", output, "FILE", "file to write; - for standard output");
+  tool.example("sheet-info run.sheet | less", "all about every frame");
+  tool.example("sheet-info --csv run.sheet > run.csv", "volume, area, thickness, energy over time");
+  tool.example("sheet-select --last run.sheet | sheet-info --json", "the last frame, for a program");
+  return tool.run(argc, argv, [&] {
+    if (json && csv)
+      sheet::fail(sheet::ExitCode::usage, "--json and --csv exclude each other");
+    if (density && !(*density > 0))
+      sheet::fail(sheet::ExitCode::usage, "--density: {} is not positive", *density);
+    if (inputs.empty())
+      inputs.emplace_back("-");
+    const auto report = json ? sheet::make_json_report() : csv ? sheet::make_csv_report() : sheet::make_text_report();
+    sheet::OutputFile out(output, sheet::OutputFile::Content::text);
+    out.write(report->begin());
+    sheet::SceneDensity scene;
+    sheet::formats::Frame frame;
+    for (const std::string& input : inputs) {
+      const sheet::InputFile in(input);
+      sheet::formats::StreamReader reader(in.descriptor(), in.name());
+      while (reader.read(frame))
+        out.write(report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame,
+                               sheet::measure(frame, density ? density : scene.of(frame))}));
+    }
+    out.write(report->end());
+    out.close();
+  });
+}
