@@ -21,9 +21,9 @@ constexpr double kSpreadShift = 1e-10; // for a starting point only
 constexpr int kHalvings = 40;
 constexpr int kBeforeSlope = 3;    // halvings before the slope is asked
 constexpr double kSlopeKept = 0.5; // of the slope that may remain after a step accepted for its slope
-constexpr double kNear = 1e-2;     // steps below this make the exact Hessian worth another try
 constexpr double kSmall = 1e-3;    // steps below this are done if the potential has no more to gain
-constexpr int kReturns = 3;        // to the exact Hessian
+constexpr double kLeastBlend = 1.0 / 16; // part of the positive Hessian that is tried first, then times kBlendFactor
+constexpr double kBlendFactor = 4;
 
 class Clock {
  public:
@@ -113,48 +113,74 @@ bool spread_held_motion(LinearSystem& system, const Terms& terms, std::span<cons
   return u.allFinite();
 }
 
+namespace {
+
+// Keeps the exact Hessian aside and leaves the positive one in system.matrix.
+void add_positive(LinearSystem& system, const Terms& terms, std::span<const char> held, const Unknowns& u,
+                  std::vector<double>& exact, std::vector<double>& definite) {
+  exact = system.matrix.values;
+  Eigen::VectorXd ignored;
+  system.assembly.derivatives(terms, u, true, held, ignored, system.matrix);
+  definite = system.matrix.values;
+}
+
+void mix(const std::vector<double>& exact, const std::vector<double>& definite, double part, SparseLower& matrix) {
+  for (std::size_t k = 0; k < exact.size(); ++k)
+    matrix.values[k] = exact[k] + part * (definite[k] - exact[k]);
+}
+
+} // namespace
+
 NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const char> held,
                       const Eigen::VectorXd& scale, double floor, const NewtonOptions& options, Unknowns& u) {
   NewtonReport report;
   Clock clock;
   const auto& permutation = system.assembly.pattern().permutation();
   Eigen::VectorXd gradient, rhs(u.size()), step(u.size());
-  bool positive = options.hessian == HessianChoice::positive;
+  const bool always_positive = options.hessian == HessianChoice::positive;
+  double blend = always_positive ? 1 : 0; // part of the positive form in the Hessian
   double shift = floor;
-  int returns = 0;
+  std::vector<double> exact, definite;
   for (;;) {
     clock.lap();
-    EnergySum energy = system.assembly.derivatives(terms, u, positive, held, gradient, system.matrix);
-    report.seconds_assembly += clock.lap();
+    const EnergySum energy =
+        system.assembly.derivatives(terms, u, always_positive, held, gradient, system.matrix);
     if (!std::isfinite(energy.value) || !gradient.allFinite())
       return report;
+    if (blend > 0 && !always_positive)
+      add_positive(system, terms, held, u, exact, definite);
+    report.seconds_assembly += clock.lap();
 
-    // The direction: the exact Hessian, else the positive one, else that with a growing shift.
+    // The direction: the exact Hessian, else a mixture with the positive one, else that with a growing shift.
     Eigen::VectorXd row_scale;
     for (;;) {
+      if (blend > 0 && !always_positive)
+        mix(exact, definite, blend, system.matrix);
       row_scale = scale_to_unit_diagonal(system.matrix, permutation, held, system.assembly.vertices());
       report.seconds_assembly += clock.lap();
       bool good = false;
       for (double s = shift; s <= kGreatestShift; s = std::max(kLeastShift, 100 * s)) {
         ++report.factorizations;
-        report.positive += positive;
+        report.positive += blend > 0;
         report.shifted += s > floor;
         good = system.cholesky.factorize(system.matrix, s);
         if (good) {
           shift = s;
           break;
         }
-        if (!positive)
+        if (blend < 1)
           break;
       }
       report.seconds_factor += clock.lap();
       if (good)
         break;
-      if (positive)
+      if (blend >= 1)
         return report;
-      positive = true;
-      system.assembly.derivatives(terms, u, positive, held, gradient, system.matrix);
-      report.seconds_assembly += clock.lap();
+      if (blend == 0) {
+        add_positive(system, terms, held, u, exact, definite);
+        report.seconds_assembly += clock.lap();
+      }
+      blend = std::min(1.0, std::max(kLeastBlend, kBlendFactor * blend));
     }
     for (Eigen::Index k = 0; k < u.size(); ++k)
       rhs[k] = -row_scale[k] * gradient[permutation[static_cast<std::size_t>(k)]];
@@ -183,7 +209,7 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
         // then the slope decides [as in Hager and Zhang 2005].
         if (halvings == kBeforeSlope && report.last_step <= kSmall) {
           Eigen::VectorXd there;
-          system.assembly.derivatives(terms, u + step, positive, held, there, system.matrix);
+          system.assembly.derivatives(terms, u + step, true, held, there, system.matrix);
           if (std::abs(there.dot(step)) <= kSlopeKept * std::abs(slope)) {
             length = 1;
             break;
@@ -199,15 +225,18 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
     }
     u += length * step;
     report.seconds_search += clock.lap();
-    const bool nothing_to_gain = -slope <= noise && report.last_step <= kSmall;
+    const double small = options.tolerance * options.tolerance * energy.magnitude;
+    const bool nothing_to_gain = (-slope <= noise && report.last_step <= kSmall) ||
+                                 (-slope <= small && report.last_step <= std::sqrt(options.tolerance));
     if (length == 1 && (report.last_step <= options.tolerance || nothing_to_gain)) {
       report.converged = true;
       return report;
     }
-    if (positive && options.hessian == HessianChoice::exact_first && length == 1 && report.last_step < kNear &&
-        returns < kReturns) {
-      positive = false;
-      ++returns;
+    if (!always_positive) {
+      if (length == 1)
+        blend = blend > kLeastBlend ? blend / kBlendFactor : 0;
+      else if (length < 0.5)
+        blend = std::min(1.0, std::max(kLeastBlend, kBlendFactor * blend));
     }
     if (report.iterations >= options.iterations)
       return report;

@@ -13,12 +13,14 @@
 namespace sheet {
 
 enum class HessianChoice {
-  exact_first, // exact, the positive form where that cannot be factorised
+  exact_first, // exact; where that cannot be factorised, mixed with as little of the positive form as is needed
   positive     // always the positive form
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-6; // of a converging Newton step: its successor is about the square
+  // Of the last Newton step; the next one would be about its square (measured effect: docs/hard-cases.md). A step that
+  // gains less than tolerance² of the elements' energies, and is below sqrt(tolerance), ends the solve too.
+  double tolerance = 1e-4;
   int iterations = 50;
   HessianChoice hessian = HessianChoice::exact_first;
 };
@@ -28,7 +30,7 @@ struct NewtonReport {
   bool monotone = true; // the potential never rose by more than round-off
   int iterations = 0;   // Newton steps
   int factorizations = 0;
-  int positive = 0;     // of them with the positive form
+  int positive = 0;     // of them with some of the positive form
   int shifted = 0;      // of them with a shift
   int halvings = 0;     // of the line search
   double last_step = 0; // in the units of the stopping rule

@@ -14,7 +14,7 @@ namespace {
 
 const double kGamma = 1 - std::sqrt(0.5);
 
-constexpr int kHalvingsBeforeEuler = 3;
+constexpr int kHalvingsBeforeEuler = 1;
 constexpr double kFarBehind = 0.1; // of an edge: held unknowns that are this far from where inertia takes them
 
 // Whether every triangle still has an area beyond round-off.
@@ -140,7 +140,11 @@ bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, 
         u = trial;
       }
     }
-    const NewtonReport r = minimize(*cache_->system, cache_->terms, held, scale, floor, options_.newton, u);
+    NewtonOptions newton = options_.newton;
+    newton.iterations = std::min(newton.iterations, options_.iterations - report.newton.iterations);
+    if (newton.iterations <= 0)
+      return false;
+    const NewtonReport r = minimize(*cache_->system, cache_->terms, held, scale, floor, newton, u);
     add(report.newton, r);
     return r.converged;
   };
@@ -187,22 +191,24 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   ++report.failed;
-  if (options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
+  const bool exhausted = report.newton.iterations >= options_.iterations;
+  if (!exhausted && options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
       attempt(state, dt, Scheme::backward_euler, end, report)) {
     ++report.substeps;
     ++report.euler_fallbacks;
     state = std::move(end);
     return;
   }
-  if (depth < options_.retries) {
+  if (!exhausted && depth < options_.retries) {
     const double middle = state.time + 0.5 * dt, until = state.time + dt;
     advance(state, middle - state.time, depth + 1, report);
     advance(state, until - state.time, depth + 1, report);
     return;
   }
   fail(ExitCode::not_converged,
-       "the step at t = {} s did not converge, not even with dt = {} s (last Newton step {} of an edge length)",
-       state.time, dt, report.newton.last_step);
+       "the step at t = {} s did not converge, not even with dt = {} s ({} Newton iterations, the last of {:.2g} edge "
+       "lengths)",
+       state.time, dt, report.newton.iterations, report.newton.last_step);
 }
 
 void Stepper::finish(StepReport& report, const std::vector<double>& seconds_before) const {
@@ -259,7 +265,8 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
       dt *= kLeast;
       ++report.failed;
     }
-    if (tries == 4 * options_.retries || state.time + dt == state.time)
+    if (tries == 4 * options_.retries || state.time + dt == state.time ||
+        report.newton.iterations >= options_.iterations)
       fail(ExitCode::not_converged,
            "no step from t = {} s keeps the error below {} of an edge length (last tried {} s)", state.time,
            control.tolerance, dt);

@@ -26,7 +26,8 @@ struct StepOptions {
   Scheme scheme = Scheme::sdirk2;
   Thickness thickness = Thickness::coupled;
   NewtonOptions newton;
-  int retries = 12; // halvings of a step that does not converge
+  int retries = 12;     // halvings of a step that does not converge
+  int iterations = 400; // of Newton in a step with all its retries, so that one that fails does so soon
 };
 
 struct TermTime {

@@ -15,6 +15,7 @@ using namespace sheet;
 namespace {
 
 void run(const std::string& name, State s, const Model& m, double dt, int steps, StepOptions options = {}) {
+  if (getenv("ONLY") && (name + "," + std::to_string(dt)).find(getenv("ONLY")) == std::string::npos) return;
   StepReport sum;
   sum.newton.monotone = true;
   std::string outcome = "ok";

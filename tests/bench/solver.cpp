@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of a time step and of its parts at 5,000, 15,000 and 50,000 vertices: one Newton iteration (assembly + factorise +
-// solve) over the numeric factorisation alone, analysis over factorisation, the mid-edge step over the hinge step, each
-// term's share, peak memory. Medians; models take turns step by step, so that a busy machine slows them all alike.
+// Cost of a time step and of its parts at 5,000, 15,000 and 50,000 vertices: one Newton iteration (assembly + factorise
+// + solve) over the numeric factorisation alone, analysis over factorisation, the mid-edge step over the hinge step,
+// each term's share, peak memory. Medians; models take turns step by step, so that a busy machine slows them all alike.
 //   bench_solver [--steps 5] [--threads 1] [VERTICES...]
 #include <algorithm>
 #include <chrono>
@@ -92,16 +92,13 @@ double step_megabytes(const Choice& choice, int vertices) {
   return used;
 }
 
-void bench(int vertices, int steps) {
+void bench(int vertices, int steps, const std::vector<double>& memory) {
   struct Sample {
     std::vector<double> assembly, factor, solve, search, step, over_factor;
     std::vector<TermTime> terms;
     double analysis = 0, later_analysis = 0;
     int iterations = 0, factorizations = 0;
   };
-  std::vector<double> memory; // first, while this process is small: a child starts with its parent's peak
-  for (const Choice& choice : kChoices)
-    memory.push_back(step_megabytes(choice, vertices));
   std::vector<Stepper> steppers;
   std::vector<State> states;
   std::vector<Sample> samples(std::size(kChoices));
@@ -171,6 +168,10 @@ int main(int argc, char** argv) {
   std::printf("# BLAS core %s, %d threads, medians of %d SDIRK2 steps\n", blas_core_name().c_str(), threads, steps);
   std::printf("vertices,model,newton_per_step,assembly_ms,factor_ms,solve_ms,search_ms,iteration_over_factor,"
               "analysis_over_factor,analysis_later_s,step_ms,step_over_hinge_step,peak_MB,kB_per_vertex\n");
+  std::vector<std::vector<double>> memory; // first, while this process is small: a child starts with its parent's peak
   for (const int n : sizes)
-    bench(n, steps);
+    for (auto* of_size = &memory.emplace_back(); const Choice& choice : kChoices)
+      of_size->push_back(step_megabytes(choice, n));
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    bench(sizes[k], steps, memory[k]);
 }

@@ -16,9 +16,9 @@ namespace sheet::validation {
 enum class Shell { mid_edge, arcs, hinge, hinge_paper, none };
 
 struct Settings {
-  int set = 1;       // of the case's parameter sets
-  double edge = 0;   // target edge length over the case's length (a radius, a span); 0: the case's own
-  int steps = 0;     // of the whole run; 0: the case's own
+  int set = 1;     // of the case's parameter sets
+  double edge = 0; // target edge length over the case's length (a radius, a span); 0: the case's own
+  int steps = 0;   // of the whole run; 0: the case's own
   Scheme scheme = Scheme::sdirk2;
   Thickness thickness = Thickness::coupled;
   Shell bending = Shell::mid_edge;
@@ -27,13 +27,13 @@ struct Settings {
 };
 
 struct Result {
-  double value = 0;        // measured over exact; what it is, Case::quantity says
-  double error = 0;        // value - 1 unless Case::quantity says otherwise
-  double seconds = 0;      // wall time of stepping, analysis included, meshing and measuring not
+  double value = 0;   // measured over exact; what it is, Case::quantity says
+  double error = 0;   // value - 1 unless Case::quantity says otherwise
+  double seconds = 0; // wall time of stepping, analysis included, meshing and measuring not
   std::size_t vertices = 0;
-  double edge = 0;         // mean edge length over the case's length
-  int steps = 0, iterations = 0; // of Newton, all steps together
-  int failed = 0;          // attempts that did not converge and were done in halves
+  double edge = 0;                                  // mean edge length over the case's length
+  int steps = 0, iterations = 0;                    // of Newton, all steps together
+  int failed = 0;                                   // attempts that did not converge and were done in halves
   std::vector<std::pair<std::string, double>> more; // further figures of the case
   std::vector<std::vector<double>> series;          // of the run, columns as in Case::series
 };

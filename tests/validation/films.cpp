@@ -7,7 +7,8 @@ namespace sheet::validation {
 namespace {
 
 Hold all(const State& s, std::array<bool, 3> axes) {
-  return hold(s, [](const Vector3&) { return true; }, axes, false);
+  return hold(
+      s, [](const Vector3&) { return true; }, axes, false);
 }
 
 double mean_ring(const State& s, const std::vector<std::uint32_t>& ring) {
@@ -19,8 +20,8 @@ double mean_ring(const State& s, const std::vector<std::uint32_t>& ring) {
 
 } // namespace
 
-// V7: a tube under pressure, its ends held along the axis: hoop strain rate ṙ/r alone, N = 4 μ h ṙ/r = p r, h r = h0 r0:
-// r⁻² = r0⁻² - p t/(2 μ h0 r0).
+// V7: a tube under pressure, its ends held along the axis: hoop strain rate ṙ/r alone, N = 4 μ h ṙ/r = p r, h r = h0
+// r0: r⁻² = r0⁻² - p t/(2 μ h0 r0).
 Result v7(const Settings& s) {
   constexpr double mu = 1, h = 0.05, p = 0.1, length = 2;
   const double until = 0.75 * 2 * mu * h / p; // the radius doubles
@@ -28,8 +29,8 @@ Result v7(const Settings& s) {
   Model m = viscous(mu, s);
   m.bending = Bending::none;
   m.pressure = PressureLaw{PressureLaw::Kind::constant, p, 1, 1};
-  m.holds.push_back(hold(start, [](const Vector3& x) { return std::abs(x.z()) > length / 2 - 1e-9; },
-                         {false, false, true}, false));
+  m.holds.push_back(hold(
+      start, [](const Vector3& x) { return std::abs(x.z()) > length / 2 - 1e-9; }, {false, false, true}, false));
   for (std::size_t v = 0; v < start.positions.size(); ++v)
     start.velocities[v] = p / (4 * mu * h) * Vector3(start.positions[v].x(), start.positions[v].y(), 0);
   Run run(std::move(start), m, s, 1);
@@ -67,9 +68,12 @@ Result v9(const Settings& s) {
   m.bending = Bending::none;
   m.surface_tension = tension;
   m.holds.push_back(all(start, {false, false, true}));
-  m.holds.push_back(hold(start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, {true, true, true}, false));
+  m.holds.push_back(hold(
+      start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, {true, true, true}, false));
   const std::vector<std::uint32_t> ring =
-      hold(start, [&](const Vector3& x) { return x.norm() < r0 + 1e-9; }, {true, true, true}, false).vertices;
+      hold(
+          start, [&](const Vector3& x) { return x.norm() < r0 + 1e-9; }, {true, true, true}, false)
+          .vertices;
   using Y = Eigen::Matrix<double, 1, 1>;
   const double exact = runge_kutta(Y(r0), 0, until, 20000, [&](double, const Y& y) {
     const double q = y[0] * y[0], h = h0 * (1 - r0 * r0) / (1 - q);
@@ -90,8 +94,10 @@ Result v16(const Settings& s) {
   Model m = viscous(mu, s);
   m.bending = Bending::none;
   m.holds.push_back(all(start, {false, false, true}));
-  m.holds.push_back(hold(start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, {true, true, true}, false));
-  Hold inner = hold(start, [](const Vector3& x) { return x.norm() < ri + 1e-9; }, {true, true, true}, false);
+  m.holds.push_back(hold(
+      start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, {true, true, true}, false));
+  Hold inner = hold(
+      start, [](const Vector3& x) { return x.norm() < ri + 1e-9; }, {true, true, true}, false);
   inner.motion = [](double from, double to) {
     RigidMotion motion;
     motion.rotation = Eigen::AngleAxisd(spin * (to - from), Vector3::UnitZ()).toRotationMatrix();
@@ -136,8 +142,9 @@ Result v17(const Settings& s) {
   for (std::size_t v = 0; v < start.positions.size(); ++v)
     start.velocities[v].z() = a * omega * shape(start.positions[v]);
   m.holds.push_back(all(start, {true, true, false}));
-  m.holds.push_back(hold(start, [](const Vector3& x) { return std::max(std::abs(x.x()), std::abs(x.y())) > 0.5 - 1e-9; },
-                         {true, true, true}, false));
+  m.holds.push_back(hold(
+      start, [](const Vector3& x) { return std::max(std::abs(x.x()), std::abs(x.y())) > 0.5 - 1e-9; },
+      {true, true, true}, false));
   double worst = 0;
   Run run(std::move(start), m, s, 1);
   run.advance(2 * pi / omega, s.steps, [&](const State& at) {

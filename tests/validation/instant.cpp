@@ -8,12 +8,15 @@
 
 namespace sheet::validation {
 
-Instant solve_instant(const State& s, const Model& model, double dt, const Place& place) {
+Instant solve_instant(const State& s, const Model& model, double dt, const Place& place,
+                      const std::function<void(Stage&)>& frames) {
   const auto before = std::chrono::steady_clock::now();
   Terms terms = make_terms(model, s.mesh);
   LinearSystem system(s.mesh, terms, model.has_angles());
   Stage stage = first_stage(s, dt, s.time + dt, model.has_angles());
   raise_as_started(stage);
+  if (frames)
+    frames(stage);
   for (const auto& term : terms)
     term->begin(stage);
   Instant r;

@@ -16,7 +16,8 @@ struct Instant {
 
 using Place = std::function<void(const Stage&, Unknowns&)>;
 
-// model.holds say what is held and, together with `place`, where.
-[[nodiscard]] Instant solve_instant(const State& s, const Model& model, double dt, const Place& place = {});
+// model.holds say what is held and, together with `place`, where. `frames` may change the directors at the start.
+[[nodiscard]] Instant solve_instant(const State& s, const Model& model, double dt, const Place& place = {},
+                                    const std::function<void(Stage&)>& frames = {});
 
 } // namespace sheet::validation

@@ -64,7 +64,8 @@ std::vector<Eigen::Vector2d> arch(bool both_ends) {
       const V x = point(phi), t(std::cos(phi), std::sin(phi)), arm = point(pi / 2) - x;
       // Weight beyond φ: q ∫ (x(ψ) - x(φ)) r dψ = q r² (cosφ - (π/2 - φ) sinφ).
       const double rest = pi / 2 - phi;
-      const double moment = m + arm[0] * f[1] - arm[1] * f[0] - load * kQ * r * r * (std::cos(phi) - rest * std::sin(phi));
+      const double moment =
+          m + arm[0] * f[1] - arm[1] * f[0] - load * kQ * r * r * (std::cos(phi) - rest * std::sin(phi));
       const V force = f + V(0, -load * kQ * r * rest);
       const double bend = moment / kD, stretch = force.dot(t) / (4 * kMu * kH);
       const double middle = turn + 0.5 * ds * bend;
@@ -81,7 +82,8 @@ std::vector<Eigen::Vector2d> arch(bool both_ends) {
   Eigen::Matrix3d a;
   for (int k = 0; k < 3; ++k)
     a.col(k) << unit[k].velocity.back(), unit[k].turn;
-  const Eigen::Vector3d x = a.fullPivLu().solve(-Eigen::Vector3d(base.velocity.back()[0], base.velocity.back()[1], base.turn));
+  const Eigen::Vector3d x =
+      a.fullPivLu().solve(-Eigen::Vector3d(base.velocity.back()[0], base.velocity.back()[1], base.turn));
   return motion(1, V(x[0], x[1]), x[2]).velocity;
 }
 
@@ -109,8 +111,8 @@ Result v11(const Settings& s) {
 }
 
 // Strips of span 1, a quarter as wide, in plane strain: sides held across, their normals too (directors). Sets:
-// 1 clamped at both ends, 2 simply supported, 3 cantilever (tip), 4 quarter-cylinder cantilever (tip), 5 quarter-cylinder
-// arch clamped at both ends (middle); 4 and 5 are 1 along the arc.
+// 1 clamped at both ends, 2 simply supported, 3 cantilever (tip), 4 quarter-cylinder cantilever (tip), 5
+// quarter-cylinder arch clamped at both ends (middle); 4 and 5 are 1 along the arc.
 Result v12(const Settings& s) {
   const double width = 0.25;
   TriangleMesh mesh = strip_mesh(s, 1, width);
@@ -150,7 +152,10 @@ Result v12(const Settings& s) {
     if (curved)
       return beam[static_cast<std::size_t>(std::lround(x * static_cast<double>(beam.size() - 1)))][1];
     const double y = 1 - x;
-    return -kQ / (24 * kD) * (s.set == 1 ? x * x * y * y : s.set == 2 ? x * (1 - 2 * x * x + x * x * x) : x * x * (6 - 4 * x + x * x));
+    return -kQ / (24 * kD) *
+           (s.set == 1   ? x * x * y * y
+            : s.set == 2 ? x * (1 - 2 * x * x + x * x * x)
+                         : x * x * (6 - 4 * x + x * x));
   };
   const double where = both ? 0.5 : 1, dt = kMove / std::abs(speed(where));
   Run run(std::move(start), m, s, 1);

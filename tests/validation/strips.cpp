@@ -20,8 +20,8 @@ void clamp_sides(const State& s, Hold& side) {
 }
 
 Hold sides_across(const State& s) {
-  Hold side = hold(s, [](const Vector3& x) { return near(x.y(), 0) || near(x.y(), kWidth); }, {false, true, false},
-                   false);
+  Hold side = hold(
+      s, [](const Vector3& x) { return near(x.y(), 0) || near(x.y(), kWidth); }, {false, true, false}, false);
   clamp_sides(s, side);
   return side;
 }
@@ -29,15 +29,18 @@ Hold sides_across(const State& s) {
 // The load is a very long, soft spring k (d - L) between each vertex of the moving end and one of the held end, in
 // proportion to the edges beside it; the reference is told so: L' = k (d - L) L²/(c μ V), c = 3 free, 4 planar.
 Result pulled(const Settings& s, bool planar) {
-  constexpr double mu = 100, h = 0.01, rest = 1e3, pull = 1.2; // N
+  constexpr double mu = 100, h = 0.01, rest = 1e3, pull = 1.2;                                // N
   const double c = planar ? 4 : 3, volume = kWidth * h, until = 0.5 * c * mu * volume / pull; // the length doubles
   State start = film(strip_mesh(s, 1, kWidth), h);
   Model m = viscous(mu, s);
   m.bending = Bending::none;
-  m.holds.push_back(hold(start, [](const Vector3& x) { return near(x.x(), 0); }, {true, false, false}, false));
+  m.holds.push_back(hold(
+      start, [](const Vector3& x) { return near(x.x(), 0); }, {true, false, false}, false));
   m.holds.push_back(planar ? sides_across(start)
-                           : hold(start, [](const Vector3& x) { return x.norm() < 1e-9; }, {true, true, true}, false));
-  m.holds.push_back(hold(start, [](const Vector3&) { return true; }, {false, false, true}, false));
+                           : hold(
+                                 start, [](const Vector3& x) { return x.norm() < 1e-9; }, {true, true, true}, false));
+  m.holds.push_back(hold(
+      start, [](const Vector3&) { return true; }, {false, false, true}, false));
   const auto at_end = [&](std::uint32_t v) { return near(start.positions[v].x(), 1); };
   std::uint32_t anchor = 0;
   std::array<std::uint32_t, 2> idle{kNone, kNone}; // fill the spring's four places with weight 0
@@ -80,8 +83,9 @@ Result pulled(const Settings& s, bool planar) {
 Result v5(const Settings& s) { return pulled(s, false); } // sides free: Trouton's 3 μ
 Result v6(const Settings& s) { return pulled(s, true); }  // width held: 4 μ
 
-// V13: stretching holds the weight: tension q L²/(8 s) = 4 μ h d/dt(8 s²/(3 L²)), so s³ = 9 ρ g L⁴ t/(512 μ): a parabola
-// that sags from 0.25 to 0.5 % of the span (the formula neglects terms of order (s/L)², below 1e-4). Pinned ends, plane strain.
+// V13: stretching holds the weight: tension q L²/(8 s) = 4 μ h d/dt(8 s²/(3 L²)), so s³ = 9 ρ g L⁴ t/(512 μ): a
+// parabola that sags from 0.25 to 0.5 % of the span (the formula neglects terms of order (s/L)², below 1e-4). Pinned
+// ends, plane strain.
 Result v13(const Settings& s) {
   constexpr double mu = 100, rho = 1000, g = 9.81, h = 2.5e-5, first = 0.0025, last = 0.005;
   const auto when = [](double sag) { return 512 * mu * sag * sag * sag / (9 * rho * g); };
@@ -97,8 +101,8 @@ Result v13(const Settings& s) {
   m.density = rho;
   m.gravity = {0, 0, -g};
   m.holds.push_back(sides_across(start));
-  m.holds.push_back(hold(start, [](const Vector3& x) { return near(x.x(), 0) || near(x.x(), 1); }, {true, true, true},
-                         false));
+  m.holds.push_back(hold(
+      start, [](const Vector3& x) { return near(x.x(), 0) || near(x.x(), 1); }, {true, true, true}, false));
   Run run(std::move(start), m, s, 1);
   run.advance(when(last) - when(first), s.steps);
   // The parabola of least squares.
@@ -137,7 +141,8 @@ Result v15(const Settings& s) {
   m.gravity = {0, 0, -gravity};
   m.bath = BathModel{bath, 0};
   const double half = kWidth * wave / 2;
-  Hold side = hold(start, [&](const Vector3& x) { return near(std::abs(x.y()), half); }, {false, true, false}, false);
+  Hold side = hold(
+      start, [&](const Vector3& x) { return near(std::abs(x.y()), half); }, {false, true, false}, false);
   for (std::uint32_t e = 0; e < start.mesh->edges.size(); ++e) {
     const double a = flat[start.mesh->edges[e][0]].y(), b = flat[start.mesh->edges[e][1]].y();
     if (start.mesh->on_rim(e) && near(a, b) && near(std::abs(a), half))
@@ -145,7 +150,8 @@ Result v15(const Settings& s) {
   }
   m.holds.push_back(side);
   for (const double end : {-0.5, 0.5}) {
-    Hold h_end = hold(start, [&](const Vector3& x) { return near(x.x(), end * length); }, {true, false, false}, true);
+    Hold h_end = hold(
+        start, [&](const Vector3& x) { return near(x.x(), end * length); }, {true, false, false}, true);
     h_end.motion = [=](double from, double to) {
       RigidMotion motion;
       motion.shift = {-end * length * rate * (to - from), 0, 0};

@@ -50,7 +50,8 @@ Result v19(const Settings& s) {
   };
   const double edge = mean_edge(start);
   if (s.set == 1) {
-    Hold whole = hold(start, [](const Vector3&) { return true; }, {true, true, true}, false);
+    Hold whole = hold(
+        start, [](const Vector3&) { return true; }, {true, true, true}, false);
     for (std::uint32_t e = 0; e < start.mesh->edges.size(); ++e)
       whole.clamped_edges.push_back(e);
     whole.motion = motion;
@@ -70,7 +71,8 @@ Result v19(const Settings& s) {
     r.more = {{"energy", i.potential * dt / (mu * volume)}};
     return r;
   }
-  Hold rim = hold(start, [](const Vector3& x) { return x.head<2>().norm() > 1 - 1e-9; }, {true, true, true}, true);
+  Hold rim = hold(
+      start, [](const Vector3& x) { return x.head<2>().norm() > 1 - 1e-9; }, {true, true, true}, true);
   rim.motion = motion;
   if (s.set == 2)
     for (std::size_t v = 0; v < start.positions.size(); ++v)
@@ -84,9 +86,9 @@ Result v19(const Settings& s) {
   return r;
 }
 
-// V20, a bumpy disk thrown into space with a strain and a spin, inertia, viscosity, bending and surface tension. Sets: 1
-// linear momentum, change over Σ m |v|; 2 angular momentum, change over Σ m |x| |v|; 3 energy: kinetic + surface at the
-// start, minus at the end, minus dissipated (Simpson's rule over the frames), over what was dissipated.
+// V20, a bumpy disk thrown into space with a strain and a spin, inertia, viscosity, bending and surface tension. Sets:
+// 1 linear momentum, change over Σ m |v|; 2 angular momentum, change over Σ m |x| |v|; 3 energy: kinetic + surface at
+// the start, minus at the end, minus dissipated (Simpson's rule over the frames), over what was dissipated.
 Result v20(const Settings& s) {
   constexpr double mu = 0.2, rho = 10, tension = 0.05, h = 0.05, until = 0.4;
   State start = bumpy(s, h);
@@ -122,7 +124,8 @@ Result v20(const Settings& s) {
   const auto power = [&](const State& at) {
     constexpr double d = 1e-6;
     Model flow = viscous(mu, s);
-    flow.holds.push_back(hold(at, [](const Vector3&) { return true; }, {true, true, true}, false));
+    flow.holds.push_back(hold(
+        at, [](const Vector3&) { return true; }, {true, true, true}, false));
     return 2 / d * solve_instant(at, flow, d, [&](const Stage& stage, Unknowns& u) {
                      for (std::size_t v = 0; v < stage.vertices(); ++v)
                        u.segment<3>(static_cast<Eigen::Index>(3 * v)) += d * at.velocities[v];

@@ -79,10 +79,10 @@ std::string header(bool times) {
 }
 
 std::string row(const Case& c, const Settings& s, const Result& r, bool times) {
-  std::string line = fmt::format("{}\t{}\t{:.6g}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.4g}\t{:.9g}\t{:.4e}\t{}\t{}", c.name,
-                                 s.set, s.edge, r.steps, print(kSchemes, s.scheme), print(kThicknesses, s.thickness),
-                                 print(kShells, s.bending), print(kPatterns, s.pattern), s.seed, r.vertices, r.edge,
-                                 r.value, r.error, r.iterations, r.failed);
+  std::string line =
+      fmt::format("{}\t{}\t{:.6g}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.4g}\t{:.9g}\t{:.4e}\t{}\t{}", c.name, s.set, s.edge,
+                  r.steps, print(kSchemes, s.scheme), print(kThicknesses, s.thickness), print(kShells, s.bending),
+                  print(kPatterns, s.pattern), s.seed, r.vertices, r.edge, r.value, r.error, r.iterations, r.failed);
   if (times)
     line += fmt::format("\t{:.4g}", r.seconds);
   line += '\t';
