@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bars of accuracy: what each case must keep to, at a small size. Long ones (name Long...) have the issue's own
+// The bars of accuracy: what each case must keep to, at a small size. Long ones (name Long...) have the published
 // sizes.
 #include <cmath>
 
