@@ -94,6 +94,11 @@ void Stepper::set_model(Model model) {
   model_ = std::move(model);
   if (cache_)
     cache_->terms.clear();
+  if (flat_) {
+    Model flat = model_;
+    flat.arcs = false;
+    flat_->set_model(std::move(flat));
+  }
 }
 
 bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, StepReport& report) {
@@ -191,6 +196,10 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   ++report.failed;
+  if (depth == 0 && model_.arcs && model_.has_angles()) {
+    advance_flat(state, dt, report);
+    return;
+  }
   const bool exhausted = report.newton.iterations >= options_.iterations;
   if (!exhausted && options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
       attempt(state, dt, Scheme::backward_euler, end, report)) {
@@ -209,6 +218,22 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
        "the step at t = {} s did not converge, not even with dt = {} s ({} Newton iterations, the last of {:.2g} edge "
        "lengths)",
        state.time, dt, report.newton.iterations, report.newton.last_step);
+}
+
+void Stepper::advance_flat(State& state, double dt, StepReport& report) {
+  if (!flat_) {
+    Model model = model_;
+    model.arcs = false;
+    flat_ = std::make_unique<Stepper>(std::move(model), options_);
+  }
+  const StepReport flat = flat_->step(state, dt);
+  report.substeps += flat.substeps;
+  report.failed += flat.failed;
+  report.euler_fallbacks += flat.euler_fallbacks;
+  ++report.flat_fallbacks;
+  add(report.newton, flat.newton);
+  report.error = std::max(report.error, flat.error);
+  report.seconds_analysis += flat.seconds_analysis;
 }
 
 void Stepper::finish(StepReport& report, const std::vector<double>& seconds_before) const {

@@ -5,7 +5,8 @@
 //   the
 //                   second stage measures strain from a0 + ((1-γ)/γ)(a1 - a0), curvature likewise, so that each stage
 //                   is the minimum of a potential and a rigid motion costs nothing
-// A step that does not converge is done in halves; if that fails too, Error(not_converged), the state untouched.
+// A step that does not converge with arcs is done without them; one that does not converge is done in halves, halves by
+// backward Euler where SDIRK2 fails; if that fails too, Error(not_converged), the state untouched.
 #pragma once
 #include <memory>
 #include <string>
@@ -40,6 +41,7 @@ struct StepReport {
   int failed = 0;          // attempts that did not converge
   int rejected = 0;        // that were not accurate enough (step_within)
   int euler_fallbacks = 0; // substeps that only backward Euler could do
+  int flat_fallbacks = 0;  // steps that converged only with straight edges instead of arcs
   NewtonReport newton;     // sums over all stages; last_step of the last one
   double error = 0;        // difference to the first-order result, in edge lengths, greatest of the substeps
   double seconds_analysis = 0;
@@ -73,11 +75,13 @@ class Stepper {
   bool attempt(const State& state, double dt, Scheme scheme, State& end, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);
+  void advance_flat(State& state, double dt, StepReport& report);
   void finish(StepReport& report, const std::vector<double>& seconds_before) const;
 
   Model model_;
   StepOptions options_;
   std::unique_ptr<Cache> cache_;
+  std::unique_ptr<Stepper> flat_; // the same without arcs, for steps that do not converge with them
 };
 
 } // namespace sheet

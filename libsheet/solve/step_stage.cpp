@@ -23,7 +23,7 @@ namespace {
 // What the whole run took.
 struct Totals {
   std::uint64_t steps = 0;
-  int substeps = 0, failed = 0, rejected = 0, fallbacks = 0;
+  int substeps = 0, failed = 0, rejected = 0, fallbacks = 0, flat = 0;
   NewtonReport newton;
   double seconds = 0, analysis = 0;
   std::vector<TermTime> terms;
@@ -34,6 +34,7 @@ struct Totals {
     failed += r.failed;
     rejected += r.rejected;
     fallbacks += r.euler_fallbacks;
+    flat += r.flat_fallbacks;
     newton.iterations += r.newton.iterations;
     newton.seconds_factor += r.newton.seconds_factor;
     newton.seconds_solve += r.newton.seconds_solve;
@@ -181,8 +182,8 @@ void StepStage::report() const {
   const Totals& t = impl_->totals;
   if (t.steps == 0)
     return;
-  log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler), {} Newton iterations, {:.3g} s", t.steps,
-              t.substeps, t.failed, t.rejected, t.fallbacks, t.newton.iterations, t.seconds);
+  log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs), {} Newton iterations, {:.3g} s",
+              t.steps, t.substeps, t.failed, t.rejected, t.fallbacks, t.flat, t.newton.iterations, t.seconds);
   log::detail("  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it",
               100 * t.analysis / t.seconds, 100 * t.newton.seconds_assembly / t.seconds,
               100 * t.newton.seconds_factor / t.seconds, 100 * t.newton.seconds_solve / t.seconds,
