@@ -129,6 +129,50 @@ void mix(const std::vector<double>& exact, const std::vector<double>& definite, 
     matrix.values[k] = exact[k] + part * (definite[k] - exact[k]);
 }
 
+// The factorised and scaled matrix plus the rank-one parts of the terms, by the formula of Sherman and Morrison.
+class WithRankOnes {
+public:
+  WithRankOnes(LinearSystem& system, const Terms& terms, std::span<const char> held, const Unknowns& u,
+               const Eigen::VectorXd& row_scale)
+      : system_(system), row_scale_(row_scale) {
+    for (const auto& term : terms) {
+      Part part;
+      const double c = term->rank_one(u, part.g);
+      if (c == 0)
+        continue;
+      for (std::size_t k = 0; k < held.size(); ++k)
+        if (held[k])
+          part.g[static_cast<Eigen::Index>(k)] = 0;
+      part.solved = solve(part.g);
+      part.factor = c / (1 + c * part.g.dot(part.solved));
+      parts_.push_back(std::move(part));
+    }
+  }
+
+  // In the order of the unknowns.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
+    const auto& permutation = system_.assembly.pattern().permutation();
+    Eigen::VectorXd rhs(b.size()), x(b.size());
+    for (Eigen::Index k = 0; k < b.size(); ++k)
+      rhs[k] = row_scale_[k] * b[permutation[static_cast<std::size_t>(k)]];
+    const Eigen::VectorXd scaled = system_.cholesky.solve(rhs);
+    for (Eigen::Index k = 0; k < b.size(); ++k)
+      x[permutation[static_cast<std::size_t>(k)]] = row_scale_[k] * scaled[k];
+    for (const Part& part : parts_)
+      x -= (part.factor * part.g.dot(x)) * part.solved;
+    return x;
+  }
+
+private:
+  struct Part {
+    Eigen::VectorXd g, solved;
+    double factor = 0;
+  };
+  LinearSystem& system_;
+  const Eigen::VectorXd& row_scale_;
+  std::vector<Part> parts_;
+};
+
 } // namespace
 
 NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const char> held,
@@ -136,7 +180,7 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
   NewtonReport report;
   Clock clock;
   const auto& permutation = system.assembly.pattern().permutation();
-  Eigen::VectorXd gradient, rhs(u.size()), step(u.size());
+  Eigen::VectorXd gradient, step;
   const bool always_positive = options.hessian == HessianChoice::positive;
   double blend = always_positive ? 1 : 0; // part of the positive form in the Hessian
   double shift = floor;
@@ -182,11 +226,8 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
       }
       blend = std::min(1.0, std::max(kLeastBlend, kBlendFactor * blend));
     }
-    for (Eigen::Index k = 0; k < u.size(); ++k)
-      rhs[k] = -row_scale[k] * gradient[permutation[static_cast<std::size_t>(k)]];
-    const Eigen::VectorXd scaled = system.cholesky.solve(rhs);
-    for (Eigen::Index k = 0; k < u.size(); ++k)
-      step[permutation[static_cast<std::size_t>(k)]] = row_scale[k] * scaled[k];
+    const WithRankOnes solver(system, terms, held, u, row_scale);
+    step = -solver.solve(gradient);
     report.seconds_solve += clock.lap();
     ++report.iterations;
     const double slope = gradient.dot(step);
