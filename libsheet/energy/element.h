@@ -6,6 +6,7 @@
 //   std::array<std::uint32_t, 4> nodes(i) const;              the vertices; only where the stencil is hinge or four
 //   void begin(const Stage&);                                 start-of-stage quantities; called before each solve
 //   void prepare(const Unknowns&);                            optional: what is global (an enclosed volume)
+//   double rank_one(const Unknowns&, VectorXd&) const;        optional: what couples all unknowns, see term.h
 //   double value(i, u) const;                                 [J]
 //   double derivatives(i, u, gradient, hessian, definite) const;   value, [N] and [N/m]; overwrites both. If definite,
 //     the Hessian is a positive semidefinite approximation in closed form, otherwise it is exact

@@ -2,6 +2,7 @@
 // Pressure as minus the work on the enclosed volume.
 #include "libsheet/energy/pressure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,33 @@ double ball_radius(double volume) { return std::cbrt(3 * volume / (4 * std::numb
 double Pressure::signed_volume(const VectorN<9>& u) const {
   const Vector3 a = u.segment<3>(0) - origin_;
   return a.dot((u.segment<3>(3) - origin_).cross(u.segment<3>(6) - origin_)) / 6;
+}
+
+VectorN<9> Pressure::corners(const Unknowns& u, std::size_t i) const {
+  const Triangle& v = stage_->start->mesh->triangles[i];
+  VectorN<9> x;
+  x << stage_->position(u, v[0]), stage_->position(u, v[1]), stage_->position(u, v[2]);
+  return x;
+}
+
+double Pressure::change(std::size_t i, const VectorN<9>& u) const {
+  double sum = signed_volume(u) - start_[i];
+  if (!lagged_.empty()) {
+    const Triangle& v = stage_->start->mesh->triangles[i];
+    for (int a = 0; a < 3; ++a)
+      sum += lagged_[i].segment<3>(3 * a).dot(u.segment<3>(3 * a) - stage_->start->positions[v[a]]);
+  }
+  return sum;
+}
+
+VectorN<9> Pressure::volume_gradient(std::size_t i, const VectorN<9>& u) const {
+  const Vector3 x[3] = {u.segment<3>(0) - origin_, u.segment<3>(3) - origin_, u.segment<3>(6) - origin_};
+  VectorN<9> g;
+  g << x[1].cross(x[2]), x[2].cross(x[0]), x[0].cross(x[1]);
+  g /= 6;
+  if (!lagged_.empty())
+    g += lagged_[i];
+  return g;
 }
 
 void Pressure::begin(const Stage& stage) {
@@ -49,30 +77,33 @@ void Pressure::begin(const Stage& stage) {
           lagged_[t].segment<3>(3 * b) += cap;
         }
   }
+  reference_change_ = 0;
+  if (law_.kind == PressureLaw::Kind::draining && stage.previous)
+    for (std::size_t t = 0; t < start_.size(); ++t)
+      reference_change_ += stage.ratio * change(t, corners(*stage.previous, t));
   prepare(stage.begin);
 }
 
 void Pressure::prepare(const Unknowns& u) {
-  const auto& triangles = stage_->start->mesh->triangles;
-  double change = 0;
-  for (std::size_t t = 0; t < start_.size(); ++t) {
-    VectorN<9> x;
-    x << stage_->position(u, triangles[t][0]), stage_->position(u, triangles[t][1]),
-        stage_->position(u, triangles[t][2]);
-    change += signed_volume(x) - start_[t];
-  }
-  enclosed_ = start_enclosed_ + change;
+  double sum = 0;
+  for (std::size_t t = 0; t < start_.size(); ++t)
+    sum += change(t, corners(u, t));
+  enclosed_ = start_enclosed_ + sum;
   switch (law_.kind) {
   case PressureLaw::Kind::constant:
     scale_ = pressure_ = law_.value;
+    stiffness_ = 0;
     break;
   case PressureLaw::Kind::draining:
-    scale_ = pressure_ = law_.value * std::exp(-stage_->end_time / law_.decay_time);
+    stiffness_ = 1 / (law_.conductance * stage_->duration);
+    pressure_ = -stiffness_ * (sum - reference_change_);
+    scale_ = -stiffness_ * (0.5 * sum - reference_change_); // W up to the constant of Ω̄
     break;
   case PressureLaw::Kind::inverse_square: {
     const double r = ball_radius(enclosed_), r_start = ball_radius(start_enclosed_);
     const double k = 4 * std::numbers::pi * law_.value * law_.reference_radius * law_.reference_radius;
     pressure_ = law_.value * (law_.reference_radius / r) * (law_.reference_radius / r);
+    stiffness_ = std::max(0.0, pressure_ / (2 * std::numbers::pi * r * r * r));
     // k (r - r_start)/(Ω - Ω_start), without cancellation: r³ - r_start³ = 3 (Ω - Ω_start)/(4π)
     scale_ = k * 3 / (4 * std::numbers::pi) / (r * r + r * r_start + r_start * r_start);
     break;
@@ -80,30 +111,32 @@ void Pressure::prepare(const Unknowns& u) {
   }
 }
 
-double Pressure::value(std::size_t i, const VectorN<9>& u) const {
-  double w = -scale_ * (signed_volume(u) - start_[i]);
-  if (!lagged_.empty()) {
-    const Triangle& v = stage_->start->mesh->triangles[i];
+double Pressure::rank_one(const Unknowns& u, Eigen::VectorXd& g) const {
+  if (stiffness_ == 0)
+    return 0;
+  g.setZero(u.size());
+  for (std::size_t t = 0; t < start_.size(); ++t) {
+    const VectorN<9> part = volume_gradient(t, corners(u, t));
     for (int a = 0; a < 3; ++a)
-      w -= pressure_ * lagged_[i].segment<3>(3 * a).dot(u.segment<3>(3 * a) - stage_->start->positions[v[a]]);
+      g.segment<3>(3 * stage_->start->mesh->triangles[t][a]) += part.segment<3>(3 * a);
   }
-  return w;
+  return stiffness_;
 }
+
+double Pressure::value(std::size_t i, const VectorN<9>& u) const { return -scale_ * change(i, u); }
 
 double Pressure::derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                              bool definite) const {
-  const Vector3 x[3] = {u.segment<3>(0) - origin_, u.segment<3>(3) - origin_, u.segment<3>(6) - origin_};
-  gradient << x[1].cross(x[2]), x[2].cross(x[0]), x[0].cross(x[1]);
-  gradient *= -pressure_ / 6;
-  if (!lagged_.empty())
-    gradient -= pressure_ * lagged_[i];
+  gradient = -pressure_ * volume_gradient(i, u);
   hessian.setZero();
-  if (!definite)
+  if (!definite) {
+    const Vector3 x[3] = {u.segment<3>(0) - origin_, u.segment<3>(3) - origin_, u.segment<3>(6) - origin_};
     for (int a = 0; a < 3; ++a) { // ∂(x_b × x_c)/∂x_b = -[x_c]ₓ
       const int b = (a + 1) % 3, c = (a + 2) % 3;
       hessian.block<3, 3>(3 * a, 3 * b) = (pressure_ / 6) * skew(x[c]);
       hessian.block<3, 3>(3 * a, 3 * c) = (-pressure_ / 6) * skew(x[b]);
     }
+  }
   return value(i, u);
 }
 

@@ -3,9 +3,10 @@
 // x2)/6 about a fixed point. Laws:
 //   constant         p
 //   inverse square   p (r0/r)², r the radius of the ball of volume Ω: W = -4π p r0² (r - r_start)
-//   draining         p exp(-t/t0)
+//   draining         gas leaves at the rate c p: p = -(dΩ/dt)/c, W = (Ω - Ω̄)²/(2 c τ), Ω̄ the reference of the stage
 // On a closed sheet, or one whose rim is held, this is p n A exactly. On a free rim the gradient of Ω also holds a part
-// that belongs to the missing cap; it is taken away with the rim at its predicted place, so the sum stays a potential.
+// that belongs to the missing cap; it is taken away with the rim at its predicted place, so the sum stays a potential:
+// Ω then changes by what the sheet sweeps. The two laws that depend on Ω couple all vertices: W'' g gᵀ, g = ∂Ω/∂x.
 #pragma once
 #include "libsheet/energy/element.h"
 
@@ -15,7 +16,7 @@ struct PressureLaw {
   enum class Kind { constant, inverse_square, draining } kind = Kind::constant;
   double value = 0;            // [Pa]
   double reference_radius = 1; // r0 [m], inverse square
-  double decay_time = 1;       // t0 [s], draining
+  double conductance = 1;      // c [m³/(Pa s)], draining
 };
 
 class Pressure {
@@ -26,6 +27,8 @@ class Pressure {
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   void begin(const Stage& stage);
   void prepare(const Unknowns& u);
+  // W'' [J/m⁶] and g [m²] at the unknowns of the last prepare, which must be u.
+  [[nodiscard]] double rank_one(const Unknowns& u, Eigen::VectorXd& g) const;
   // The present pressure [Pa] and volume [m³], after prepare.
   [[nodiscard]] double pressure() const { return pressure_; }
   [[nodiscard]] double enclosed() const { return enclosed_; }
@@ -35,6 +38,9 @@ class Pressure {
 
  private:
   [[nodiscard]] double signed_volume(const VectorN<9>& u) const;
+  [[nodiscard]] VectorN<9> corners(const Unknowns& u, std::size_t i) const;
+  [[nodiscard]] double change(std::size_t i, const VectorN<9>& u) const; // of Ω since the start
+  [[nodiscard]] VectorN<9> volume_gradient(std::size_t i, const VectorN<9>& u) const;
 
   PressureLaw law_;
   const Stage* stage_ = nullptr;
@@ -42,6 +48,8 @@ class Pressure {
   std::vector<double> start_;      // each triangle's signed volume at the start of the step [m³]
   std::vector<VectorN<9>> lagged_; // the cap's part of the gradient of Ω at the predicted rim [m²]; empty without rim
   double start_enclosed_ = 0, enclosed_ = 0, pressure_ = 0;
+  double reference_change_ = 0; // Ω̄ - Ω_start, draining [m³]
+  double stiffness_ = 0;        // W''
   double scale_ = 0; // W = -scale_ Σ (each triangle's change of volume) [Pa]
 };
 

@@ -32,6 +32,8 @@ class Term {
   // Adds to gradients (`stride` apart) and Hessians (stride x stride, column major).
   virtual EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                                     double* hessians, bool definite) const = 0;
+  // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an unknown.
+  [[nodiscard]] virtual double rank_one(const Unknowns&, Eigen::VectorXd&) const { return 0; }
 };
 
 template <class E> class TermOf final : public Term {
@@ -73,6 +75,13 @@ template <class E> class TermOf final : public Term {
       Eigen::Map<MatrixN<kSize>, 0, Eigen::OuterStride<>>(hessians, kSize, kSize, Eigen::OuterStride<>(stride)) += h;
     }
     return sum;
+  }
+
+  [[nodiscard]] double rank_one(const Unknowns& u, Eigen::VectorXd& g) const override {
+    if constexpr (requires { element_.rank_one(u, g); })
+      return element_.rank_one(u, g);
+    else
+      return 0;
   }
 
  private:

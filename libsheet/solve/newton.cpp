@@ -129,6 +129,57 @@ void mix(const std::vector<double>& exact, const std::vector<double>& definite, 
     matrix.values[k] = exact[k] + part * (definite[k] - exact[k]);
 }
 
+// The factorised and scaled matrix plus the rank-one parts of the terms, by the formula of Sherman and Morrison.
+class WithRankOnes {
+public:
+  WithRankOnes(LinearSystem& system, const Terms& terms, std::span<const char> held, const Unknowns& u,
+               const Eigen::VectorXd& row_scale)
+      : system_(system), row_scale_(row_scale) {
+    for (const auto& term : terms) {
+      Part part;
+      const double c = term->rank_one(u, part.g);
+      if (c == 0)
+        continue;
+      for (std::size_t k = 0; k < held.size(); ++k)
+        if (held[k])
+          part.g[static_cast<Eigen::Index>(k)] = 0;
+      part.solved = solve(part.g);
+      part.factor = c / (1 + c * part.g.dot(part.solved));
+      parts_.push_back(std::move(part));
+    }
+  }
+
+  // In the order of the unknowns.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
+    const auto& permutation = system_.assembly.pattern().permutation();
+    Eigen::VectorXd rhs(b.size()), x(b.size());
+    for (Eigen::Index k = 0; k < b.size(); ++k)
+      rhs[k] = row_scale_[k] * b[permutation[static_cast<std::size_t>(k)]];
+    const Eigen::VectorXd scaled = system_.cholesky.solve(rhs);
+    for (Eigen::Index k = 0; k < b.size(); ++k)
+      x[permutation[static_cast<std::size_t>(k)]] = row_scale_[k] * scaled[k];
+    for (const Part& part : parts_)
+      x -= (part.factor * part.g.dot(x)) * part.solved;
+    return x;
+  }
+
+private:
+  struct Part {
+    Eigen::VectorXd g, solved;
+    double factor = 0;
+  };
+  LinearSystem& system_;
+  const Eigen::VectorXd& row_scale_;
+  std::vector<Part> parts_;
+};
+
+// The error after a full step, from the rate at which the last two steps shrank: the sum of the geometric series. Where
+// convergence is quadratic, the next steps are smaller still.
+double remaining(double step, double previous) {
+  const double rate = previous > 0 ? step / previous : 1;
+  return rate < 0.5 ? step * rate / (1 - rate) : step;
+}
+
 } // namespace
 
 NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const char> held,
@@ -136,11 +187,12 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
   NewtonReport report;
   Clock clock;
   const auto& permutation = system.assembly.pattern().permutation();
-  Eigen::VectorXd gradient, rhs(u.size()), step(u.size());
+  Eigen::VectorXd gradient, step;
   const bool always_positive = options.hessian == HessianChoice::positive;
   double blend = always_positive ? 1 : 0; // part of the positive form in the Hessian
   double shift = floor;
   std::vector<double> exact, definite;
+  double previous_step = 0; // 0: none, or not a full one
   for (;;) {
     clock.lap();
     const EnergySum energy =
@@ -180,13 +232,11 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
         add_positive(system, terms, held, u, exact, definite);
         report.seconds_assembly += clock.lap();
       }
-      blend = std::min(1.0, std::max(kLeastBlend, kBlendFactor * blend));
+      // A mixture that is barely definite makes steps far beyond where it is true: the whole positive form comes first.
+      blend = blend == 0 ? 1 : std::min(1.0, kBlendFactor * blend);
     }
-    for (Eigen::Index k = 0; k < u.size(); ++k)
-      rhs[k] = -row_scale[k] * gradient[permutation[static_cast<std::size_t>(k)]];
-    const Eigen::VectorXd scaled = system.cholesky.solve(rhs);
-    for (Eigen::Index k = 0; k < u.size(); ++k)
-      step[permutation[static_cast<std::size_t>(k)]] = row_scale[k] * scaled[k];
+    const WithRankOnes solver(system, terms, held, u, row_scale);
+    step = -solver.solve(gradient);
     report.seconds_solve += clock.lap();
     ++report.iterations;
     const double slope = gradient.dot(step);
@@ -225,13 +275,12 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
     }
     u += length * step;
     report.seconds_search += clock.lap();
-    const double small = options.tolerance * options.tolerance * energy.magnitude;
-    const bool nothing_to_gain = (-slope <= noise && report.last_step <= kSmall) ||
-                                 (-slope <= small && report.last_step <= std::sqrt(options.tolerance));
-    if (length == 1 && (report.last_step <= options.tolerance || nothing_to_gain)) {
+    const bool nothing_to_gain = -slope <= noise && report.last_step <= kSmall;
+    if (length == 1 && (remaining(report.last_step, previous_step) <= options.tolerance || nothing_to_gain)) {
       report.converged = true;
       return report;
     }
+    previous_step = length == 1 ? report.last_step : 0;
     if (!always_positive) {
       if (length == 1)
         blend = blend > kLeastBlend ? blend / kBlendFactor : 0;

@@ -18,9 +18,7 @@ enum class HessianChoice {
 };
 
 struct NewtonOptions {
-  // Of the last Newton step; the next one would be about its square (measured effect: docs/hard-cases.md). A step that
-  // gains less than tolerance² of the elements' energies, and is below sqrt(tolerance), ends the solve too.
-  double tolerance = 1e-4;
+  double tolerance = 1e-6; // of the error that remains, estimated from the last two steps
   int iterations = 50;
   HessianChoice hessian = HessianChoice::exact_first;
 };

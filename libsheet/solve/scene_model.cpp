@@ -23,7 +23,10 @@ PressureLaw pressure_law(const scene::Pressure& pressure) {
                                  law.value = p.value;
                                  law.reference_radius = p.reference_radius;
                                },
-                               [&](const scene::DrainingPressure&) { fail(ExitCode::bad_input, "draining pressure"); }},
+                               [&](const scene::DrainingPressure& p) {
+                                 law.kind = PressureLaw::Kind::draining;
+                                 law.conductance = p.conductance;
+                               }},
              pressure);
   return law;
 }

@@ -5,8 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
+#include "libsheet/energy/assembly.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/contact.h"
 #include "libsheet/energy/gravity.h"
@@ -166,6 +168,69 @@ TEST(Pressure, ActsAlongTheNormalsOfAnOpenSheet) {
   }
   for (std::size_t v = 0; v < force.size(); ++v)
     EXPECT_LE((force[v] - expected[v]).norm(), 1e-13);
+}
+
+// Laws that depend on the whole volume: gradient and Hessian of the whole sheet, its rank-one part included, against
+// central differences; closed and open sheets, first and second stages.
+TEST(Derivatives, PressureOfTheEnclosedVolume) {
+  Random random;
+  test::Mesh dome = test::disk(1, 3, 0.2);
+  for (Vector3& x : dome.positions)
+    x.z() = 0.7 - 0.5 * x.squaredNorm();
+  for (const auto kind : {PressureLaw::Kind::inverse_square, PressureLaw::Kind::draining})
+    for (const bool closed : {true, false})
+      for (const bool second : {true, false}) {
+        State s = closed ? crumpled(random) : test::at_rest(dome, 0.1);
+        for (Vector3& v : s.velocities)
+          v = random.vector(1);
+        Stage stage = first_stage(s, 0.05, 0.05, false);
+        Unknowns first = stage.begin;
+        for (double& x : first)
+          x += 0.05 * random();
+        if (second)
+          second_stage(stage, first, 1 - std::sqrt(0.5), 0.05 / (1 - std::sqrt(0.5)));
+        Terms terms;
+        terms.push_back(make_term(Pressure({kind, 3, 0.8, 2})));
+        terms[0]->begin(stage);
+        Assembly assembly(s.mesh, terms, false);
+        std::vector<std::uint32_t> order(s.mesh->vertices);
+        std::iota(order.begin(), order.end(), 0U);
+        assembly.set_order(order);
+        SparseLower lower = assembly.pattern().structure();
+        Unknowns u = stage.begin;
+        for (double& x : u)
+          x += 0.05 * random();
+        const Eigen::Index n = u.size();
+        Eigen::VectorXd g, ignored, volume;
+        assembly.derivatives(terms, u, false, {}, g, lower);
+        Eigen::MatrixXd h = Eigen::MatrixXd::Zero(n, n);
+        for (int c = 0; c < lower.size; ++c)
+          for (int p = lower.starts[static_cast<std::size_t>(c)]; p < lower.starts[static_cast<std::size_t>(c) + 1]; ++p) {
+            const int r = lower.rows[static_cast<std::size_t>(p)];
+            h(r, c) = h(c, r) = lower.values[static_cast<std::size_t>(p)];
+          }
+        const double stiffness = terms[0]->rank_one(u, volume);
+        EXPECT_GT(stiffness, 0);
+        h += stiffness * volume * volume.transpose();
+        double gradient_error[3], hessian_error[3];
+        for (int k = 0; k < 3; ++k) {
+          const double d = 0.04 / (1 << k);
+          gradient_error[k] = hessian_error[k] = 0;
+          for (Eigen::Index c = 0; c < n; c += 5) {
+            Unknowns up = u, down = u;
+            up[c] += d, down[c] -= d;
+            const double slope = (assembly.value(terms, up).value - assembly.value(terms, down).value) / (2 * d);
+            gradient_error[k] = std::max(gradient_error[k], std::abs(slope - g[c]));
+            Eigen::VectorXd gu, gd;
+            assembly.derivatives(terms, up, false, {}, gu, lower);
+            assembly.derivatives(terms, down, false, {}, gd, lower);
+            hessian_error[k] = std::max(hessian_error[k], ((gu - gd) / (2 * d) - h.col(c)).cwiseAbs().maxCoeff());
+          }
+        }
+        const std::string what = kind == PressureLaw::Kind::draining ? "draining" : "inverse square";
+        expect_second_order(gradient_error, g.cwiseAbs().maxCoeff(), what + ": gradient");
+        expect_second_order(hessian_error, h.cwiseAbs().maxCoeff(), what + ": Hessian");
+      }
 }
 
 // The angles of the directors turn with the sheet, so their torque belongs to the balance: only exact at θ as a
