@@ -20,7 +20,7 @@ struct PressureLaw {
 };
 
 class Pressure {
- public:
+public:
   static constexpr Stencil stencil = Stencil::triangle;
   explicit Pressure(const PressureLaw& law) : law_(law) {}
   [[nodiscard]] const char* name() const { return "pressure"; }
@@ -36,7 +36,7 @@ class Pressure {
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const;
 
- private:
+private:
   [[nodiscard]] double signed_volume(const VectorN<9>& u) const;
   [[nodiscard]] VectorN<9> corners(const Unknowns& u, std::size_t i) const;
   [[nodiscard]] double change(std::size_t i, const VectorN<9>& u) const; // of Ω since the start
@@ -50,7 +50,7 @@ class Pressure {
   double start_enclosed_ = 0, enclosed_ = 0, pressure_ = 0;
   double reference_change_ = 0; // Ω̄ - Ω_start, draining [m³]
   double stiffness_ = 0;        // W''
-  double scale_ = 0; // W = -scale_ Σ (each triangle's change of volume) [Pa]
+  double scale_ = 0;            // W = -scale_ Σ (each triangle's change of volume) [Pa]
 };
 
 } // namespace sheet

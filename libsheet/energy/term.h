@@ -19,7 +19,7 @@ struct EnergySum {
 };
 
 class Term {
- public:
+public:
   virtual ~Term() = default;
   [[nodiscard]] virtual const char* name() const = 0;
   [[nodiscard]] virtual Stencil stencil() const = 0;
@@ -32,12 +32,13 @@ class Term {
   // Adds to gradients (`stride` apart) and Hessians (stride x stride, column major).
   virtual EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                                     double* hessians, bool definite) const = 0;
-  // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an unknown.
+  // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an
+  // unknown.
   [[nodiscard]] virtual double rank_one(const Unknowns&, Eigen::VectorXd&) const { return 0; }
 };
 
 template <class E> class TermOf final : public Term {
- public:
+public:
   static constexpr int kSize = stencil_unknowns(E::stencil);
   explicit TermOf(E element) : element_(std::move(element)) {}
   [[nodiscard]] const E& element() const { return element_; }
@@ -84,7 +85,7 @@ template <class E> class TermOf final : public Term {
       return 0;
   }
 
- private:
+private:
   E element_;
 };
 

@@ -19,14 +19,14 @@ constexpr double kSufficient = 1e-4;   // of the predicted decrease [Armijo]
 constexpr double kRoundOff = 1e-14;    // of the sum of the magnitudes of the elements' energies
 constexpr double kSpreadShift = 1e-10; // for a starting point only
 constexpr int kHalvings = 40;
-constexpr int kBeforeSlope = 3;    // halvings before the slope is asked
-constexpr double kSlopeKept = 0.5; // of the slope that may remain after a step accepted for its slope
-constexpr double kSmall = 1e-3;    // steps below this are done if the potential has no more to gain
+constexpr int kBeforeSlope = 3;          // halvings before the slope is asked
+constexpr double kSlopeKept = 0.5;       // of the slope that may remain after a step accepted for its slope
+constexpr double kSmall = 1e-3;          // steps below this are done if the potential has no more to gain
 constexpr double kLeastBlend = 1.0 / 16; // part of the positive Hessian that is tried first, then times kBlendFactor
 constexpr double kBlendFactor = 4;
 
 class Clock {
- public:
+public:
   double lap() {
     const auto t = std::chrono::steady_clock::now();
     const double s = std::chrono::duration<double>(t - last_).count();
@@ -34,7 +34,7 @@ class Clock {
     return s;
   }
 
- private:
+private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
@@ -195,8 +195,7 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
   double previous_step = 0; // 0: none, or not a full one
   for (;;) {
     clock.lap();
-    const EnergySum energy =
-        system.assembly.derivatives(terms, u, always_positive, held, gradient, system.matrix);
+    const EnergySum energy = system.assembly.derivatives(terms, u, always_positive, held, gradient, system.matrix);
     if (!std::isfinite(energy.value) || !gradient.allFinite())
       return report;
     if (blend > 0 && !always_positive)

@@ -55,7 +55,7 @@ struct StepControl {
 };
 
 class Stepper {
- public:
+public:
   Stepper(Model model, StepOptions options);
   ~Stepper();
   Stepper(Stepper&&) noexcept;
@@ -70,7 +70,7 @@ class Stepper {
   void set_model(Model model);
   [[nodiscard]] const Model& model() const { return model_; }
 
- private:
+private:
   struct Cache;
   bool attempt(const State& state, double dt, Scheme scheme, State& end, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);

@@ -94,8 +94,8 @@ struct StepStage::Impl {
 
   void connect_mesh(const Frame& frame) {
     const auto corners = triangles(frame);
-    if (mesh && mesh->vertices == frame.vertices && std::equal(corners.begin(), corners.end(), mesh->triangles.begin(),
-                                                               mesh->triangles.end()))
+    if (mesh && mesh->vertices == frame.vertices &&
+        std::equal(corners.begin(), corners.end(), mesh->triangles.begin(), mesh->triangles.end()))
       return;
     auto connected = std::make_shared<Connectivity>(connect(frame.vertices, corners));
     check_mesh(*connected);
@@ -137,15 +137,17 @@ struct StepStage::Impl {
     } else {
       StepControl control{.tolerance = options.tolerance, .dt = number(frame, "step_size", 0)};
       if (std::isinf(until))
-        fail(ExitCode::usage, "without --dt the frame must say how far to go: let sheet-loop stamp it (--until, --fps), "
-                              "or give --dt");
+        fail(ExitCode::usage,
+             "without --dt the frame must say how far to go: let sheet-loop stamp it (--until, --fps), "
+             "or give --dt");
       report = stepper->step_within(state, until, control);
       put_number(frame, "step_size", "s", control.dt);
     }
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     totals.add(report, elapsed);
     log::detail("step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge, {:.1f} ms",
-                frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error, 1e3 * elapsed);
+                frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error,
+                1e3 * elapsed);
     put_state(state, frame);
   }
 
@@ -182,12 +184,14 @@ void StepStage::report() const {
   const Totals& t = impl_->totals;
   if (t.steps == 0)
     return;
-  log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs), {} Newton iterations, {:.3g} s",
+  log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs), {} Newton "
+              "iterations, {:.3g} s",
               t.steps, t.substeps, t.failed, t.rejected, t.fallbacks, t.flat, t.newton.iterations, t.seconds);
-  log::detail("  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it",
-              100 * t.analysis / t.seconds, 100 * t.newton.seconds_assembly / t.seconds,
-              100 * t.newton.seconds_factor / t.seconds, 100 * t.newton.seconds_solve / t.seconds,
-              100 * t.newton.seconds_search / t.seconds);
+  log::detail(
+      "  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it",
+      100 * t.analysis / t.seconds, 100 * t.newton.seconds_assembly / t.seconds,
+      100 * t.newton.seconds_factor / t.seconds, 100 * t.newton.seconds_solve / t.seconds,
+      100 * t.newton.seconds_search / t.seconds);
   for (const TermTime& term : t.terms)
     log::detail("  term {:<40} {:8.3f} s {:5.1f} %", term.name, term.seconds, 100 * term.seconds / t.seconds);
 }

@@ -26,11 +26,11 @@ namespace sheet {
 namespace {
 
 class Random {
- public:
+public:
   double operator()() { return uniform_(engine_); }
   Vector3 vector(double size) { return size * Vector3((*this)(), (*this)(), (*this)()); }
 
- private:
+private:
   std::mt19937_64 engine_{42};
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
@@ -205,7 +205,8 @@ TEST(Derivatives, PressureOfTheEnclosedVolume) {
         assembly.derivatives(terms, u, false, {}, g, lower);
         Eigen::MatrixXd h = Eigen::MatrixXd::Zero(n, n);
         for (int c = 0; c < lower.size; ++c)
-          for (int p = lower.starts[static_cast<std::size_t>(c)]; p < lower.starts[static_cast<std::size_t>(c) + 1]; ++p) {
+          for (int p = lower.starts[static_cast<std::size_t>(c)]; p < lower.starts[static_cast<std::size_t>(c) + 1];
+               ++p) {
             const int r = lower.rows[static_cast<std::size_t>(p)];
             h(r, c) = h(c, r) = lower.values[static_cast<std::size_t>(p)];
           }

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The cheap ones of the hard cases (docs/hard-cases.md): each must be done without help or with the help stated here,
+// the potential never rising, nothing inverted to nothing, in a bounded number of Newton iterations.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/base/error.h"
+#include "libsheet/solve/step.h"
+#include "tests/support/meshes.h"
+
+namespace sheet {
+namespace {
+
+template <class F> Hold held(const State& s, F&& chosen) {
+  Hold hold;
+  for (std::uint32_t v = 0; v < s.positions.size(); ++v)
+    if (chosen(s.positions[v]))
+      hold.vertices.push_back(v);
+  return hold;
+}
+
+State square(double thickness) { return test::at_rest(test::rectangle(1, 1, 10, 10, 0.2), thickness); }
+
+Model sagging(const State& s) {
+  Model m;
+  m.arcs = true;
+  m.viscosity = 100;
+  m.density = 1000;
+  m.gravity = {0, 0, -9.81};
+  m.bending = Bending::mid_edge;
+  m.holds.push_back(held(s, [](const Vector3& x) { return x.x() == 0 || x.x() == 1; }));
+  return m;
+}
+
+// Newton iterations of `steps` steps, none of which may fail.
+int expect_done(State s, const Model& m, double dt, int steps = 2) {
+  Stepper stepper(m, {});
+  int iterations = 0;
+  for (int k = 0; k < steps; ++k) {
+    const StepReport r = stepper.step(s, dt);
+    EXPECT_EQ(r.failed, 0);
+    EXPECT_TRUE(r.newton.monotone);
+    iterations += r.newton.iterations;
+  }
+  for (const Vector3& x : s.positions)
+    EXPECT_TRUE(x.allFinite());
+  return iterations;
+}
+
+// Own time of the sag: μ/(ρ g L) = 0.01 s.
+TEST(HardCases, StepsFromAMillionthToTenOfTheScenesTime) {
+  const State s = square(0.02);
+  for (const double dt : {1e-8, 1e-5, 1e-3, 1e-2, 1e-1})
+    EXPECT_LE(expect_done(s, sagging(s), dt), 24) << dt;
+}
+
+TEST(HardCases, Viscosities) {
+  const State s = square(0.02);
+  for (const double viscosity : {1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
+    Model m = sagging(s);
+    m.viscosity = viscosity;
+    EXPECT_LE(expect_done(s, m, 0.01), 16) << viscosity;
+  }
+}
+
+TEST(HardCases, ThicknessContrastOfAMillion) {
+  State s = square(0.02);
+  for (std::size_t t = 0; t < s.volumes.size(); ++t)
+    s.volumes[t] *= t % 2 ? 1e-3 : 1e3;
+  EXPECT_LE(expect_done(s, sagging(s), 0.01), 40);
+}
+
+TEST(HardCases, ThinAsAMillionthOfAnEdge) {
+  const State s = square(1e-7);
+  EXPECT_LE(expect_done(s, sagging(s), 0.01), 60);
+}
+
+TEST(HardCases, NeedleTriangles) {
+  test::Mesh mesh = test::rectangle(1, 1, 10, 10, 0);
+  for (Vector3& x : mesh.positions) // a column of triangles squeezed to 0.01 degrees
+    x.x() = x.x() < 0.55 ? x.x() : x.x() - 0.1 + 0.1 * std::tan(0.01 * std::numbers::pi / 180);
+  const State s = test::at_rest(mesh, 0.02);
+  Model m = sagging(s);
+  m.holds = {held(s, [](const Vector3& x) { return x.x() == 0 || x.x() > 0.9 - 1e-4; })};
+  m.surface_tension = 10;
+  EXPECT_LE(expect_done(s, m, 0.01), 30);
+}
+
+TEST(HardCases, FoldedFlat) {
+  test::Mesh mesh = test::rectangle(1, 1, 10, 10, 0);
+  for (Vector3& x : mesh.positions)
+    x.x() = x.x() > 0.5 ? 1 - x.x() : x.x();
+  const State s = test::at_rest(mesh, 0.02);
+  for (const Bending bending : {Bending::mid_edge, Bending::hinge}) {
+    Model m = sagging(s);
+    m.bending = bending;
+    m.holds = {held(s, [](const Vector3& x) { return x.x() == 0; })};
+    EXPECT_LE(expect_done(s, m, 0.01), 60);
+  }
+}
+
+TEST(HardCases, CompressedInOneStep) {
+  const State s = square(0.02);
+  for (const double left : {0.5, 0.01}) {
+    Model m = sagging(s);
+    m.holds = {held(s, [](const Vector3& x) { return x.x() == 0; }),
+               held(s, [](const Vector3& x) { return x.x() == 1; })};
+    m.holds[1].motion = [=](double from, double to) {
+      RigidMotion r;
+      r.shift = Vector3(left - 1, 0, 0) * (to - from) / 0.1;
+      return r;
+    };
+    State end = s;
+    Stepper stepper(m, {});
+    const StepReport r = stepper.step(end, 0.1);
+    EXPECT_TRUE(r.newton.monotone);
+    EXPECT_LE(r.newton.iterations, 200) << left;
+  }
+}
+
+// A step that would need many retries says so soon; without the limit it would be done, in pieces.
+TEST(HardCases, FailureIsBounded) {
+  const State before = square(0.02);
+  StepOptions options;
+  options.newton.iterations = 3;
+  for (const bool limited : {true, false}) {
+    options.iterations = limited ? 7 : 100000;
+    State s = before;
+    Stepper stepper(sagging(s), options);
+    if (limited) {
+      EXPECT_THROW(stepper.step(s, 0.1), Error);
+      EXPECT_EQ(s.positions, before.positions);
+    } else {
+      EXPECT_GT(stepper.step(s, 0.1).substeps, 1);
+    }
+  }
+}
+
+// Volumes are never written: thickness follows area.
+TEST(Volume, KeepsEveryBit) {
+  State s = square(0.02);
+  const std::vector<double> before = s.volumes;
+  Stepper stepper(sagging(s), {});
+  for (int k = 0; k < 20; ++k)
+    stepper.step(s, 0.01);
+  EXPECT_EQ(s.volumes, before);
+}
+
+// Two squares, one pulled down onto the other by gravity and held off by springs: in the end the springs carry it.
+TEST(Contact, CarriesTheWeight) {
+  test::Mesh mesh = test::rectangle(1, 1, 2, 2, 0);
+  const std::size_t n = mesh.positions.size();
+  const auto triangles = mesh.triangles;
+  for (std::size_t v = 0; v < n; ++v)
+    mesh.positions.push_back(mesh.positions[v] + Vector3(0, 0, 0.1));
+  for (Triangle t : triangles) {
+    for (auto& v : t)
+      v += static_cast<std::uint32_t>(n);
+    mesh.triangles.push_back(t);
+  }
+  State s = test::at_rest(mesh, 0.01);
+  Model m;
+  m.viscosity = 100;
+  m.density = 1000;
+  m.gravity = {0, 0, -10};
+  m.holds.push_back(held(s, [](const Vector3& x) { return x.z() == 0; }));
+  constexpr double stiffness = 1e4;
+  for (const Triangle& t : triangles)
+    for (const auto v : t)
+      m.contacts.push_back({.vertices = {v + static_cast<std::uint32_t>(n), t[0], t[1], t[2]},
+                            .weights = {1, v == t[0] ? -1.0 : 0.0, v == t[1] ? -1.0 : 0.0, v == t[2] ? -1.0 : 0.0},
+                            .rest = 0.1,
+                            .normal_stiffness = stiffness});
+  Model free = m;
+  free.contacts.clear();
+  Stepper stepper(free, {});
+  stepper.step(s, 0.001);
+  const double fallen = s.positions[n].z() - 0.1;
+  EXPECT_NEAR(fallen, -0.5 * 10 * 0.001 * 0.001, 1e-12); // the second order of the scheme is exact for free fall
+  stepper.set_model(m);                                  // the same Stepper with other elements
+  for (int k = 0; k < 400; ++k)
+    stepper.step(s, 0.05);
+  double force = 0; // of all springs
+  for (const ContactSpring& c : m.contacts)
+    force += stiffness * (0.1 - s.positions[c.vertices[0]].z());
+  EXPECT_NEAR(force, 1000 * 0.01 * 10, 1e-6 * 100);
+  // Without the springs again, nothing is analysed twice for the same elements.
+  stepper.set_model(m);
+  EXPECT_EQ(stepper.step(s, 0.05).seconds_analysis, 0);
+  stepper.set_model(free);
+  EXPECT_GT(stepper.step(s, 0.05).seconds_analysis, 0);
+}
+
+} // namespace
+} // namespace sheet
