@@ -173,11 +173,14 @@ private:
   std::vector<Part> parts_;
 };
 
-// The error after a full step, from the rate at which the last two steps shrank: the sum of the geometric series. Where
-// convergence is quadratic, the next steps are smaller still.
-double remaining(double step, double previous) {
+// The length of the step that would come next, from the rate at which the last two shrank: if both used the exact
+// Hessian the rate squares, as Newton's method converges quadratically; otherwise it stays, and the sum of the
+// geometric series counts.
+double remaining(double step, double previous, bool exact) {
   const double rate = previous > 0 ? step / previous : 1;
-  return rate < 0.5 ? step * rate / (1 - rate) : step;
+  if (rate >= 0.5)
+    return step;
+  return exact ? step * rate * rate : step * rate / (1 - rate);
 }
 
 } // namespace
@@ -193,6 +196,7 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
   double shift = floor;
   std::vector<double> exact, definite;
   double previous_step = 0; // 0: none, or not a full one
+  int exact_steps = 0;      // full ones in a row, with the exact Hessian
   for (;;) {
     clock.lap();
     const EnergySum energy = system.assembly.derivatives(terms, u, always_positive, held, gradient, system.matrix);
@@ -273,9 +277,11 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
       report.halvings += halvings;
     }
     u += length * step;
+    exact_steps = blend == 0 && !always_positive && length == 1 ? exact_steps + 1 : 0;
     report.seconds_search += clock.lap();
     const bool nothing_to_gain = -slope <= noise && report.last_step <= kSmall;
-    if (length == 1 && (remaining(report.last_step, previous_step) <= options.tolerance || nothing_to_gain)) {
+    if (length == 1 &&
+        (remaining(report.last_step, previous_step, exact_steps >= 2) <= options.tolerance || nothing_to_gain)) {
       report.converged = true;
       return report;
     }
