@@ -22,6 +22,7 @@ constexpr int kHalvings = 40;
 constexpr int kBeforeSlope = 3;          // halvings before the slope is asked
 constexpr double kSlopeKept = 0.5;       // of the slope that may remain after a step accepted for its slope
 constexpr double kSmall = 1e-3;          // steps below this are done if the potential has no more to gain
+constexpr double kSmallGain = 0.01;      // times tolerance², of the elements' energies: not worth another step
 constexpr double kLeastBlend = 1.0 / 16; // part of the positive Hessian that is tried first, then times kBlendFactor
 constexpr double kBlendFactor = 4;
 
@@ -265,10 +266,12 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
     }
     u += length * step;
     report.seconds_search += clock.lap();
-    const double small = options.tolerance * options.tolerance * energy.magnitude;
+    const double small = kSmallGain * options.tolerance * options.tolerance * energy.magnitude;
     const bool nothing_to_gain = (-slope <= noise && report.last_step <= kSmall) ||
-                                 (-slope <= small && report.last_step <= std::sqrt(options.tolerance));
-    if (length == 1 && (report.last_step <= options.tolerance || nothing_to_gain)) {
+                                 (-slope <= small && report.last_step <= 10 * options.tolerance);
+    // With a part of the positive form convergence is linear: the next step would not be the square of this one.
+    const double enough = (blend > 0 ? 0.1 : 1) * options.tolerance;
+    if (length == 1 && (report.last_step <= enough || nothing_to_gain)) {
       report.converged = true;
       return report;
     }

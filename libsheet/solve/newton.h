@@ -18,9 +18,10 @@ enum class HessianChoice {
 };
 
 struct NewtonOptions {
-  // Of the last Newton step; the next one would be about its square (measured effect: docs/hard-cases.md). A step that
-  // gains less than tolerance² of the elements' energies, and is below sqrt(tolerance), ends the solve too.
-  double tolerance = 1e-4;
+  // Of the last Newton step with the exact Hessian: the next one would be about its square (what it costs and gains:
+  // docs/hard-cases.md); a tenth of it otherwise. A step below ten times the tolerance that gains less than a hundredth
+  // of its square, of the elements' energies, is the last one too.
+  double tolerance = 1e-3;
   int iterations = 50;
   HessianChoice hessian = HessianChoice::exact_first;
 };
