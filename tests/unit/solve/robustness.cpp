@@ -124,9 +124,9 @@ TEST(HardCases, CompressedInOneStep) {
 TEST(HardCases, FailureIsBounded) {
   const State before = square(0.02);
   StepOptions options;
-  options.newton.iterations = 3;
+  options.newton.iterations = 2;
   for (const bool limited : {true, false}) {
-    options.iterations = limited ? 7 : 100000;
+    options.iterations = limited ? 5 : 100000;
     State s = before;
     Stepper stepper(sagging(s), options);
     if (limited) {
