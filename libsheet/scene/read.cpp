@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/read.h"
 
-#include <fstream>
-#include <sstream>
-
+#include "libsheet/base/files.h"
 #include "libsheet/scene/tables.h"
 
 namespace sheet::scene {
@@ -121,17 +119,11 @@ Scene parse_scene(std::string_view text, std::string_view name, std::span<const 
 }
 
 Scene read_scene(const std::filesystem::path& path, std::span<const std::string> sets) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in)
-    text << in.rdbuf();
-  std::error_code error;
-  if (!in || std::filesystem::is_directory(path, error))
-    fail(ExitCode::io, "{}: cannot be read", path.string());
+  const std::string text = read_text_file(path.string());
   std::filesystem::path folder = path.parent_path();
   if (folder.is_absolute())
     folder = folder.lexically_proximate(std::filesystem::current_path());
-  return parse(text.str(), path.string(), sets, Files{folder, true});
+  return parse(text, path.string(), sets, Files{folder, true});
 }
 
 } // namespace sheet::scene
