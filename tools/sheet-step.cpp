@@ -4,23 +4,26 @@
 #include "libsheet/solve/step_stage.h"
 
 int main(int argc, char** argv) {
-  sheet::Tool tool("sheet-step", "one implicit time step of a viscous sheet",
-                   "Advances each frame by one time step of the model in its scene: viscous stretching and bending, surface "
-                   "tension, inertia, gravity, pressure, bath, holds. What the scene does not mention is not assembled; -v lists "
-                   "the terms and each one's share of the time.\n"
-                   "Steps end exactly at the output times that sheet-loop stamps, and where a prescribed motion has a kink. A "
-                   "step that does not converge is retried smaller; if nothing helps, the exit code is 5 and the frame is saved.");
+  sheet::Tool tool(
+      "sheet-step", "one implicit time step of a viscous sheet",
+      "Advances each frame by one time step of the model in its scene: viscous stretching and bending, surface "
+      "tension, inertia, gravity, pressure, bath, holds. What the scene does not mention is not assembled; -v lists "
+      "the terms and each one's share of the time.\n"
+      "Steps end exactly at the output times that sheet-loop stamps, and where a prescribed motion has a kink. A "
+      "step that does not converge is retried smaller; if nothing helps, the exit code is 5 and the frame is saved.");
   sheet::StepStageOptions o;
   sheet::FilterOptions filter;
   std::size_t scheme = 0, bending = 0;
   sheet::declare_filter_options(tool, filter);
-  tool.option("--dt", o.dt, "SECONDS", "fixed time step, shortened where equal steps must land on an output time; without it, "
-                                       "steps are chosen by --tolerance");
+  tool.option("--dt", o.dt, "SECONDS",
+              "fixed time step, shortened where equal steps must land on an output time; without it, "
+              "steps are chosen by --tolerance");
   tool.option("--tolerance", o.tolerance, "E", "error allowed in a step, as a part of the edges' length");
   tool.choice("--scheme", scheme, {"sdirk2", "backward-euler"}, "second order, or the paper's first order");
-  tool.choice("--bending", bending, {"mid-edge", "hinge", "hinge-paper"},
-              "how bending is discretised, if the scene has bending: directors (converges on any mesh), hinges with the mean "
-              "constant, hinges as the paper prints them");
+  tool.choice(
+      "--bending", bending, {"mid-edge", "hinge", "hinge-paper"},
+      "how bending is discretised, if the scene has bending: directors (converges on any mesh), hinges with the mean "
+      "constant, hinges as the paper prints them");
   tool.option("--failed", o.failed, "FILE", "where a frame goes whose step fails; '' for nowhere",
               sheet::Tool::Provenance::omit);
   tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-step --tolerance 1e-3' > run.sheet",

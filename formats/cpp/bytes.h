@@ -10,7 +10,7 @@
 namespace sheet::formats {
 
 class Bytes {
- public:
+public:
   Bytes() = default;
   explicit Bytes(std::size_t size) { resize(size); }
   Bytes(const Bytes& other) { assign(other.data(), other.size_); }
@@ -55,7 +55,7 @@ class Bytes {
     return size_ == other.size_ && (size_ == 0 || std::memcmp(data(), other.data(), size_) == 0);
   }
 
- private:
+private:
   static constexpr std::align_val_t alignment{64};
   struct Free {
     void operator()(std::byte* p) const noexcept { ::operator delete(p, alignment); }

@@ -31,7 +31,7 @@ std::string escaped(std::string_view text) {
 }
 
 class Writer {
- public:
+public:
   // Declares an array and appends its numbers, which put() appends one after the other.
   template <class Put>
   void array(const char* type, std::size_t number_bytes, const std::string& name, int components, std::size_t numbers,

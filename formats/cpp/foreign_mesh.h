@@ -44,12 +44,12 @@ enum class MeshFormat { obj, off, ply, stl, vtu };
 
 // A mesh file that cannot be read or written; what() names file, place and remedy.
 class MeshFileError : public std::runtime_error {
- public:
+public:
   enum class Kind { content, io }; // the file says something impossible | the system refused to read or write
   MeshFileError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
   [[nodiscard]] Kind kind() const noexcept { return kind_; }
 
- private:
+private:
   Kind kind_;
 };
 

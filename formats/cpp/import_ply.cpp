@@ -123,7 +123,7 @@ Header read_header(TextScan& text, const std::string& file) {
 
 // Numbers of the body, whichever way they are written.
 class Body {
- public:
+public:
   Body(std::string_view bytes, TextScan& text, Encoding encoding, const std::string& file)
       : bytes_(bytes), text_(text), ascii_(encoding == Encoding::ascii),
         order_(encoding == Encoding::big ? ByteOrder::big : ByteOrder::little), at_(text.offset()), file_(file) {}
@@ -162,7 +162,7 @@ class Body {
     mesh_fail(file_, (ascii_ ? "line " : "byte ") + std::to_string(place()), problem);
   }
 
- private:
+private:
   void need(std::size_t n) const {
     if (bytes_.size() - at_ < n)
       fail("the file ends too early; it was cut short");

@@ -27,7 +27,7 @@ struct PointHash {
 };
 
 class PointMerger {
- public:
+public:
   explicit PointMerger(MeshAssembler& mesh) : mesh_(mesh) {}
   std::int64_t index(std::array<double, 3> p) {
     for (double& x : p)
@@ -38,7 +38,7 @@ class PointMerger {
     return place->second;
   }
 
- private:
+private:
   MeshAssembler& mesh_;
   std::unordered_map<std::array<double, 3>, std::int64_t, PointHash> index_;
 };

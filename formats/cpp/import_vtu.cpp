@@ -41,7 +41,7 @@ std::optional<NumberType> number_type(std::string_view name) {
 }
 
 class Reader {
- public:
+public:
   Reader(std::string_view bytes, const std::string& name) : file_(name), xml_(bytes, name), mesh_(name, "cell") {
     data_.file = name;
     data_.budget = 2 * bytes.size();
@@ -77,7 +77,7 @@ class Reader {
     return std::move(mesh_).finish(std::move(arrays));
   }
 
- private:
+private:
   [[noreturn]] void fail(std::size_t at, const std::string& problem) const {
     mesh_fail(file_, "byte " + std::to_string(at), problem);
   }

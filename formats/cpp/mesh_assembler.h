@@ -12,7 +12,7 @@
 namespace sheet::formats {
 
 class MeshAssembler {
- public:
+public:
   // place_word: what the numbers given to add_face count, for messages ("line", "face", "byte")
   MeshAssembler(std::string file, std::string place_word);
 
@@ -30,7 +30,7 @@ class MeshAssembler {
   // The finished mesh. Arrays hold a tuple for every point, or for every call of add_face.
   [[nodiscard]] MeshImport finish(std::vector<MeshArray> arrays) &&;
 
- private:
+private:
   void drop_unused_points(std::vector<MeshArray>& arrays);
   void note_flat_triangles();
 

@@ -72,7 +72,7 @@ struct Array {
   [[nodiscard]] std::string_view text() const { return {reinterpret_cast<const char*>(data.data()), data.size()}; }
   bool operator==(const Array&) const = default;
 
- private:
+private:
   template <class T> T* cast() {
     if (sizeof(T) != size_of(type) && sizeof(T) != size_of(type) * components)
       throw std::logic_error("array \"" + name + "\" read as a type of another size");
@@ -106,7 +106,7 @@ struct Frame {
 
 // What a reader or writer throws: `kind` decides the exit code of a tool.
 class StreamError : public std::runtime_error {
- public:
+public:
   enum class Kind {
     corrupt, // cut short or damaged: the bytes are not a sheet stream
     value,   // well-formed, but says something impossible (an index out of range, a NaN position)
@@ -116,7 +116,7 @@ class StreamError : public std::runtime_error {
   StreamError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
   [[nodiscard]] Kind kind() const noexcept { return kind_; }
 
- private:
+private:
   Kind kind_;
 };
 

@@ -10,7 +10,7 @@
 namespace sheet::formats {
 
 class StreamReader {
- public:
+public:
   enum class Values {
     check, // refuse frames whose standard arrays break their rules (find_value_error)
     any,   // accept every well-formed frame: for tools that tell what is wrong with it
@@ -32,7 +32,7 @@ class StreamReader {
   // END marks passed so far.
   [[nodiscard]] std::uint64_t ends() const noexcept { return ends_; }
 
- private:
+private:
   [[noreturn]] void corrupt(std::uint64_t byte, const std::string& what);
   std::size_t fill(std::byte* to, std::size_t size);
   bool read_header(layout::FrameHeader& h);

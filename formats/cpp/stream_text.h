@@ -11,7 +11,7 @@
 namespace sheet::formats {
 
 class TextPrinter {
- public:
+public:
   // `name` appears in messages. The descriptor stays the caller's.
   TextPrinter(int descriptor, std::string name);
 
@@ -21,7 +21,7 @@ class TextPrinter {
   // Prints `end` until there are as many as `ends`.
   void end(std::uint64_t ends = 1);
 
- private:
+private:
   void put_ends(std::uint64_t ends);
   void put_array(const Array& array);
   void put_text(std::string_view text);
@@ -39,7 +39,7 @@ class TextPrinter {
 };
 
 class TextParser {
- public:
+public:
   enum class Item { frame, end, nothing };
 
   // `name` appears in messages. The descriptor stays the caller's.
@@ -51,7 +51,7 @@ class TextParser {
   // "NAME:LINE:COLUMN: what is wrong and what is expected".
   [[nodiscard]] Item read(Frame& frame);
 
- private:
+private:
   [[noreturn]] void fail(std::string_view word, const std::string& what) const;
   [[noreturn]] void cut_short(const std::string& what) const;
   bool read_line();

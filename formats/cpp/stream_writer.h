@@ -11,18 +11,18 @@ namespace sheet::formats {
 // The bytes of one frame up to its payloads; payloads follow in order, each padded with zeros to 64 bytes.
 // Throws StreamError (value) if the frame's form is wrong.
 class EncodedFrame {
- public:
+public:
   explicit EncodedFrame(const Frame& frame);
   [[nodiscard]] std::span<const std::byte> head() const noexcept { return head_; }
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
 
- private:
+private:
   std::vector<std::byte> head_;
   std::uint64_t size_ = 0;
 };
 
 class StreamWriter {
- public:
+public:
   // `name` appears in messages. The descriptor stays the caller's; it should be a pipe or a regular file.
   StreamWriter(int descriptor, std::string name);
   // A stream that goes on after `frames` frames which are in the file already (sheet-loop --resume).
@@ -39,7 +39,7 @@ class StreamWriter {
   // Bytes of the whole frames that have been written by this writer.
   [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
 
- private:
+private:
   int descriptor_;
   std::string name_;
   std::uint64_t frames_ = 0, frames_since_end_ = 0, bytes_ = 0;

@@ -23,7 +23,7 @@ void append_real(std::string& text, double value);
 
 // Walks through a text line by line and word by word. Lines end with LF, CR or both.
 class TextScan {
- public:
+public:
   enum class Continuation { none, backslash };
   // comment: the character that starts a comment up to the end of the line, or 0
   TextScan(std::string_view text, std::string file, char comment, Continuation continuation = Continuation::none);
@@ -47,7 +47,7 @@ class TextScan {
   [[nodiscard]] std::size_t bytes_left() const { return text_.size() - at_; }
   [[noreturn]] void fail(const std::string& problem) const;
 
- private:
+private:
   void skip_blanks();
   void skip_line_end();
 

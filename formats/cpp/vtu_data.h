@@ -25,7 +25,7 @@ struct VtuDeclaration {
 };
 
 class VtuData {
- public:
+public:
   std::string file;
   ByteOrder order = ByteOrder::little;
   std::size_t length_bytes = 4;             // of the byte count before binary data
@@ -36,7 +36,7 @@ class VtuData {
   [[nodiscard]] std::vector<double> reals(const VtuDeclaration& array);
   [[nodiscard]] std::vector<std::int64_t> integers(const VtuDeclaration& array);
 
- private:
+private:
   std::string_view binary(const VtuDeclaration& array, std::string& decoded);
   template <class T, class Load, class Parse>
   std::vector<T> numbers(const VtuDeclaration& array, Load load, Parse parse);

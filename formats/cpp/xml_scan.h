@@ -20,7 +20,7 @@ struct XmlTag {
 };
 
 class XmlScan {
- public:
+public:
   XmlScan(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
 
   // Goes to the next tag, passing over text, comments and <? ?>; false at the end.
@@ -31,7 +31,7 @@ class XmlScan {
   [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
   [[nodiscard]] std::size_t offset() const { return at_; }
 
- private:
+private:
   [[noreturn]] void fail(std::size_t at, const std::string& problem) const;
   void read_attributes(XmlTag& tag);
   void skip_blanks();

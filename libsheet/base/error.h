@@ -21,11 +21,11 @@ enum class ExitCode : int {
 
 // Every error that a user may cause carries its exit code; what() names file, place and remedy.
 class Error : public std::runtime_error {
- public:
+public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
   [[nodiscard]] ExitCode code() const noexcept { return code_; }
 
- private:
+private:
   ExitCode code_;
 };
 

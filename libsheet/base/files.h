@@ -8,7 +8,7 @@ namespace sheet {
 
 // A file descriptor that is open for reading. Throws Error: usage (standard input is a terminal), io (cannot open).
 class InputFile {
- public:
+public:
   explicit InputFile(const std::string& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -17,7 +17,7 @@ class InputFile {
   // For messages: the path, or "standard input".
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
- private:
+private:
   std::string name_;
   int descriptor_ = -1;
 };
@@ -25,7 +25,7 @@ class InputFile {
 // A file descriptor that is open for writing. Throws Error: usage (binary data to a terminal; the file is `input`
 // itself), io (cannot open). Call close() when all is written: only then is it known to be on its way.
 class OutputFile {
- public:
+public:
   enum class Content { binary, text };
   OutputFile(const std::string& path, Content content, const InputFile* input = nullptr);
   ~OutputFile();
@@ -36,7 +36,7 @@ class OutputFile {
   void write(std::string_view text);
   void close();
 
- private:
+private:
   std::string name_;
   int descriptor_ = -1;
 };

@@ -9,13 +9,13 @@ namespace sheet {
 // Limits TBB to `threads` for as long as it lives; 0 means one for each core. Throws Error (usage) below 0 or above
 // 1024.
 class ThreadLimit {
- public:
+public:
   explicit ThreadLimit(std::int64_t threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
- private:
+private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

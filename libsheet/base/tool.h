@@ -14,7 +14,7 @@
 namespace sheet {
 
 class Tool {
- public:
+public:
   // `summary`: one line without full stop; `description`: a paragraph or more for help and man page.
   Tool(std::string name, std::string summary, std::string description);
 
@@ -67,7 +67,7 @@ class Tool {
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
- private:
+private:
   struct Option {
     std::string names, placeholder, text, default_text;
     bool is_flag = false, is_list = false, is_argument = false, is_required = false;

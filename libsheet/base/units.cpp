@@ -93,7 +93,7 @@ constexpr int largest_power = 9;
 
 // Recursive descent over a unit's text; the first problem ends it.
 class UnitParser {
- public:
+public:
   UnitParser(std::string_view text, std::string& problem) : rest_(text), whole_(text), problem_(problem) {}
 
   std::optional<Unit> parse() {
@@ -105,7 +105,7 @@ class UnitParser {
     return unit;
   }
 
- private:
+private:
   Unit product(int depth, bool outermost) {
     Unit result;
     bool divide = outermost && take("/"); // what is left of "1/s" once its number is read

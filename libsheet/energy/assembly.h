@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sum of all terms over all their elements: value [J], gradient [N, or N m for angles], Hessian. Written once for
-// every term. Elements with the same stencil share a place in one buffer, which the MatrixPattern gathers into the matrix.
+// every term. Elements with the same stencil share a place in one buffer, which the MatrixPattern gathers into the
+// matrix.
 #pragma once
 #include <memory>
 #include <optional>
@@ -14,7 +15,7 @@
 namespace sheet {
 
 class Assembly {
- public:
+public:
   Assembly() = default;
   // angles: whether every edge has an unknown.
   Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles);
@@ -36,7 +37,7 @@ class Assembly {
   // Seconds spent in each term (summed over threads) and, last, in gathering, since construction or the last reset.
   [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
 
- private:
+private:
   template <class Visit> void each_chunk(Visit&& visit) const;
   void collect(const ElementGroup& group, std::size_t first, std::size_t last, const Unknowns& u, double* out) const;
 

@@ -9,7 +9,7 @@
 namespace sheet {
 
 class Bath {
- public:
+public:
   static constexpr Stencil stencil = Stencil::triangle;
   // gravity [m/s²]; level: height of the rest plane along the upward direction [m].
   Bath(double density, const Vector3& gravity, double level)
@@ -41,7 +41,7 @@ class Bath {
     return weight_ * p.area * p.square;
   }
 
- private:
+private:
   struct Parts {
     double area, square;
     VectorN<9> by_area, by_square;

@@ -21,7 +21,7 @@ struct ContactSpring {
 };
 
 class Contact {
- public:
+public:
   static constexpr Stencil stencil = Stencil::four;
   explicit Contact(std::vector<ContactSpring> springs) : springs_(std::move(springs)) {}
   [[nodiscard]] const char* name() const { return "contact"; }
@@ -52,7 +52,7 @@ class Contact {
     return 0.5 * k * gap * gap + 0.5 * s.tangential_stiffness * slide.squaredNorm();
   }
 
- private:
+private:
   static Vector3 offset(const ContactSpring& s, const VectorN<12>& u) {
     return s.weights[0] * u.segment<3>(0) + s.weights[1] * u.segment<3>(3) + s.weights[2] * u.segment<3>(6) +
            s.weights[3] * u.segment<3>(9);

@@ -7,7 +7,7 @@
 namespace sheet {
 
 class Gravity {
- public:
+public:
   static constexpr Stencil stencil = Stencil::triangle;
   Gravity(double density, const Vector3& gravity) : weight_(density / 3 * gravity) {}
   [[nodiscard]] const char* name() const { return "gravity"; }
@@ -28,7 +28,7 @@ class Gravity {
     return value(i, u);
   }
 
- private:
+private:
   Vector3 weight_; // of a cubic metre, a third [N/m³]
   const Stage* stage_ = nullptr;
 };

@@ -12,7 +12,7 @@
 namespace sheet {
 
 class Hinge {
- public:
+public:
   static constexpr Stencil stencil = Stencil::hinge;
   Hinge(double viscosity, bool as_printed, const Connectivity& mesh);
   [[nodiscard]] const char* name() const { return as_printed_ ? "bending (hinge as printed)" : "bending (hinge)"; }
@@ -23,7 +23,7 @@ class Hinge {
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const;
 
- private:
+private:
   double viscosity_; // [Pa s]
   bool as_printed_;
   std::vector<std::array<std::uint32_t, 4>> nodes_;

@@ -10,7 +10,7 @@ namespace sheet {
 enum class Mass { lumped, consistent };
 
 class Inertia {
- public:
+public:
   static constexpr Stencil stencil = Stencil::triangle;
   Inertia(double density, Mass mass) : density_(density), mass_(mass) {}
   [[nodiscard]] const char* name() const { return "inertia"; }
@@ -34,7 +34,7 @@ class Inertia {
     return 0.5 * d.dot(gradient);
   }
 
- private:
+private:
   [[nodiscard]] double weight(std::size_t i) const {
     return density_ * stage_->start->volumes[i] / (stage_->duration * stage_->duration);
   }

@@ -10,7 +10,7 @@
 namespace sheet {
 
 class Membrane {
- public:
+public:
   static constexpr Stencil stencil = Stencil::triangle;
   explicit Membrane(double viscosity) : viscosity_(viscosity) {}
   [[nodiscard]] const char* name() const { return "membrane"; }
@@ -20,7 +20,7 @@ class Membrane {
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const;
 
- private:
+private:
   double viscosity_;
   double rate_ = 0;                // μ/(4τ) [Pa]
   const State* state_ = nullptr;   // volumes

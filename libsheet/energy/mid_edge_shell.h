@@ -11,7 +11,7 @@
 namespace sheet {
 
 class MidEdgeShell {
- public:
+public:
   static constexpr Stencil stencil = Stencil::triangle_edges;
   MidEdgeShell(double viscosity, bool arcs) : viscosity_(viscosity), arcs_(arcs) {}
   [[nodiscard]] const char* name() const {
@@ -23,7 +23,7 @@ class MidEdgeShell {
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const;
 
- private:
+private:
   struct Reference {
     Vector3 curvature; // β̄ [m]
     Vector3 lengths;   // reference squared arc lengths [m²]; with arcs only

@@ -14,7 +14,7 @@ constexpr std::size_t kColumnsAtOnce = 256;
 } // namespace
 
 MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
-                 std::span<const std::uint32_t> order)
+                             std::span<const std::uint32_t> order)
     : vertices_(vertices), stride_(stride), order_(order.begin(), order.end()) {
   const std::size_t nodes = vertices + edges;
   std::vector<std::uint32_t> rank(nodes);
@@ -133,7 +133,8 @@ void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::Ve
   });
 }
 
-void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<const char> held, SparseLower& matrix) const {
+void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<const char> held,
+                                  SparseLower& matrix) const {
   const auto gather = [&](std::uint32_t k) {
     const std::uint32_t column_node = order_[k];
     const int columns = width(column_node);

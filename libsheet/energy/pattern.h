@@ -29,10 +29,10 @@ struct ElementGroup {
 };
 
 class MatrixPattern {
- public:
+public:
   // order: the nodes in the order of elimination. stride: unknowns of an element in the buffer.
   MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
-          std::span<const std::uint32_t> order);
+                std::span<const std::uint32_t> order);
 
   [[nodiscard]] std::size_t unknowns() const { return permutation_.size(); }
   // permutation()[k] is the unknown in row k of the matrix.
@@ -43,7 +43,7 @@ class MatrixPattern {
   // Rows and columns of held unknowns become those of the unit matrix. matrix must be a copy of structure().
   void gather_matrix(const std::vector<double>& buffer, std::span<const char> held, SparseLower& matrix) const;
 
- private:
+private:
   struct Block {
     std::uint32_t row_node;
     std::uint32_t offset;       // of its first row among the rows of its column's nodes, counted from the node's own

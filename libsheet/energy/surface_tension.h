@@ -8,7 +8,7 @@
 namespace sheet {
 
 class SurfaceTension {
- public:
+public:
   static constexpr Stencil stencil = Stencil::triangle;
   explicit SurfaceTension(double gamma) : gamma_(gamma) {}
   [[nodiscard]] const char* name() const { return "surface tension"; }
@@ -35,7 +35,7 @@ class SurfaceTension {
     return 2 * gamma_ * (a.area - start_area_[i]);
   }
 
- private:
+private:
   double gamma_;
   std::vector<double> start_area_; // [m²]
 };

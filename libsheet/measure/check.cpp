@@ -20,7 +20,7 @@ using formats::Array;
 using formats::Frame;
 
 class Findings {
- public:
+public:
   explicit Findings(std::size_t examples) : examples_(examples) {}
   template <class... Args>
   void add(std::string_view kind, std::string_view text, fmt::format_string<Args...> format, Args&&... args) {
@@ -34,7 +34,7 @@ class Findings {
   void add_uncounted(std::uint64_t count) { found_.back().count += count; }
   [[nodiscard]] std::vector<Finding> take() { return std::move(found_); }
 
- private:
+private:
   std::size_t examples_;
   std::vector<Finding> found_;
 };
@@ -109,8 +109,8 @@ std::vector<bool> check_indices(const Frame& frame, Findings& found) {
         used[v] = true;
       } else {
         usable[t] = false;
-        found.add("out_of_range", "corners at vertices that do not exist", "triangle {} names vertex {} of {}", t,
-                  v, frame.vertices);
+        found.add("out_of_range", "corners at vertices that do not exist", "triangle {} names vertex {} of {}", t, v,
+                  frame.vertices);
       }
   for (std::uint64_t t = 0; t < corners.size(); ++t) {
     const Corners& c = corners[t];
@@ -197,8 +197,8 @@ std::vector<Finding> check(const Frame& frame, const CheckOptions& options) {
     std::uint64_t edges = 0;
     for_each_edge(sorted_sides(triangles(frame), frame.vertices), [&](std::span<const Side>) { ++edges; });
     if (edges != frame.edges)
-      found.add("rule", "broken rules of the format", "the frame counts {} edges, its triangles have {}",
-                frame.edges, edges);
+      found.add("rule", "broken rules of the format", "the frame counts {} edges, its triangles have {}", frame.edges,
+                edges);
   }
   check_scene(frame, found);
   for (const Array& array : frame.arrays) {

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 
 class Sum {
- public:
+public:
   void add(double x) {
     const double total = sum_ + x;
     rest_ += std::abs(sum_) >= std::abs(x) ? (sum_ - total) + x : (x - total) + sum_;
@@ -25,19 +25,19 @@ class Sum {
   }
   [[nodiscard]] double value() const { return std::isfinite(rest_) ? sum_ + rest_ : sum_; }
 
- private:
+private:
   double sum_ = 0, rest_ = 0;
 };
 
 class VectorSum {
- public:
+public:
   void add(const Vector3d& x) {
     for (int i = 0; i < 3; ++i)
       sums_[i].add(x[i]);
   }
   [[nodiscard]] Vector3d value() const { return {sums_[0].value(), sums_[1].value(), sums_[2].value()}; }
 
- private:
+private:
   std::array<Sum, 3> sums_;
 };
 

@@ -40,11 +40,11 @@ struct Measurements {
 
 // The density that the frame's scene states [kg/m³]. Remembers the last scene, which rarely changes within a stream.
 class SceneDensity {
- public:
+public:
   // Nothing: no scene, none that can be read (then a warning, once), or none with a density.
   [[nodiscard]] std::optional<double> of(const formats::Frame& frame);
 
- private:
+private:
   std::string scene_;
   std::optional<double> density_;
 };

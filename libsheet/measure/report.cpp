@@ -40,7 +40,7 @@ std::string bounded(const Range& range, std::string_view unit) {
 std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v[0], v[1], v[2]); }
 
 class TextReport : public Report {
- public:
+public:
   std::string add(const ReportEntry& e) override {
     const Frame& frame = *e.frame;
     const Measurements& m = e.measurements;
@@ -97,7 +97,7 @@ class TextReport : public Report {
   }
   std::string end() override { return first_ ? "no frames\n" : ""; }
 
- private:
+private:
   std::string file_, table_, provenance_;
   bool first_ = true;
 };
@@ -115,7 +115,7 @@ std::string csv_quoted(const std::string& text) {
 std::string number(double x) { return std::isnan(x) ? "nan" : fmt::format("{}", x); }
 
 class CsvReport : public Report {
- public:
+public:
   std::string add(const ReportEntry& e) override {
     const Frame& f = *e.frame;
     const Measurements& m = e.measurements;
@@ -136,7 +136,7 @@ class CsvReport : public Report {
   }
   std::string end() override { return first_ ? header(false) : ""; }
 
- private:
+private:
   static std::string header(bool many_files) {
     return std::string("frame,time,vertices,triangles,area,volume,thickness_min,thickness_mean,thickness_max,"
                        "kinetic_energy,momentum_x,momentum_y,momentum_z,x_min,x_max,y_min,y_max,z_min,z_max,"

@@ -18,7 +18,7 @@ struct ReportEntry {
 
 // The text to print before, for each frame, and after.
 class Report {
- public:
+public:
   virtual ~Report() = default;
   [[nodiscard]] virtual std::string begin() { return {}; }
   [[nodiscard]] virtual std::string add(const ReportEntry& entry) = 0;

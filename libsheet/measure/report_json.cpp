@@ -67,7 +67,7 @@ Json measurements_json(const Measurements& m) {
 }
 
 class JsonReport : public Report {
- public:
+public:
   std::string begin() override { return "["; }
   std::string add(const ReportEntry& e) override {
     const Json object = {{"file", e.file},
@@ -87,7 +87,7 @@ class JsonReport : public Report {
   }
   std::string end() override { return "\n]\n"; }
 
- private:
+private:
   bool first_ = true;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 // Disjoint sets; the representative is the smallest member.
 class Sets {
- public:
+public:
   explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::uint64_t{0}); }
   std::uint64_t find(std::uint64_t i) {
     while (parent_[i] != i)
@@ -29,7 +29,7 @@ class Sets {
     return std::move(parent_);
   }
 
- private:
+private:
   std::vector<std::uint64_t> parent_;
 };
 

@@ -38,12 +38,12 @@ template <class Visit> void for_each_edge(std::span<const Side> sides, Visit vis
 // Corner c of triangle t has number 3 t + c. Corners belong to one fan if they are at the same vertex and one reaches
 // the other across edges. A vertex with several fans is pinched: sheets touch there in a point.
 class Fans {
- public:
+public:
   Fans(std::span<const Corners> triangles, std::span<const Side> sides);
   // The smallest corner of the fan.
   [[nodiscard]] std::uint64_t of(std::uint64_t corner) const { return root_[corner]; }
 
- private:
+private:
   std::vector<std::uint64_t> root_;
 };
 

@@ -37,7 +37,7 @@ Character read_utf8(std::string_view text) {
 }
 
 class Translator {
- public:
+public:
   Translator(std::string_view text, std::string_view name) : rest_(text), name_(name) {}
 
   AsciiToml run() {
@@ -57,7 +57,7 @@ class Translator {
     return std::move(result_);
   }
 
- private:
+private:
   void end_line() {
     result_.text += '\n';
     rest_.remove_prefix(1);

@@ -11,7 +11,7 @@
 namespace sheet::scene {
 
 class Problems {
- public:
+public:
   Problems(std::string name, std::span<const std::string> sets) : name_(std::move(name)), sets_(sets) {}
 
   void add(const Place& place, std::string text) { found_.push_back({place, std::move(text)}); }
@@ -21,7 +21,7 @@ class Problems {
   //   scene.toml:12:5: unknown key "viscocity" in [material]; did you mean "viscosity"?
   void throw_if_any();
 
- private:
+private:
   struct Problem {
     Place place;
     std::string text;

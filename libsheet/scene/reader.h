@@ -20,7 +20,7 @@ namespace sheet::scene {
 enum class Bound { any, positive, not_negative };
 
 class TableReader {
- public:
+public:
   // `where` names the table in messages: "[material]", "[[hold]]", "pressure".
   TableReader(const Node& table, std::string where, Problems& problems)
       : table_(table), where_(std::move(where)), problems_(problems) {}
@@ -68,7 +68,7 @@ class TableReader {
   std::optional<double> quantity(const Node& value, std::string_view key, const Quantity& kind, Bound bound);
   std::optional<Eigen::Vector3d> vector(const Node& value, std::string_view key, const Quantity& kind);
 
- private:
+private:
   void wrong_type(const Node& value, std::string_view key, std::string_view expected);
   template <class T, class ReadRow>
   std::optional<Timed<T>> rows(const Node& list, std::string_view key, std::size_t width, ReadRow read_row);

@@ -21,7 +21,7 @@ requires std::is_enum_v<Enum> std::string word(const Words& words, Enum value) {
 
 // Lines "key = value" of a table.
 class Writer {
- public:
+public:
   void open(std::string_view header) { text_ += fmt::format("{}{}\n", text_.empty() ? "" : "\n", header); }
   void line(std::string_view key, std::string_view value) { text_ += fmt::format("{} = {}\n", key, value); }
   void line(std::string_view key, double value) { line(key, number(value)); }
@@ -35,7 +35,7 @@ class Writer {
   }
   [[nodiscard]] std::string text() && { return std::move(text_); }
 
- private:
+private:
   std::string text_;
 };
 

@@ -6,8 +6,9 @@
 
 namespace sheet {
 
-// The frame at time 0, with the scene's canonical text in it. Throws Error (bad_input) where the scene asks for what its
-// shape cannot give (an edge length too large, a hold that holds nothing), Error (io) where a mesh file cannot be read.
+// The frame at time 0, with the scene's canonical text in it. Throws Error (bad_input) where the scene asks for what
+// its shape cannot give (an edge length too large, a hold that holds nothing), Error (io) where a mesh file cannot be
+// read.
 [[nodiscard]] formats::Frame build_frame(const Scene& scene);
 
 } // namespace sheet

@@ -21,7 +21,7 @@ namespace sheet {
 
 // File names that number the frames: "out/frame_%04d.vtu".
 class NumberedName {
- public:
+public:
   // At most one of %d, %4d, %04d; %% is a percent sign. Throws Error (usage).
   explicit NumberedName(const std::string& pattern);
   [[nodiscard]] bool has_number() const { return number_.has_value(); }
@@ -29,7 +29,7 @@ class NumberedName {
   // The name of a collection of all of them: the pattern without its number, "out/frame.pvd".
   [[nodiscard]] std::string collection(const std::string& ending) const;
 
- private:
+private:
   struct Number {
     std::size_t width = 0;
     char fill = ' ';

@@ -7,7 +7,7 @@ namespace sheet {
 
 // SplitMix64 [Steele, Lea, Flood 2014: Fast splittable pseudorandom number generators].
 class Random {
- public:
+public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t next() {
@@ -22,7 +22,7 @@ class Random {
   // Uniform in [low, high).
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
- private:
+private:
   std::uint64_t state_;
 };
 

@@ -21,7 +21,7 @@ constexpr double good_angle = 26.5 * std::numbers::pi / 180.0;
 
 // Points in cubes of a given size, to find those near a place.
 class NearbyPoints {
- public:
+public:
   explicit NearbyPoints(double cube) : cube_(cube) {}
 
   void add(const Eigen::Vector3d& point) {
@@ -45,7 +45,7 @@ class NearbyPoints {
     return false;
   }
 
- private:
+private:
   using Cell = std::array<std::int64_t, 3>;
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 

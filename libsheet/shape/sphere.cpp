@@ -18,7 +18,7 @@ namespace {
 
 // Finds or makes the vertex on an edge of a polyhedron that two faces share, by its integer place on the edge.
 class SharedVertices {
- public:
+public:
   explicit SharedVertices(TriangleMesh& mesh) : mesh_(mesh) {}
 
   // key: whatever names the vertex, the same from all faces
@@ -29,7 +29,7 @@ class SharedVertices {
     return place->second;
   }
 
- private:
+private:
   TriangleMesh& mesh_;
   std::map<std::array<std::int64_t, 3>, std::uint32_t> index_;
 };

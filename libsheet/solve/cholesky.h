@@ -23,7 +23,7 @@ namespace sheet {
 [[nodiscard]] std::vector<std::uint32_t> nested_dissection(std::size_t vertices, std::span<const Edge> graph);
 
 class Cholesky {
- public:
+public:
   Cholesky();
   ~Cholesky();
   Cholesky(Cholesky&&) noexcept;
@@ -40,7 +40,7 @@ class Cholesky {
   [[nodiscard]] double flops() const; // of the last factorisation's structure
   [[nodiscard]] double factor_entries() const;
 
- private:
+private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -26,8 +26,8 @@ public:
   StepStage(const StepStage&) = delete;
   StepStage& operator=(const StepStage&) = delete;
 
-  // Advances the frame by one step, never past its next_output_time. Throws Error: bad_input (no scene, a mesh that is no
-  // oriented manifold, nothing to do), not_converged.
+  // Advances the frame by one step, never past its next_output_time. Throws Error: bad_input (no scene, a mesh that is
+  // no oriented manifold, nothing to do), not_converged.
   void step(formats::Frame& frame);
 
   // With -v: the assembled terms, their shares of the time, steps, Newton iterations.

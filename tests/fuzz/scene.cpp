@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The scene reader against any text: it returns a scene or throws Error, and what it returns survives its canonical text.
-// Input: the scene file, then after a zero byte one --set, and so on.
-//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined -I. -I/usr/include/eigen3 \
+// The scene reader against any text: it returns a scene or throws Error, and what it returns survives its canonical
+// text. Input: the scene file, then after a zero byte one --set, and so on.
+//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined -I.
+//   -I/usr/include/eigen3 \
 //     tests/fuzz/scene.cpp libsheet/base/units.cpp libsheet/scene/*.cpp -lfmt -o fuzz-scene
 #include <cstdint>
-#include <cstdlib>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 

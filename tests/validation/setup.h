@@ -27,7 +27,7 @@ using Where = std::function<bool(const Vector3&)>;
 
 // Advances a state and counts what it costs.
 class Run {
- public:
+public:
   Run(State start, Model model, const Settings& settings, double length);
   // `each` sees the state after every step; its time is not counted.
   void advance(double duration, int steps, const std::function<void(const State&)>& each = {});
@@ -36,7 +36,7 @@ class Run {
   [[nodiscard]] Result result(double value) const;
   double tolerance = 1e-9; // of Newton, in edge lengths
 
- private:
+private:
   State state_;
   Model model_;
   Settings settings_;

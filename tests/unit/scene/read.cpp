@@ -289,7 +289,7 @@ TEST(Read, BordersOfShapes) {
 }
 
 class ReadFile : public testing::Test {
- protected:
+protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() / ("sheet-scene-" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_ / "meshes");

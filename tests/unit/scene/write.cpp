@@ -89,7 +89,7 @@ distance = 0.0015
 
 // Any scene that can be said reads back from its text as it was, bit for bit, and a second text equals the first.
 class RandomScene {
- public:
+public:
   explicit RandomScene(unsigned seed) : random_(seed) {}
 
   Scene make() {
@@ -165,7 +165,7 @@ class RandomScene {
     return s;
   }
 
- private:
+private:
   Hold hold(const Scene& s) {
     Hold h;
     const auto borders = borders_of(s.sheet);
