@@ -31,8 +31,8 @@ ring_with_accident() {
   unset accident
 }
 
-resumed_equals_straight() { # [OPTION]...
-  accident=true sheet-loop -q --resume run.sheet "${run_options[@]}" "$@" -- 'sheet-pass | accident_at -1 | sheet-pass'
+resumed_equals_straight() {
+  accident=true sheet-loop -q --resume run.sheet "${run_options[@]}" -- 'sheet-pass | accident_at -1 | sheet-pass'
   cmp run.sheet "$straight"
 }
 
