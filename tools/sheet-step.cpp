@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
   tool.option("--dt", o.dt, "SECONDS",
               "fixed time step, shortened where equal steps must land on an output time; without it, "
               "steps are chosen by --tolerance");
-  tool.option("--tolerance", o.tolerance, "E", "error allowed in a step, as a part of the edges' length");
+  tool.option("--tolerance", o.tolerance, "E",
+              "choose steps whose estimated error is below this part of the edges' length (the default, with 0.001)");
   tool.choice("--scheme", scheme, {"sdirk2", "backward-euler"}, "second order, or the paper's first order");
   tool.choice(
       "--bending", bending, {"mid-edge", "hinge", "hinge-paper"},

@@ -135,7 +135,8 @@ struct StepStage::Impl {
       if (lands)
         state.time = until;
     } else {
-      StepControl control{.tolerance = options.tolerance, .dt = number(frame, "step_size", 0)};
+      StepControl control{.tolerance = options.tolerance.value_or(default_tolerance),
+                          .dt = number(frame, "step_size", 0)};
       if (std::isinf(until))
         fail(ExitCode::usage,
              "without --dt the frame must say how far to go: let sheet-loop stamp it (--until, --fps), "
@@ -157,8 +158,10 @@ struct StepStage::Impl {
 StepStage::StepStage(StepStageOptions options) : impl_(std::make_unique<Impl>()) {
   if (options.dt && !(*options.dt > 0 && std::isfinite(*options.dt)))
     fail(ExitCode::usage, "--dt: {} is not a positive time", *options.dt);
-  if (!(options.tolerance > 0 && std::isfinite(options.tolerance)))
-    fail(ExitCode::usage, "--tolerance: {} is not a positive number", options.tolerance);
+  if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance)))
+    fail(ExitCode::usage, "--tolerance: {} is not a positive number", *options.tolerance);
+  if (options.dt && options.tolerance)
+    fail(ExitCode::usage, "--dt and --tolerance exclude each other: a step is fixed or chosen by its error");
   impl_->options = std::move(options);
 }
 

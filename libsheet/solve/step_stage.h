@@ -11,9 +11,11 @@
 
 namespace sheet {
 
+inline constexpr double default_tolerance = 1e-3;
+
 struct StepStageOptions {
-  std::optional<double> dt; // fixed step [s]; absent: chosen by the tolerance
-  double tolerance = 1e-3;  // error estimate of a step, in lengths of the edges
+  std::optional<double> dt;        // fixed step [s]; absent: chosen by the tolerance
+  std::optional<double> tolerance; // error estimate of a step, in lengths of the edges; absent: default_tolerance
   Scheme scheme = Scheme::sdirk2;
   Bending bending = Bending::mid_edge;
   std::string failed = "failed-step.sheet"; // where a frame goes whose step fails; "" for nowhere

@@ -5,7 +5,7 @@
 bats_require_minimum_version 1.5.0
 
 setup() {
-  cd "$BATS_TEST_TMPDIR"
+  cd "$BATS_TEST_TMPDIR" || exit
   io=6
   [[ $PROGRAM != sheet-diff ]] || io=2 # it has the codes of diff(1)
 }

@@ -4,7 +4,7 @@
 
 setup() {
   mkdir -p "$BATS_TEST_TMPDIR/root"/{formats/cpp,libsheet/{sheet,solve,measure,new},tools}
-  cd "$BATS_TEST_TMPDIR/root"
+  cd "$BATS_TEST_TMPDIR/root" || exit
   echo 'int main() {}' > tools/sheet-x.cpp
 }
 check() { "$BATS_TEST_DIRNAME/includes" "$PWD"; }

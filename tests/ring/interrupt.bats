@@ -7,13 +7,13 @@ run_options=(--steps 60 --keep 10)
 bats_require_minimum_version 1.5.0
 
 setup_file() {
-  cd "$BATS_FILE_TMPDIR"
+  cd "$BATS_FILE_TMPDIR" || exit
   make_grid 60 > start.sheet
   accident=true sheet-loop -q -i start.sheet --steps 60 --keep 10 -o straight.sheet -- 'sheet-pass | accident_at 35 | sheet-pass'
 }
 
 setup() {
-  cd "$BATS_TEST_TMPDIR"
+  cd "$BATS_TEST_TMPDIR" || exit
   cp "$BATS_FILE_TMPDIR/start.sheet" .
   straight=$BATS_FILE_TMPDIR/straight.sheet
 }
@@ -31,8 +31,8 @@ ring_with_accident() {
   unset accident
 }
 
-resumed_equals_straight() { # [OPTION]...
-  accident=true sheet-loop -q --resume run.sheet "${run_options[@]}" "$@" -- 'sheet-pass | accident_at -1 | sheet-pass'
+resumed_equals_straight() {
+  accident=true sheet-loop -q --resume run.sheet "${run_options[@]}" -- 'sheet-pass | accident_at -1 | sheet-pass'
   cmp run.sheet "$straight"
 }
 

@@ -3,7 +3,7 @@
 # sheet-loop's ordinary work: what it keeps, stamps and refuses.
 
 bats_require_minimum_version 1.5.0
-setup() { cd "$BATS_TEST_TMPDIR"; make_grid 3 > start.sheet; }
+setup() { cd "$BATS_TEST_TMPDIR" || exit; make_grid 3 > start.sheet; }
 steps_of() { sheet-print "$1" | sed -n 's/^step //p' | tr '\n' ' '; }
 
 @test "frames from 0 triangles to 200 MB go round without deadlock, also where a stage answers before it has read all" {

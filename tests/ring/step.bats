@@ -49,8 +49,8 @@ is_beginning_of() {
 @test "the sheet moves, steps end at the output times, and the volume stays" {
   for run in adaptive fixed; do
     sheet-check $run.sheet
-    sheet-info --csv $run.sheet | cut -d, -f2,6 > times
-    [[ $(tr '\n' ' ' < times) == "time,volume 0,0.06 0.02,0.06 0.04,0.06 0.06,0.06 0.08,0.06 0.1,0.06 " ]]
+    sheet-info --csv $run.sheet | cut -d, -f2,6 > rows
+    [[ $(tr '\n' ' ' < rows) == "time,volume 0,0.06 0.02,0.06 0.04,0.06 0.06,0.06 0.08,0.06 0.1,0.06 " ]]
     sheet-diff -q --ignore provenance <(sheet-select --index 0 $run.sheet) <(sheet-select --last $run.sheet) && return 1
   done
   (($(sheet-select --last fixed.sheet | sheet-print | sed -n 's/^step //p') == 35)) # ceil(0.02 / 0.003) = 7 for each of 5

@@ -197,6 +197,9 @@ TEST(StepStage, RefusesWhatItCannotStep) {
   Frame lonely = make_frame(x, std::vector<Corners>{{0, 1, 2}}, std::vector<double>{0.1});
   lonely.put_text("scene", scene_text);
   EXPECT_NE(message(lonely, fixed).find("vertex 3 belongs to no triangle"), std::string::npos);
+  fixed.tolerance = 1e-3;
+  EXPECT_THROW(StepStage{fixed}, Error);
+  fixed.tolerance.reset();
   fixed.dt = -1;
   EXPECT_THROW(StepStage{fixed}, Error);
 }
