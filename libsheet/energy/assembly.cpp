@@ -10,7 +10,7 @@ namespace sheet {
 
 namespace {
 
-constexpr std::size_t kChunk = 64; // elements
+constexpr std::size_t kChunk = 16; // elements
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 

@@ -34,8 +34,8 @@ struct EdgeSprings {
 
   void hessian(const Matrix3& c, const Vector3& s, MatrixN<9>& h) const {
     const Eigen::Matrix<double, 3, 9> j = jacobian();
-    const Eigen::Matrix<double, 3, 9> cj = c * j;
-    h.noalias() = j.transpose() * cj;
+    const Eigen::Matrix<double, 3, 9> cj = c.lazyProduct(j);
+    h = j.transpose().lazyProduct(cj); // Eigen's general product costs more than this small one
     for (int k = 0; k < 3; ++k) {
       const int tail = 3 * ((k + 1) % 3), head = 3 * ((k + 2) % 3);
       for (int d = 0; d < 3; ++d) {

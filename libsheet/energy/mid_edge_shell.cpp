@@ -128,7 +128,8 @@ double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
     by_beta.row(0) = -2 * (by_u.row(1) + by_u.row(2));
     by_beta.row(1) = -2 * (by_u.row(2) + by_u.row(0));
     by_beta.row(2) = -2 * (by_u.row(0) + by_u.row(1));
-    const Eigen::Matrix<double, 9, 12> cross = springs.jacobian().transpose() * (cm * slope * by_beta);
+    const Eigen::Matrix<double, 3, 12> coupling = (cm * slope).lazyProduct(by_beta);
+    const Eigen::Matrix<double, 9, 12> cross = springs.jacobian().transpose().lazyProduct(coupling);
     hessian.topRows<9>() += cross;
     hessian.leftCols<9>() += cross.transpose();
     c += slope * cm * slope;
@@ -146,8 +147,8 @@ double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
   for (int k = 0; k < 3; ++k)
     cg.row(k) = curvature(ck.row(k).transpose()).transpose();
   gradient.noalias() += by_u.transpose() * sg;
-  const Eigen::Matrix<double, 3, 12> cu = cg * by_u;
-  hessian.noalias() += by_u.transpose() * cu;
+  const Eigen::Matrix<double, 3, 12> cu = cg.lazyProduct(by_u);
+  hessian += by_u.transpose().lazyProduct(cu); // Eigen's general product costs more than this small one
   if (definite) {
     // ∂²g/∂θ² = -g: kept where it stiffens, without which Newton overshoots at sharp folds.
     for (int k = 0; k < 3; ++k)

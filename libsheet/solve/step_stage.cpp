@@ -116,7 +116,7 @@ struct StepStage::Impl {
     const double until = end_of_step(frame);
     if (mesh->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
-    // Arcs reduce locking where the sheet bends by directors (docs/design.md).
+    // Arcs reduce locking where the sheet bends by directors (docs/hard-cases.md says what they cost).
     Model model = model_of(*scene, frame, *mesh, options.bending, use_arcs);
     if (stepper) {
       stepper->set_model(std::move(model));

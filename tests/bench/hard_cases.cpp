@@ -145,9 +145,9 @@ int main(int argc, char** argv) {
     m.viscosity = 100;
     m.inertia = false;
     m.surface_tension = 1;
-    run("free disk, gamma dt/(mu h) = " + std::to_string(ratio), s, m, ratio * 100 * 0.02, 5);
+    run("free disk: gamma dt/(mu h) = " + std::to_string(ratio), s, m, ratio * 100 * 0.02, 5);
     StepOptions options;
     options.scheme = Scheme::backward_euler;
-    run("free disk (backward Euler), gamma dt/(mu h) = " + std::to_string(ratio), s, m, ratio * 100 * 0.02, 5, options);
+    run("free disk (backward Euler): gamma dt/(mu h) = " + std::to_string(ratio), s, m, ratio * 100 * 0.02, 5, options);
   }
 }
