@@ -22,7 +22,7 @@ constexpr int kHalvings = 40;
 constexpr int kBeforeSlope = 3;          // halvings before the slope is asked
 constexpr double kSlopeKept = 0.5;       // of the slope that may remain after a step accepted for its slope
 constexpr double kSmall = 1e-3;          // steps below this are done if the potential has no more to gain
-constexpr double kLeastBlend = 1.0 / 16; // part of the positive Hessian that is tried first, then times kBlendFactor
+constexpr double kLeastBlend = 1.0 / 16; // least part of the positive Hessian in a mixture
 constexpr double kBlendFactor = 4;
 
 class Clock {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Minimises the incremental potential of one stage: Newton with exact gradients, line search on the potential, and a
-// stopping rule without units: the step of every vertex below `tolerance` of the length of its edges, of every angle
-// below `tolerance` radians. Matrices are scaled to a unit diagonal before they are factorised, so that the shift which
-// mends an indefinite one has no unit either.
+// stopping rule without units: what remains, estimated from the last two steps, is below `tolerance` of the length of
+// the edges at every vertex, and below `tolerance` radians at every edge. Matrices are scaled to a unit diagonal before
+// they are factorised, so that the shift which mends an indefinite one has no unit either.
 #pragma once
 #include <span>
 #include <vector>
@@ -13,7 +13,7 @@
 namespace sheet {
 
 enum class HessianChoice {
-  exact_first, // exact; where that cannot be factorised, mixed with as little of the positive form as is needed
+  exact_first, // exact; where that cannot be factorised the positive form, then mixtures with less and less of it
   positive     // always the positive form
 };
 
