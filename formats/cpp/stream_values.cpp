@@ -89,10 +89,8 @@ std::string find_triangle_error(const Frame& frame, const Array& array) {
   return {};
 }
 
-// The contact arrays go together: whichever is there has as many rows as contact_vertex.
+// Rows of an array at place frame. The contact arrays go together: whichever is there has as many as contact_vertex.
 std::uint64_t rows_wanted(const Frame& frame, const Standard& standard) {
-  if (standard.place != Place::frame)
-    return frame.rows_at(standard.place);
   if (!standard.name.starts_with("contact_"))
     return 1;
   const Array* vertices = frame.find("contact_vertex");
@@ -128,7 +126,7 @@ std::string find_error(const Frame& frame, const Standard& standard, const Array
     return find_contact_error(frame, array);
   if (array.type != Type::float64)
     return {};
-  if (const std::uint64_t rows = rows_wanted(frame, standard); array.rows != rows)
+  if (const std::uint64_t rows = rows_wanted(frame, standard); array.place == Place::frame && array.rows != rows)
     return fmt::format("array \"{}\" has {} rows, it must have {}", array.name, array.rows, rows);
   const auto values = array.values<double>();
   const std::size_t row = first_not_finite(values, array.components);
