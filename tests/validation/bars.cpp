@@ -117,7 +117,8 @@ TEST(Validation, LongSpaceOrders) {
   for (const char* name : {"V1", "V2", "V3"})
     EXPECT_GE(space_order(find_case(name), settings(name, 0.3, 20)).order, 1.9) << name;
   EXPECT_GE(space_order(find_case("V9"), settings("V9", 0.1, 10)).order, 1.8);
-  EXPECT_GE(space_order(find_case("V7"), settings("V7", 0.4, 10)).order, 1.8);
+  // With 10 steps the error in time still shows through its extrapolation: 1.72.
+  EXPECT_GE(space_order(find_case("V7"), settings("V7", 0.4, 40)).order, 1.8);
   EXPECT_GE(space_order(find_case("V17"), settings("V17", 0.125, 32)).order, 1.8);
 }
 
