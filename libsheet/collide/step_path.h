@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The straight paths of a sheet's vertices through one time step, as sheet-collide corrects them. SI units.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libsheet/geometry/types.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::collide {
+
+// Vertex i goes from start[i] to end[i] between start_time and end_time. Corrections change `end`; the velocity of a
+// vertex is changed by the same displacement divided by the step's length.
+struct StepPath {
+  double start_time = 0, end_time = 0; // [s], start_time < end_time
+  std::span<const Corners> triangles;
+  std::span<const Vector3> start; // [m], free of intersections unless the report says otherwise
+  std::vector<Vector3> end;       // [m]
+  std::vector<Vector3> velocity;  // at the end [m/s]
+  std::vector<double> thickness;  // at each vertex [m]: volume / area of its triangles
+  std::vector<double>
+      mass; // of each vertex [kg]; a third of its triangles' (volume / 3 where the density is not given)
+  std::vector<std::uint64_t> touch; // bit i: held by solid i
+  std::vector<bool> fixed;          // held or touching: moved by nothing else (infinite mass)
+
+  [[nodiscard]] double length() const { return end_time - start_time; }
+};
+
+} // namespace sheet::collide
