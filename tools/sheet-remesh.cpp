@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
               "with --adaptive: shortest wanted length (a quarter of --edge-length)");
   tool.option("--max-edge", o.size.max_edge, "METRES",
               "with --adaptive: longest wanted length (four times --edge-length)");
-  tool.flag("--smooth", o.smooth, "also move vertices along the sheet where angles are below 30 degrees");
+  tool.flag("--smooth", o.smooth, "also move vertices along the sheet where angles are below 35 degrees");
   tool.example("sheet-remesh --edge-length 0.01 < a.sheet > b.sheet", "one frame");
   tool.example(
       "sheet-loop --until 2 --fps 24 -- 'sheet-step | sheet-remesh --edge-length 0.025 --smooth' < a.sheet > run.sheet",

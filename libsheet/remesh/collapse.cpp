@@ -115,6 +115,7 @@ void make_fans(const EditableSheet& sheet, std::uint32_t kept, std::uint32_t gon
       return;
     std::replace(corners.begin(), corners.end(), gone, kept);
     edit.added.push_back(corners);
+    edit.former.push_back(edit.removed.size() - 1);
   };
   mesh.for_fan(kept, take);
   mesh.for_fan(gone, take);

@@ -18,6 +18,9 @@ struct Edit {
   std::vector<std::uint32_t> removed; // triangles
   std::vector<Corners> added;         // their corners; `vertex` may be among them
 
+  // former[i]: which of the removed triangles added triangle i was before, where its corners only moved; else empty.
+  std::vector<std::size_t> former;
+
   // At most one vertex is new (split), takes the place of two (collapse) or moves (smooth).
   std::uint32_t vertex = none;
   Vector3 position = Vector3::Zero();  // of `vertex` afterwards [m]
@@ -34,6 +37,7 @@ struct Edit {
   void clear() {
     removed.clear();
     added.clear();
+    former.clear();
     parents.clear();
     overlap.clear();
     volumes.clear();

@@ -44,9 +44,11 @@ bool EditableSheet::check_shapes(const Edit& edit, const Limits& limits) {
     sharpest = std::max(sharpest, old.sharpest - limits.gain);
   new_shapes_.clear();
   new_areas_.clear();
-  for (const Corners& c : edit.added) {
+  for (std::size_t i = 0; i < edit.added.size(); ++i) {
+    const Corners& c = edit.added[i];
     const TriangleShape& made = new_shapes_.emplace_back(position_[c[0]], position_[c[1]], position_[c[2]]);
-    if (!(made.area > 0) || made.sharpest > sharpest || made.normal.dot(facing_) < limits.facing)
+    const Vector3& facing = edit.former.empty() ? facing_ : old_shapes_[edit.former[i]].normal;
+    if (!(made.area > 0) || made.sharpest > sharpest || made.normal.dot(facing) < limits.facing)
       return false;
     new_areas_.push_back(made.area);
   }

@@ -24,7 +24,7 @@ struct Limits {
   // gain.
   double sharpest = 1;
   double gain = 0;
-  double facing = 0;         // least cosine between a new triangle's normal and the mean of the old ones
+  double facing = 0;         // least cosine between a triangle's normal and its former one, or the mean of the old ones
   bool intersections = true; // new triangles must not intersect others
 };
 

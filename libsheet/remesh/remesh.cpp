@@ -12,7 +12,7 @@ namespace sheet::remesh {
 
 namespace {
 
-const double cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22), cosine_30 = cosine_of_degrees(30),
+const double cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22),
              cosine_35 = cosine_of_degrees(35);
 
 constexpr double repair_thickness = 1.3; // see Limits::thickness
@@ -98,13 +98,13 @@ private:
     return true;
   }
 
-  bool collapse(std::uint32_t side, const Limits& limits) {
+  bool collapse(std::uint32_t side, const Limits& limits, double longest) {
     const std::uint32_t a = mesh_.from(side), b = mesh_.to(side);
     if (!propose_collapse(sheet_, side, pay_ * size_.along(a, b), edit_))
       return false;
     for (const Corners& t : edit_.added) // what is collapsed here must not be split there
       for (const std::uint32_t v : t)
-        if (v != edit_.vertex && (sheet_.at(v) - edit_.position).norm() > split_above * size_.along(v, edit_.vertex))
+        if (v != edit_.vertex && (sheet_.at(v) - edit_.position).norm() > longest * size_.along(v, edit_.vertex))
           return false;
     if (!sheet_.make(edit_, limits))
       return false;
@@ -186,7 +186,7 @@ private:
       const std::uint32_t side = edge(shortest.a, shortest.b);
       if (side == none || ratio(shortest.a, shortest.b) >= collapse_below)
         continue;
-      if (!collapse(side, limits(cosine_22, 0.3, 1.1)))
+      if (!collapse(side, limits(cosine_22, 0.3, 1.1), split_above))
         continue;
       const std::uint32_t kept = edit_.vertex;
       mesh_.for_neighbours(kept, [&](std::uint32_t w) { push(kept, w); });
@@ -220,7 +220,7 @@ private:
       mesh_.for_fan(v, [&](std::uint32_t side) {
         sharpest = std::max(sharpest, sheet_.shape(Mesh::triangle_of(side)).sharpest);
       });
-      if (sharpest > cosine_30)
+      if (sharpest > cosine_35)
         static_cast<void>(smooth(v, 1.1));
     }
   }
@@ -252,7 +252,7 @@ private:
     if (flip(sides[2], 0.5, repair_thickness))
       return true;
     for (const std::uint32_t side : sides)
-      if (collapse(side, limits(cosine_22, 0.3, repair_thickness, least_gain)))
+      if (collapse(side, limits(cosine_22, 0, repair_thickness, least_gain), 1.3 * split_above))
         return true;
     if (mesh_.twin(sides[2]) == none && absorb(sides[2]))
       return true;

@@ -77,6 +77,7 @@ bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edi
     const TriangleShape s = sheet.shape(t);
     edit.removed.push_back(t);
     edit.added.push_back({v, b, c});
+    edit.former.push_back(edit.removed.size() - 1);
     normal += s.area * s.normal;
     middle += s.area * (x + sheet.at(b) + sheet.at(c)) / 3;
     area += s.area;
@@ -120,8 +121,10 @@ bool propose_absorb(const EditableSheet& sheet, std::uint32_t rim_side, Edit& ed
     edit.parents = {{c, 1, 1}};
   mesh.for_fan(c, [&](std::uint32_t side) {
     edit.removed.push_back(Mesh::triangle_of(side));
-    if (Mesh::triangle_of(side) != flat)
-      edit.added.push_back({c, mesh.to(side), mesh.apex(side)});
+    if (Mesh::triangle_of(side) == flat)
+      return;
+    edit.added.push_back({c, mesh.to(side), mesh.apex(side)});
+    edit.former.push_back(edit.removed.size() - 1);
   });
   return edit.added.size() >= 2;
 }

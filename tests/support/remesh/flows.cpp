@@ -80,7 +80,7 @@ Flow enright(double edge_length) {
           }};
 }
 
-Angles angles_of(const formats::Frame& frame) {
+Angles angles_of(const formats::Frame& frame, double edge_length) {
   const auto x = positions(frame);
   // the sheet's own angle at each rim vertex, where it is the whole fan
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
@@ -97,18 +97,29 @@ Angles angles_of(const formats::Frame& frame) {
   for (const auto& [side, count] : sides)
     if (count == 1)
       rim[side.first] = rim[side.second] = true;
+  struct Corner {
+    Vector3 tip;
+    double reach;
+  };
+  std::vector<Corner> corners;
+  for (std::size_t v = 0; v < fan.size(); ++v)
+    if (rim[v] && fan[v] < 60)
+      corners.push_back({x[v], edge_length / (2 * std::tan(fan[v] / 2 * pi / 180))});
   Angles result;
   std::vector<double> smallest;
   for (const Corners& t : triangles(frame)) {
-    bool corner = false;
+    const bool corner = std::any_of(corners.begin(), corners.end(), [&](const Corner& c) {
+      return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return (x[v] - c.tip).norm() <= c.reach; });
+    });
     double least = 180, most = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      corner = corner || (rim[t[i]] && fan[t[i]] < 60);
       least = std::min(least, at(t, i));
       most = std::max(most, at(t, i));
     }
-    if (corner)
+    if (corner) {
+      ++result.excepted;
       continue;
+    }
     smallest.push_back(least);
     result.largest = std::max(result.largest, most);
   }
@@ -142,10 +153,11 @@ FlowResult run_flow(const Flow& flow, double courant, const remesh::Options& opt
     result.edits += remesh::remesh(frame, nullptr, options).edits();
     result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++result.steps;
-    const Angles angles = angles_of(frame);
+    const Angles angles = angles_of(frame, flow.edge_length);
     result.worst.smallest = std::min(result.worst.smallest, angles.smallest);
     result.worst.first_percentile = std::min(result.worst.first_percentile, angles.first_percentile);
     result.worst.largest = std::max(result.worst.largest, angles.largest);
+    result.worst.excepted = std::max(result.worst.excepted, angles.excepted);
     if (watch)
       watch(frame);
   }

@@ -35,11 +35,14 @@ struct Flow {
 // [Enright et al. 2002].
 [[nodiscard]] Flow enright(double edge_length);
 
-// Angles over all triangles, those with a corner at a geometric corner of the rim (below 60 degrees) excepted.
+// Angles over all triangles, those in geometric corners of the rim excepted: where the sheet's own angle a at a rim
+// vertex is below 60 degrees, the triangles that reach into the part of the wedge that is narrower than an edge, within
+// edge_length / (2 tan(a/2)) of its tip. No mesh of such edges has better angles there.
 struct Angles {
   double smallest = 180, first_percentile = 180, largest = 0; // [degrees]
+  std::uint64_t excepted = 0;                                 // triangles in corners
 };
-[[nodiscard]] Angles angles_of(const formats::Frame& frame);
+[[nodiscard]] Angles angles_of(const formats::Frame& frame, double edge_length);
 
 struct FlowResult {
   Angles worst;                                      // over all steps
