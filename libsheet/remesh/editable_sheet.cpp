@@ -10,6 +10,10 @@
 
 namespace sheet::remesh {
 
+namespace {
+const double sliver_cosine = cosine_of_degrees(15);
+}
+
 TriangleShape EditableSheet::shape(std::uint32_t t) const {
   const Corners& c = mesh_.corners(t);
   return {position_[c[0]], position_[c[1]], position_[c[2]]};
@@ -47,8 +51,12 @@ bool EditableSheet::check_shapes(const Edit& edit, const Limits& limits) {
   for (std::size_t i = 0; i < edit.added.size(); ++i) {
     const Corners& c = edit.added[i];
     const TriangleShape& made = new_shapes_.emplace_back(position_[c[0]], position_[c[1]], position_[c[2]]);
-    const Vector3& facing = edit.former.empty() ? facing_ : old_shapes_[edit.former[i]].normal;
-    if (!(made.area > 0) || made.sharpest > sharpest || made.normal.dot(facing) < limits.facing)
+    if (!(made.area > 0) || made.sharpest > sharpest)
+      return false;
+    const TriangleShape* former = edit.former.empty() ? nullptr : &old_shapes_[edit.former[i]];
+    const bool sliver = former != nullptr && former->sharpest > sliver_cosine; // its normal says little
+    if (former != nullptr && !sliver ? made.normal.dot(former->normal) < limits.facing
+                                     : made.normal.dot(facing_) < (sliver ? 0 : limits.facing))
       return false;
     new_areas_.push_back(made.area);
   }

@@ -16,8 +16,9 @@ const double cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22
              cosine_35 = cosine_of_degrees(35);
 
 constexpr double repair_thickness = 1.3; // see Limits::thickness
+constexpr double flat_enough = 0.1;      // of an edge: a flip may move the surface so far at any fold
 constexpr double least_gain = 0.01;      // of the cosine of the smallest angle: about one degree
-constexpr int most_passes = 5;
+constexpr int most_passes = 5, most_repairs = 3;
 
 class Remesher {
 public:
@@ -34,7 +35,7 @@ public:
       flip_all();
       if (options_.smooth)
         smooth_sharp();
-      if (repair() > 0)
+      for (int round = 0; round < most_repairs && repair() > 0; ++round)
         flip_all();
       const std::uint64_t changed = report_.splits + report_.collapses - before;
       if (changed * 50 <= mesh_.triangle_count() || report_.budget_reached)
@@ -113,6 +114,13 @@ private:
     return true;
   }
 
+  // Between the lines a b and c d: how far a flip moves the surface.
+  [[nodiscard]] double diagonal_distance(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+    const Vector3 across = (sheet_.at(b) - sheet_.at(a)).cross(sheet_.at(d) - sheet_.at(c));
+    const double length = across.norm();
+    return length > 0 ? std::abs(across.dot(sheet_.at(c) - sheet_.at(a))) / length : 0;
+  }
+
   // The diagonal is turned only if that enlarges the smallest angle of the two triangles.
   bool flip(std::uint32_t side, double least_facing, double thickness) {
     const std::uint32_t twin = mesh_.twin(side);
@@ -120,13 +128,15 @@ private:
       return false;
     const TriangleShape one = sheet_.shape(Mesh::triangle_of(side)), two = sheet_.shape(Mesh::triangle_of(twin));
     const double sharpest = std::max(one.sharpest, two.sharpest);
-    if (sharpest < cosine_35 || one.normal.dot(two.normal) < least_facing)
+    if (sharpest < cosine_35)
       return false;
     const std::uint32_t a = mesh_.from(side), b = mesh_.to(side), c = mesh_.apex(side), d = mesh_.apex(twin);
+    if (one.normal.dot(two.normal) < least_facing && diagonal_distance(a, b, c, d) > flat_enough * size_.along(a, b))
+      return false;
     const TriangleShape left(sheet_.at(a), sheet_.at(d), sheet_.at(c)), right(sheet_.at(d), sheet_.at(b), sheet_.at(c));
     if (std::max(left.sharpest, right.sharpest) > sharpest - least_gain)
       return false;
-    if (!propose_flip(sheet_, side, edit_) || !sheet_.make(edit_, limits(1, least_facing, thickness)))
+    if (!propose_flip(sheet_, side, edit_) || !sheet_.make(edit_, limits(1, 0, thickness)))
       return false;
     ++report_.flips;
     return true;
