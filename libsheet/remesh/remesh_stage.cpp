@@ -26,7 +26,7 @@ void RemeshStage::remesh(formats::Frame& frame) {
               frame.vertices, 1e3 * seconds);
   if (report.budget_reached)
     log::warning("step {}: more edits were due than one call makes ({} were made); the next call goes on", frame.step,
-              report.edits());
+                 report.edits());
   if (report.sharp > 0)
     log::detail("step {}: {} triangles have an angle below 20 degrees", frame.step, report.sharp);
   total_.splits += report.splits;
