@@ -101,10 +101,12 @@ private:
            "the inlet has moved by {:.3g} rows of {:.3g} m since liquid last entered: take smaller steps, or a coarser "
            "sheet",
            length, row);
+    // The border's new vertices before those of the rows between: as if the rows had come one by one.
+    const Row border = has_strip ? chain.border : new_row(chain, 0);
     std::vector<Row> rows = {lowest(chain)};
     for (double k = 1; k <= count; ++k)
       rows.push_back(new_row(chain, (length - k) / length));
-    rows.push_back(has_strip ? chain.border : new_row(chain, 0));
+    rows.push_back(border);
     if (has_strip)
       put_back(chain);
     if (rows.size() == 2 && has_strip)
@@ -158,9 +160,10 @@ private:
   void fill(const InletChain& chain, const std::vector<Row>& rows) {
     // The diagonals of neighbouring cells lean to and fro, going on from those of the strip.
     const bool other_way = !chain.strip.empty() && !has_corner(triangles(old_)[chain.strip[0][0]], chain.lip[1]);
-    for (std::size_t i = 0; i < chain.edges(); ++i) {
-      const std::size_t j = chain.after(i), first = made_.size();
-      for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
+    const std::size_t first = made_.size();
+    for (std::size_t r = 0; r + 1 < rows.size(); ++r)
+      for (std::size_t i = 0; i < chain.edges(); ++i) {
+        const std::size_t j = chain.after(i);
         const std::uint32_t a = rows[r][i], b = rows[r][j], above = rows[r + 1][i], above_next = rows[r + 1][j];
         const double one = (x_[b] - x_[above]).norm(), other = (x_[a] - x_[above_next]).norm();
         const bool alike = std::abs(one - other) < 1e-6 * one; // else the shorter one
@@ -172,26 +175,30 @@ private:
           made_.push_back({{a, above_next, b}});
         }
       }
-      give_volumes(chain, i, std::span(made_).subspan(first));
+    for (std::size_t i = 0; i < chain.edges(); ++i) {
+      std::vector<Made*> behind;
+      for (std::size_t k = first + 2 * i; k < made_.size(); k += 2 * chain.edges())
+        behind.insert(behind.end(), {&made_[k], &made_[k + 1]});
+      give_volumes(chain, i, behind);
     }
   }
 
   // Volumes of the new triangles behind an edge of the border, and where the rest of what they carry comes from.
-  void give_volumes(const InletChain& chain, std::size_t edge, std::span<Made> made) {
+  void give_volumes(const InletChain& chain, std::size_t edge, std::span<Made* const> made) {
     double sum = 0, left = 1;
-    for (Made& m : made)
-      sum += m.volume = volume_of(m.corners);
+    for (Made* m : made)
+      sum += m->volume = volume_of(m->corners);
     grown_ += sum;
     if (chain.strip.empty()) {
-      for (Made& m : made)
-        m.parents = {{chain.behind[edge], 1, 0}};
+      for (Made* m : made)
+        m->parents = {{chain.behind[edge], 1, 0}};
       return;
     }
-    for (Made& m : made) {
-      const double share = &m == &made.back() ? left : m.volume / sum;
+    for (Made* m : made) {
+      const double share = m == made.back() ? left : m->volume / sum;
       left -= share;
       for (const std::uint32_t t : chain.strip[edge])
-        m.parents.push_back({t, 0.5, share});
+        m->parents.push_back({t, 0.5, share});
     }
     for (const std::uint32_t t : chain.strip[edge]) {
       grown_ -= volumes(old_)[t];
