@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/sheet/transfer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -53,8 +54,10 @@ void sum_row(const Array& from, std::span<const Parent> parents, double Parent::
 
 void common_row(const Array& from, std::span<const Parent> parents, std::byte* to) {
   const std::size_t size = formats::size_of(from.type) * from.components;
-  std::memcpy(to, row_of(from, parents[0].row), size);
-  for (const Parent& p : parents.subspan(1)) {
+  std::fill_n(to, size, std::byte{0xff});
+  for (const Parent& p : parents) {
+    if (p.weight == 0)
+      continue;
     const std::byte* other = row_of(from, p.row);
     for (std::size_t i = 0; i < size; ++i)
       to[i] &= other[i];

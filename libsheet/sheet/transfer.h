@@ -13,7 +13,7 @@ namespace sheet {
 // An old row that a new row comes from.
 struct Parent {
   std::uint32_t row;
-  double weight; // in the new row's value; the weights of a new row sum to 1
+  double weight; // in the new row's value; the weights of a new row sum to 1; 0: it gives of its amount only
   double share; // the part of the old row's amount that the new row gets; the shares of an old row sum to 1 unless some
                 // of its amount leaves the sheet
 };
