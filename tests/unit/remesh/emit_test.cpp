@@ -8,6 +8,7 @@
 
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/remesh/emit.h"
+#include "libsheet/remesh/remesh.h"
 #include "libsheet/sheet/transfer.h"
 #include "tests/unit/remesh/sheets.h"
 
@@ -395,6 +396,33 @@ TEST(Emit, GoesOnWhereSomebodyHasRemeshedTheStrip) {
   EXPECT_NEAR(account(frame), thickness * 4 * 4, 1e-13);
   EXPECT_EQ(count(frame, in_inlet | at_inlet_border), 6);
   EXPECT_EQ(count(frame, in_inlet), 6);
+}
+
+// Before there is a strip, it may remesh the border: then rows are as long as its edges.
+TEST(Emit, TheRemesherLeavesTheStripAlone) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  for (const double edge : {0.25, 1.0, 4.0}) {
+    Frame frame = curtain();
+    const double start = volume_of(frame);
+    std::size_t border = 0;
+    for (int k = 1; k <= 60; ++k) {
+      move(frame, scene, 0.1);
+      emit(frame, scene);
+      const bool has_strip = count(frame, in_inlet) > 0;
+      remesh::Options options;
+      options.size.edge_length = edge;
+      remesh::remesh(frame, nullptr, options);
+      ASSERT_EQ(value_error(frame), "");
+      EXPECT_NEAR(volume_of(frame), start + (has_strip ? thickness * 4 * frame.time : 0), 1e-12) << edge << " " << k;
+      if (border == 0 && has_strip)
+        border = count(frame, in_inlet);
+      EXPECT_EQ(count(frame, in_inlet), border);
+      if (has_strip) {
+        EXPECT_EQ(count(frame, in_inlet | at_inlet_border), border);
+      }
+    }
+    EXPECT_EQ(border, edge < 1 ? 17 : edge > 1 ? 2 : 5) << edge;
+  }
 }
 
 TEST(Emit, AmountsStayWithTheOldLiquid) {
