@@ -112,6 +112,13 @@ TEST(Validation, MomentumAndEnergy) {
   EXPECT_LT(error("V20", settings("V20", 0.15, 20, 3)), 3e-3);
 }
 
+TEST(Validation, FallingCurtain) {
+  const Result r = run(find_case("V18"), settings("V18", 0.01, 350));
+  EXPECT_LT(std::abs(r.error), 0.01);
+  ASSERT_EQ(r.more.back().first, "volume");
+  EXPECT_LT(std::abs(r.more.back().second), 1e-13);
+}
+
 // Figures 6 and 7: 2,562 vertices, 100 steps, radius within 0.3 %.
 TEST(Validation, LongFiguresOfThePaper) {
   for (const char* name : {"V1", "V2", "V3"})

@@ -56,6 +56,8 @@ const std::vector<Case>& cases() {
       {"V16", "annulus sheared in its plane", "torque", "", 1, at(0.08, 1), false, true, v16},
       {"V17", "pinned square film oscillates for one period", "1 + greatest deviation of the mode over its amplitude",
        "", 1, at(1.0 / 16, 64), true, true, v17},
+      {"V18", "falling curtain, planar, with inflow, 1 m", "1 + greatest error of the speed, from 5 cm on", "", 1,
+       at(0.01, 350), false, true, v18},
       {"V19", "quarter turn in one step (set 1: forces at the turned state; 2: the step itself; 3: from rest)",
        "1 + force over mu V/(dt edge), or greatest relative change of an edge", "", 3, at(0.15, 1), false, false, v19},
       {"V20", "thrown disk (set 1: linear momentum; 2: angular momentum; 3: energy balance)", "1 + relative defect", "",
