@@ -55,6 +55,12 @@ TEST(Validation, PulledStripsTubeDiskHole) {
   EXPECT_LT(error("V13", settings("V13", 0.0625, 20)), 0.01);
 }
 
+// What remeshing adds. The tables of docs/remeshing.md go on to finer meshes.
+TEST(Validation, RemeshedOnTheWay) {
+  EXPECT_LT(error("V9r", settings("V9r", 0.05, 40)), 0.01);
+  EXPECT_LT(error("V10", settings("V10", 0.02, 150)), 0.01);
+}
+
 TEST(Validation, CircularPlate) {
   for (const int set : {1, 2}) {
     EXPECT_LT(error("V11", settings("V11", 1.0 / 32, 1, set)), 0.01) << "set " << set;
