@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light from far away: a sky, or an image of the surroundings, and softboxes. Radiance 1 lights a white matte surface to
+// white.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "libsheet/render/image.h"
+#include "libsheet/render/sampler.h"
+#include "libsheet/render/types.h"
+
+namespace sheet::render {
+
+// A rectangle infinitely far away, of even radiance: directions whose central projection on the plane at distance 1 along
+// `basis.third` lies within half_width, half_height.
+struct Softbox {
+  Basis basis;
+  float half_width, half_height;
+  Colour radiance;
+  [[nodiscard]] bool holds(const Vec& direction) const;
+};
+
+class Lighting {
+public:
+  // The built-in studio: a key light high on the left of the camera, a narrow one behind on its right, a bright sky.
+  // `to_camera`, `up`: where the camera stands as seen from what it looks at.
+  static Lighting studio(const Vec& to_camera, const Vec& up);
+  // The same radiance from everywhere.
+  static Lighting uniform(float radiance);
+  // An image of all directions: longitude across, the upper edge is up. -to_camera, turned level, is its middle.
+  static Lighting surroundings(Image image, const Vec& to_camera, const Vec& up);
+
+  // What a path that comes from a surface sees in that direction.
+  [[nodiscard]] Colour radiance(const Vec& direction) const;
+  // What the camera sees behind everything: the same without softboxes.
+  [[nodiscard]] Colour backdrop(const Vec& direction) const;
+
+  struct Sample {
+    Vec direction;
+    float density; // by solid angle [1/sr]
+  };
+  // Directions with a density about in proportion to the radiance.
+  [[nodiscard]] Sample sample(Point2 choice, Point2 point) const;
+  [[nodiscard]] float density(const Vec& direction) const;
+
+private:
+  Lighting(Image map, const Basis& axes, std::vector<Softbox> boxes);
+  [[nodiscard]] Vec from_map(float x, float y) const;
+  [[nodiscard]] Point2 to_map(const Vec& direction) const; // in [0, 1)
+  [[nodiscard]] float map_density(const Vec& direction) const;
+
+  Image map_;
+  Basis axes_; // third is up, first is the middle of the map
+  std::vector<Softbox> boxes_;
+  // Cells of the map: their power summed up along each row, and the rows' sums.
+  int columns_ = 0, rows_ = 0;
+  std::vector<float> row_sums_, cell_sums_;
+  float map_share_ = 1; // of samples that go to the map; the rest is shared out evenly among the boxes
+};
+
+} // namespace sheet::render
