@@ -44,27 +44,34 @@ public:
   TileResult paint(const Tile& tile) const {
     TileResult result;
     const int width = tile.x1 - tile.x0, pixels = width * (tile.y1 - tile.y0);
-    std::vector<Colour> even(static_cast<std::size_t>(pixels), Colour::Zero()), odd = even;
-    int done = 0;
-    for (int target = options_.noise > 0 ? std::min(8, options_.samples) : options_.samples;;
-         target = std::min(2 * target, options_.samples)) {
-      for (int p = 0; p < pixels; ++p)
-        for (int s = done; s < target; ++s)
-          ((s & 1) != 0 ? odd : even)[static_cast<std::size_t>(p)] +=
-              sample(tile.x0 + p % width, tile.y0 + p / width, s, result.rays);
-      done = target;
-      result.squared_noise = squared_noise(even, odd, done);
-      if (done == options_.samples || result.squared_noise <= static_cast<double>(options_.noise) * static_cast<double>(options_.noise) * pixels)
-        break;
-    }
+    std::vector<Colour> before(static_cast<std::size_t>(pixels), Colour::Zero()), added = before;
+    // The first half of the samples against the second: each is a well-spread set of its own.
+    int done = options_.noise > 0 ? std::min(8, options_.samples / 2) : options_.samples / 2;
+    add_samples(tile, 0, done, before, result.rays);
+    do {
+      std::fill(added.begin(), added.end(), Colour::Zero());
+      add_samples(tile, done, 2 * done, added, result.rays);
+      result.squared_noise = squared_noise(before, added, done);
+      for (std::size_t p = 0; p < before.size(); ++p)
+        before[p] += added[p];
+      done *= 2;
+    } while (2 * done <= options_.samples &&
+             result.squared_noise > static_cast<double>(options_.noise) * static_cast<double>(options_.noise) * pixels);
     for (int p = 0; p < pixels; ++p)
       image_->at(tile.x0 + p % width, tile.y0 + p / width) =
-          (even[static_cast<std::size_t>(p)] + odd[static_cast<std::size_t>(p)]) / static_cast<float>(done);
+          before[static_cast<std::size_t>(p)] / static_cast<float>(done);
     result.samples = static_cast<std::uint64_t>(done) * static_cast<std::uint64_t>(pixels);
     return result;
   }
 
 private:
+  void add_samples(const Tile& tile, int first, int end, std::vector<Colour>& sums, std::uint64_t& rays) const {
+    const int width = tile.x1 - tile.x0;
+    for (std::size_t p = 0; p < sums.size(); ++p)
+      for (int s = first; s < end; ++s)
+        sums[p] += sample(tile.x0 + static_cast<int>(p) % width, tile.y0 + static_cast<int>(p) / width, s, rays);
+  }
+
   [[nodiscard]] Colour sample(int x, int y, int number, std::uint64_t& rays) const {
     Sampler sampler(static_cast<std::uint32_t>(image_->index(x, y)), static_cast<std::uint32_t>(number));
     const Point2 p = sampler.point();
@@ -73,13 +80,12 @@ private:
     return options_.exposure * (*shader_)({eye_, camera_->direction(fx, fy)}, sampler, rays);
   }
 
-  // The mean of two halves has half the error of their difference.
-  static double squared_noise(const std::vector<Colour>& even, const std::vector<Colour>& odd, int samples) {
+  // Of the mean of two pictures of so many samples each: half of their difference.
+  static double squared_noise(const std::vector<Colour>& a, const std::vector<Colour>& b, int samples) {
     double sum = 0;
-    const float scale = 2.0F / static_cast<float>(samples);
-    for (std::size_t i = 0; i < even.size(); ++i) {
-      const double difference = static_cast<double>(display_level(luminance(even[i] * scale)) -
-                                                    display_level(luminance(odd[i] * scale)));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double difference = static_cast<double>(display_level(luminance(a[i] / static_cast<float>(samples))) -
+                                                    display_level(luminance(b[i] / static_cast<float>(samples))));
       sum += difference * difference / 4;
     }
     return sum;

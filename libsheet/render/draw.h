@@ -18,13 +18,13 @@ using Progress = std::function<void(double)>;
 
 struct DrawOptions {
   int width = 1280, height = 720;
-  int samples = 64;   // a pixel; even; at most so many if noise is given
+  int samples = 64;   // a pixel; even, at least 2; at most so many if noise is given
   float noise = 0;    // > 0: go on until a tile's noise is below it (Picture::noise)
   float exposure = 1; // factor on the light
 };
 
-// Noise is measured by comparing the pictures that the even and the odd samples make. With a noise target, the samples
-// of a tile are doubled from 8 until it is met.
+// Noise is measured by comparing the pictures that the two halves of the samples make. With a noise target, the samples
+// of a tile are doubled from 16 until it is met.
 [[nodiscard]] Picture draw(const World& world, const Camera& camera, const Shader& shader, const DrawOptions& options,
                            const Progress& progress);
 

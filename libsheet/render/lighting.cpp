@@ -17,7 +17,7 @@ float smooth_step(float low, float high, float x) {
 
 // The sky over the ground, as a function of the sine of the elevation.
 Colour studio_sky(float sine) {
-  const Colour zenith{0.62F, 0.74F, 0.92F}, horizon{0.86F, 0.89F, 0.93F}, floor{0.50F, 0.49F, 0.48F};
+  const Colour zenith{0.26F, 0.32F, 0.42F}, horizon{0.60F, 0.63F, 0.68F}, floor{0.36F, 0.35F, 0.34F};
   if (sine < 0)
     return horizon + (floor - horizon) * smooth_step(0, 0.35F, -sine);
   return horizon + (zenith - horizon) * smooth_step(0, 0.8F, sine);
@@ -90,7 +90,48 @@ Lighting::Lighting(Image map, const Basis& axes, std::vector<Softbox> boxes)
     total += sum;
     row_sums_.push_back(total);
   }
-  map_share_ = boxes_.empty() ? 1.0F : 0.4F;
+  share_out();
+  soften();
+}
+
+// Directions that a matte surface chooses find the sky well by themselves; boxes they miss.
+void Lighting::share_out() {
+  if (boxes_.empty())
+    return;
+  map_share_ = 0.3F;
+  float power = 0;
+  for (const Softbox& box : boxes_)
+    box_sums_.push_back(power += luminance(box.radiance) * box.half_width * box.half_height);
+  for (float& sum : box_sums_)
+    sum = map_share_ + (1 - map_share_) * sum / power;
+}
+
+void Lighting::soften() {
+  constexpr int columns = 128, rows = 64, soft_columns = 16, soft_rows = 8;
+  std::vector<Vec> directions;
+  std::vector<Colour> power;
+  std::vector<float> ring;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const float v = (static_cast<float>(y) + 0.5F) / rows;
+      directions.push_back(from_map((static_cast<float>(x) + 0.5F) / columns, v));
+      ring.push_back(std::sin(pi * v));
+      power.push_back(ring.back() * radiance(directions.back()));
+    }
+  soft_map_ = Image(soft_columns, soft_rows);
+  for (int y = 0; y < soft_rows; ++y)
+    for (int x = 0; x < soft_columns; ++x) {
+      const Vec middle = from_map((static_cast<float>(x) + 0.5F) / soft_columns,
+                                  (static_cast<float>(y) + 0.5F) / soft_rows);
+      Colour sum = Colour::Zero();
+      float weights = 0;
+      for (std::size_t i = 0; i < directions.size(); ++i) {
+        const float cosine = std::max(0.0F, middle.dot(directions[i])), lobe = cosine * cosine * cosine * cosine;
+        sum += lobe * power[i];
+        weights += lobe * ring[i];
+      }
+      soft_map_.at(x, y) = sum / weights;
+    }
 }
 
 Lighting Lighting::studio(const Vec& to_camera, const Vec& up) {
@@ -102,8 +143,8 @@ Lighting Lighting::studio(const Vec& to_camera, const Vec& up) {
   const Vec key = (-0.35F * axes.first + 0.75F * axes.second + 0.85F * up).normalized();
   const Vec rim = (0.95F * axes.first - 0.65F * axes.second + 0.45F * up).normalized();
   return {std::move(map), axes,
-          {softbox(key, up, 0.24F, 0.30F, Colour(9.6F, 9.1F, 8.5F)),
-           softbox(rim, up, 0.09F, 0.42F, Colour(7.0F, 7.4F, 8.0F))}};
+          {softbox(key, up, 0.24F, 0.30F, Colour(9.0F, 8.6F, 8.0F)),
+           softbox(rim, up, 0.09F, 0.42F, Colour(6.0F, 6.3F, 6.8F))}};
 }
 
 Lighting Lighting::uniform(float radiance) {
@@ -127,18 +168,20 @@ Vec Lighting::from_map(float x, float y) const {
   return axes_.world(std::sin(polar) * std::cos(longitude), -std::sin(polar) * std::sin(longitude), std::cos(polar));
 }
 
-Colour Lighting::backdrop(const Vec& direction) const {
-  // Bilinear between the centres of pixels; longitude goes round.
+Colour Lighting::look_up(const Image& map, const Vec& direction) const {
   const Point2 p = to_map(direction);
-  const float fx = p.x * static_cast<float>(map_.width) - 0.5F, fy = p.y * static_cast<float>(map_.height) - 0.5F;
+  const float fx = p.x * static_cast<float>(map.width) - 0.5F, fy = p.y * static_cast<float>(map.height) - 0.5F;
   const int x = static_cast<int>(std::floor(fx)), y = static_cast<int>(std::floor(fy));
   const float wx = fx - static_cast<float>(x), wy = fy - static_cast<float>(y);
-  const auto pixel = [&](int i, int j) -> const Colour& {
-    return map_.at((i + map_.width) % map_.width, std::clamp(j, 0, map_.height - 1));
+  const auto pixel = [&](int i, int j) -> const Colour& { // longitude goes round
+    return map.at((i + map.width) % map.width, std::clamp(j, 0, map.height - 1));
   };
   return (1 - wy) * ((1 - wx) * pixel(x, y) + wx * pixel(x + 1, y)) +
          wy * ((1 - wx) * pixel(x, y + 1) + wx * pixel(x + 1, y + 1));
 }
+
+Colour Lighting::backdrop(const Vec& direction) const { return look_up(map_, direction); }
+Colour Lighting::softened(const Vec& direction) const { return look_up(soft_map_, direction); }
 
 Colour Lighting::radiance(const Vec& direction) const {
   Colour sum = backdrop(direction);
@@ -160,18 +203,17 @@ float Lighting::map_density(const Vec& direction) const {
 
 float Lighting::density(const Vec& direction) const {
   float sum = map_share_ * map_density(direction);
-  for (const Softbox& box : boxes_)
-    if (box.holds(direction)) {
-      const float z = direction.dot(box.basis.third);
-      sum += (1 - map_share_) / static_cast<float>(boxes_.size()) *
-             box_density(box, direction.dot(box.basis.first) / z, direction.dot(box.basis.second) / z);
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    if (const Softbox& box = boxes_[i]; box.holds(direction)) {
+      const float z = direction.dot(box.basis.third), share = box_sums_[i] - (i > 0 ? box_sums_[i - 1] : map_share_);
+      sum += share * box_density(box, direction.dot(box.basis.first) / z, direction.dot(box.basis.second) / z);
     }
   return sum;
 }
 
-Lighting::Sample Lighting::sample(Point2 choice, Point2 point) const {
+Lighting::Sample Lighting::sample(float choice, Point2 point) const {
   Sample result;
-  if (choice.x < map_share_) {
+  if (choice < map_share_) {
     float x = 0, y = 0;
     const int row = search(row_sums_.data(), rows_, point.y * row_sums_.back(), y);
     const float* cells = cell_sums_.data() + static_cast<std::ptrdiff_t>(row) * columns_;
@@ -179,8 +221,8 @@ Lighting::Sample Lighting::sample(Point2 choice, Point2 point) const {
     result.direction = from_map((static_cast<float>(column) + x) / static_cast<float>(columns_),
                                 (static_cast<float>(row) + y) / static_cast<float>(rows_));
   } else {
-    const float place = (choice.x - map_share_) / (1 - map_share_) * static_cast<float>(boxes_.size());
-    const Softbox& box = boxes_[std::min(static_cast<std::size_t>(place), boxes_.size() - 1)];
+    const auto which = std::upper_bound(box_sums_.begin(), box_sums_.end(), choice) - box_sums_.begin();
+    const Softbox& box = boxes_[std::min(static_cast<std::size_t>(which), boxes_.size() - 1)];
     result.direction =
         box.basis.world((2 * point.x - 1) * box.half_width, (2 * point.y - 1) * box.half_height, 1).normalized();
   }

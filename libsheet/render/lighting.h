@@ -35,27 +35,35 @@ public:
   // What the camera sees behind everything: the same without softboxes.
   [[nodiscard]] Colour backdrop(const Vec& direction) const;
 
+  // The same as radiance, blurred by a lobe cos^4 (some 30 degrees to all sides): for paths that light sampling cannot
+  // help.
+  [[nodiscard]] Colour softened(const Vec& direction) const;
+
   struct Sample {
     Vec direction;
     float density; // by solid angle [1/sr]
   };
-  // Directions with a density about in proportion to the radiance.
-  [[nodiscard]] Sample sample(Point2 choice, Point2 point) const;
+  // Directions with a density about in proportion to the radiance; `choice` in [0, 1).
+  [[nodiscard]] Sample sample(float choice, Point2 point) const;
   [[nodiscard]] float density(const Vec& direction) const;
 
 private:
   Lighting(Image map, const Basis& axes, std::vector<Softbox> boxes);
+  void share_out();
+  void soften();
   [[nodiscard]] Vec from_map(float x, float y) const;
   [[nodiscard]] Point2 to_map(const Vec& direction) const; // in [0, 1)
   [[nodiscard]] float map_density(const Vec& direction) const;
+  [[nodiscard]] Colour look_up(const Image& map, const Vec& direction) const; // bilinear
 
-  Image map_;
+  Image map_, soft_map_;
   Basis axes_; // third is up, first is the middle of the map
   std::vector<Softbox> boxes_;
   // Cells of the map: their power summed up along each row, and the rows' sums.
   int columns_ = 0, rows_ = 0;
   std::vector<float> row_sums_, cell_sums_;
-  float map_share_ = 1; // of samples that go to the map; the rest is shared out evenly among the boxes
+  float map_share_ = 1;          // of samples that go to the map
+  std::vector<float> box_sums_;  // shares of the boxes summed up, by their power; from map_share_ to 1
 };
 
 } // namespace sheet::render

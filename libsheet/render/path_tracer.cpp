@@ -11,10 +11,9 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr int longest_path = 256;  // meetings; Russian roulette ends nearly all paths long before
-constexpr int sure_meetings = 4;   // before Russian roulette starts
+constexpr int sure_meetings = 4;   // before Russian roulette starts, and
+constexpr float faint = 0.1F;      // the weight to which it brings those that are fainter
 constexpr float darkness = 1e-3F;  // a shadow that lets less through is black
-
-Colour bounded(const Colour& light, bool indirect) { return indirect ? Colour(light.min(indirect_limit)) : light; }
 
 Vec cosine_direction(const Vec& normal, Point2 p) { // density cos / pi [Malley]
   const float radius = std::sqrt(p.x), angle = 2 * pi * p.y;
@@ -91,8 +90,10 @@ Colour PathTracer::follow(Path path, Sampler& sampler, std::uint64_t& rays) cons
     if (!hit.anything()) {
       if (path.straight)
         return light + path.weight * lighting_->backdrop(direction);
-      const float share = path.density ? *path.density / (*path.density + lighting_->density(direction)) : 1.0F;
-      return light + bounded(path.weight * share * lighting_->radiance(direction), path.indirect);
+      if (path.density)
+        return light + path.weight * lighting_->radiance(direction) *
+                           (*path.density / (*path.density + lighting_->density(direction)));
+      return light + path.weight * (path.indirect ? lighting_->softened(direction) : lighting_->radiance(direction));
     }
     if (hit.id == sheet_id && path.inside && world_->surface().closed && direction.dot(hit.face) > 0) {
       path.inside = false;
@@ -101,8 +102,8 @@ Colour PathTracer::follow(Path path, Sampler& sampler, std::uint64_t& rays) cons
     }
     light += hit.id == sheet_id ? meet_sheet(hit, path, sampler, rays) : meet_matte(hit, path, sampler, rays);
     const float most = path.weight.maxCoeff();
-    if (++meetings > sure_meetings || most < 0.02F) {
-      const float survival = std::min(0.97F, most);
+    if (++meetings > sure_meetings || most < faint) {
+      const float survival = std::min(0.97F, most / faint);
       if (!(sampler.number() < survival))
         return light;
       path.weight /= survival;
@@ -149,7 +150,7 @@ Colour PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std:
 
   const float turbid = chance[turbid_back] + chance[turbid_through];
   if (turbid > 0) {
-    const Point2 choice = sampler.point();
+    const float choice = sampler.number();
     const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
     const float cosine = lamp.direction.dot(meeting.normal);
     const float lobe = chance[cosine > 0 ? turbid_back : turbid_through] * std::abs(cosine) / pi;
@@ -158,9 +159,8 @@ Colour PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std:
       const Colour f = part[cosine > 0 ? turbid_back : turbid_through] * out * (std::abs(cosine) / pi);
       const Colour weight = path.weight * f / (lamp.density + lobe);
       if (weight.maxCoeff() > 0)
-        light += bounded(weight * lighting_->radiance(lamp.direction) *
-                             visible(hit, lamp.direction, meeting.inside_after(hit, lamp.direction), rays),
-                         path.indirect);
+        light += weight * lighting_->radiance(lamp.direction) *
+                 visible(hit, lamp.direction, meeting.inside_after(hit, lamp.direction), rays);
     }
   }
 
@@ -209,13 +209,12 @@ Colour PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std:
     normal = face;
   path.weight *= albedo;
 
-  const Point2 choice = sampler.point();
+  const float choice = sampler.number();
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
   const float cosine = lamp.direction.dot(normal);
   if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.density > 0)
-    light += bounded(path.weight * (cosine / pi / (lamp.density + cosine / pi)) *
-                         lighting_->radiance(lamp.direction) * visible(hit, lamp.direction, false, rays),
-                     path.indirect);
+    light += path.weight * (cosine / pi / (lamp.density + cosine / pi)) * lighting_->radiance(lamp.direction) *
+             visible(hit, lamp.direction, false, rays);
 
   Vec d = cosine_direction(normal, sampler.point());
   path.density = std::max(d.dot(normal), 1e-6F) / pi;

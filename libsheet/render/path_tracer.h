@@ -8,8 +8,8 @@
 // overlap), the way out is the meeting. So light that goes through a layer is always dimmed once. Straight light passes
 // without a shift: a slab bends it back. Shadows of clear layers are coloured.
 //
-// One bias, against specks: light that reaches the camera by way of a turbid or matte surface counts at most
-// indirect_limit a path and bounce.
+// One bias, against specks: where a turbid or matte surface sees a mirror image of the lights (caustics), it sees them
+// blurred.
 #pragma once
 #include <vector>
 
@@ -19,11 +19,9 @@
 
 namespace sheet::render {
 
-inline constexpr float indirect_limit = 8;
-
 struct Surroundings {
   std::vector<Colour> solids; // reflectance of the scene's solids, matte
-  Colour ground = Colour::Constant(0.5F);
+  Colour ground{0.68F, 0.66F, 0.63F};
   float fade_from = 2, fade_to = 9; // planes seen directly blend into the backdrop between these distances, in the world's unit
 };
 

@@ -20,7 +20,7 @@ public:
   // The next point of the path.
   Point2 point() {
     const std::uint32_t seed = mix(seed_ + 0x85ebca6bU * ++dimension_);
-    const std::uint32_t index = reversed(scrambled(sample_, seed));
+    const std::uint32_t index = scrambled(sample_, seed);
     return {unit(scrambled(index, mix(seed ^ 0x55555555U))),
             unit(scrambled(reversed(second_sobol(index)), mix(seed ^ 0xaaaaaaaaU)))};
   }

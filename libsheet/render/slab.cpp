@@ -76,7 +76,7 @@ const std::vector<std::string>& liquid_names() {
 Liquid preset(std::size_t which) {
   switch (which) {
   case 0:
-    return {1.46F, {1400, 3900, 8200}, {5200, 5200, 5200}};
+    return {1.46F, {2400, 6600, 12500}, {5200, 5200, 5200}};
   case 1:
     return {1.48F, {40, 190, 900}, {260, 260, 260}};
   case 2:
@@ -84,9 +84,9 @@ Liquid preset(std::size_t which) {
   case 3:
     return {1.40F, {12, 50, 240}, {2600, 2600, 2600}};
   case 4:
-    return {1.52F, {9, 3, 5}, {0, 0, 0}};
+    return {1.52F, {55, 14, 30}, {0, 0, 0}};
   default:
-    return {1.50F, {1.5F, 1.2F, 1}, {12, 12, 12}};
+    return {1.50F, {14, 8, 4}, {35, 35, 35}};
   }
 }
 
