@@ -67,6 +67,14 @@ Fresnel fresnel(float mu, float n) {
   return {s * s, p * p};
 }
 
+double internal_reflection(float n) {
+  const float external = cosine_mean([&](float mu) {
+    const Fresnel f = fresnel(mu, n);
+    return 0.5F * (f.perpendicular + f.parallel);
+  });
+  return 1 - (1 - static_cast<double>(external)) / (static_cast<double>(n) * static_cast<double>(n));
+}
+
 const std::vector<std::string>& liquid_names() {
   static const std::vector<std::string> names = {"chocolate", "caramel", "honey", "batter", "glass", "film"};
   return names;
@@ -90,13 +98,8 @@ Liquid preset(std::size_t which) {
   }
 }
 
-Slab::Slab(const Liquid& liquid) : liquid_(liquid), turbid_((liquid.scattering > 0).any()) {
-  const float external = cosine_mean([&](float mu) {
-    const Fresnel f = fresnel(mu, liquid_.index);
-    return 0.5F * (f.perpendicular + f.parallel);
-  });
-  internal_ = 1 - (1 - static_cast<double>(external)) / (static_cast<double>(liquid.index) * liquid.index);
-}
+Slab::Slab(const Liquid& liquid)
+    : liquid_(liquid), turbid_((liquid.scattering > 0).any()), internal_(internal_reflection(liquid.index)) {}
 
 Straight Slab::straight(float mu, float h) const {
   mu = std::clamp(mu, least_cosine, 1.0F);

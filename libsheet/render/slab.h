@@ -32,6 +32,9 @@ struct Fresnel {
 };
 [[nodiscard]] Fresnel fresnel(float mu, float n);
 
+// r of the header's formulas: how much of isotropic light inside a face throws back. 0.596 for n = 1.5.
+[[nodiscard]] double internal_reflection(float n);
+
 struct Liquid {
   float index = 1.5F;                   // of refraction
   Colour absorption = Colour::Zero();   // sigma_a [1/m]
