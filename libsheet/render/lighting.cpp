@@ -47,6 +47,19 @@ float box_density(const Softbox& box, float x, float y) {
   return square * std::sqrt(square) / (4 * box.half_width * box.half_height);
 }
 
+constexpr float below_one = 0.9999999F;
+
+// Bilinear between the centres of pixels; p in [0, 1), longitude goes round.
+Colour look_up(const Image& map, Point2 p) {
+  const float fx = p.x * static_cast<float>(map.width) - 0.5F, fy = p.y * static_cast<float>(map.height) - 0.5F;
+  const int x = static_cast<int>(std::floor(fx)), y = static_cast<int>(std::floor(fy));
+  const float wx = fx - static_cast<float>(x), wy = fy - static_cast<float>(y);
+  const int left = x < 0 ? map.width - 1 : x, right = x + 1 < map.width ? x + 1 : 0;
+  const int above = std::max(y, 0), below = std::min(y + 1, map.height - 1);
+  return (1 - wy) * ((1 - wx) * map.at(left, above) + wx * map.at(right, above)) +
+         wy * ((1 - wx) * map.at(left, below) + wx * map.at(right, below));
+}
+
 // The index of the first entry above x in a rising list that starts anew at `begin`, and where x lies in its interval.
 int search(const float* begin, int count, float x, float& place) {
   const int i = std::min(static_cast<int>(std::upper_bound(begin, begin + count, x) - begin), count - 1);
@@ -116,7 +129,7 @@ void Lighting::soften() {
       const float v = (static_cast<float>(y) + 0.5F) / rows;
       directions.push_back(from_map((static_cast<float>(x) + 0.5F) / columns, v));
       ring.push_back(std::sin(pi * v));
-      power.push_back(ring.back() * radiance(directions.back()));
+      power.push_back(ring.back() * at(directions.back()).radiance);
     }
   soft_map_ = Image(soft_columns, soft_rows);
   for (int y = 0; y < soft_rows; ++y)
@@ -158,9 +171,9 @@ Lighting Lighting::surroundings(Image image, const Vec& to_camera, const Vec& up
 }
 
 Point2 Lighting::to_map(const Vec& direction) const {
-  const float sine = std::clamp(direction.dot(axes_.third), -1.0F, 1.0F);
-  const float longitude = std::atan2(-direction.dot(axes_.second), direction.dot(axes_.first));
-  return {std::clamp(0.5F + longitude / (2 * pi), 0.0F, 0.9999999F), std::clamp(std::acos(sine) / pi, 0.0F, 0.9999999F)};
+  const float x = direction.dot(axes_.first), y = direction.dot(axes_.second), z = direction.dot(axes_.third);
+  const float longitude = std::atan2(-y, x), polar = std::atan2(std::sqrt(x * x + y * y), z); // acos is rough at poles
+  return {std::clamp(0.5F + longitude / (2 * pi), 0.0F, below_one), std::clamp(polar / pi, 0.0F, below_one)};
 }
 
 Vec Lighting::from_map(float x, float y) const {
@@ -168,31 +181,10 @@ Vec Lighting::from_map(float x, float y) const {
   return axes_.world(std::sin(polar) * std::cos(longitude), -std::sin(polar) * std::sin(longitude), std::cos(polar));
 }
 
-Colour Lighting::look_up(const Image& map, const Vec& direction) const {
-  const Point2 p = to_map(direction);
-  const float fx = p.x * static_cast<float>(map.width) - 0.5F, fy = p.y * static_cast<float>(map.height) - 0.5F;
-  const int x = static_cast<int>(std::floor(fx)), y = static_cast<int>(std::floor(fy));
-  const float wx = fx - static_cast<float>(x), wy = fy - static_cast<float>(y);
-  const auto pixel = [&](int i, int j) -> const Colour& { // longitude goes round
-    return map.at((i + map.width) % map.width, std::clamp(j, 0, map.height - 1));
-  };
-  return (1 - wy) * ((1 - wx) * pixel(x, y) + wx * pixel(x + 1, y)) +
-         wy * ((1 - wx) * pixel(x, y + 1) + wx * pixel(x + 1, y + 1));
-}
+Colour Lighting::backdrop(const Vec& direction) const { return look_up(map_, to_map(direction)); }
+Colour Lighting::softened(const Vec& direction) const { return look_up(soft_map_, to_map(direction)); }
 
-Colour Lighting::backdrop(const Vec& direction) const { return look_up(map_, direction); }
-Colour Lighting::softened(const Vec& direction) const { return look_up(soft_map_, direction); }
-
-Colour Lighting::radiance(const Vec& direction) const {
-  Colour sum = backdrop(direction);
-  for (const Softbox& box : boxes_)
-    if (box.holds(direction))
-      sum += box.radiance;
-  return sum;
-}
-
-float Lighting::map_density(const Vec& direction) const {
-  const Point2 p = to_map(direction);
+float Lighting::map_density(Point2 p) const {
   const int row = static_cast<int>(p.y * static_cast<float>(rows_));
   const int column = static_cast<int>(p.x * static_cast<float>(columns_));
   const auto cell = static_cast<std::size_t>(row * columns_ + column);
@@ -201,33 +193,36 @@ float Lighting::map_density(const Vec& direction) const {
   return power / row_sums_.back() * static_cast<float>(columns_ * rows_) / (2 * pi * pi * std::max(sine, 1e-6F));
 }
 
-float Lighting::density(const Vec& direction) const {
-  float sum = map_share_ * map_density(direction);
+Lighting::Light Lighting::at(const Vec& direction) const { return at(direction, to_map(direction)); }
+
+Lighting::Light Lighting::at(const Vec& direction, Point2 on_map) const {
+  Light light{look_up(map_, on_map), map_share_ * map_density(on_map)};
   for (std::size_t i = 0; i < boxes_.size(); ++i)
     if (const Softbox& box = boxes_[i]; box.holds(direction)) {
       const float z = direction.dot(box.basis.third), share = box_sums_[i] - (i > 0 ? box_sums_[i - 1] : map_share_);
-      sum += share * box_density(box, direction.dot(box.basis.first) / z, direction.dot(box.basis.second) / z);
+      light.density +=
+          share * box_density(box, direction.dot(box.basis.first) / z, direction.dot(box.basis.second) / z);
+      light.radiance += box.radiance;
     }
-  return sum;
+  return light;
 }
 
 Lighting::Sample Lighting::sample(float choice, Point2 point) const {
-  Sample result;
   if (choice < map_share_) {
     float x = 0, y = 0;
     const int row = search(row_sums_.data(), rows_, point.y * row_sums_.back(), y);
     const float* cells = cell_sums_.data() + static_cast<std::ptrdiff_t>(row) * columns_;
     const int column = search(cells, columns_, point.x * cells[columns_ - 1], x);
-    result.direction = from_map((static_cast<float>(column) + x) / static_cast<float>(columns_),
-                                (static_cast<float>(row) + y) / static_cast<float>(rows_));
-  } else {
-    const auto which = std::upper_bound(box_sums_.begin(), box_sums_.end(), choice) - box_sums_.begin();
-    const Softbox& box = boxes_[std::min(static_cast<std::size_t>(which), boxes_.size() - 1)];
-    result.direction =
-        box.basis.world((2 * point.x - 1) * box.half_width, (2 * point.y - 1) * box.half_height, 1).normalized();
+    const Point2 place{(static_cast<float>(column) + x) / static_cast<float>(columns_),
+                       (static_cast<float>(row) + y) / static_cast<float>(rows_)};
+    const Vec direction = from_map(place.x, place.y);
+    return {direction, at(direction, {std::min(place.x, below_one), std::min(place.y, below_one)})};
   }
-  result.density = density(result.direction);
-  return result;
+  const auto which = std::upper_bound(box_sums_.begin(), box_sums_.end(), choice) - box_sums_.begin();
+  const Softbox& box = boxes_[std::min(static_cast<std::size_t>(which), boxes_.size() - 1)];
+  const Vec direction =
+      box.basis.world((2 * point.x - 1) * box.half_width, (2 * point.y - 1) * box.half_height, 1).normalized();
+  return {direction, at(direction)};
 }
 
 } // namespace sheet::render

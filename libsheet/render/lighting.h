@@ -30,22 +30,24 @@ public:
   // An image of all directions: longitude across, the upper edge is up. -to_camera, turned level, is its middle.
   static Lighting surroundings(Image image, const Vec& to_camera, const Vec& up);
 
+  struct Light {
+    Colour radiance;
+    float density; // of sample() by solid angle [1/sr], about in proportion to the radiance
+  };
   // What a path that comes from a surface sees in that direction.
-  [[nodiscard]] Colour radiance(const Vec& direction) const;
+  [[nodiscard]] Light at(const Vec& direction) const;
   // What the camera sees behind everything: the same without softboxes.
   [[nodiscard]] Colour backdrop(const Vec& direction) const;
-
-  // The same as radiance, blurred by a lobe cos^4 (some 30 degrees to all sides): for paths that light sampling cannot
-  // help.
+  // The same as the radiance of at(), blurred by a lobe cos^4 (some 30 degrees to all sides): for paths that light
+  // sampling cannot help.
   [[nodiscard]] Colour softened(const Vec& direction) const;
 
   struct Sample {
     Vec direction;
-    float density; // by solid angle [1/sr]
+    Light light;
   };
-  // Directions with a density about in proportion to the radiance; `choice` in [0, 1).
+  // A direction; `choice` in [0, 1).
   [[nodiscard]] Sample sample(float choice, Point2 point) const;
-  [[nodiscard]] float density(const Vec& direction) const;
 
 private:
   Lighting(Image map, const Basis& axes, std::vector<Softbox> boxes);
@@ -53,8 +55,8 @@ private:
   void soften();
   [[nodiscard]] Vec from_map(float x, float y) const;
   [[nodiscard]] Point2 to_map(const Vec& direction) const; // in [0, 1)
-  [[nodiscard]] float map_density(const Vec& direction) const;
-  [[nodiscard]] Colour look_up(const Image& map, const Vec& direction) const; // bilinear
+  [[nodiscard]] Light at(const Vec& direction, Point2 on_map) const;
+  [[nodiscard]] float map_density(Point2 on_map) const;
 
   Image map_, soft_map_;
   Basis axes_; // third is up, first is the middle of the map

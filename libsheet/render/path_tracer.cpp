@@ -90,10 +90,11 @@ Colour PathTracer::follow(Path path, Sampler& sampler, std::uint64_t& rays) cons
     if (!hit.anything()) {
       if (path.straight)
         return light + path.weight * lighting_->backdrop(direction);
-      if (path.density)
-        return light + path.weight * lighting_->radiance(direction) *
-                           (*path.density / (*path.density + lighting_->density(direction)));
-      return light + path.weight * (path.indirect ? lighting_->softened(direction) : lighting_->radiance(direction));
+      if (!path.density && path.indirect)
+        return light + path.weight * lighting_->softened(direction);
+      const Lighting::Light far = lighting_->at(direction);
+      const float share = path.density ? *path.density / (*path.density + far.density) : 1.0F;
+      return light + path.weight * share * far.radiance;
     }
     if (hit.id == sheet_id && path.inside && world_->surface().closed && direction.dot(hit.face) > 0) {
       path.inside = false;
@@ -154,12 +155,12 @@ Colour PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std:
     const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
     const float cosine = lamp.direction.dot(meeting.normal);
     const float lobe = chance[cosine > 0 ? turbid_back : turbid_through] * std::abs(cosine) / pi;
-    if (lobe > 0 && lamp.density > 0) {
+    if (lobe > 0 && lamp.light.density > 0) {
       const Colour out = slab_.straight(std::abs(cosine), h).coupled / diffuse.mean_coupled.max(1e-20F);
       const Colour f = part[cosine > 0 ? turbid_back : turbid_through] * out * (std::abs(cosine) / pi);
-      const Colour weight = path.weight * f / (lamp.density + lobe);
+      const Colour weight = path.weight * f / (lamp.light.density + lobe);
       if (weight.maxCoeff() > 0)
-        light += weight * lighting_->radiance(lamp.direction) *
+        light += weight * lamp.light.radiance *
                  visible(hit, lamp.direction, meeting.inside_after(hit, lamp.direction), rays);
     }
   }
@@ -212,8 +213,8 @@ Colour PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std:
   const float choice = sampler.number();
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
   const float cosine = lamp.direction.dot(normal);
-  if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.density > 0)
-    light += path.weight * (cosine / pi / (lamp.density + cosine / pi)) * lighting_->radiance(lamp.direction) *
+  if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0)
+    light += path.weight * (cosine / pi / (lamp.light.density + cosine / pi)) * lamp.light.radiance *
              visible(hit, lamp.direction, false, rays);
 
   Vec d = cosine_direction(normal, sampler.point());

@@ -73,8 +73,8 @@ TEST(Lighting, density_is_one_over_the_sphere_and_samples_follow_it) {
         const double solid_angle = std::sin(polar) * (pi / rows) * (2 * pi / columns);
         const Vec d = Vector3(std::sin(polar) * std::cos(longitude), std::cos(polar), std::sin(polar) * std::sin(longitude))
                           .cast<float>();
-        whole += solid_angle * static_cast<double>(light.density(d));
-        grid += solid_angle * static_cast<double>(luminance(light.radiance(d)));
+        whole += solid_angle * static_cast<double>(light.at(d).density);
+        grid += solid_angle * static_cast<double>(luminance(light.at(d).radiance));
       }
     EXPECT_NEAR(whole, 1, 1e-3);
     double sampled = 0;
@@ -83,8 +83,9 @@ TEST(Lighting, density_is_one_over_the_sphere_and_samples_follow_it) {
       Sampler sampler(1, i);
       const float choice = sampler.number();
       const Lighting::Sample s = light.sample(choice, sampler.point());
-      EXPECT_NEAR(s.density, light.density(s.direction), 1e-3F * s.density);
-      sampled += static_cast<double>(luminance(light.radiance(s.direction)) / s.density) / n;
+      const Lighting::Light again = light.at(s.direction);
+      EXPECT_NEAR(s.light.density, again.density, 1e-3F * again.density);
+      sampled += static_cast<double>(luminance(s.light.radiance) / s.light.density) / n;
     }
     EXPECT_NEAR(sampled, grid, 4e-3 * grid);
   }
@@ -114,7 +115,7 @@ TEST(Lighting, softened_light_keeps_its_amount) {
     const Point2 p = sampler.point();
     const float z = 1 - 2 * p.x, r = std::sqrt(std::max(0.0F, 1 - z * z)), a = 2 * static_cast<float>(pi) * p.y;
     const Vec d(r * std::cos(a), r * std::sin(a), z);
-    sharp += static_cast<double>(luminance(light.radiance(d))) / n;
+    sharp += static_cast<double>(luminance(light.at(d).radiance)) / n;
     soft += static_cast<double>(luminance(light.softened(d))) / n;
     brightest = std::max(brightest, static_cast<double>(luminance(light.softened(d))));
   }
