@@ -17,15 +17,20 @@ void level_axes(const Vector3& up, Vector3& ahead, Vector3& aside) {
   aside = up.cross(ahead);
 }
 
+// What is on the right of somebody who looks ahead; straight up or down, the level axis aside.
+Vector3 right_of(const Vector3& ahead, const Vector3& up) {
+  const Vector3 right = ahead.cross(up);
+  if (right.norm() > 1e-9)
+    return right.normalized();
+  Vector3 level, aside;
+  level_axes(up, level, aside);
+  return aside;
+}
+
 } // namespace
 
 Camera::Camera(const Vector3& eye, const Vector3& target, const Vector3& up, double field_of_view, double aspect)
-    : eye_(eye), ahead_((target - eye).normalized()) {
-  Vector3 other, right;
-  level_axes(up, other, right);
-  const Vector3 side = ahead_.cross(up);
-  right_ = side.norm() > 1e-9 ? side.normalized() : right; // straight up or down
-  up_ = right_.cross(ahead_);
+    : eye_(eye), ahead_((target - eye).normalized()), right_(right_of(ahead_, up)), up_(right_.cross(ahead_)) {
   tangent_y_ = std::tan(field_of_view * degree / 2);
   tangent_x_ = tangent_y_ * aspect;
 }
@@ -53,9 +58,7 @@ Camera frame_box(const Box& box, const CameraOptions& options, const Vector3& up
     return {*options.eye, target, up, options.field_of_view, aspect};
   const Vector3 toward = direction_to_camera(options, up);
   const double tangent_y = std::tan(options.field_of_view * degree / 2) * (1 - margin), tangent_x = tangent_y * aspect;
-  Vector3 right = (-toward).cross(up);
-  right = right.norm() > 1e-9 ? Vector3(right.normalized()) : Vector3(Vector3::UnitX());
-  const Vector3 above = right.cross(-toward);
+  const Vector3 right = right_of(-toward, up), above = right.cross(-toward);
   // A corner p is in the picture if |p.right| <= (distance - p.toward) tangent_x, and likewise upwards.
   double distance = 1e-9 * box.diagonal();
   for (int corner = 0; corner < 8; ++corner) {

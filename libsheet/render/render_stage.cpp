@@ -140,6 +140,11 @@ struct RenderStage::Impl {
     if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
     fixed.emplace(std::move(f));
+    const Vector3 eye = camera.eye(), target = options.camera.target.value_or(subject.center());
+    log::detail("camera: --eye {:.6g},{:.6g},{:.6g} --target {:.6g},{:.6g},{:.6g}", eye.x(), eye.y(), eye.z(),
+                target.x(), target.y(), target.z());
+    if (options.look != Look::material && options.look != Look::wireframe)
+      log::detail("scale: {:.9g} to {:.9g}", fixed->scale.low, fixed->scale.high);
   }
 
   void warn_if_out_of_sight(const formats::Frame& frame) {

@@ -27,7 +27,9 @@ void revolve(const std::vector<ProfilePoint>& profile, SolidMesh& mesh) {
       mesh.positions.emplace_back(p.radius * s, p.height, p.radius * c);
       mesh.normals.push_back(Vector3(p.normal_radius * s, p.normal_height, p.normal_radius * c).cast<float>());
     }
-  for (std::size_t ring = 0; ring + 1 < profile.size(); ++ring)
+  for (std::size_t ring = 0; ring + 1 < profile.size(); ++ring) {
+    if (profile[ring].radius == profile[ring + 1].radius && profile[ring].height == profile[ring + 1].height)
+      continue; // a sharp edge: one place, two normals
     for (int i = 0; i < around; ++i) {
       const auto at = [&](std::size_t r, int k) { return static_cast<std::uint32_t>(r * around + k % around); };
       if (profile[ring].radius > 0)
@@ -35,6 +37,7 @@ void revolve(const std::vector<ProfilePoint>& profile, SolidMesh& mesh) {
       if (profile[ring + 1].radius > 0)
         mesh.triangles.push_back({at(ring, i + 1), at(ring + 1, i), at(ring + 1, i + 1)});
     }
+  }
 }
 
 // The arc of a sphere from one polar angle to another, its center at the height `center`.
