@@ -130,10 +130,13 @@ void run_film(const FilmOptions& options, const std::function<void(const formats
     }
     const InputFile first(options.input);
     total = 0;
-    for_each_frame(first.descriptor(), first.name(), wanted, [&](const formats::Frame& frame, std::uint64_t) {
-      ++*total;
-      survey(frame);
-    });
+    try {
+      for_each_frame(first.descriptor(), first.name(), wanted, [&](const formats::Frame& frame, std::uint64_t) {
+        ++*total;
+        survey(frame);
+      });
+    } catch (const formats::StreamError&) { // what is whole is drawn; then the same error comes again
+    }
   } else if (wanted.needs_total()) {
     fail(ExitCode::usage, "--frames {}: the end of {} is not known; give a file to count from its end", options.frames,
          input.name());

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
@@ -44,7 +43,7 @@ void write_whole(const std::string& path, const std::string& bytes) {
   }
   if (std::filesystem::is_directory(target))
     fail(ExitCode::io, "cannot write {}: it is a folder", path);
-  const std::string part = (folder / fmt::format(".{}.{}.part", target.filename().string(), ::getpid())).string();
+  const std::string part = (folder / fmt::format(".{}.part", target.filename().string())).string();
   try {
     OutputFile file(part, OutputFile::Content::binary);
     file.write(bytes);
