@@ -121,14 +121,8 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.option("-o,--output", o.output, "FILE",
               "picture to write, .png or .exr; %d or %04d in its name stands for the frame's number in the stream. Its "
               "folder is made if it is missing");
-  tool.custom(
-      "--video", "y4m|ppm", "write a stream of pictures to standard output instead, for ffmpeg",
-      [&o](const std::string& s) {
-        if (s != "y4m" && s != "ppm")
-          fail(ExitCode::usage, "\"{}\" is not one of y4m|ppm", s);
-        o.video = s == "y4m" ? Video::y4m : Video::ppm;
-      },
-      [&o] { return o.video == Video::none ? "" : o.video == Video::y4m ? "y4m" : "ppm"; });
+  tool.flag("--y4m", o.y4m, "write a y4m video to standard output instead, for ffmpeg");
+  tool.flag("--ppm", o.ppm, "write PPM images to standard output instead, one behind the other");
   tool.option("--fps", o.frames_per_second, "FPS", "frames a second that a y4m video states");
   size_option(tool, o.draw);
   tool.custom(

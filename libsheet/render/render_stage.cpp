@@ -23,10 +23,10 @@ constexpr double thinnest = 1e-4;      // of the subject: a sheet below it is dr
 
 void check(const RenderOptions& o) {
   const CameraOptions& c = o.camera;
-  if (o.video == Video::none && o.output.empty())
-    fail(ExitCode::usage, "give -o FILE, such as -o frames/%04d.png, or --video y4m and pipe it on");
-  if (o.video != Video::none && !o.output.empty())
-    fail(ExitCode::usage, "-o and --video exclude each other: a video goes to standard output");
+  if (!o.y4m && !o.ppm && o.output.empty())
+    fail(ExitCode::usage, "give -o FILE, such as -o frames/%04d.png, or --y4m and pipe it on");
+  if ((o.y4m ? 1 : 0) + (o.ppm ? 1 : 0) + (o.output.empty() ? 0 : 1) > 1)
+    fail(ExitCode::usage, "-o, --y4m and --ppm exclude each other");
   if (!o.output.empty() && !o.output.ends_with(".png") && !o.output.ends_with(".exr"))
     fail(ExitCode::usage, "-o {}: the name must end in .png or .exr", o.output);
   if (!(c.field_of_view >= 1 && c.field_of_view <= 160))
@@ -91,10 +91,10 @@ struct RenderStage::Impl {
     check(options);
     options.draw.samples += options.draw.samples & 1;
     options.draw.exposure = static_cast<float>(std::exp2(options.exposure));
-    if (options.video == Video::none)
-      name.emplace(options.output);
-    else
+    if (options.output.empty())
       video.emplace("-", OutputFile::Content::binary);
+    else
+      name.emplace(options.output);
     if (!options.environment.empty())
       surroundings = read_picture(options.environment);
   }
@@ -192,9 +192,9 @@ struct RenderStage::Impl {
     Bitmap bitmap = to_bitmap(picture.light, photo ? Tone::photographic : Tone::plain);
     if (!photo)
       draw_scale(bitmap, fixed->scale, options.look, frame.time);
-    if (options.video == Video::none) {
+    if (name) {
       write_whole(file, encode_png(bitmap));
-    } else if (options.video == Video::ppm) {
+    } else if (options.ppm) {
       video->write(encode_ppm(bitmap));
     } else {
       if (pictures == 0)

@@ -14,11 +14,9 @@
 
 namespace sheet::render {
 
-enum class Video { none, y4m, ppm };
-
 struct RenderOptions {
-  std::string output; // name of the picture files (NumberedName), .png or .exr; "" with a video
-  Video video = Video::none; // to standard output
+  std::string output;            // name of the picture files (NumberedName), .png or .exr; "" with a video
+  bool y4m = false, ppm = false; // a video to standard output
   DrawOptions draw;          // exposure is not used; see below
   CameraOptions camera;
   Look look = Look::material;
