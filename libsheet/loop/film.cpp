@@ -63,7 +63,8 @@ public:
       return;
     shown_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const double done = static_cast<double>(finished_) + part, all = static_cast<double>(total_.value_or(finished_ + 1));
+    const double done = static_cast<double>(finished_) + part,
+                 all = static_cast<double>(total_.value_or(finished_ + 1));
     write(fmt::format("\r\x1b[K{}: picture {}{}, {:.0f} %, {} left{}", log::program(), finished_ + 1,
                       total_ ? fmt::format(" of {}", *total_) : "", 100 * part,
                       done > 0 ? duration_text(elapsed * (all - done) / done) : "?", total_ ? "" : " for this one"));
@@ -93,7 +94,8 @@ bool is_file(int descriptor) {
 }
 
 // Calls `work` with every frame that is wanted; an Error gets the frame's number. Frames of the stream.
-template <class F> std::uint64_t for_each_frame(int descriptor, const std::string& name, const Wanted& wanted, F&& work) {
+template <class F>
+std::uint64_t for_each_frame(int descriptor, const std::string& name, const Wanted& wanted, F&& work) {
   formats::StreamReader reader(descriptor, name);
   formats::Frame frame;
   while (reader.read(frame)) {
@@ -113,9 +115,9 @@ template <class F> std::uint64_t for_each_frame(int descriptor, const std::strin
 
 } // namespace
 
-void run_film(const FilmOptions& options, const std::function<void(const formats::Frame&)>& survey,
-              const std::function<std::string(const formats::Frame&, std::uint64_t, const std::function<void(double)>&)>&
-                  draw) {
+void run_film(
+    const FilmOptions& options, const std::function<void(const formats::Frame&)>& survey,
+    const std::function<std::string(const formats::Frame&, std::uint64_t, const std::function<void(double)>&)>& draw) {
   Wanted wanted(options.frames);
   std::optional<std::uint64_t> total;
   const InputFile input(options.input);

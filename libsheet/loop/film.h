@@ -19,8 +19,8 @@ struct FilmOptions {
 // part is done and the time left if stderr is a terminal. An Error thrown by either gets the number of the frame. Of a
 // stream that is cut short the whole frames are drawn first.
 // Throws Error: usage (frames counted from the end of a pipe), bad_input (no such frames).
-void run_film(const FilmOptions& options, const std::function<void(const formats::Frame&)>& survey,
-              const std::function<std::string(const formats::Frame&, std::uint64_t, const std::function<void(double)>&)>&
-                  draw);
+void run_film(
+    const FilmOptions& options, const std::function<void(const formats::Frame&)>& survey,
+    const std::function<std::string(const formats::Frame&, std::uint64_t, const std::function<void(double)>&)>& draw);
 
 } // namespace sheet

@@ -52,23 +52,46 @@ Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up) {
   return std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside) + std::sin(elevation) * up;
 }
 
-Camera frame_box(const Box& box, const CameraOptions& options, const Vector3& up, double aspect, double margin) {
-  const Vector3 target = options.target.value_or(box.center());
-  if (options.eye)
-    return {*options.eye, target, up, options.field_of_view, aspect};
-  const Vector3 toward = direction_to_camera(options, up);
-  const double tangent_y = std::tan(options.field_of_view * degree / 2) * (1 - margin), tangent_x = tangent_y * aspect;
-  const Vector3 right = right_of(-toward, up), above = right.cross(-toward);
-  // A corner p is in the picture if |p.right| <= (distance - p.toward) tangent_x, and likewise upwards.
-  double distance = 1e-9 * box.diagonal();
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 p = Vector3((corner & 1) != 0 ? box.high.x() : box.low.x(), (corner & 2) != 0 ? box.high.y() : box.low.y(),
-                              (corner & 4) != 0 ? box.high.z() : box.low.z()) -
-                      target;
-    distance = std::max({distance, std::abs(p.dot(right)) / tangent_x + p.dot(toward),
-                         std::abs(p.dot(above)) / tangent_y + p.dot(toward)});
-  }
-  return {target + distance * toward, target, up, options.field_of_view, aspect};
+ViewFit::ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin)
+    : options_(options), up_(up), toward_(direction_to_camera(options, up)), right_(right_of(-toward_, up)),
+      above_(right_.cross(-toward_)), aspect_(aspect) {
+  tangent_y_ = std::tan(options.field_of_view * degree / 2) * (1 - 2 * margin);
+  tangent_x_ = tangent_y_ * aspect;
+  most_.fill(-std::numeric_limits<double>::infinity());
+}
+
+void ViewFit::add(const Vector3& center, double radius) {
+  const double near_x = tangent_x_ * center.dot(toward_), near_y = tangent_y_ * center.dot(toward_);
+  const double x = center.dot(right_), y = center.dot(above_);
+  const double reach_x = radius * std::hypot(1, tangent_x_), reach_y = radius * std::hypot(1, tangent_y_);
+  most_ = {std::max(most_[0], near_x + x + reach_x), std::max(most_[1], near_x - x + reach_x),
+           std::max(most_[2], near_y + y + reach_y), std::max(most_[3], near_y - y + reach_y)};
+}
+
+void ViewFit::add(const ViewFit& other) {
+  for (std::size_t i = 0; i < 4; ++i)
+    most_[i] = std::max(most_[i], other.most_[i]);
+}
+
+Camera ViewFit::camera(const Vector3& middle, double growth) const {
+  const Vector3 target = options_.target.value_or(middle);
+  if (options_.eye)
+    return {*options_.eye, target, up_, options_.field_of_view, aspect_};
+  const std::array<Vector3, 4> slope = {tangent_x_ * toward_ + right_, tangent_x_ * toward_ - right_,
+                                        tangent_y_ * toward_ + above_, tangent_y_ * toward_ - above_};
+  std::array<double, 4> most = most_;
+  for (std::size_t i = 0; i < 4; ++i)
+    most[i] += growth * (most[i] - slope[i].dot(middle));
+  Vector3 side; // where the eye is in the plane across its line of sight
+  if (options_.target)
+    side = target - target.dot(toward_) * toward_;
+  else
+    side = 0.5 * (most[0] - most[1]) * right_ + 0.5 * (most[2] - most[3]) * above_;
+  double distance = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 4; ++i)
+    distance = std::max(distance, (most[i] - slope[i].dot(side)) / (i < 2 ? tangent_x_ : tangent_y_));
+  const Vector3 eye = side + distance * toward_;
+  return {eye, eye - toward_, up_, options_.field_of_view, aspect_};
 }
 
 } // namespace sheet::render

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A pinhole camera. Lengths in metres; the tracer works in units of its own (world.h), so rays come as directions.
 #pragma once
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -11,8 +12,8 @@
 namespace sheet::render {
 
 struct CameraOptions {
-  std::optional<Vector3> eye, target; // [m]; absent: found so that everything is in the picture
-  double field_of_view = 28;          // from the picture's lower to its upper edge [degrees]
+  std::optional<Vector3> eye, target;  // [m]; absent: found so that everything is in the picture
+  double field_of_view = 28;           // from the picture's lower to its upper edge [degrees]
   double azimuth = 30, elevation = 25; // [degrees] of the camera as seen from what it looks at, if it is found
 };
 
@@ -54,9 +55,26 @@ private:
 // may be any unit vector.
 [[nodiscard]] Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up);
 
-// The camera that has the whole box in the picture, with a margin of `margin` of the picture around it. The box must
-// not be empty.
-[[nodiscard]] Camera frame_box(const Box& box, const CameraOptions& options, const Vector3& up, double aspect,
-                               double margin);
+// Finds the place of a camera of given direction from which all of some points are in the picture. A point p is in it
+// if
+//   |(p - eye).right| <= tangent_x (eye - p).toward,   likewise upwards,
+// which bounds four linear functions of p: their greatest values over the points are all that need be kept.
+class ViewFit {
+public:
+  // `margin`: part of the picture that stays free at each edge.
+  ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin);
+  void add(const Vector3& center, double radius); // a ball
+  void add(const ViewFit& other);                 // of the same camera
+  // With a target, on the line through it. `growth`: as if all points were so many times their distance farther from
+  // `middle`. At least one point must have been added.
+  [[nodiscard]] Camera camera(const Vector3& middle, double growth) const;
+
+private:
+  CameraOptions options_;
+  Vector3 up_, toward_, right_, above_;
+  double aspect_, tangent_x_, tangent_y_;
+  std::array<double, 4>
+      most_; // of p.(tangent_x toward + right), (.. - right), (tangent_y toward + above), (.. - above)
+};
 
 } // namespace sheet::render

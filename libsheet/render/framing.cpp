@@ -1,29 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/render/framing.h"
 
-#include <algorithm>
-
 namespace sheet::render {
 
-void Survey::add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look) {
-  sheet.add(box_of(frame));
-  for (const SolidMesh& mesh : meshes)
-    solids.add(box_of(mesh, motion_of(scene->solids[mesh.solid], frame.time)));
-  if (look != Look::material && look != Look::wireframe)
-    scale.add(values_of(frame, look));
+void Extent::add(const Vector3& center, double radius) {
+  box.add(center - Vector3::Constant(radius));
+  box.add(center + Vector3::Constant(radius));
+  view.add(center, radius);
 }
 
-Box Survey::subject(double growth) const {
-  Box box = sheet;
-  if (sheet.empty() || solids.diagonal() <= 4 * sheet.diagonal())
-    box.add(solids);
-  if (!box.empty()) {
-    // A point, or a line, has no size to go by.
-    const Vector3 margin = Vector3::Constant(std::max(1e-12, 1e-6 * box.diagonal())) + growth * (box.high - box.low);
-    box.low -= margin;
-    box.high += margin;
+void Extent::add(const Extent& other) {
+  box.add(other.box);
+  view.add(other.view);
+}
+
+void Survey::add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look) {
+  const auto x = positions(frame);
+  const std::vector<double> thickness = vertex_thickness(frame);
+  std::vector<bool> used(x.size(), false);
+  for (const Corners& t : sheet::triangles(frame))
+    for (const std::uint32_t v : t)
+      used[v] = true;
+  for (std::size_t v = 0; v < x.size(); ++v)
+    if (used[v])
+      sheet_.add(x[v], thickness[v] / 2);
+  for (const SolidMesh& mesh : meshes) {
+    const Eigen::Isometry3d motion = motion_of(scene->solids[mesh.solid], frame.time);
+    for (const Vector3& p : mesh.positions)
+      solids_.add(motion * p, 0);
   }
-  return box;
+  if (look != Look::material && look != Look::wireframe)
+    scale_.add(values_of(frame, look));
+}
+
+Extent Survey::subject() const {
+  Extent all = sheet_;
+  if (sheet_.box.empty() || solids_.box.diagonal() <= 4 * sheet_.box.diagonal())
+    all.add(solids_);
+  return all;
 }
 
 Vector3 up_of(const Scene* scene) {

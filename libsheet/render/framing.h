@@ -8,14 +8,27 @@
 
 namespace sheet::render {
 
-struct Survey {
-  Box sheet, solids;              // [m]
-  Scale scale = Scale::nothing(); // of the look's values
+// A box and the camera that sees all of some things.
+struct Extent {
+  Box box; // [m]
+  ViewFit view;
+  void add(const Vector3& center, double radius);
+  void add(const Extent& other);
+};
+
+class Survey {
+public:
+  explicit Survey(const ViewFit& empty) : sheet_{{}, empty}, solids_{{}, empty} {}
   // `meshes`: of the frame's scene.
   void add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look);
-  // What the picture is about: the sheet, and the finite solids unless they are more than 4 times as large; grown by
-  // `growth` of its size to all sides. Empty if there is nothing at all.
-  [[nodiscard]] Box subject(double growth) const;
+  // What the picture is about: the sheet, with half its thickness to all sides, and the finite solids unless they are
+  // more than 4 times as large. Its box is empty if there is nothing at all.
+  [[nodiscard]] Extent subject() const;
+  [[nodiscard]] const Scale& scale() const { return scale_; } // of the look's values
+
+private:
+  Extent sheet_, solids_;
+  Scale scale_ = Scale::nothing();
 };
 
 // The scene's upward direction; y without gravity or scene.

@@ -22,8 +22,8 @@ struct Image {
 
 // What the middle of each pixel hits first.
 struct Layers {
-  std::vector<float> depth; // along the view axis [m]; infinite: nothing
-  std::vector<Vec> normal;  // smoothed, towards the camera; 0: nothing
+  std::vector<float> depth;     // along the view axis [m]; infinite: nothing
+  std::vector<Vec> normal;      // smoothed, towards the camera; 0: nothing
   std::vector<float> thickness; // of the sheet [m]; 0: not the sheet
   std::vector<std::uint32_t> id;
 };
@@ -33,9 +33,9 @@ inline constexpr std::uint32_t nothing_id = 0, sheet_id = 1, ground_id = 2, firs
 struct Picture {
   Image light; // linear radiance
   Layers layers;
-  float noise = 0; // standard error of a pixel's luminance as displayed, root mean square, of 255
+  float noise = 0;       // standard error of a pixel's luminance as displayed, root mean square, of 255
   float worst_noise = 0; // the same of the worst tile
-  double samples = 0; // a pixel, on average
+  double samples = 0;    // a pixel, on average
   std::uint64_t rays = 0;
 };
 
@@ -45,7 +45,8 @@ struct Bitmap {
   std::vector<std::uint8_t> bytes;
   Bitmap(int w, int h) : width(w), height(h), bytes(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
   [[nodiscard]] std::uint8_t* pixel(int x, int y) {
-    return bytes.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    return bytes.data() +
+           3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   }
 };
 

@@ -134,8 +134,8 @@ void Lighting::soften() {
   soft_map_ = Image(soft_columns, soft_rows);
   for (int y = 0; y < soft_rows; ++y)
     for (int x = 0; x < soft_columns; ++x) {
-      const Vec middle = from_map((static_cast<float>(x) + 0.5F) / soft_columns,
-                                  (static_cast<float>(y) + 0.5F) / soft_rows);
+      const Vec middle =
+          from_map((static_cast<float>(x) + 0.5F) / soft_columns, (static_cast<float>(y) + 0.5F) / soft_rows);
       Colour sum = Colour::Zero();
       float weights = 0;
       for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -155,7 +155,8 @@ Lighting Lighting::studio(const Vec& to_camera, const Vec& up) {
   const Basis axes = level(-to_camera, up); // first: ahead, second: left
   const Vec key = (-0.35F * axes.first + 0.75F * axes.second + 0.85F * up).normalized();
   const Vec rim = (0.95F * axes.first - 0.65F * axes.second + 0.45F * up).normalized();
-  return {std::move(map), axes,
+  return {std::move(map),
+          axes,
           {softbox(key, up, 0.24F, 0.30F, Colour(9.0F, 8.6F, 8.0F)),
            softbox(rim, up, 0.09F, 0.42F, Colour(6.0F, 6.3F, 6.8F))}};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light from far away: a sky, or an image of the surroundings, and softboxes. Radiance 1 lights a white matte surface to
-// white.
+// Light from far away: a sky, or an image of the surroundings, and softboxes. Radiance 1 lights a white matte surface
+// to white.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace sheet::render {
 
-// A rectangle infinitely far away, of even radiance: directions whose central projection on the plane at distance 1 along
-// `basis.third` lies within half_width, half_height.
+// A rectangle infinitely far away, of even radiance: directions whose central projection on the plane at distance 1
+// along `basis.third` lies within half_width, half_height.
 struct Softbox {
   Basis basis;
   float half_width, half_height;
@@ -64,8 +64,8 @@ private:
   // Cells of the map: their power summed up along each row, and the rows' sums.
   int columns_ = 0, rows_ = 0;
   std::vector<float> row_sums_, cell_sums_;
-  float map_share_ = 1;          // of samples that go to the map
-  std::vector<float> box_sums_;  // shares of the boxes summed up, by their power; from map_share_ to 1
+  float map_share_ = 1;         // of samples that go to the map
+  std::vector<float> box_sums_; // shares of the boxes summed up, by their power; from map_share_ to 1
 };
 
 } // namespace sheet::render

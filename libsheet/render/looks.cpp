@@ -31,8 +31,7 @@ const std::array<Stop, 5> two_sided = {{{0.0F, {0.09F, 0.25F, 0.55F}},
                                         {0.5F, {0.95F, 0.95F, 0.94F}},
                                         {0.75F, {0.90F, 0.57F, 0.42F}},
                                         {1.0F, {0.62F, 0.10F, 0.15F}}}};
-const std::array<Colour, 3> contact_colours = {
-    {{0.80F, 0.81F, 0.83F}, {0.16F, 0.45F, 0.75F}, {0.86F, 0.33F, 0.16F}}};
+const std::array<Colour, 3> contact_colours = {{{0.80F, 0.81F, 0.83F}, {0.16F, 0.45F, 0.75F}, {0.86F, 0.33F, 0.16F}}};
 
 template <std::size_t N> Colour between(const std::array<Stop, N>& stops, float place) {
   std::size_t i = 1;
@@ -110,7 +109,8 @@ std::vector<double> contacts(const formats::Frame& frame) {
 } // namespace
 
 const std::vector<std::string>& look_names() {
-  static const std::vector<std::string> names = {"material", "thickness", "curvature", "speed", "contacts", "wireframe"};
+  static const std::vector<std::string> names = {"material", "thickness", "curvature",
+                                                 "speed",    "contacts",  "wireframe"};
   return names;
 }
 
@@ -131,9 +131,7 @@ Values values_of(const formats::Frame& frame, Look look) {
   return {};
 }
 
-Scale Scale::nothing() {
-  return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-}
+Scale Scale::nothing() { return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}; }
 
 void Scale::add(const Values& values) {
   for (const double v : values.values)
@@ -170,7 +168,7 @@ Colour false_colour(float place, Look look) {
 Shader look_shader(const World& world, Look look, Values values, const Scale& scale, double pixel_angle) {
   const double width = scale.high - scale.low;
   return [&world, look, values = std::move(values), scale, width, pixel_angle](const Ray& ray, Sampler&,
-                                                                              std::uint64_t& rays) -> Colour {
+                                                                               std::uint64_t& rays) -> Colour {
     ++rays;
     const Hit hit = world.nearest(ray);
     if (!hit.anything() || hit.plane)
@@ -199,8 +197,8 @@ Shader look_shader(const World& world, Look look, Values values, const Scale& sc
     if (values.per_triangle)
       value = values.values[s.source_triangle[hit.triangle]];
     else if (look == Look::contacts) // of the nearest corner: kinds have no middle
-      value = values.values[s.source_vertex[t[static_cast<std::size_t>(
-          std::max_element(weight.begin(), weight.end()) - weight.begin())]]];
+      value = values.values[s.source_vertex[t[static_cast<std::size_t>(std::max_element(weight.begin(), weight.end()) -
+                                                                       weight.begin())]]];
     else
       for (std::size_t i = 0; i < 3; ++i)
         value += static_cast<double>(weight[i]) * values.values[s.source_vertex[t[i]]];

@@ -10,10 +10,10 @@ namespace sheet::render {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr int longest_path = 256;  // meetings; Russian roulette ends nearly all paths long before
-constexpr int sure_meetings = 4;   // before Russian roulette starts, and
-constexpr float faint = 0.1F;      // the weight to which it brings those that are fainter
-constexpr float darkness = 1e-3F;  // a shadow that lets less through is black
+constexpr int longest_path = 256; // meetings; Russian roulette ends nearly all paths long before
+constexpr int sure_meetings = 4;  // before Russian roulette starts, and
+constexpr float faint = 0.1F;     // the weight to which it brings those that are fainter
+constexpr float darkness = 1e-3F; // a shadow that lets less through is black
 
 Vec cosine_direction(const Vec& normal, Point2 p) { // density cos / pi [Malley]
   const float radius = std::sqrt(p.x), angle = 2 * pi * p.y;

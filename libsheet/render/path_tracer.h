@@ -3,10 +3,10 @@
 // weighted against directions that the surface chose itself (multiple importance sampling [Veach and Guibas 1995],
 // balance heuristic); paths end by Russian roulette.
 //
-// A sheet is a slab (slab.h) met where a ray enters its closed surface; the way out on the other side is free, since the
-// slab's formulas hold both faces. Where a ray comes from within (a solid that touches the mid-surface, two layers that
-// overlap), the way out is the meeting. So light that goes through a layer is always dimmed once. Straight light passes
-// without a shift: a slab bends it back. Shadows of clear layers are coloured.
+// A sheet is a slab (slab.h) met where a ray enters its closed surface; the way out on the other side is free, since
+// the slab's formulas hold both faces. Where a ray comes from within (a solid that touches the mid-surface, two layers
+// that overlap), the way out is the meeting. So light that goes through a layer is always dimmed once. Straight light
+// passes without a shift: a slab bends it back. Shadows of clear layers are coloured.
 //
 // One bias, against specks: where a turbid or matte surface sees a mirror image of the lights (caustics), it sees them
 // blurred.
@@ -22,7 +22,8 @@ namespace sheet::render {
 struct Surroundings {
   std::vector<Colour> solids; // reflectance of the scene's solids, matte
   Colour ground{0.68F, 0.66F, 0.63F};
-  float fade_from = 2, fade_to = 9; // planes seen directly blend into the backdrop between these distances, in the world's unit
+  float fade_from = 2,
+        fade_to = 9; // planes seen directly blend into the backdrop between these distances, in the world's unit
 };
 
 class PathTracer {

@@ -39,9 +39,7 @@ void vector_option(Tool& tool, const char* name, std::optional<Vector3>& value, 
         const auto v = numbers<3>(s, ',', "a point such as 0.1,0.2,1", quantity::length);
         value = Vector3(v[0], v[1], v[2]);
       },
-      [&value] {
-        return value ? fmt::format("{},{},{}", value->x(), value->y(), value->z()) : std::string();
-      });
+      [&value] { return value ? fmt::format("{},{},{}", value->x(), value->y(), value->z()) : std::string(); });
 }
 
 void colour_option(Tool& tool, const char* name, std::optional<Colour>& value, const char* text) {
@@ -53,9 +51,7 @@ void colour_option(Tool& tool, const char* name, std::optional<Colour>& value, c
           fail(ExitCode::usage, "\"{}\": none may be negative", s);
         value = Colour(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
       },
-      [&value] {
-        return value ? fmt::format("{},{},{}", (*value)[0], (*value)[1], (*value)[2]) : std::string();
-      });
+      [&value] { return value ? fmt::format("{},{},{}", (*value)[0], (*value)[1], (*value)[2]) : std::string(); });
 }
 
 void size_option(Tool& tool, DrawOptions& draw) {
@@ -157,8 +153,9 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.option("--azimuth", o.camera.azimuth, "DEGREES",
               "where the camera stands if it finds its place itself: angle about the upward axis, from z towards x");
   tool.option("--elevation", o.camera.elevation, "DEGREES", "likewise: angle above level");
-  tool.option("--environment", o.environment, "FILE",
-              "image of the surroundings to light the scene with instead of the studio, .exr or .png, longitude across");
+  tool.option(
+      "--environment", o.environment, "FILE",
+      "image of the surroundings to light the scene with instead of the studio, .exr or .png, longitude across");
   tool.option("--exposure", o.exposure, "STOPS", "brighter by so many factors of two");
   tool.custom(
       "--ground", "auto|none", "the ground below a scene that has no plane of its own",

@@ -17,9 +17,9 @@
 namespace sheet::render {
 namespace {
 
-constexpr double margin = 0.06;        // of the picture, around the subject
+constexpr double margin = 0.04;         // of the picture, around the subject
 constexpr double unknown_growth = 0.25; // of a subject of which only the first frame is known
-constexpr double thinnest = 1e-4;      // of the subject: a sheet below it is drawn as its mid-surface
+constexpr double thinnest = 1e-4;       // of the subject: a sheet below it is drawn as its mid-surface
 
 void check(const RenderOptions& o) {
   const CameraOptions& c = o.camera;
@@ -57,8 +57,8 @@ Liquid liquid_of(const RenderOptions& o) {
 
 // Reflectances of solids, in turn.
 Colour solid_colour(std::size_t i) {
-  static const Colour colours[] = {{0.66F, 0.63F, 0.58F}, {0.45F, 0.52F, 0.58F}, {0.58F, 0.50F, 0.42F},
-                                   {0.50F, 0.55F, 0.48F}};
+  static const Colour colours[] = {
+      {0.66F, 0.63F, 0.58F}, {0.45F, 0.52F, 0.58F}, {0.58F, 0.50F, 0.42F}, {0.50F, 0.55F, 0.48F}};
   return colours[i % 4];
 }
 
@@ -74,7 +74,8 @@ struct RenderStage::Impl {
   std::optional<Scene> scene;
   std::vector<SolidMesh> meshes;
 
-  Survey survey;
+  Vector3 up = Vector3::UnitY(); // in the first scene
+  std::optional<Survey> survey;
   bool surveyed = false; // by survey()
   struct Fixed {         // for all pictures
     Box subject;
@@ -116,31 +117,40 @@ struct RenderStage::Impl {
 
   void look_at(const formats::Frame& frame) {
     read_scene_of(frame);
-    survey.add(frame, scene_or_none(), meshes, options.look);
+    if (!survey) {
+      up = up_of(scene_or_none());
+      const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
+      survey.emplace(ViewFit(options.camera, up, aspect, margin));
+    }
+    survey->add(frame, scene_or_none(), meshes, options.look);
   }
 
-  // Decides what stays the same in all pictures. The scene is that of the frame drawn first.
+  // Decides what stays the same in all pictures.
   void fix(const formats::Frame& frame) {
     if (!surveyed)
       look_at(frame);
-    const Box subject = survey.subject(surveyed ? 0 : unknown_growth);
+    const Extent extent = survey->subject();
+    Box subject = extent.box;
     if (subject.empty())
-      fail(ExitCode::bad_input, "there is nothing to see: the sheet has no triangles and the scene no solids with an end");
-    const Vector3 up = up_of(scene_or_none());
-    const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
+      fail(ExitCode::bad_input,
+           "there is nothing to see: the sheet has no triangles and the scene no solids with an end");
     if (options.camera.eye && !((options.camera.target.value_or(subject.center()) - *options.camera.eye).norm() > 0))
       fail(ExitCode::usage, "--eye is the middle of what there is to see: give --target too");
-    const Camera camera = frame_box(subject, options.camera, up, aspect, margin);
+    const double growth = surveyed ? 0 : unknown_growth;
+    const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.center();
+    subject = {middle - reach, middle + reach};
+    const Camera camera = extent.view.camera(middle, 2 * growth);
     const Vec toward = -camera.axis(), upward = up.cast<float>();
     Fixed f{subject, camera,
             surroundings ? Lighting::surroundings(*surroundings, toward, upward) : Lighting::studio(toward, upward),
-            widened(options.range.value_or(survey.scale), options.look), std::nullopt};
+            widened(options.range.value_or(survey->scale()), options.look), std::nullopt};
     if (options.range)
       f.scale = *options.range;
     if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
     fixed.emplace(std::move(f));
-    const Vector3 eye = camera.eye(), target = options.camera.target.value_or(subject.center());
+    const Vector3 eye = camera.eye(), axis = camera.axis().cast<double>(),
+                  target = options.camera.target.value_or(eye + (middle - eye).dot(axis) * axis);
     log::detail("camera: --eye {:.6g},{:.6g},{:.6g} --target {:.6g},{:.6g},{:.6g}", eye.x(), eye.y(), eye.z(),
                 target.x(), target.y(), target.z());
     if (options.look != Look::material && options.look != Look::wireframe)
@@ -161,7 +171,9 @@ struct RenderStage::Impl {
         return;
     told_out_of_sight = true;
     log::warning("the sheet of the frame at {} s is out of the picture: {}", frame.time,
-                 options.camera.eye ? "--eye and --target look elsewhere" : "give --eye and --target, or read the stream from a file, so that all frames are known");
+                 options.camera.eye
+                     ? "--eye and --target look elsewhere"
+                     : "give --eye and --target, or read the stream from a file, so that all frames are known");
   }
 
   [[nodiscard]] Picture picture_of(const formats::Frame& frame, const World& world, const Progress& progress) const {
@@ -174,7 +186,7 @@ struct RenderStage::Impl {
     Surroundings around;
     for (std::size_t i = 0; scene && i < scene->solids.size(); ++i)
       around.solids.push_back(std::holds_alternative<scene::HalfSpace>(scene->solids[i].shape) ? around.ground
-                                                                                                : solid_colour(i));
+                                                                                               : solid_colour(i));
     const PathTracer tracer(world, fixed->lighting, liquid_of(options), std::move(around));
     return render::draw(
         world, fixed->camera,

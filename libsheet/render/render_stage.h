@@ -17,7 +17,7 @@ namespace sheet::render {
 struct RenderOptions {
   std::string output;            // name of the picture files (NumberedName), .png or .exr; "" with a video
   bool y4m = false, ppm = false; // a video to standard output
-  DrawOptions draw;          // exposure is not used; see below
+  DrawOptions draw;              // exposure is not used; see below
   CameraOptions camera;
   Look look = Look::material;
   std::size_t liquid = 0; // number of the preset

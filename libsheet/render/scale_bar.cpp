@@ -60,7 +60,8 @@ Ruler make_ruler(const Scale& scale, Look look, int most) {
   for (const double round : {5.0, 2.0, 1.0})
     if (round * decade >= raw)
       step = round * decade;
-  Ruler ruler{fmt::format("{} [{}]", look == Look::curvature ? "mean curvature" : look_names()[static_cast<std::size_t>(look)],
+  Ruler ruler{fmt::format("{} [{}]",
+                          look == Look::curvature ? "mean curvature" : look_names()[static_cast<std::size_t>(look)],
                           unit.name),
               {}};
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));

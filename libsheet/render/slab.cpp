@@ -41,7 +41,7 @@ Leaving two_stream(double sigma_a, double sigma_s, double h, double r) {
   const double k = 2 * sigma_a, s = 0.75 * sigma_s, a = 2 * (sigma_a + sigma_s);
   const double kappa = std::sqrt(k * (k + 2 * s));
   if (a * h < 1e-6)
-    return {0.5, 0.5}; // the limit of a thin slab
+    return {0.5, 0.5};                       // the limit of a thin slab
   const double source = -std::expm1(-a * h); // 1 - exp(-a h)
   if (kappa * h < 1e-3) {                    // no absorption worth the name: J - I is the integral of q
     const double w = (1 + r) / (1 - r), q = h / source - 1 / a;
@@ -114,7 +114,8 @@ Straight Slab::straight(float mu, float h) const {
     result.reflected += 0.5F * (face + through * face * tau);
   }
   if (turbid_)
-    result.coupled = (liquid_.scattering / extinction.max(1e-30F) * (1 - result.reflected - result.transmitted)).max(0.0F);
+    result.coupled =
+        (liquid_.scattering / extinction.max(1e-30F) * (1 - result.reflected - result.transmitted)).max(0.0F);
   return result;
 }
 

@@ -36,9 +36,9 @@ struct Fresnel {
 [[nodiscard]] double internal_reflection(float n);
 
 struct Liquid {
-  float index = 1.5F;                   // of refraction
-  Colour absorption = Colour::Zero();   // sigma_a [1/m]
-  Colour scattering = Colour::Zero();   // reduced: sigma_s (1 - g) [1/m]
+  float index = 1.5F;                 // of refraction
+  Colour absorption = Colour::Zero(); // sigma_a [1/m]
+  Colour scattering = Colour::Zero(); // reduced: sigma_s (1 - g) [1/m]
 };
 
 // The presets in the order of liquid_names: chocolate, caramel, honey, batter, glass, film.

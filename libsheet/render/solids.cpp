@@ -91,36 +91,36 @@ bool add_shape(const scene::SolidShape& shape, SolidMesh& mesh) {
   using namespace scene;
   std::vector<ProfilePoint> profile;
   return std::visit(
-      Overloaded{[&](const Sphere& s) {
-                   add_arc(s.radius, 0, 0, pi, profile);
-                   revolve(profile, mesh);
-                   return true;
-                 },
-                 [&](const SolidBox& s) {
-                   add_box(s.size, mesh);
-                   return true;
-                 },
-                 [&](const Capsule& s) {
-                   add_arc(s.radius, s.length / 2, 0, pi / 2, profile);
-                   add_arc(s.radius, -s.length / 2, pi / 2, pi, profile);
-                   revolve(profile, mesh);
-                   return true;
-                 },
-                 [&](const Cylinder& s) {
-                   const double r = s.radius, y = s.height / 2;
-                   revolve({{0, y, 0, 1}, {r, y, 0, 1}, {r, y, 1, 0}, {r, -y, 1, 0}, {r, -y, 0, -1}, {0, -y, 0, -1}},
-                           mesh);
-                   return true;
-                 },
-                 [](const HalfSpace&) { return false; },
-                 [&](const scene::SolidMesh& s) {
-                   if (s.file.ends_with(".vdb")) {
-                     log::warning("[[solid]] {}: {} is a distance field and is not drawn", mesh.solid, s.file);
-                     return false;
-                   }
-                   add_file(s, mesh);
-                   return true;
-                 }},
+      Overloaded{
+          [&](const Sphere& s) {
+            add_arc(s.radius, 0, 0, pi, profile);
+            revolve(profile, mesh);
+            return true;
+          },
+          [&](const SolidBox& s) {
+            add_box(s.size, mesh);
+            return true;
+          },
+          [&](const Capsule& s) {
+            add_arc(s.radius, s.length / 2, 0, pi / 2, profile);
+            add_arc(s.radius, -s.length / 2, pi / 2, pi, profile);
+            revolve(profile, mesh);
+            return true;
+          },
+          [&](const Cylinder& s) {
+            const double r = s.radius, y = s.height / 2;
+            revolve({{0, y, 0, 1}, {r, y, 0, 1}, {r, y, 1, 0}, {r, -y, 1, 0}, {r, -y, 0, -1}, {0, -y, 0, -1}}, mesh);
+            return true;
+          },
+          [](const HalfSpace&) { return false; },
+          [&](const scene::SolidMesh& s) {
+            if (s.file.ends_with(".vdb")) {
+              log::warning("[[solid]] {}: {} is a distance field and is not drawn", mesh.solid, s.file);
+              return false;
+            }
+            add_file(s, mesh);
+            return true;
+          }},
       shape);
 }
 
@@ -158,12 +158,5 @@ std::vector<Plane> make_planes(const Scene& scene, double time) {
 }
 
 Eigen::Isometry3d motion_of(const scene::Solid& solid, double time) { return motion_between(solid.motion, 0, time); }
-
-Box box_of(const SolidMesh& mesh, const Eigen::Isometry3d& motion) {
-  Box box;
-  for (const Vector3& x : mesh.positions)
-    box.add(motion * x);
-  return box;
-}
 
 } // namespace sheet::render

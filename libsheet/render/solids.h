@@ -19,17 +19,16 @@ struct SolidMesh {
 };
 
 struct Plane {
-  std::uint32_t id = 0; // of Layers
+  std::uint32_t id = 0;                                       // of Layers
   Vector3 point = Vector3::Zero(), normal = Vector3::UnitY(); // normal of length 1
 };
 
-// Meshes of all finite solids of a scene. Mesh files are read; one that cannot be is an Error (io, bad_input) that names
-// the solid; .vdb files are passed over with a warning.
+// Meshes of all finite solids of a scene. Mesh files are read; one that cannot be is an Error (io, bad_input) that
+// names the solid; .vdb files are passed over with a warning.
 [[nodiscard]] std::vector<SolidMesh> make_solids(const Scene& scene);
 // The half-spaces at `time` [s].
 [[nodiscard]] std::vector<Plane> make_planes(const Scene& scene, double time);
 // Where the solid has moved to at `time` [s].
 [[nodiscard]] Eigen::Isometry3d motion_of(const scene::Solid& solid, double time);
-[[nodiscard]] Box box_of(const SolidMesh& mesh, const Eigen::Isometry3d& motion);
 
 } // namespace sheet::render

@@ -42,9 +42,8 @@ std::vector<RimEdge> rim_of(std::span<const Corners> triangles) {
     for (std::size_t i = 0; i < 3; ++i)
       edges.push_back({triangles[t][i], triangles[t][(i + 1) % 3], t});
   const auto key = [](const RimEdge& e) { return std::minmax(e.from, e.to); };
-  std::stable_sort(edges.begin(), edges.end(), [&](const RimEdge& a, const RimEdge& b) {
-    return std::pair(key(a)) < std::pair(key(b));
-  });
+  std::stable_sort(edges.begin(), edges.end(),
+                   [&](const RimEdge& a, const RimEdge& b) { return std::pair(key(a)) < std::pair(key(b)); });
   std::vector<RimEdge> rim;
   for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
     for (end = i + 1; end < edges.size() && std::pair(key(edges[end])) == std::pair(key(edges[i])); ++end) {
@@ -162,17 +161,6 @@ Surface make_surface(const formats::Frame& frame, double thinnest) {
       s.source_triangle[t] = number[s.source_triangle[t]];
   }
   return s;
-}
-
-Box box_of(const formats::Frame& frame) {
-  const auto x = positions(frame);
-  const std::vector<double> h = vertex_thickness(frame);
-  Box box;
-  for (const Corners& t : sheet::triangles(frame))
-    for (const std::uint32_t v : t)
-      for (const double side : {-0.5, 0.5})
-        box.add(x[v] + side * h[v] * Vector3::Ones());
-  return box;
 }
 
 } // namespace sheet::render

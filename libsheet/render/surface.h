@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surface of a sheet of liquid as it is drawn: both sides of the mid-surface at half the thickness, closed along the
-// rim by a half-round bead. The bead stands out by half the thickness; a true rim of the same volume would stand out
-// less.
+// The surface of a sheet of liquid as it is drawn: both sides of the mid-surface at half the thickness, closed along
+// the rim by a half-round bead. The bead stands out by half the thickness; a true rim of the same volume would stand
+// out less.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -13,8 +13,8 @@
 namespace sheet::render {
 
 struct Surface {
-  std::vector<Vector3> positions; // [m]
-  std::vector<Vec> normals;       // outwards, smooth
+  std::vector<Vector3> positions;           // [m]
+  std::vector<Vec> normals;                 // outwards, smooth
   std::vector<std::uint32_t> source_vertex; // of the sheet, for each position
   std::vector<Corners> triangles;           // counter-clockwise from outside
   std::vector<std::uint32_t> source_triangle;
@@ -28,8 +28,5 @@ struct Surface {
 
 // All volume around a vertex over all area around it [m]; 0 where there is no area.
 [[nodiscard]] std::vector<double> vertex_thickness(const formats::Frame& frame);
-
-// Around the vertices of the triangles, with half the thickness to all sides [m].
-[[nodiscard]] Box box_of(const formats::Frame& frame);
 
 } // namespace sheet::render

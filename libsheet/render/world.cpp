@@ -47,13 +47,14 @@ struct World::Impl {
 
   [[nodiscard]] Vec to_world(const Vector3& x) const { return ((x - center) / unit).cast<float>(); }
 
-  template <class Place> void add(std::uint32_t id, const std::vector<Vector3>& positions, std::vector<Vec> normals,
-                                  const std::vector<Corners>& triangles, Place&& place) {
+  template <class Place>
+  void add(std::uint32_t id, const std::vector<Vector3>& positions, std::vector<Vec> normals,
+           const std::vector<Corners>& triangles, Place&& place) {
     if (triangles.empty())
       return;
     RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* corners = static_cast<Corner*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 sizeof(Corner), positions.size()));
+    auto* corners = static_cast<Corner*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Corner), positions.size()));
     auto* indices = static_cast<Corners*>(
         rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Corners), triangles.size()));
     if (corners == nullptr || indices == nullptr)

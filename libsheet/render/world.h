@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything that rays may hit: the sheet, the solids, planes. Lengths are in the world's own unit, chosen so that what is
-// drawn measures about 1 and lies at the origin: single precision is fine enough then.
+// Everything that rays may hit: the sheet, the solids, planes. Lengths are in the world's own unit, chosen so that what
+// is drawn measures about 1 and lies at the origin: single precision is fine enough then.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -17,20 +17,21 @@ struct Ray {
 };
 
 struct Hit {
-  std::uint32_t id = nothing_id;   // of Layers
-  float distance = 0;              // along the ray
-  Vec position = Vec::Zero();      //
-  Vec face = Vec::Zero();          // normal of the triangle, outwards
-  Vec normal = Vec::Zero();        // smooth normal, outwards
-  float u = 0, v = 0;              // barycentric coordinates of the triangle's second and third corner
-  std::uint32_t triangle = 0;      // of Surface, if the sheet is hit
-  bool plane = false;              // a Plane is hit
+  std::uint32_t id = nothing_id; // of Layers
+  float distance = 0;            // along the ray
+  Vec position = Vec::Zero();    //
+  Vec face = Vec::Zero();        // normal of the triangle, outwards
+  Vec normal = Vec::Zero();      // smooth normal, outwards
+  float u = 0, v = 0;            // barycentric coordinates of the triangle's second and third corner
+  std::uint32_t triangle = 0;    // of Surface, if the sheet is hit
+  bool plane = false;            // a Plane is hit
   [[nodiscard]] bool anything() const { return id != nothing_id; }
 };
 
 class World {
 public:
-  // Surface, meshes and their motions must outlive the world only until it is built. `box` is what the picture is about.
+  // Surface, meshes and their motions must outlive the world only until it is built. `box` is what the picture is
+  // about.
   World(const Surface& surface, const std::vector<SolidMesh>& meshes, const std::vector<Eigen::Isometry3d>& motions,
         const std::vector<Plane>& planes, const Box& box);
   ~World();

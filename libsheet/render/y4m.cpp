@@ -31,7 +31,8 @@ std::string y4m_header(int width, int height, double frames_per_second) {
 std::string encode_y4m(const Bitmap& bitmap) {
   const Matrix m = matrix_for(bitmap);
   const auto rgb = [&](int x, int y, int c) {
-    const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(bitmap.width) + static_cast<std::size_t>(x);
+    const auto pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(bitmap.width) + static_cast<std::size_t>(x);
     return bitmap.bytes[3 * pixel + static_cast<std::size_t>(c)] / 255.0;
   };
   std::string bytes = "FRAME\n";
@@ -46,8 +47,7 @@ std::string encode_y4m(const Bitmap& bitmap) {
         for (const int dy : {0, 1})
           for (const int dx : {0, 1}) {
             const int i = std::min(x + dx, bitmap.width - 1), j = std::min(y + dy, bitmap.height - 1);
-            const double luma =
-                m.red * rgb(i, j, 0) + (1 - m.red - m.blue) * rgb(i, j, 1) + m.blue * rgb(i, j, 2);
+            const double luma = m.red * rgb(i, j, 0) + (1 - m.red - m.blue) * rgb(i, j, 1) + m.blue * rgb(i, j, 2);
             sum += (rgb(i, j, c) - luma) / (2 * (1 - part));
           }
         bytes += byte(128 + 224 * sum / 4);

@@ -10,8 +10,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "libsheet/render/path_tracer.h"
 #include "libsheet/render/draw.h"
+#include "libsheet/render/path_tracer.h"
 #include "tests/unit/render/scenes.h"
 
 using namespace sheet;
@@ -53,12 +53,12 @@ int main(int argc, char** argv) {
               "ray/bare_ray,ray/wild_ray\n");
   for (const int n : {50, 158}) {
     const formats::Frame frame = test::trough(n, 0.005);
-    const Box box = box_of(frame);
+    const Box box = test::box_of(frame);
     const std::vector<Plane> ground = {{ground_id, Vector3(0, -0.6, 0), Vector3::UnitY()}};
     const Surface surface = make_surface(frame, 1e-4);
     const World world(surface, {}, {}, ground, box);
     const double build = measure(repetitions, [&] { const World again(surface, {}, {}, ground, box); });
-    const Camera camera = frame_box(box, {}, Vector3::UnitY(), 16.0 / 9, 0.06);
+    const Camera camera = test::frame_box(box, {}, Vector3::UnitY(), 16.0 / 9, 0.06);
     const Vec eye = world.to_world(camera.eye());
     const double bare = cast(world, o, repetitions, [&](int x, int y, int s) {
       return Ray{eye, camera.direction((x + (s + 0.5) / o.samples) / o.width, (y + 0.5) / o.height)};

@@ -8,6 +8,8 @@
 namespace sheet::render {
 namespace {
 
+const ViewFit any_view({}, Vector3::UnitY(), 1, 0);
+
 Box box(const Vector3& low, const Vector3& high) {
   Box b;
   b.add(low);
@@ -24,7 +26,8 @@ TEST(Camera, the_box_is_in_the_picture_and_fills_it) {
           o.azimuth = azimuth;
           o.elevation = elevation;
           const Box b = box({1, 2, 3}, {1.4, 2.1, 5});
-          const Camera camera = frame_box(b, o, up, aspect, 0.05), tight = frame_box(b, o, up, aspect, -0.05);
+          const Camera camera = test::frame_box(b, o, up, aspect, 0.02),
+                       tight = test::frame_box(b, o, up, aspect, -0.02);
           bool all = true, all_tight = true;
           for (int c = 0; c < 8; ++c) {
             const Vector3 p((c & 1) != 0 ? 1.4 : 1, (c & 2) != 0 ? 2.1 : 2, (c & 4) != 0 ? 5 : 3);
@@ -34,6 +37,22 @@ TEST(Camera, the_box_is_in_the_picture_and_fills_it) {
           EXPECT_TRUE(all);
           EXPECT_FALSE(all_tight);
         }
+}
+
+TEST(Camera, grows_about_the_middle_and_looks_at_its_target) {
+  CameraOptions o;
+  ViewFit fit(o, {0, 1, 0}, 1, 0);
+  fit.add({0, 0, 0}, 1);
+  const Vector3 eye = fit.camera({0, 0, 0}, 0).eye(), far = fit.camera({0, 0, 0}, 0.5).eye();
+  EXPECT_NEAR(eye.norm(), 1 / std::sin(14 * std::numbers::pi / 180), 1e-9); // the cone touches the ball
+  EXPECT_NEAR((far - 1.5 * eye).norm(), 0, 1e-9);
+  o.target = Vector3(0.3, 0.1, 0.2);
+  ViewFit aimed(o, {0, 1, 0}, 1, 0);
+  aimed.add({0, 0, 0}, 1);
+  const Camera camera = aimed.camera({0, 0, 0}, 0);
+  EXPECT_NEAR((*o.target - camera.eye()).normalized().dot(camera.axis().cast<double>()), 1, 1e-6);
+  for (const Vector3& p : {Vector3(1, 0, 0), Vector3(0, -1, 0), Vector3(0, 0, -1), Vector3(0, 1, 0)})
+    EXPECT_TRUE(camera.sees(p));
 }
 
 TEST(Camera, directions_are_upright) {
@@ -55,14 +74,14 @@ TEST(Survey, solids_count_unless_they_are_large) {
   scene.solids[0].center = {0, -1, 0};
   for (const double radius : {0.2, 20.0}) {
     scene.solids[0].shape = scene::Sphere{radius};
-    Survey survey;
+    Survey survey(any_view);
     survey.add(frame, &scene, make_solids(scene), Look::material);
-    EXPECT_NEAR(survey.subject(0).low.y(), radius < 1 ? -1.2 : -0.005, 1e-3);
+    EXPECT_NEAR(survey.subject().box.low.y(), radius < 1 ? -1.2 : -0.005, 1e-3);
   }
-  Survey empty;
+  Survey empty(any_view);
   empty.add(make_frame({}, {}, {}), nullptr, {}, Look::thickness);
-  EXPECT_TRUE(empty.subject(0.25).empty());
-  EXPECT_TRUE(empty.scale.empty());
+  EXPECT_TRUE(empty.subject().box.empty());
+  EXPECT_TRUE(empty.scale().empty());
 }
 
 TEST(Survey, moving_solids_are_seen_where_they_are) {
@@ -74,9 +93,9 @@ TEST(Survey, moving_solids_are_seen_where_they_are) {
   scene::Translating moving;
   moving.velocity.entries = {{0, Vector3(0, 0.5, 0)}};
   scene.solids[0].motion = moving;
-  Survey survey;
+  Survey survey(any_view);
   survey.add(frame, &scene, make_solids(scene), Look::material);
-  EXPECT_NEAR(survey.subject(0).high.y(), 1.1, 1e-4);
+  EXPECT_NEAR(survey.subject().box.high.y(), 1.1, 1e-4);
 }
 
 TEST(Ground, lies_below) {

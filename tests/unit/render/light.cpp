@@ -71,8 +71,9 @@ TEST(Lighting, density_is_one_over_the_sphere_and_samples_follow_it) {
       for (int j = 0; j < columns; ++j) {
         const double polar = pi * (i + 0.5) / rows, longitude = 2 * pi * (j + 0.5) / columns;
         const double solid_angle = std::sin(polar) * (pi / rows) * (2 * pi / columns);
-        const Vec d = Vector3(std::sin(polar) * std::cos(longitude), std::cos(polar), std::sin(polar) * std::sin(longitude))
-                          .cast<float>();
+        const Vec d =
+            Vector3(std::sin(polar) * std::cos(longitude), std::cos(polar), std::sin(polar) * std::sin(longitude))
+                .cast<float>();
         whole += solid_angle * static_cast<double>(light.at(d).density);
         grid += solid_angle * static_cast<double>(luminance(light.at(d).radiance));
       }

@@ -28,7 +28,7 @@ TEST(FalseColours, a_picture_tells_the_thickness_of_each_triangle) {
   formats::Frame frame = test::flat(4, 0.01);
   for (std::size_t t = 0; t < frame.triangles; ++t)
     volumes(frame)[t] *= 1 + static_cast<double>(t) / 31;
-  const Box box = box_of(frame);
+  const Box box = test::box_of(frame);
   const World world(make_surface(frame, 1e-4), {}, {}, {}, box);
   const Values values = values_of(frame, Look::thickness);
   Scale scale = Scale::nothing();

@@ -22,10 +22,11 @@ struct Furnace {
 };
 
 Picture draw_furnace(const Furnace& f, const Liquid& liquid, int pixels, int samples, double elevation = 25) {
-  Box box = box_of(f.frame);
+  Box box = test::box_of(f.frame);
   const std::vector<Eigen::Isometry3d> motions(f.solids.size(), Eigen::Isometry3d::Identity());
-  for (std::size_t i = 0; i < f.solids.size(); ++i)
-    box.add(box_of(f.solids[i], motions[i]));
+  for (const SolidMesh& solid : f.solids)
+    for (const Vector3& p : solid.positions)
+      box.add(p);
   const World world(make_surface(f.frame, f.thinnest), f.solids, motions, {}, box);
   const Lighting lighting = Lighting::uniform(1);
   Surroundings around;
@@ -33,7 +34,7 @@ Picture draw_furnace(const Furnace& f, const Liquid& liquid, int pixels, int sam
   const PathTracer tracer(world, lighting, liquid, around);
   CameraOptions options;
   options.elevation = elevation;
-  const Camera camera = frame_box(box, options, Vector3::UnitY(), 1, 0.05);
+  const Camera camera = test::frame_box(box, options, Vector3::UnitY(), 1, 0.05);
   DrawOptions draw_options;
   draw_options.width = draw_options.height = pixels;
   draw_options.samples = samples;

@@ -62,7 +62,8 @@ TEST(Decoders, refuse_what_is_no_picture) {
   Picture picture;
   picture.light = ramp(8, 8);
   const std::string png = encode_png(to_bitmap(picture.light, Tone::plain)), exr = encode_exr(picture);
-  for (std::size_t length = 0; length + 32 < png.size(); length += 7) // without its end mark alone it is still a picture
+  for (std::size_t length = 0; length + 32 < png.size();
+       length += 7) // without its end mark alone it is still a picture
     EXPECT_THROW(static_cast<void>(decode_png(png.substr(0, length), "cut.png")), Error) << length;
   for (std::size_t length = 0; length + 1 < exr.size(); length += 7)
     EXPECT_THROW(static_cast<void>(decode_exr(exr.substr(0, length), "cut.exr")), Error) << length;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "libsheet/render/surface.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::render::test {
@@ -49,6 +50,25 @@ inline formats::Frame ball(int n, double thickness) {
     const double a = 2 * std::numbers::pi * s, p = 0.02 + (std::numbers::pi - 0.04) * (1 - t);
     return V(0.5 * std::sin(p) * std::sin(a), 0.5 * std::cos(p), 0.5 * std::sin(p) * std::cos(a));
   });
+}
+
+// A box around the sheet, and a camera that sees all of a box.
+inline Box box_of(const formats::Frame& frame) {
+  Box box;
+  const std::vector<double> h = vertex_thickness(frame);
+  for (std::size_t v = 0; v < h.size(); ++v)
+    for (const double side : {-0.5, 0.5})
+      box.add(positions(frame)[v] + side * h[v] * V::Ones());
+  return box;
+}
+
+inline Camera frame_box(const Box& box, const CameraOptions& options, const V& up, double aspect, double margin) {
+  ViewFit fit(options, up, aspect, margin);
+  for (int corner = 0; corner < 8; ++corner)
+    fit.add(V((corner & 1) != 0 ? box.high.x() : box.low.x(), (corner & 2) != 0 ? box.high.y() : box.low.y(),
+              (corner & 4) != 0 ? box.high.z() : box.low.z()),
+            0);
+  return fit.camera(box.center(), 0);
 }
 
 } // namespace sheet::render::test

@@ -76,7 +76,8 @@ TEST(Slab, gains_nothing_and_absorbs_more_where_it_is_thicker) {
   for (const float h : {1e-5F, 1e-4F, 1e-3F, 1e-2F, 1e-1F}) {
     const Straight s = slab.straight(0.8F, h);
     const Diffuse d = slab.diffuse(h);
-    const double sum = static_cast<double>((s.reflected + s.transmitted + s.coupled * (d.reflected + d.transmitted))[0]);
+    const double sum =
+        static_cast<double>((s.reflected + s.transmitted + s.coupled * (d.reflected + d.transmitted))[0]);
     EXPECT_LT(sum, before);
     EXPECT_GT(sum, 0);
     before = sum;

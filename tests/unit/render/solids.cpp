@@ -13,11 +13,10 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 TEST(Solids, have_their_volume_and_face_outwards) {
-  const std::pair<scene::SolidShape, double> cases[] = {
-      {scene::Sphere{0.5}, 4 * pi / 3 * 0.125},
-      {scene::SolidBox{{1, 2, 3}}, 6},
-      {scene::Capsule{0.5, 2}, 4 * pi / 3 * 0.125 + pi * 0.25 * 2},
-      {scene::Cylinder{0.5, 2}, pi * 0.25 * 2}};
+  const std::pair<scene::SolidShape, double> cases[] = {{scene::Sphere{0.5}, 4 * pi / 3 * 0.125},
+                                                        {scene::SolidBox{{1, 2, 3}}, 6},
+                                                        {scene::Capsule{0.5, 2}, 4 * pi / 3 * 0.125 + pi * 0.25 * 2},
+                                                        {scene::Cylinder{0.5, 2}, pi * 0.25 * 2}};
   for (const auto& [shape, volume] : cases) {
     Scene scene;
     scene.solids.resize(1);
