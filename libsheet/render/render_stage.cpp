@@ -143,9 +143,7 @@ struct RenderStage::Impl {
     const Vec toward = -camera.axis(), upward = up.cast<float>();
     Fixed f{subject, camera,
             surroundings ? Lighting::surroundings(*surroundings, toward, upward) : Lighting::studio(toward, upward),
-            widened(options.range.value_or(survey->scale()), options.look), std::nullopt};
-    if (options.range)
-      f.scale = *options.range;
+            options.range ? *options.range : widened(survey->scale(), options.look), std::nullopt};
     if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
     fixed.emplace(std::move(f));
