@@ -52,11 +52,12 @@ Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up) {
   return std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside) + std::sin(elevation) * up;
 }
 
-ViewFit::ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin)
+ViewFit::ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin_x, double margin_y)
     : options_(options), up_(up), toward_(direction_to_camera(options, up)), right_(right_of(-toward_, up)),
       above_(right_.cross(-toward_)), aspect_(aspect) {
-  tangent_y_ = std::tan(options.field_of_view * degree / 2) * (1 - 2 * margin);
-  tangent_x_ = tangent_y_ * aspect;
+  const double tangent = std::tan(options.field_of_view * degree / 2);
+  tangent_x_ = tangent * aspect * (1 - 2 * margin_x);
+  tangent_y_ = tangent * (1 - 2 * margin_y);
   most_.fill(-std::numeric_limits<double>::infinity());
 }
 

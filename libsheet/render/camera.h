@@ -61,8 +61,8 @@ private:
 // which bounds four linear functions of p: their greatest values over the points are all that need be kept.
 class ViewFit {
 public:
-  // `margin`: part of the picture that stays free at each edge.
-  ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin);
+  // Margins: parts of the picture's width and height that stay free at each edge.
+  ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin_x, double margin_y);
   void add(const Vector3& center, double radius); // a ball
   void add(const ViewFit& other);                 // of the same camera
   // With a target, on the line through it. `growth`: as if all points were so many times their distance farther from

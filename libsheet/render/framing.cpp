@@ -29,7 +29,7 @@ void Survey::add(const formats::Frame& frame, const Scene* scene, const std::vec
     for (const Vector3& p : mesh.positions)
       solids_.add(motion * p, 0);
   }
-  if (look != Look::material && look != Look::wireframe)
+  if (has_scale(look))
     scale_.add(values_of(frame, look));
 }
 

@@ -114,6 +114,8 @@ const std::vector<std::string>& look_names() {
   return names;
 }
 
+bool has_scale(Look look) { return look != Look::material && look != Look::wireframe; }
+
 Values values_of(const formats::Frame& frame, Look look) {
   switch (look) {
   case Look::thickness:

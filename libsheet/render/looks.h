@@ -12,6 +12,8 @@ namespace sheet::render {
 
 enum class Look { material, thickness, curvature, speed, contacts, wireframe };
 [[nodiscard]] const std::vector<std::string>& look_names();
+// Whether it shows values, and so a scale or a key beside the sheet.
+[[nodiscard]] bool has_scale(Look look);
 
 // What a look shows, one value a triangle or one a vertex.
 //   thickness  volume / area of each triangle [m], as sheet-info measures it

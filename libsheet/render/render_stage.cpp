@@ -18,6 +18,7 @@ namespace sheet::render {
 namespace {
 
 constexpr double margin = 0.04;         // of the picture, around the subject
+constexpr double scale_margin = 0.19;   // of its width, where a scale is drawn
 constexpr double unknown_growth = 0.25; // of a subject of which only the first frame is known
 constexpr double thinnest = 1e-4;       // of the subject: a sheet below it is drawn as its mid-surface
 
@@ -120,7 +121,7 @@ struct RenderStage::Impl {
     if (!survey) {
       up = up_of(scene_or_none());
       const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
-      survey.emplace(ViewFit(options.camera, up, aspect, margin));
+      survey.emplace(ViewFit(options.camera, up, aspect, has_scale(options.look) ? scale_margin : margin, margin));
     }
     survey->add(frame, scene_or_none(), meshes, options.look);
   }
@@ -151,7 +152,7 @@ struct RenderStage::Impl {
                   target = options.camera.target.value_or(eye + (middle - eye).dot(axis) * axis);
     log::detail("camera: --eye {:.6g},{:.6g},{:.6g} --target {:.6g},{:.6g},{:.6g}", eye.x(), eye.y(), eye.z(),
                 target.x(), target.y(), target.z());
-    if (options.look != Look::material && options.look != Look::wireframe)
+    if (has_scale(options.look))
       log::detail("scale: {:.9g} to {:.9g}", fixed->scale.low, fixed->scale.high);
   }
 

@@ -8,7 +8,7 @@
 namespace sheet::render {
 namespace {
 
-const ViewFit any_view({}, Vector3::UnitY(), 1, 0);
+const ViewFit any_view({}, Vector3::UnitY(), 1, 0, 0);
 
 Box box(const Vector3& low, const Vector3& high) {
   Box b;
@@ -41,13 +41,13 @@ TEST(Camera, the_box_is_in_the_picture_and_fills_it) {
 
 TEST(Camera, grows_about_the_middle_and_looks_at_its_target) {
   CameraOptions o;
-  ViewFit fit(o, {0, 1, 0}, 1, 0);
+  ViewFit fit(o, {0, 1, 0}, 1, 0, 0);
   fit.add({0, 0, 0}, 1);
   const Vector3 eye = fit.camera({0, 0, 0}, 0).eye(), far = fit.camera({0, 0, 0}, 0.5).eye();
   EXPECT_NEAR(eye.norm(), 1 / std::sin(14 * std::numbers::pi / 180), 1e-9); // the cone touches the ball
   EXPECT_NEAR((far - 1.5 * eye).norm(), 0, 1e-9);
   o.target = Vector3(0.3, 0.1, 0.2);
-  ViewFit aimed(o, {0, 1, 0}, 1, 0);
+  ViewFit aimed(o, {0, 1, 0}, 1, 0, 0);
   aimed.add({0, 0, 0}, 1);
   const Camera camera = aimed.camera({0, 0, 0}, 0);
   EXPECT_NEAR((*o.target - camera.eye()).normalized().dot(camera.axis().cast<double>()), 1, 1e-6);
