@@ -69,7 +69,7 @@ public:
 
   // The point of a triangle where the signed distance is least, within `tolerance` where that takes at most some
   // thousand evaluations: for the response and for measurements, not for guarantees.
-  [[nodiscard]] TrianglePoint deepest(const Triangle3& triangle, double tolerance) const;
+  [[nodiscard]] virtual TrianglePoint deepest(const Triangle3& triangle, double tolerance) const;
 };
 
 // The point with these barycentric weights.

@@ -2,7 +2,7 @@
 // Nearest points of a closed triangle mesh, through a binary tree of boxes.
 #pragma once
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "libsheet/collide/solid_distance.h"
@@ -19,9 +19,8 @@ public:
   [[nodiscard]] const Box3& bounds() const { return nodes_.front().box; }
 
   // Signed distance and outward normal. The sign is that of the angle-weighted normal at the nearest point, which is
-  // right for every closed mesh [Baerentzen, Aanaes 2005]. Looks no farther than `within` [m], which must exceed the
-  // distance.
-  [[nodiscard]] Near nearest(const Vector3& x, double within) const;
+  // right for every closed mesh [Baerentzen, Aanaes 2005]. Nothing where the surface is `within` [m] away or more.
+  [[nodiscard]] std::optional<Near> nearest(const Vector3& x, double within) const;
 
   // The least distance between the mesh and a triangle, where it is below `within`; else `within`. Zero where they
   // intersect. `point`: the triangle's point nearest to the mesh, its normal the direction from the mesh.
