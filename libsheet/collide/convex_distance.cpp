@@ -4,49 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/collide/triangle_part.h"
+
 namespace sheet::collide {
 namespace {
-
-using Weights = std::array<double, 3>;
-using Part = std::array<Weights, 3>; // the corners of a part of the triangle
-
-const Part whole = {Weights{1, 0, 0}, Weights{0, 1, 0}, Weights{0, 0, 1}};
-
-Weights mean(const Weights& a, const Weights& b) { return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2}; }
-
-Weights middle(const Part& part) {
-  Weights result;
-  for (std::size_t i = 0; i < 3; ++i)
-    result[i] = (part[0][i] + part[1][i] + part[2][i]) / 3;
-  return result;
-}
-
-Triangle3 place(const Part& part, const Triangle3& triangle) {
-  return {point_of(triangle, part[0]), point_of(triangle, part[1]), point_of(triangle, part[2])};
-}
-
-// The longest side, named by the corner opposite to it.
-struct Side {
-  double length;
-  std::size_t opposite;
-};
-Side longest_side(const Triangle3& t) {
-  Side result{-1, 0};
-  for (std::size_t i = 0; i < 3; ++i)
-    if (const double length = (t[(i + 1) % 3] - t[(i + 2) % 3]).norm(); length > result.length)
-      result = {length, i};
-  return result;
-}
-
-// The halves of a part, cut from the given corner to the middle of the side opposite to it.
-std::array<Part, 2> halves(const Part& part, std::size_t corner) {
-  const std::size_t next = (corner + 1) % 3, last = (corner + 2) % 3;
-  const Weights cut = mean(part[next], part[last]);
-  Part first = part, second = part;
-  first[last] = cut;
-  second[next] = cut;
-  return {first, second};
-}
 
 // A tolerance that halving can reach with these coordinates.
 double reachable(double tolerance, const Triangle3& t) {
@@ -58,7 +19,7 @@ public:
   HitSearch(const SolidDistance& shape, const MovingTriangle& triangle, double clearance, double tolerance)
       : shape_(shape), triangle_(triangle), clearance_(clearance),
         tolerance_(std::max(reachable(tolerance, triangle.start), reachable(tolerance, triangle.end))) {
-    search(whole, 0, 1);
+    search(kWhole, 0, 1);
   }
 
   [[nodiscard]] std::optional<TriangleHit> first() const {
@@ -68,7 +29,7 @@ public:
   }
 
 private:
-  void search(const Part& part, double from, double to) {
+  void search(const TrianglePart& part, double from, double to) {
     if (found_ && from >= s_)
       return;
     const Triangle3 before = place(part, triangle_.at(from)), after = place(part, triangle_.at(to));
@@ -90,13 +51,13 @@ private:
       weights_ = middle(part);
       return;
     }
-    const Side a = longest_side(before), b = longest_side(after);
-    const Side side = a.length >= b.length ? a : b;
+    const LongestSide a = longest_side(before), b = longest_side(after);
+    const LongestSide side = a.length >= b.length ? a : b;
     if (travel >= side.length) { // the earlier half first: what it finds spares the later one
       search(part, from, (from + to) / 2);
       search(part, (from + to) / 2, to);
     } else {
-      for (const Part& half : halves(part, side.opposite))
+      for (const TrianglePart& half : halves(part, side.opposite))
         search(half, from, to);
     }
   }
@@ -115,27 +76,25 @@ public:
   DepthSearch(const SolidDistance& shape, const Triangle3& triangle, double enough, double tolerance)
       : shape_(shape), triangle_(triangle), best_{{}, {enough, Vector3::Zero()}},
         tolerance_(reachable(tolerance, triangle)) {
-    search(whole);
+    search(kWhole);
   }
 
   [[nodiscard]] const TrianglePoint& best() const { return best_; }
 
 private:
-  void search(const Part& part) {
+  void search(const TrianglePart& part) {
     const Triangle3 corners = place(part, triangle_);
     const Weights weights = middle(part);
     const Vector3 center = point_of(triangle_, weights);
     const Near near = shape_.nearest(center);
     if (near.distance < best_.near.distance)
       best_ = {weights, near};
-    double lowest = 0, radius = 0;
-    for (const Vector3& corner : corners) {
+    double lowest = 0;
+    for (const Vector3& corner : corners)
       lowest = std::min(lowest, near.normal.dot(corner - center));
-      radius = std::max(radius, (corner - center).norm());
-    }
-    if (near.distance + lowest >= best_.near.distance - tolerance_ || radius <= tolerance_)
+    if (near.distance + lowest >= best_.near.distance - tolerance_ || radius_around(center, corners) <= tolerance_)
       return;
-    for (const Part& half : halves(part, longest_side(corners).opposite))
+    for (const TrianglePart& half : halves(part, longest_side(corners).opposite))
       search(half);
   }
 

@@ -173,16 +173,17 @@ private:
       ++report_.unresolved;
       return;
     }
-    bool any = false;
-    for (const std::uint32_t v : path_.triangles[hit.triangle])
+    bool any = false; // moved in this round, by this hit or another
+    for (const std::uint32_t v : path_.triangles[hit.triangle]) {
       if (!held_[v] && carried_[v] == 0) {
         rides_[v] = static_cast<std::int32_t>(hit.solid);
         path_.end[v] = views_[hit.solid].carried(path_.start[v]);
         path_.velocity[v] = scene::velocity_at(solids_.scene(hit.solid).motion, path_.end_time, path_.end[v]);
         carried_[v] = changed_[v] = 1;
-        any = true;
         ++report_.carried;
       }
+      any = any || changed_[v] != 0;
+    }
     if (!any)
       ++report_.unresolved;
   }

@@ -56,29 +56,9 @@ public:
     return nearest(x).distance;
   }
 
-  // Conservative advancement [Mirtich 1996]: no point of the triangle moves more than its fastest corner, so it may go
-  // on by what separates it from the surface. Each turn advances by at least tolerance / travel, so this ends.
   [[nodiscard]] std::optional<TriangleHit> first_hit(const MovingTriangle& triangle, double clearance,
                                                      double tolerance) const override {
-    double travel = 0, size = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      travel = std::max(travel, (triangle.end[i] - triangle.start[i]).norm());
-    double s = 0;
-    while (s < 1) {
-      const Triangle3 now = triangle.at(s);
-      const double within = clearance + tolerance + (1 - s) * travel;
-      const Vector3 center = (now[0] + now[1] + now[2]) / 3;
-      size = std::max({(now[0] - center).norm(), (now[1] - center).norm(), (now[2] - center).norm()});
-      if (distance(center, within + size) >= within + size)
-        return std::nullopt;
-      const TriangleTree::Pair pair = tree_.nearest(now, within);
-      if (pair.distance >= within)
-        return std::nullopt;
-      if (pair.distance <= clearance + tolerance)
-        return TriangleHit{s, pair.point};
-      s += (pair.distance - clearance) / travel;
-    }
-    return std::nullopt;
+    return tree_.first_hit(triangle, clearance, tolerance);
   }
 
   [[nodiscard]] double separation(const Triangle3& triangle, double enough, double /*tolerance*/) const override {

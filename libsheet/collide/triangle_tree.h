@@ -30,12 +30,20 @@ public:
   };
   [[nodiscard]] Pair nearest(const Triangle3& triangle, double within) const;
 
+  // As SolidDistance::first_hit.
+  [[nodiscard]] std::optional<TriangleHit> first_hit(const MovingTriangle& triangle, double clearance,
+                                                     double tolerance) const;
+
 private:
   struct Node {
     Box3 box;
     std::uint32_t first; // a leaf's first triangle, else the second child; the first child follows its parent
     std::uint32_t count; // of a leaf's triangles, else 0
   };
+  [[nodiscard]] Triangle3 face_at(std::uint32_t t) const {
+    const Corners& c = surface_.triangles[t];
+    return {surface_.points[c[0]], surface_.points[c[1]], surface_.points[c[2]]};
+  }
   void build(std::uint32_t first, std::uint32_t last, std::vector<Vector3>& centers);
 
   SolidSurface surface_;
