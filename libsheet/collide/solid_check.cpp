@@ -106,19 +106,26 @@ double winding(const SolidSurface& surface, const Triangles& part, const Vector3
   return sum / (2 * std::numbers::pi);
 }
 
-// Parts face outward, those inside another one inward: the walls of hollows.
-void check_sides(const SolidSurface& surface, const std::vector<Triangles>& parts, const std::string& name) {
+std::vector<double> check_volumes(const SolidSurface& surface, const std::vector<Triangles>& parts,
+                                  const std::string& name) {
   Box3 box;
   for (const Vector3& x : surface.points)
     box.extend(x);
   std::vector<double> volumes;
-  for (const Triangles& part : parts)
+  for (const Triangles& part : parts) {
     volumes.push_back(volume_of(surface, part));
+    if (std::abs(volumes.back()) <= 1e-12 * std::pow(box.diagonal().norm(), 3))
+      fail(ExitCode::bad_input, "{}: the surface at {} encloses no volume; give it some, or take it away", name,
+           place(surface.points[surface.triangles[part.front()][0]]));
+  }
+  return volumes;
+}
+
+// Parts face outward, those inside another one inward: the walls of hollows.
+void check_sides(const SolidSurface& surface, const std::vector<Triangles>& parts, const std::vector<double>& volumes,
+                 const std::string& name) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Vector3& x = surface.points[surface.triangles[parts[i].front()][0]];
-    if (std::abs(volumes[i]) <= 1e-12 * std::pow(box.diagonal().norm(), 3))
-      fail(ExitCode::bad_input, "{}: the surface at {} encloses no volume; give it some, or take it away", name,
-           place(x));
     double around = 0; // of the others, whichever way they face
     for (std::size_t k = 0; k < parts.size(); ++k)
       if (k != i)
@@ -142,9 +149,11 @@ void check_simple(const SolidSurface& surface, const std::string& name) {
 
 void check_surface(const SolidSurface& surface, const std::string& name, bool simple) {
   check_points(surface, name);
-  check_sides(surface, parts_of(check_closed(surface, name)), name);
+  const std::vector<Triangles> parts = parts_of(check_closed(surface, name));
+  const std::vector<double> volumes = check_volumes(surface, parts, name);
   if (!simple)
     check_simple(surface, name);
+  check_sides(surface, parts, volumes, name);
 }
 
 } // namespace sheet::collide

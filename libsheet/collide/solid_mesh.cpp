@@ -58,7 +58,10 @@ public:
 
   [[nodiscard]] std::optional<TriangleHit> first_hit(const MovingTriangle& triangle, double clearance,
                                                      double tolerance) const override {
-    return tree_.first_hit(triangle, clearance, tolerance);
+    auto hit = tree_.first_hit(triangle, clearance, tolerance);
+    if (hit)
+      hit->point.near = nearest(point_of(triangle.at(hit->s), hit->point.weights));
+    return hit;
   }
 
   [[nodiscard]] double separation(const Triangle3& triangle, double enough, double /*tolerance*/) const override {

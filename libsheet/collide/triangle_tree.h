@@ -30,7 +30,7 @@ public:
   };
   [[nodiscard]] Pair nearest(const Triangle3& triangle, double within) const;
 
-  // As SolidDistance::first_hit.
+  // As SolidDistance::first_hit; what is near the point is the part of the mesh that it hits.
   [[nodiscard]] std::optional<TriangleHit> first_hit(const MovingTriangle& triangle, double clearance,
                                                      double tolerance) const;
 
