@@ -149,7 +149,7 @@ std::optional<TriangleHit> TriangleTree::first_hit(const MovingTriangle& moving,
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Triangle3 other = face_at(order_[i]);
+      const Triangle3& other = corners_[i];
       if (prism.apart(other, reach))
         continue;
       const double before = advance.until();
