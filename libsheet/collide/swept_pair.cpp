@@ -161,16 +161,33 @@ struct Search {
 
 } // namespace
 
+namespace {
+
+// A first guess of a direction that points from one feature to the other.
+Vector3 middle(const Hull& hull) {
+  Vector3 sum = Vector3::Zero();
+  for (int i = 0; i < hull.count; ++i)
+    sum += hull.points[i];
+  return sum;
+}
+
+} // namespace
+
+bool surely_apart(const SweptPair& pair, double gap) {
+  const Differences d = differences(pair);
+  if (!d.moving)
+    return true;
+  const Hull whole(d, 0, 1);
+  Vector3 direction = middle(whole);
+  return apart(whole, std::max(gap / d.size, smallest_gap), direction);
+}
+
 std::optional<double> first_contact(const SweptPair& pair, const SweptOptions& options) {
   const Differences d = differences(pair);
   if (!d.moving)
     return std::nullopt;
-  const double gap = std::max(options.gap / d.size, smallest_gap);
-  const Hull whole(d, 0, 1);
-  Vector3 middle = Vector3::Zero();
-  for (int i = 0; i < whole.count; ++i)
-    middle += whole.points[i];
-  Search search{d, gap, options.time_tolerance, options.budget, middle};
+  Search search{d, std::max(options.gap / d.size, smallest_gap), options.time_tolerance, options.budget,
+                middle(Hull(d, 0, 1))};
   return search.between(0, 1);
 }
 

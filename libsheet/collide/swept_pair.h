@@ -31,6 +31,9 @@ struct SweptOptions {
 // taken for it: what rounding needs.
 inline constexpr double smallest_gap = 1e-12;
 
+// Cheap: true only if the features surely are further apart than the gap all the time; mostly decides.
+[[nodiscard]] bool surely_apart(const SweptPair& pair, double gap);
+
 // A time until which the features are surely further apart than the gap, and shortly after which they may not be; none
 // if they surely are all the time. Points that do not move against each other have no contact.
 [[nodiscard]] std::optional<double> first_contact(const SweptPair& pair, const SweptOptions& options);
