@@ -21,8 +21,8 @@ using formats::Frame;
 
 namespace {
 
-// The mesh cannot tell apart what is nearer than a few edges along the sheet.
-constexpr double edges_of_reach = 4;
+// The mesh cannot tell apart what is nearer than two edges along the sheet.
+constexpr double edges_of_reach = 2;
 
 // Seconds since the last call.
 class Watch {

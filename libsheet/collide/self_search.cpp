@@ -165,25 +165,40 @@ std::vector<Near> SelfSearch::near(std::span<const Vector3> x, std::span<const d
   const auto joined = [&](std::uint32_t a, std::uint32_t b) {
     return std::binary_search(mesh_.edges.begin(), mesh_.edges.end(), Edge{std::min(a, b), std::max(a, b)});
   };
-  const auto touches = [&](const FeaturePair& pair, const ClosestPoints& closest) {
+  const auto joins = [&](const Four& v, std::size_t first) {
+    for (std::size_t i = 0; i < first; ++i)
+      for (std::size_t j = first; j < 4; ++j)
+        if (joined(v[i], v[j]))
+          return true;
+    return false;
+  };
+  const auto touching = [&](const FeaturePair& pair) -> std::optional<ClosestPoints> {
     const Four& v = pair.vertices;
-    if (pair.features == Features::edge_edge)
-      return closest.interior && !joined(v[0], v[2]) && !joined(v[0], v[3]) && !joined(v[1], v[2]) &&
-             !joined(v[1], v[3]);
-    if (closest.interior)
-      return true;
-    const Vector3 normal = (x[v[2]] - x[v[1]]).cross(x[v[3]] - x[v[1]]);
-    return std::abs(normal.dot(closest.offset)) > facing * normal.norm() * closest.offset.norm() &&
-           !joined(v[0], v[1]) && !joined(v[0], v[2]) && !joined(v[0], v[3]);
+    const std::array<Vector3, 4> p = points(x, v);
+    if (pair.features == Features::edge_edge) {
+      const auto crossing = crossing_edges(p);
+      return crossing && !joins(v, 2) ? crossing : std::nullopt;
+    }
+    if (const auto over = over_triangle(p))
+      return over;
+    const double height = std::abs((p[2] - p[1]).cross(p[3] - p[1]).normalized().dot(p[0] - p[1]));
+    const Vector3 middle = (p[1] + p[2] + p[3]) / 3;
+    const double radius = std::sqrt(
+        std::max({(p[1] - middle).squaredNorm(), (p[2] - middle).squaredNorm(), (p[3] - middle).squaredNorm()}));
+    if ((p[0] - middle).norm() - radius > height / facing)
+      return std::nullopt; // further than that
+    const ClosestPoints closest = closest_vertex_triangle(p);
+    return height > facing * closest.offset.norm() && !joins(v, 1) ? std::optional(closest) : std::nullopt;
   };
   return collect<Near>({}, [&](const FeaturePair& pair, std::vector<Near>& out) {
     if (share_vertex(pair))
       return;
-    const ClosestPoints points_of_pair = closest(pair.features, points(x, pair.vertices));
-    const double distance = points_of_pair.offset.norm();
-    if (distance > 0 && distance < contact_distance(reach, pair.vertices, points_of_pair.weights) &&
-        touches(pair, points_of_pair))
-      out.push_back({pair, points_of_pair});
+    const auto closest = touching(pair);
+    if (!closest)
+      return;
+    const double distance = closest->offset.norm();
+    if (distance > 0 && distance < contact_distance(reach, pair.vertices, closest->weights))
+      out.push_back({pair, *closest});
   });
 }
 
