@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Continuous collision detection of two features whose points move on straight lines: do they come nearer than a gap?
-// Never misses: "no" is given only with a proof (swept_pair.cpp); "yes" may be a false alarm, of features that come
-// nearer than the gap and a little more.
+// Never misses: "no" is given only with a proof (swept_pair.cpp); "yes" may be a false alarm, mostly of features that
+// come nearer than the gap and a thousandth of it.
 #pragma once
 #include <array>
 #include <optional>

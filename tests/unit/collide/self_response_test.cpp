@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The end of a step is free of intersections whatever is asked for; what free parts do to each other conserves momentum.
+// The end of a step is free of intersections whatever is asked for; what free parts do to each other conserves
+// momentum.
 #include "libsheet/collide/self_response.h"
 
 #include <random>
@@ -141,7 +142,8 @@ TEST(SelfResponse, HeldVerticesSentThroughOthers) {
   }
 }
 
-// A held sheet turns, a free one lies close above a part of it: the free one is carried, the held one goes where it must.
+// A held sheet turns, a free one lies close above a part of it: the free one is carried, the held one goes where it
+// must.
 TEST(SelfResponse, CarriedByAHeldSheetThatTurns) {
   Case c(2, 4, 0.003);
   const Matrix3 turn = Eigen::AngleAxisd(0.5, Vector3(1, 0.3, 0).normalized()).toRotationMatrix();
