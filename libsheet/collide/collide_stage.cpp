@@ -11,6 +11,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/collide/contact_arrays.h"
 #include "libsheet/collide/self_response.h"
+#include "libsheet/collide/solid_contact.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -23,6 +24,8 @@ namespace {
 
 // The mesh cannot tell apart what is nearer than two edges along the sheet.
 constexpr double edges_of_reach = 2;
+// Rounds of self-response that leave alone what would go into a solid.
+constexpr int rounds_with_solids = 4;
 
 // Seconds since the last call.
 class Watch {
@@ -38,9 +41,18 @@ private:
 
 struct Totals {
   std::uint64_t steps = 0, with_hits = 0;
+  SolidReport solids;
   SelfReport self;
-  std::size_t most_springs = 0;
-  double check = 0, response = 0, springs = 0; // [s]
+  std::size_t most_springs = 0, most_touching = 0;
+  double with_solids = 0, check = 0, response = 0, springs = 0; // [s]
+
+  void add(const SolidReport& r) {
+    most_touching = std::max(most_touching, r.touching);
+    solids.caught += r.caught;
+    solids.pushed += r.pushed;
+    solids.carried += r.carried;
+    solids.unresolved += r.unresolved;
+  }
 
   void add(const SelfReport& r) {
     with_hits += r.hits > 0;
@@ -88,6 +100,7 @@ std::span<const std::uint64_t> masks(const Frame& frame, std::string_view name) 
 struct CollideStage::Impl {
   std::string scene_text;
   std::optional<Scene> scene;
+  std::optional<Solids> solids; // if the scene has some
   std::optional<Connectivity> mesh;
   std::optional<SelfSearch> search;
   std::vector<Vector3> last_end; // safe, so a step that starts there needs no check
@@ -101,7 +114,12 @@ struct CollideStage::Impl {
       return;
     scene = parse_scene(array->text(), "the frame's scene");
     scene_text = array->text();
+    solids.reset();
+    if (!scene->solids.empty())
+      solids.emplace(*scene);
   }
+
+  [[nodiscard]] bool self() const { return scene->contact && scene->contact->self; }
 
   void connect_mesh(const Frame& frame) {
     const auto corners = triangles(frame);
@@ -135,9 +153,6 @@ struct CollideStage::Impl {
     path.touch.assign(touch.begin(), touch.end());
     path.touch.resize(frame.vertices, 0);
     path.fixed = held(frame, path.start_time);
-    for (std::size_t i = 0; i < path.touch.size(); ++i)
-      if (path.touch[i] != 0)
-        path.fixed[i] = true;
     const Shares s = shares(path.triangles, volumes(frame), path.start);
     const double density = scene->material.density > 0 ? scene->material.density : 1;
     for (std::size_t i = 0; i < path.start.size(); ++i) {
@@ -178,32 +193,70 @@ struct CollideStage::Impl {
            pair->first, pair->second);
   }
 
-  void resolve(Frame& frame) {
+  void step(Frame& frame) {
     StepPath path = path_of(frame);
     Watch watch;
-    check_start(path);
-    totals.check += watch.lap();
-    const Shares at_start = shares(path.triangles, volumes(frame), path.start);
-    const std::vector<double> reach = reach_of(path, at_start);
-    const SelfReport report = resolve_self(path, *search, reach);
-    if (report.held_back > 0)
-      log::warning("step {}: {} held vertices stay behind, or the sheet would pass through itself", frame.step,
-                   report.held_back);
-    totals.add(report);
-    totals.response += watch.lap();
+    if (solids) {
+      const SolidReport report = resolve_solids(path, *solids);
+      if (report.unresolved > 0)
+        log::warning("step {}: {} triangles come too close to solids", frame.step, report.unresolved);
+      totals.add(report);
+      totals.with_solids += watch.lap();
+      put_touch(frame, path.touch);
+    }
+    if (self()) {
+      connect_mesh(frame);
+      check_start(path);
+      totals.check += watch.lap();
+      const std::vector<double> reach = reach_of(path, shares(path.triangles, volumes(frame), path.start));
+      const std::vector<bool> fixed = path.fixed;
+      resolve_self_beside_solids(path, reach, frame.step);
+      totals.response += watch.lap();
+      set_springs(frame, path, fixed, reach);
+      totals.springs += watch.lap();
+    }
     std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
     std::copy(path.velocity.begin(), path.velocity.end(), velocities(frame).begin());
-    set_springs(frame, path, reach);
-    totals.springs += watch.lap();
     last_end = std::move(path.end);
     ++totals.steps;
-    log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", frame.step, report.hits,
+  }
+
+  // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
+  void resolve_self_beside_solids(StepPath& path, std::span<const double> reach, std::uint64_t step) {
+    const StepPath asked = path;
+    SelfReport report;
+    for (int round = 1;; ++round) {
+      report = resolve_self(path, *search, reach);
+      if (!solids || report.hits == 0 || round == rounds_with_solids)
+        break;
+      std::vector<bool> fixed = path.fixed;
+      for (const std::uint32_t t : unsafe_triangles(path, *solids))
+        for (const std::uint32_t v : path.triangles[t])
+          if (path.end[v] != asked.end[v])
+            fixed[v] = true;
+      if (fixed == path.fixed)
+        break;
+      path = asked;
+      path.fixed = std::move(fixed);
+    }
+    if (report.held_back > 0)
+      log::warning("step {}: {} vertices on solids or held stay behind, or the sheet would pass through itself", step,
+                   report.held_back);
+    totals.add(report);
+    log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", step, report.hits,
                 report.by_impulses, report.in_groups, report.pulled_back);
   }
 
-  void set_springs(Frame& frame, const StepPath& path, std::span<const double> reach) {
+  static void put_touch(Frame& frame, std::span<const std::uint64_t> touch) {
+    Array array = formats::make_array("touch", formats::Place::vertex, formats::Type::uint64, 1, "1",
+                                      formats::Transfer::common, frame.vertices);
+    std::copy(touch.begin(), touch.end(), array.values<std::uint64_t>().begin());
+    frame.put(std::move(array));
+  }
+
+  void set_springs(Frame& frame, const StepPath& path, const std::vector<bool>& fixed, std::span<const double> reach) {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
-    const SpringSheet sheet{path.start, path.end, reach, path.thickness, at_end.area, path.fixed, path.length()};
+    const SpringSheet sheet{path.start, path.end, reach, path.thickness, at_end.area, fixed, path.length()};
     std::vector<ContactSpring> springs = read_springs(frame);
     follow(springs, *scene, sheet);
     add_springs(springs, search->near(path.end, reach), *scene, sheet);
@@ -217,24 +270,28 @@ CollideStage::~CollideStage() = default;
 
 void CollideStage::step(Frame& frame) {
   impl_->read_scene_of(frame);
-  const auto& contact = impl_->scene->contact;
-  if (!contact || !contact->self || frame.triangles == 0)
-    return;
-  impl_->connect_mesh(frame);
-  impl_->resolve(frame);
+  if (frame.triangles > 0 && (impl_->solids || impl_->self()))
+    impl_->step(frame);
 }
 
 void CollideStage::report() const {
   const Totals& t = impl_->totals;
   if (t.steps == 0)
     return;
-  const auto steps = static_cast<double>(t.steps);
-  log::detail("{} steps, {} with hits ({} pairs): {} impulses, {} vertices in rigid groups, {} pulled back ({} of them "
-              "held), {} rounds; at most {} springs",
-              t.steps, t.with_hits, t.self.hits, t.self.by_impulses, t.self.in_groups, t.self.pulled_back,
-              t.self.held_back, t.self.rounds, t.most_springs);
-  log::detail("  a step: check of the start {:.2f} ms, response {:.2f} ms, springs {:.2f} ms", 1e3 * t.check / steps,
-              1e3 * t.response / steps, 1e3 * t.springs / steps);
+  const double ms = 1e3 / static_cast<double>(t.steps);
+  if (impl_->solids) {
+    log::detail("{} steps with solids: {} vertices caught, at most {} touching, {} impulses, {} vertices carried",
+                t.steps, t.solids.caught, t.most_touching, t.solids.pushed, t.solids.carried);
+    log::detail("  a step: {:.2f} ms", ms * t.with_solids);
+  }
+  if (impl_->self()) {
+    log::detail("{} steps with the sheet itself, {} of them with hits ({} pairs): {} impulses, {} vertices in rigid "
+                "groups, {} pulled back ({} of them held), {} rounds; at most {} springs",
+                t.steps, t.with_hits, t.self.hits, t.self.by_impulses, t.self.in_groups, t.self.pulled_back,
+                t.self.held_back, t.self.rounds, t.most_springs);
+    log::detail("  a step: check of the start {:.2f} ms, response {:.2f} ms, springs {:.2f} ms", ms * t.check,
+                ms * t.response, ms * t.springs);
+  }
 }
 
 } // namespace sheet::collide

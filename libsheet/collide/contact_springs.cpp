@@ -76,7 +76,7 @@ void follow(std::vector<ContactSpring>& springs, const Scene& scene, const Sprin
   std::erase_if(springs, [&](ContactSpring& s) { return !follows(s, scene, sheet); });
 }
 
-void add_springs(std::vector<ContactSpring>& springs, const std::vector<Near>& near, const Scene& scene,
+void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
                  const SpringSheet& sheet) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> linked; // vertices of the two features of a spring
   const auto link = [&](const ContactSpring& s) {
@@ -97,14 +97,14 @@ void add_springs(std::vector<ContactSpring>& springs, const std::vector<Near>& n
   };
   for (const ContactSpring& s : springs)
     link(s);
-  std::vector<const Near*> order;
-  for (const Near& pair : near)
+  std::vector<const NearPair*> order;
+  for (const NearPair& pair : near)
     order.push_back(&pair);
-  std::stable_sort(order.begin(), order.end(), [](const Near* a, const Near* b) {
+  std::stable_sort(order.begin(), order.end(), [](const NearPair* a, const NearPair* b) {
     const bool edges_a = a->pair.features == Features::edge_edge, edges_b = b->pair.features == Features::edge_edge;
     return edges_a != edges_b ? edges_b : a->closest.offset.squaredNorm() < b->closest.offset.squaredNorm();
   });
-  for (const Near* pair : order) {
+  for (const NearPair* pair : order) {
     const auto& v = pair->pair.vertices;
     ContactSpring s;
     s.vertices = v;

@@ -46,7 +46,7 @@ struct SpringSheet {
 void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet);
 
 // Adds springs for near pairs that have none.
-void add_springs(std::vector<ContactSpring>& springs, const std::vector<Near>& near, const Scene& scene,
+void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
                  const SpringSheet& sheet);
 
 } // namespace sheet::collide

@@ -17,8 +17,8 @@
 // each hit, three times at most, and four vertices without any way do not hit.
 // It guarantees, because the search for hits never misses one: if no triangles intersect at the start, none does at any
 // time of the step, whatever is prescribed to held vertices or by solids. Where what they prescribe cannot be had
-// without an intersection, they stay behind; the report counts them. They may then be inside a solid; the next step's
-// solids push them out.
+// without an intersection, they stay behind; the report counts them. What touches a solid may then be inside of it; the
+// next step pushes it out.
 //
 // Velocities change by the displacement over the step's length. Then each island (vertices joined by hits) without
 // fixed vertices gets the rigid motion that gives its momentum and angular momentum back; of nearly collinear islands

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "libsheet/geometry/triangle_pair.h"
 
 namespace sheet::collide {
 
@@ -58,26 +59,6 @@ std::optional<Hit> hit_of(const FeaturePair& pair, std::span<const Vector3> star
   if (!time)
     return std::nullopt;
   return Hit{pair, *time, gap, distance};
-}
-
-// Sign of det(b - a, c - a, d - a), 0 where rounding may hide it [error bound after Shewchuk 1997, with room].
-int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-  const Vector3 u = b - a, v = c - a, w = d - a;
-  const double determinant = u.dot(v.cross(w));
-  const Vector3 p = v.cwiseAbs(), q = w.cwiseAbs();
-  const double permanent = std::abs(u.x()) * (p.y() * q.z() + p.z() * q.y()) +
-                           std::abs(u.y()) * (p.z() * q.x() + p.x() * q.z()) +
-                           std::abs(u.z()) * (p.x() * q.y() + p.y() * q.x());
-  const double error = 16 * std::numeric_limits<double>::epsilon() * permanent;
-  return determinant > error ? 1 : determinant < -error ? -1 : 0;
-}
-
-bool surely_pierces(const Vector3& p, const Vector3& q, const Vector3& a, const Vector3& b, const Vector3& c) {
-  const int above = orientation(a, b, c, p), below = orientation(a, b, c, q);
-  if (above * below >= 0)
-    return false;
-  const int first = orientation(p, q, a, b);
-  return first != 0 && first == orientation(p, q, b, c) && first == orientation(p, q, c, a);
 }
 
 } // namespace
@@ -156,7 +137,7 @@ std::vector<Hit> SelfSearch::hits(std::span<const Vector3> start, std::span<cons
   });
 }
 
-std::vector<Near> SelfSearch::near(std::span<const Vector3> x, std::span<const double> reach) {
+std::vector<NearPair> SelfSearch::near(std::span<const Vector3> x, std::span<const double> reach) {
   place_boxes(x, x, reach, 1);
   if (tree_.size() == boxes_.size())
     tree_.refit(boxes_);
@@ -190,7 +171,7 @@ std::vector<Near> SelfSearch::near(std::span<const Vector3> x, std::span<const d
     const ClosestPoints closest = closest_vertex_triangle(p);
     return height > facing * closest.offset.norm() && !joins(v, 1) ? std::optional(closest) : std::nullopt;
   };
-  return collect<Near>({}, [&](const FeaturePair& pair, std::vector<Near>& out) {
+  return collect<NearPair>({}, [&](const FeaturePair& pair, std::vector<NearPair>& out) {
     if (share_vertex(pair))
       return;
     const auto closest = touching(pair);
@@ -206,19 +187,12 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> SelfSearch::crossing(std:
   const std::vector<double> no_reach(mesh_.vertices, 0);
   place_boxes(x, x, no_reach, 0);
   tree_.build(boxes_);
+  std::vector<std::uint8_t> degenerate;
+  for (const Triangle& t : mesh_.triangles)
+    degenerate.push_back(corners_collinear(x, t));
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(tree_.chunks());
   tree_.for_overlaps({}, [&](std::size_t chunk, std::uint32_t s, std::uint32_t t) {
-    const auto pierces = [&](const Triangle& one, const Triangle& other) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t p = one[i], q = one[(i + 1) % 3];
-        if (std::find(other.begin(), other.end(), p) == other.end() &&
-            std::find(other.begin(), other.end(), q) == other.end() &&
-            surely_pierces(x[p], x[q], x[other[0]], x[other[1]], x[other[2]]))
-          return true;
-      }
-      return false;
-    };
-    if (pierces(mesh_.triangles[s], mesh_.triangles[t]) || pierces(mesh_.triangles[t], mesh_.triangles[s]))
+    if (degenerate[s] == 0 && degenerate[t] == 0 && triangles_intersect(x, mesh_.triangles[s], mesh_.triangles[t]))
       found[chunk].push_back(std::minmax(s, t));
   });
   std::optional<std::pair<std::uint32_t, std::uint32_t>> first;

@@ -29,7 +29,7 @@ struct Hit {
   double time = 0, gap = 0, distance = 0;
 };
 
-struct Near {
+struct NearPair {
   FeaturePair pair;
   ClosestPoints closest;
 };
@@ -51,9 +51,9 @@ public:
   // Pairs within their contact distance of each other whose surfaces face each other, ascending: a vertex over a
   // triangle, or beside one by no more than 60 degrees off its normal, and edges that cross. Of features joined by an
   // edge of the mesh only vertices over triangles count, so that the sheet next to a vertex is no contact.
-  [[nodiscard]] std::vector<Near> near(std::span<const Vector3> positions, std::span<const double> reach);
+  [[nodiscard]] std::vector<NearPair> near(std::span<const Vector3> positions, std::span<const double> reach);
 
-  // A pair of triangles (lower, higher) of which an edge of one surely passes through the other; touching is not found.
+  // The first pair of triangles (lower, higher) that intersect, exactly; triangles without area are passed over.
   [[nodiscard]] std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing(std::span<const Vector3> positions);
 
 private:

@@ -145,7 +145,7 @@ TEST(SelfSearch, NearAreThoseThatFaceEachOther) {
   std::fill(s.reach.begin(), s.reach.end(), 0.4);
   SelfSearch search(s.mesh);
   std::size_t edges = 0, vertices = 0;
-  for (const Near& near : search.near(s.start, s.reach)) {
+  for (const NearPair& near : search.near(s.start, s.reach)) {
     const auto layer = [](std::uint32_t v) { return v / 25; };
     const auto& v = near.pair.vertices;
     const bool edge = near.pair.features == Features::edge_edge;
