@@ -254,12 +254,13 @@ struct CollideStage::Impl {
     frame.put(std::move(array));
   }
 
-  void set_springs(Frame& frame, const StepPath& path, const std::vector<bool>& fixed, std::span<const double> reach) {
+  void set_springs(Frame& frame, StepPath& path, const std::vector<bool>& fixed, std::span<const double> reach) {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
     const SpringSheet sheet{path.start, path.end, reach, path.thickness, at_end.area, fixed, path.length()};
     std::vector<ContactSpring> springs = read_springs(frame);
     follow(springs, *scene, sheet);
     add_springs(springs, search->near(path.end, reach), *scene, sheet);
+    level_velocities(springs, *scene, path.mass, fixed, path.velocity);
     totals.most_springs = std::max(totals.most_springs, springs.size());
     write_springs(frame, springs);
   }

@@ -76,6 +76,26 @@ void follow(std::vector<ContactSpring>& springs, const Scene& scene, const Sprin
   std::erase_if(springs, [&](ContactSpring& s) { return !follows(s, scene, sheet); });
 }
 
+void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
+                      const std::vector<bool>& fixed, std::span<Vector3> velocity) {
+  constexpr int sweeps = 30;
+  const bool sticks = !scene.contact || scene.contact->adhesion != 0.0;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (const ContactSpring& s : springs) {
+      double rate = 0, compliance = 0;
+      std::array<double, 4> share{};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t v = s.vertices[i];
+        rate += s.weights[i] * s.normal.dot(velocity[v]);
+        share[i] = fixed[v] ? 0 : s.weights[i] / mass[v];
+        compliance += s.weights[i] * share[i];
+      }
+      if (compliance > 0 && (sticks || rate < 0))
+        for (std::size_t i = 0; i < 4; ++i)
+          velocity[s.vertices[i]] -= rate / compliance * share[i] * s.normal;
+    }
+}
+
 void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
                  const SpringSheet& sheet) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> linked; // vertices of the two features of a spring

@@ -49,4 +49,11 @@ void follow(std::vector<ContactSpring>& springs, const Scene& scene, const Sprin
 void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
                  const SpringSheet& sheet);
 
+// What touches does not bounce: takes away the velocity of each spring's features along its normal, relative to each
+// other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of
+// Gauss-Seidel: nearly all of it in small piles). Where the scene's adhesion is 0, only that of approach. `mass` [kg];
+// fixed vertices have infinite mass.
+void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
+                      const std::vector<bool>& fixed, std::span<Vector3> velocity);
+
 } // namespace sheet::collide
