@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "libsheet/base/error.h"
-#include "libsheet/measure/intersections.h"
+#include "libsheet/collide/box_tree.h"
+#include "libsheet/geometry/triangle_pair.h"
 
 namespace sheet::collide {
 namespace {
@@ -137,12 +138,30 @@ void check_sides(const SolidSurface& surface, const std::vector<Triangles>& part
 }
 
 void check_simple(const SolidSurface& surface, const std::string& name) {
-  const std::vector<bool> usable(surface.triangles.size(), true);
-  const Intersections found = find_intersections(surface.points, surface.triangles, usable, 1);
-  if (found.count > 0)
+  std::vector<Box> boxes(surface.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t)
+    for (const std::uint32_t v : surface.triangles[t])
+      boxes[t].add(surface.points[v], 0);
+  BoxTree tree;
+  tree.build(boxes);
+  struct Found {
+    std::size_t pairs = 0;
+    std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
+  };
+  std::vector<Found> chunks(tree.chunks());
+  tree.for_overlaps({}, [&](std::size_t chunk, std::uint32_t i, std::uint32_t j) {
+    if (!triangles_intersect(surface.points, surface.triangles[i], surface.triangles[j]))
+      return;
+    ++chunks[chunk].pairs;
+    chunks[chunk].first = std::min({chunks[chunk].first, i, j});
+  });
+  Found found;
+  for (const Found& chunk : chunks)
+    found = {found.pairs + chunk.pairs, std::min(found.first, chunk.first)};
+  if (found.pairs > 0)
     fail(ExitCode::bad_input,
          "{}: the surface intersects itself, {} pairs of triangles, the first at {}; unite its parts or repair it",
-         name, found.count, place(surface.points[surface.triangles[found.pairs.front().first][0]]));
+         name, found.pairs, place(surface.points[surface.triangles[found.first][0]]));
 }
 
 } // namespace

@@ -33,12 +33,30 @@ Vector3 settle(const SolidDistance& shape, Vector3 x, double offset) {
   return x;
 }
 
+// The least thickness that is one; infinity if there is none.
+double thinnest(const StepPath& path) {
+  double result = std::numeric_limits<double>::infinity();
+  for (const double thickness : path.thickness)
+    if (thickness > 0)
+      result = std::min(result, thickness);
+  return result;
+}
+
+std::vector<SolidView> views_of(const Solids& solids, const StepPath& path) {
+  std::vector<SolidView> views;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    views.emplace_back(solids, i, path, 0.01 * thinnest(path));
+  return views;
+}
+
 class Resolution {
 public:
-  Resolution(StepPath& path, const Solids& solids) : path_(path), solids_(solids), held_(path.fixed) {
-    const double thinnest = *std::ranges::min_element(path.thickness);
-    for (std::size_t i = 0; i < solids.size(); ++i)
-      views_.emplace_back(solids, i, path, 0.01 * thinnest);
+  Resolution(StepPath& path, const Solids& solids)
+      : path_(path), solids_(solids), held_(path.fixed), views_(views_of(solids, path)) {
+    // Vertices of no triangle have no thickness of their own.
+    const double least = thinnest(path);
+    for (double& thickness : path.thickness)
+      thickness = std::max(thickness, least);
     rides_.resize(path.start.size());
     for (std::size_t v = 0; v < rides_.size(); ++v)
       rides_[v] = held_[v] ? kRidesNone : first_bit(path.touch[v]);
@@ -235,24 +253,21 @@ private:
 } // namespace
 
 SolidReport resolve_solids(StepPath& path, const Solids& solids) {
-  if (solids.empty() || path.start.empty())
+  if (solids.empty() || path.triangles.empty())
     return {};
   return Resolution(path, solids).run();
 }
 
 std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& solids) {
-  if (solids.empty() || path.start.empty())
+  if (solids.empty() || path.triangles.empty())
     return {};
-  const double thinnest = *std::ranges::min_element(path.thickness);
-  std::vector<SolidView> views;
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    views.emplace_back(solids, i, path, 0.01 * thinnest);
+  const std::vector<SolidView> views = views_of(solids, path);
   // What touches rides, and what ends where a solid has taken it.
   std::vector<std::int32_t> rides;
   for (std::size_t v = 0; v < path.start.size(); ++v) {
     rides.push_back(first_bit(path.touch[v]));
     for (std::size_t i = 0; i < views.size() && rides[v] == kRidesNone; ++i)
-      if ((views[i].carried(path.start[v]) - path.end[v]).norm() < 1e-9 * thinnest)
+      if ((views[i].carried(path.start[v]) - path.end[v]).norm() < 1e-9 * path.thickness[v])
         rides[v] = static_cast<std::int32_t>(i);
   }
   std::vector<std::uint32_t> all(path.triangles.size()), result;

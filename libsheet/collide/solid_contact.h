@@ -40,8 +40,9 @@ struct SolidReport {
 };
 
 // Corrects end, velocity, touch and fixed of the path; `touch` has a bit or none for each vertex at the start, `fixed`
-// is set there for the vertices of [[hold]]s, which are left alone. Does nothing without solids. Throws Error
-// (bad_input) where a vertex starts deeper in a solid than half the sheet's thickness, unless a [[hold]] put it there.
+// is set there for the vertices of [[hold]]s, which are left alone. Vertices of no triangle, whose thickness is 0, are
+// given the least thickness. Does nothing without solids. Throws Error (bad_input) where a vertex starts deeper in a
+// solid than half the sheet's thickness, unless a [[hold]] put it there.
 SolidReport resolve_solids(StepPath& path, const Solids& solids);
 
 // The triangles that the path takes too close to a solid (as above, less a fifth so that round-off raises no alarm),

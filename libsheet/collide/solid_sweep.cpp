@@ -30,7 +30,10 @@ std::optional<double> first_contact(const SolidDistance& shape, const Vector3& a
       return std::nullopt;
     if (distance <= offset + slack)
       return s;
-    s += (distance - offset) / travel;
+    const double next = s + (distance - offset) / travel;
+    if (next == s) // round-off allows no nearer
+      return s;
+    s = next;
   }
   return std::nullopt;
 }
