@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sheets against solids: what gets through, what distances cost. One thread; times are processor times.
-//   bench_solids tunnelling [MESH]    a sheet thrown at solids at 1, 10, 100 m/s with steps of 1/24 s
+//   bench_solids tunnelling [MESH [THICKNESS]]
+//                                     a sheet thrown at solids at 1, 10, 100 m/s with steps of 1/24 s
 //   bench_solids fields MESH...       OpenVDB's distances against exact ones, over voxel size; time and memory
 //   bench_solids meshes MESH...       a sheet and each mesh, 0.4 m in size: at rest, moving, spinning
 //   bench_solids cost [MESH]          a step's time where nothing, something, everything touches
@@ -78,17 +79,19 @@ std::vector<Named> targets(const std::string& mesh) {
   return result;
 }
 
-void tunnelling(const std::string& mesh) {
-  std::printf("sheet 0.6 m x 0.6 m, thickness h = 5 mm, edge 15 mm, 1 cm above the solid, one step of 1/24 s\n");
+void tunnelling(const std::string& mesh, double thickness) {
+  std::printf("sheet 0.6 m x 0.6 m, thickness h = %g mm, edge 15 mm, 1 cm above the solid, one step of 1/24 s\n",
+              1e3 * thickness);
   std::printf("%-28s %8s %12s %12s %9s %7s %8s %10s %9s\n", "solid", "speed", "least/h", "penetr./h", "touching",
               "pushed", "carried", "unresolved", "time [ms]");
   for (const Named& target : targets(mesh))
     for (const double speed : {1.0, 10.0, 100.0}) {
-      test::FallingSheet sheet(0.6, 40, 5e-3, target.top + 0.01, {0, -speed, 0}, 1.0 / 24);
+      test::FallingSheet sheet(0.6, 40, thickness, target.top + 0.01, {0, -speed, 0}, 1.0 / 24);
       const double begin = seconds();
       const SolidReport report = resolve_solids(sheet.path, target.solids);
       const double time = seconds() - begin;
-      const double least = test::least_distance(sheet.path, target.solids, 0, 1e-4, 5) / 5e-3;
+      const double least =
+          test::least_distance(sheet.path, target.solids, 0, std::max(thickness / 50, 5e-5), 5) / thickness;
       std::printf("%-28s %8.0f %12.4f %12.4f %9zu %7zu %8zu %10zu %9.2f\n", target.name, speed, least,
                   std::max(0.0, -least), report.touching, report.pushed, report.carried, report.unresolved, 1e3 * time);
     }
@@ -117,8 +120,8 @@ template <class F> double nanoseconds_each(const std::vector<Vector3>& points, c
 
 void fields(const std::vector<std::string>& meshes) {
   std::printf("longest side 1 m; 100,000 points within 4 voxels of the surface; the tree is exact\n");
-  std::printf("%-34s %6s %9s %9s %10s %10s %10s %9s %9s %9s\n", "mesh", "1/vox", "rms/vox", "max/vox", "voxels",
-              "MB", "build [s]", "parse [s]", "field ns", "tree ns");
+  std::printf("%-34s %6s %9s %9s %10s %10s %10s %9s %9s %9s\n", "mesh", "1/vox", "rms/vox", "max/vox", "voxels", "MB",
+              "build [s]", "parse [s]", "field ns", "tree ns");
   for (const std::string& mesh : meshes)
     for (const double resolution : {32.0, 64.0, 128.0, 256.0}) {
       const double voxel = 1 / resolution;
@@ -234,7 +237,7 @@ int main(int argc, char** argv) {
     if (words.empty())
       fail(ExitCode::usage, "bench_solids: say what: tunnelling, fields, meshes or cost");
     if (words[0] == "tunnelling")
-      tunnelling(words.size() > 1 ? words[1] : "");
+      tunnelling(words.size() > 1 ? words[1] : "", words.size() > 2 ? std::stod(words[2]) : 5e-3);
     else if (words[0] == "fields")
       fields({words.begin() + 1, words.end()});
     else if (words[0] == "meshes")
