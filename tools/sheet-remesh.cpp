@@ -15,18 +15,18 @@ int main(int argc, char** argv) {
                    "Edges longer than 1.4 times the wanted length are split, those shorter than 0.6 times collapsed. "
                    "The wanted length "
                    "is the same everywhere, or, with --adaptive, follows curvature, thickness, flow and buckling.");
-  sheet::remesh::Options o;
+  sheet::remesh::StageOptions o;
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);
-  tool.option("--edge-length", o.size.edge_length, "METRES",
-              "wanted length of edges; with --adaptive the middle of their range (required)");
-  tool.option("--adaptive", o.size.chord_error, "METRES",
+  tool.option("--edge-length", o.edge_length, "METRES",
+              "wanted length of edges, the scene's if not given; with --adaptive the middle of their range");
+  tool.option("--adaptive", o.remeshing.size.chord_error, "METRES",
               "shorter edges where the sheet needs them, such that its edges lie nearer to the curved sheet than this");
-  tool.option("--min-edge", o.size.min_edge, "METRES",
+  tool.option("--min-edge", o.remeshing.size.min_edge, "METRES",
               "with --adaptive: shortest wanted length (a quarter of --edge-length)");
-  tool.option("--max-edge", o.size.max_edge, "METRES",
+  tool.option("--max-edge", o.remeshing.size.max_edge, "METRES",
               "with --adaptive: longest wanted length (four times --edge-length)");
-  tool.flag("--smooth", o.smooth, "also move vertices along the sheet where angles are below 35 degrees");
+  tool.flag("--smooth", o.remeshing.smooth, "also move vertices along the sheet where angles are below 35 degrees");
   tool.example("sheet-remesh --edge-length 0.01 < a.sheet > b.sheet", "one frame");
   tool.example(
       "sheet-loop --until 2 --fps 24 -- 'sheet-step | sheet-remesh --edge-length 0.025 --smooth' < a.sheet > run.sheet",

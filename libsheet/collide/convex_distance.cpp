@@ -35,25 +35,29 @@ private:
     const Triangle3 before = place(part, triangle_.at(from)), after = place(part, triangle_.at(to));
     const Vector3 center = point_of(triangle_.at((from + to) / 2), middle(part));
     const Near near = shape_.nearest(center);
-    double lowest = 0, radius = 0, travel = 0;
+    double lowest = 0, radius = 0, travel = 0, closing = 0, slope = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       for (const Vector3& corner : {before[i], after[i]}) {
         lowest = std::min(lowest, near.normal.dot(corner - center));
         radius = std::max(radius, (corner - center).norm());
       }
       travel = std::max(travel, (after[i] - before[i]).norm());
+      closing = std::max(closing, std::abs(near.normal.dot(after[i] - before[i])));
+      for (const Triangle3* t : {&before, &after})
+        slope = std::max(slope, std::abs(near.normal.dot((*t)[(i + 1) % 3] - (*t)[i])));
     }
     if (near.distance + lowest >= clearance_)
       return;
-    if (radius <= tolerance_) {
+    if (radius <= tolerance_ || (travel <= tolerance_ && near.distance <= clearance_ + tolerance_ / 2)) {
       found_ = true;
       s_ = from;
       weights_ = middle(part);
       return;
     }
+    // Cut what makes the bound vary more; along the surface a tenth counts, because there it is curved.
     const LongestSide a = longest_side(before), b = longest_side(after);
     const LongestSide side = a.length >= b.length ? a : b;
-    if (travel >= side.length) { // the earlier half first: what it finds spares the later one
+    if (closing + travel / 10 >= slope + side.length / 10) { // the earlier half first: what it finds spares the later
       search(part, from, (from + to) / 2);
       search(part, (from + to) / 2, to);
     } else {

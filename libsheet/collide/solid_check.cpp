@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "libsheet/base/error.h"
-#include "libsheet/measure/intersections.h"
+#include "libsheet/collide/box_tree.h"
+#include "libsheet/geometry/triangle_pair.h"
 
 namespace sheet::collide {
 namespace {
@@ -106,19 +107,26 @@ double winding(const SolidSurface& surface, const Triangles& part, const Vector3
   return sum / (2 * std::numbers::pi);
 }
 
-// Parts face outward, those inside another one inward: the walls of hollows.
-void check_sides(const SolidSurface& surface, const std::vector<Triangles>& parts, const std::string& name) {
+std::vector<double> check_volumes(const SolidSurface& surface, const std::vector<Triangles>& parts,
+                                  const std::string& name) {
   Box3 box;
   for (const Vector3& x : surface.points)
     box.extend(x);
   std::vector<double> volumes;
-  for (const Triangles& part : parts)
+  for (const Triangles& part : parts) {
     volumes.push_back(volume_of(surface, part));
+    if (std::abs(volumes.back()) <= 1e-12 * std::pow(box.diagonal().norm(), 3))
+      fail(ExitCode::bad_input, "{}: the surface at {} encloses no volume; give it some, or take it away", name,
+           place(surface.points[surface.triangles[part.front()][0]]));
+  }
+  return volumes;
+}
+
+// Parts face outward, those inside another one inward: the walls of hollows.
+void check_sides(const SolidSurface& surface, const std::vector<Triangles>& parts, const std::vector<double>& volumes,
+                 const std::string& name) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Vector3& x = surface.points[surface.triangles[parts[i].front()][0]];
-    if (std::abs(volumes[i]) <= 1e-12 * std::pow(box.diagonal().norm(), 3))
-      fail(ExitCode::bad_input, "{}: the surface at {} encloses no volume; give it some, or take it away", name,
-           place(x));
     double around = 0; // of the others, whichever way they face
     for (std::size_t k = 0; k < parts.size(); ++k)
       if (k != i)
@@ -130,21 +138,41 @@ void check_sides(const SolidSurface& surface, const std::vector<Triangles>& part
 }
 
 void check_simple(const SolidSurface& surface, const std::string& name) {
-  const std::vector<bool> usable(surface.triangles.size(), true);
-  const Intersections found = find_intersections(surface.points, surface.triangles, usable, 1);
-  if (found.count > 0)
+  std::vector<Box> boxes(surface.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t)
+    for (const std::uint32_t v : surface.triangles[t])
+      boxes[t].add(surface.points[v], 0);
+  BoxTree tree;
+  tree.build(boxes);
+  struct Found {
+    std::size_t pairs = 0;
+    std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
+  };
+  std::vector<Found> chunks(tree.chunks());
+  tree.for_overlaps({}, [&](std::size_t chunk, std::uint32_t i, std::uint32_t j) {
+    if (!triangles_intersect(surface.points, surface.triangles[i], surface.triangles[j]))
+      return;
+    ++chunks[chunk].pairs;
+    chunks[chunk].first = std::min({chunks[chunk].first, i, j});
+  });
+  Found found;
+  for (const Found& chunk : chunks)
+    found = {found.pairs + chunk.pairs, std::min(found.first, chunk.first)};
+  if (found.pairs > 0)
     fail(ExitCode::bad_input,
          "{}: the surface intersects itself, {} pairs of triangles, the first at {}; unite its parts or repair it",
-         name, found.count, place(surface.points[surface.triangles[found.pairs.front().first][0]]));
+         name, found.pairs, place(surface.points[surface.triangles[found.first][0]]));
 }
 
 } // namespace
 
 void check_surface(const SolidSurface& surface, const std::string& name, bool simple) {
   check_points(surface, name);
-  check_sides(surface, parts_of(check_closed(surface, name)), name);
+  const std::vector<Triangles> parts = parts_of(check_closed(surface, name));
+  const std::vector<double> volumes = check_volumes(surface, parts, name);
   if (!simple)
     check_simple(surface, name);
+  check_sides(surface, parts, volumes, name);
 }
 
 } // namespace sheet::collide

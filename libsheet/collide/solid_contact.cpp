@@ -33,12 +33,30 @@ Vector3 settle(const SolidDistance& shape, Vector3 x, double offset) {
   return x;
 }
 
+// The least thickness that is one; infinity if there is none.
+double thinnest(const StepPath& path) {
+  double result = std::numeric_limits<double>::infinity();
+  for (const double thickness : path.thickness)
+    if (thickness > 0)
+      result = std::min(result, thickness);
+  return result;
+}
+
+std::vector<SolidView> views_of(const Solids& solids, const StepPath& path) {
+  std::vector<SolidView> views;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    views.emplace_back(solids, i, path, 0.01 * thinnest(path));
+  return views;
+}
+
 class Resolution {
 public:
-  Resolution(StepPath& path, const Solids& solids) : path_(path), solids_(solids), held_(path.fixed) {
-    const double thinnest = *std::ranges::min_element(path.thickness);
-    for (std::size_t i = 0; i < solids.size(); ++i)
-      views_.emplace_back(solids, i, path, 0.01 * thinnest);
+  Resolution(StepPath& path, const Solids& solids)
+      : path_(path), solids_(solids), held_(path.fixed), views_(views_of(solids, path)) {
+    // Vertices of no triangle have no thickness of their own.
+    const double least = thinnest(path);
+    for (double& thickness : path.thickness)
+      thickness = std::max(thickness, least);
     rides_.resize(path.start.size());
     for (std::size_t v = 0; v < rides_.size(); ++v)
       rides_[v] = held_[v] ? kRidesNone : first_bit(path.touch[v]);
@@ -51,7 +69,7 @@ public:
   SolidReport run() {
     hold_vertices();
     for (int round = 0; round < kRounds && !active_.empty(); ++round) {
-      const auto hits = find_hits(path_, views_, rides_, active_);
+      const auto hits = find_hits(path_, views_, rides_, active_, {.mend = true});
       count_across(hits);
       for (const FoundHit& hit : hits)
         push(hit);
@@ -153,8 +171,8 @@ private:
     const Near& near = hit.point.near;
     const Vector3 wanted =
         hit.place + std::max(0.0, kTarget * half - near.distance) * near.normal + view.belt(1 - hit.s);
-    // What starts across the surface is only brought out, along the normal.
-    const Vector3 move = hit.across ? Vector3(wanted - hit.place) : Vector3(wanted - end);
+    // What only must come out does so along the normal.
+    const Vector3 move = hit.kind == FoundHit::Kind::meeting ? Vector3(wanted - end) : Vector3(wanted - hit.place);
     const Vector3 out = std::max(0.0, move.dot(near.normal)) * near.normal;
     for (std::size_t c = 0; c < 3; ++c) {
       if (share[c] == 0)
@@ -169,7 +187,7 @@ private:
   }
 
   void carry(const FoundHit& hit) {
-    if (hit.across) {
+    if (hit.kind == FoundHit::Kind::across) {
       ++report_.unresolved;
       return;
     }
@@ -193,7 +211,7 @@ private:
       return;
     counted_across_ = true;
     for (const FoundHit& hit : hits)
-      report_.started_across += hit.across ? 1 : 0;
+      report_.started_across += hit.kind == FoundHit::Kind::across ? 1 : 0;
   }
 
   // Triangles with a corner that has changed must be looked at again.
@@ -235,24 +253,27 @@ private:
 } // namespace
 
 SolidReport resolve_solids(StepPath& path, const Solids& solids) {
-  if (solids.empty() || path.start.empty())
+  if (solids.empty() || path.triangles.empty())
     return {};
   return Resolution(path, solids).run();
 }
 
 std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& solids) {
-  if (solids.empty() || path.start.empty())
+  if (solids.empty() || path.triangles.empty())
     return {};
-  const double thinnest = *std::ranges::min_element(path.thickness);
-  std::vector<SolidView> views;
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    views.emplace_back(solids, i, path, 0.01 * thinnest);
+  const std::vector<SolidView> views = views_of(solids, path);
+  // What touches rides, and what ends where a solid has taken it.
   std::vector<std::int32_t> rides;
-  for (const std::uint64_t mask : path.touch)
-    rides.push_back(first_bit(mask));
+  for (std::size_t v = 0; v < path.start.size(); ++v) {
+    rides.push_back(first_bit(path.touch[v]));
+    for (std::size_t i = 0; i < views.size() && rides[v] == kRidesNone; ++i)
+      if ((views[i].carried(path.start[v]) - path.end[v]).norm() < 1e-9 * path.thickness[v])
+        rides[v] = static_cast<std::int32_t>(i);
+  }
   std::vector<std::uint32_t> all(path.triangles.size()), result;
   std::iota(all.begin(), all.end(), 0U);
-  for (const FoundHit& hit : find_hits(path, views, rides, all))
+  // A little less than what resolve_solids keeps, so that round-off raises no alarm.
+  for (const FoundHit& hit : find_hits(path, views, rides, all, {0.8 * kClearance, 0.1 * kClearance}))
     result.push_back(hit.triangle);
   return result;
 }

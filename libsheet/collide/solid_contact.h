@@ -11,10 +11,10 @@
 // (a rod or a tip through its middle, a corner of a box), the point that hits first sticks: the corners' ends are moved
 // by an inelastic impulse without slip, shared as their masses ask. After some rounds of that, what still hits is
 // carried with the solid from its start on. A carried triangle does not move in the solid's frame, and each further
-// round carries at least one vertex more, so this ends; after it no triangle's straight path comes closer to a solid
-// than an eighth of its thickness, or than half the distance where it started if that was less. Exceptions, counted in
-// the report: triangles that start across a solid's surface, those that [[hold]]s drive into one, and those between two
-// solids that close on each other.
+// round carries at least one vertex more, so this ends; after it no triangle's path comes closer to a solid than an
+// eighth of its thickness. One that started closer keeps nine tenths of its distance on the way and ends with all of
+// it; impulses try to bring it out to a quarter. Exceptions, counted in the report: triangles that start across a
+// solid's surface, those that [[hold]]s drive into one, and those between two solids that close on each other.
 //
 // Paths. In the frame of a solid that turns or speeds up, straight paths are bent; they are followed in pieces, as many
 // as it takes to stay within a hundredth of the sheet's least thickness of the true path.
@@ -40,12 +40,14 @@ struct SolidReport {
 };
 
 // Corrects end, velocity, touch and fixed of the path; `touch` has a bit or none for each vertex at the start, `fixed`
-// is set there for the vertices of [[hold]]s, which are left alone. Does nothing without solids. Throws Error
-// (bad_input) where a vertex starts deeper in a solid than half the sheet's thickness, unless a [[hold]] put it there.
+// is set there for the vertices of [[hold]]s, which are left alone. Vertices of no triangle, whose thickness is 0, are
+// given the least thickness. Does nothing without solids. Throws Error (bad_input) where a vertex starts deeper in a
+// solid than half the sheet's thickness, unless a [[hold]] put it there.
 SolidReport resolve_solids(StepPath& path, const Solids& solids);
 
-// The triangles that the straight path takes too close to a solid (as above), ascending. For checks after other
-// corrections; the vertices of [[hold]]s are followed too.
+// The triangles that the path takes too close to a solid (as above, less a fifth so that round-off raises no alarm),
+// ascending. For checks after other corrections; the vertices of [[hold]]s are followed too. Paths are straight, but in
+// a solid's frame for what touches it or ends where it is carried.
 [[nodiscard]] std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& solids);
 
 } // namespace sheet::collide

@@ -39,10 +39,11 @@ public:
   [[nodiscard]] Box3 bounds() const override { return tree_.bounds(); }
 
   [[nodiscard]] Near nearest(const Vector3& x) const override {
-    // Where the field has a distance, the true one is not much larger; the tree tells whether that was right.
-    const double within = std::abs(field_.at(x)) + 4 * slack_;
-    if (const auto near = tree_.nearest(x, within))
-      return *near;
+    // Where the field has a distance, the true one is mostly not much larger; the tree tells whether that was right.
+    const double field = std::abs(field_.at(x));
+    for (const double within : {field + slack_ / 2, field + 4 * slack_})
+      if (const auto near = tree_.nearest(x, within))
+        return *near;
     return *tree_.nearest(x, std::numeric_limits<double>::infinity());
   }
 
@@ -58,7 +59,10 @@ public:
 
   [[nodiscard]] std::optional<TriangleHit> first_hit(const MovingTriangle& triangle, double clearance,
                                                      double tolerance) const override {
-    return tree_.first_hit(triangle, clearance, tolerance);
+    auto hit = tree_.first_hit(triangle, clearance, tolerance);
+    if (hit)
+      hit->point.near = nearest(point_of(triangle.at(hit->s), hit->point.weights));
+    return hit;
   }
 
   [[nodiscard]] double separation(const Triangle3& triangle, double enough, double /*tolerance*/) const override {

@@ -30,7 +30,10 @@ std::optional<double> first_contact(const SolidDistance& shape, const Vector3& a
       return std::nullopt;
     if (distance <= offset + slack)
       return s;
-    s += (distance - offset) / travel;
+    const double next = s + (distance - offset) / travel;
+    if (next == s) // round-off allows no nearer
+      return s;
+    s = next;
   }
   return std::nullopt;
 }
@@ -66,8 +69,78 @@ std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidVi
   return first;
 }
 
+namespace {
+
+// One triangle against one solid.
+class TriangleSweep {
+public:
+  TriangleSweep(const StepPath& path, const SolidView& view, std::uint32_t triangle, std::array<bool, 3> rides)
+      : path_(path), view_(view), triangle_(triangle), rides_(rides) {}
+
+  [[nodiscard]] std::optional<FoundHit> first(double clearance, double slack, bool mend) const {
+    const double wanted = clearance;
+    MovingTriangle moving{at(0), at(1)};
+    double starts_with = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < view_.pieces(); ++k) {
+      if (k > 0)
+        moving = {moving.end, at(k + 1)};
+      auto hit = view_.shape().first_hit(moving, clearance, slack);
+      if (k == 0 && hit && hit->s == 0) {
+        starts_with = std::min(clearance, view_.shape().separation(moving.start, clearance, kMeasured * clearance));
+        if (starts_with == 0)
+          return at_end(FoundHit::Kind::across, clearance, slack);
+        hit = view_.shape().first_hit(moving, 0.9 * starts_with, 0.05 * starts_with);
+        clearance = 0.9 * starts_with;
+        slack = 0.05 * starts_with;
+      }
+      if (!hit)
+        continue;
+      return FoundHit{FoundHit::Kind::meeting,
+                      triangle_,
+                      0,
+                      (static_cast<double>(k) + hit->s) / static_cast<double>(view_.pieces()),
+                      hit->point,
+                      point_of(moving.at(hit->s), hit->point.weights)};
+    }
+    if (starts_with == std::numeric_limits<double>::infinity())
+      return std::nullopt;
+    const double ends_with = mend ? wanted : starts_with;
+    if (view_.shape().separation(moving.end, ends_with, kMeasured * ends_with) < (1 - 2 * kMeasured) * ends_with)
+      return at_end(FoundHit::Kind::closing, clearance, slack);
+    return std::nullopt;
+  }
+
+private:
+  static constexpr double kMeasured = 1e-4; // the part by which separations may be too small
+
+  [[nodiscard]] Triangle3 at(std::size_t k) const {
+    Triangle3 result;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = path_.triangles[triangle_][c];
+      result[c] = view_.on_path(k, path_.start[v], path_.end[v], rides_[c]);
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::optional<FoundHit> at_end(FoundHit::Kind kind, double clearance, double slack) const {
+    const Triangle3 last = at(view_.pieces());
+    const TrianglePoint deepest = view_.shape().deepest(last, slack);
+    if (kind == FoundHit::Kind::across && deepest.near.distance >= clearance)
+      return std::nullopt;
+    return FoundHit{kind, triangle_, 0, 1, deepest, point_of(last, deepest.weights)};
+  }
+
+  const StepPath& path_;
+  const SolidView& view_;
+  std::uint32_t triangle_;
+  std::array<bool, 3> rides_;
+};
+
+} // namespace
+
 std::optional<FoundHit> first_hit(const StepPath& path, std::span<const SolidView> views,
-                                  std::span<const std::int32_t> rides, std::uint32_t triangle) {
+                                  std::span<const std::int32_t> rides, std::uint32_t triangle,
+                                  const Nearness& nearness) {
   const Corners& corners = path.triangles[triangle];
   Box3 box;
   double half = std::numeric_limits<double>::infinity();
@@ -80,53 +153,26 @@ std::optional<FoundHit> first_hit(const StepPath& path, std::span<const SolidVie
   box.max().array() += half;
   std::optional<FoundHit> first;
   for (std::uint32_t i = 0; i < views.size(); ++i) {
-    const SolidView& view = views[i];
-    if (!view.swept().intersects(box))
+    if (!views[i].swept().intersects(box))
       continue;
-    const SolidDistance& shape = view.shape();
-    const auto place = [&](std::size_t k) {
-      Triangle3 result;
-      for (std::size_t c = 0; c < 3; ++c)
-        result[c] = view.on_path(k, path.start[corners[c]], path.end[corners[c]],
-                                 rides[corners[c]] == static_cast<std::int32_t>(i));
-      return result;
-    };
-    double clearance = kClearance * half, slack = kHitSlack * half;
-    MovingTriangle moving{place(0), place(1)};
-    for (std::size_t k = 0; k < view.pieces(); ++k) {
-      if (k > 0)
-        moving = {moving.end, place(k + 1)};
-      auto hit = shape.first_hit(moving, clearance, slack);
-      if (k == 0 && hit && hit->s == 0) { // it starts there: then half of what it has is what it keeps
-        const double apart = shape.separation(moving.start, clearance + slack, 0.01 * clearance);
-        if (apart == 0) {
-          const Triangle3 last = place(view.pieces());
-          const TrianglePoint deepest = shape.deepest(last, slack);
-          if (deepest.near.distance < clearance && (!first || !first->across))
-            first = FoundHit{triangle, i, 1, deepest, point_of(last, deepest.weights), true};
-          break;
-        }
-        clearance = apart / 2;
-        slack = apart / 4;
-        hit = shape.first_hit(moving, clearance, slack);
-      }
-      if (!hit)
-        continue;
-      const double s = (static_cast<double>(k) + hit->s) / static_cast<double>(view.pieces());
-      if (!first || s < first->s)
-        first = FoundHit{triangle, i, s, hit->point, point_of(moving.at(hit->s), hit->point.weights), false};
-      break;
-    }
+    const auto on_this = [&](std::size_t c) { return rides[corners[c]] == static_cast<std::int32_t>(i); };
+    const TriangleSweep sweep(path, views[i], triangle, {on_this(0), on_this(1), on_this(2)});
+    auto hit = sweep.first(nearness.clearance * half, nearness.slack * half, nearness.mend);
+    if (!hit || (first && first->s <= hit->s))
+      continue;
+    first = hit;
+    first->solid = i;
   }
   return first;
 }
 
 std::vector<FoundHit> find_hits(const StepPath& path, std::span<const SolidView> views,
-                                std::span<const std::int32_t> rides, std::span<const std::uint32_t> triangles) {
+                                std::span<const std::int32_t> rides, std::span<const std::uint32_t> triangles,
+                                const Nearness& nearness) {
   std::vector<std::optional<FoundHit>> found(triangles.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 64), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      found[i] = first_hit(path, views, rides, triangles[i]);
+      found[i] = first_hit(path, views, rides, triangles[i], nearness);
   });
   std::vector<FoundHit> result;
   for (const auto& hit : found)

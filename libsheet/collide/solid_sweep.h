@@ -37,20 +37,34 @@ struct VertexHit {
 
 // A triangle that comes too close to a solid.
 struct FoundHit {
+  enum class Kind {
+    meeting, // at the time s
+    closing, // it starts close, and ends closer: s = 1, the point is the deepest one at the end
+    across   // it starts across the surface: likewise
+  };
+  Kind kind;
   std::uint32_t triangle, solid;
   double s;            // the part of the step until then
-  TrianglePoint point; // that hits, near in the solid's frame
+  TrianglePoint point; // near in the solid's frame
   Vector3 place;       // of the point, in the solid's frame, at that time
-  bool across;         // it starts across the surface: s = 1, and the point is the deepest one at the end
 };
 
-// The earliest hit of one triangle; vertices ride on the solid that `rides` names, or go straight.
+// How near triangles may come, as parts of half the thickness.
+struct Nearness {
+  double clearance = kClearance, slack = kHitSlack;
+  bool mend = false; // what starts nearer than the clearance must not end so
+};
+
+// The earliest hit of one triangle; vertices ride on the solid that `rides` names, or go straight. A triangle that
+// starts nearer than the clearance must keep nine tenths of what it has on the way, and end with all of it, or with
+// the clearance where that is to be mended.
 [[nodiscard]] std::optional<FoundHit> first_hit(const StepPath& path, std::span<const SolidView> views,
-                                                std::span<const std::int32_t> rides, std::uint32_t triangle);
+                                                std::span<const std::int32_t> rides, std::uint32_t triangle,
+                                                const Nearness& nearness);
 
 // Those of many triangles, in their order.
 [[nodiscard]] std::vector<FoundHit> find_hits(const StepPath& path, std::span<const SolidView> views,
                                               std::span<const std::int32_t> rides,
-                                              std::span<const std::uint32_t> triangles);
+                                              std::span<const std::uint32_t> triangles, const Nearness& nearness = {});
 
 } // namespace sheet::collide

@@ -13,6 +13,11 @@ namespace {
 
 constexpr std::uint32_t kLeaf = 4;
 
+Triangle3 face_of(const SolidSurface& surface, std::uint32_t t) {
+  const Corners& c = surface.triangles[t];
+  return {surface.points[c[0]], surface.points[c[1]], surface.points[c[2]]};
+}
+
 double squared_gap(const Box3& a, const Box3& b) {
   return (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0).squaredNorm();
 }
@@ -33,7 +38,7 @@ TriangleTree::TriangleTree(SolidSurface surface) : surface_(std::move(surface)) 
   vertex_normals_.assign(surface_.points.size(), Vector3::Zero());
   std::map<std::pair<std::uint32_t, std::uint32_t>, Vector3> edges; // sums of the two faces' normals
   for (std::uint32_t t = 0; t < count; ++t) {
-    const Triangle3 x = face_at(t);
+    const Triangle3 x = face_of(surface_, t);
     const Corners& c = surface_.triangles[t];
     centers[t] = (x[0] + x[1] + x[2]) / 3;
     face_normals_[t] = (x[1] - x[0]).cross(x[2] - x[0]).stableNormalized();
@@ -52,12 +57,15 @@ TriangleTree::TriangleTree(SolidSurface surface) : surface_(std::move(surface)) 
   std::iota(order_.begin(), order_.end(), 0U);
   nodes_.reserve(2 * (count / kLeaf + 1));
   build(0, count, centers);
+  corners_.reserve(count);
+  for (const std::uint32_t t : order_)
+    corners_.push_back(face_of(surface_, t));
 }
 
 void TriangleTree::build(std::uint32_t first, std::uint32_t last, std::vector<Vector3>& centers) {
   Box3 box, middles;
   for (std::uint32_t i = first; i < last; ++i) {
-    for (const Vector3& x : face_at(order_[i]))
+    for (const Vector3& x : face_of(surface_, order_[i]))
       box.extend(x);
     middles.extend(centers[order_[i]]);
   }
@@ -100,7 +108,7 @@ std::optional<Near> TriangleTree::nearest(const Vector3& x, double within) const
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const NearestOnTriangle candidate = nearest_on_triangle(x, face_at(order_[i]));
+      const NearestOnTriangle candidate = nearest_on_triangle(x, corners_[i]);
       if (const double squared = (x - candidate.point).squaredNorm(); squared < best) {
         best = squared;
         found = true;
@@ -110,7 +118,7 @@ std::optional<Near> TriangleTree::nearest(const Vector3& x, double within) const
   }
   if (!found)
     return std::nullopt;
-  const NearestOnTriangle at = nearest_on_triangle(x, face_at(face));
+  const NearestOnTriangle at = nearest_on_triangle(x, face_of(surface_, face));
   const Vector3& pseudo = at.part == NearestOnTriangle::Part::face ? face_normals_[face]
                           : at.part == NearestOnTriangle::Part::edge
                               ? edge_normals_[face][at.index]
@@ -155,7 +163,7 @@ TriangleTree::Pair TriangleTree::nearest(const Triangle3& triangle, double withi
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Triangle3 other = face_at(order_[i]);
+      const Triangle3& other = corners_[i];
       if (span_gap(above(other[0]), above(other[1]), above(other[2])) >= result.distance)
         continue;
       const Vector3& face = face_normals_[order_[i]];

@@ -30,7 +30,7 @@ public:
   };
   [[nodiscard]] Pair nearest(const Triangle3& triangle, double within) const;
 
-  // As SolidDistance::first_hit.
+  // As SolidDistance::first_hit; what is near the point is the part of the mesh that it hits.
   [[nodiscard]] std::optional<TriangleHit> first_hit(const MovingTriangle& triangle, double clearance,
                                                      double tolerance) const;
 
@@ -40,14 +40,11 @@ private:
     std::uint32_t first; // a leaf's first triangle, else the second child; the first child follows its parent
     std::uint32_t count; // of a leaf's triangles, else 0
   };
-  [[nodiscard]] Triangle3 face_at(std::uint32_t t) const {
-    const Corners& c = surface_.triangles[t];
-    return {surface_.points[c[0]], surface_.points[c[1]], surface_.points[c[2]]};
-  }
   void build(std::uint32_t first, std::uint32_t last, std::vector<Vector3>& centers);
 
   SolidSurface surface_;
   std::vector<std::uint32_t> order_; // triangles, leaf after leaf
+  std::vector<Triangle3> corners_;   // theirs, in that order
   std::vector<Node> nodes_;
   std::vector<Vector3> face_normals_, vertex_normals_;
   std::vector<std::array<Vector3, 3>> edge_normals_; // of each triangle, edge i opposite corner i

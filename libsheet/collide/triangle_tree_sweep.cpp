@@ -90,20 +90,22 @@ public:
       const Triangle3 now = place(part, moving_.at(s));
       const TrianglePair pair = nearest_points(now, other);
       const Vector3 direction = pair.distance > 0 ? Vector3((pair.first - pair.second) / pair.distance) : face;
-      if (pair.distance <= clearance_ + tolerance_) {
-        until_ = s;
-        hit_ = TriangleHit{s, {in_whole(part, pair.weights), {pair.distance, direction}}};
-        return;
-      }
+      const double gap = pair.distance - clearance_;
       double approach = 0, nearest_approach = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         const double closing = direction.dot(first[i] - last[i]);
         approach = std::max(approach, closing);
         nearest_approach += pair.weights[i] * closing;
       }
-      if ((until_ - s) * approach <= pair.distance - clearance_)
+      // Nearer than the tolerance, or than round-off allows.
+      if (gap <= tolerance_ || (approach > 0 && s + gap / approach == s)) {
+        until_ = s;
+        hit_ = TriangleHit{s, {in_whole(part, pair.weights), {pair.distance, direction}}};
         return;
-      s += (pair.distance - clearance_) / approach;
+      }
+      if ((until_ - s) * approach <= gap)
+        return;
+      s += gap / approach;
       // One corner rests near the other triangle while others race: each half goes on by itself.
       if (turn >= kTurns && nearest_approach < approach / 2) {
         const LongestSide before = longest_side(first), after = longest_side(last);
@@ -149,7 +151,7 @@ std::optional<TriangleHit> TriangleTree::first_hit(const MovingTriangle& moving,
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Triangle3 other = face_at(order_[i]);
+      const Triangle3& other = corners_[i];
       if (prism.apart(other, reach))
         continue;
       const double before = advance.until();

@@ -42,7 +42,7 @@ bool keeps_manifold(const Mesh& mesh, std::uint32_t side) {
 
 // Regularised quadric of the planes of triangles: the point with the least Σ A (n·(x - c))² + r ΣA |x - middle|².
 Vector3 quadric_point(const EditableSheet& sheet, std::span<const std::uint32_t> triangles, const Vector3& middle) {
-  constexpr double regularisation = 0.01;
+  constexpr double regularisation = 0.0001;
   Matrix3 quadric = Matrix3::Zero();
   Vector3 pull = Vector3::Zero();
   double area = 0;

@@ -14,11 +14,6 @@ namespace {
 const double sliver_cosine = cosine_of_degrees(15);
 }
 
-TriangleShape EditableSheet::shape(std::uint32_t t) const {
-  const Corners& c = mesh_.corners(t);
-  return {position_[c[0]], position_[c[1]], position_[c[2]]};
-}
-
 Box EditableSheet::box_of(const Corners& c) const {
   Box box{position_[c[0]], position_[c[0]]};
   box.add(position_[c[1]]);
@@ -239,8 +234,11 @@ void EditableSheet::write_vertex_rows(const Edit& edit) {
 
 void EditableSheet::write_triangle_rows(const Edit& edit) {
   volume_.resize(mesh_.triangle_slots());
-  for (std::size_t i = 0; i < slots_.size(); ++i)
+  shape_.resize(mesh_.triangle_slots());
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
     volume_[slots_[i]] = edit.volumes[i];
+    shape_[slots_[i]] = new_shapes_[i];
+  }
   if (triangle_rows_.empty())
     return;
   const std::size_t old_count = edit.removed.size(), new_count = edit.added.size();

@@ -36,7 +36,7 @@ public:
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const std::vector<Vector3>& positions() const { return position_; }
   [[nodiscard]] const Vector3& at(std::uint32_t v) const { return position_[v]; }
-  [[nodiscard]] TriangleShape shape(std::uint32_t t) const;
+  [[nodiscard]] const TriangleShape& shape(std::uint32_t t) const { return shape_[t]; }
   [[nodiscard]] double volume(std::uint32_t t) const { return volume_[t]; }
   [[nodiscard]] Vector3 velocity(std::uint32_t v) const { return velocity_.empty() ? Vector3::Zero() : velocity_[v]; }
   // Of a third of each triangle around v [m³].
@@ -70,6 +70,7 @@ private:
   Mesh mesh_;
   std::vector<Vector3> position_, velocity_; // velocity_: empty in a frame at rest
   std::vector<double> volume_, swept_, carried_;
+  std::vector<TriangleShape> shape_;
   std::vector<std::uint32_t> grip_; // empty: nothing is held
   std::vector<std::vector<std::byte>> grips_;
   std::vector<formats::Array> vertex_rows_, triangle_rows_; // all other arrays, by slot

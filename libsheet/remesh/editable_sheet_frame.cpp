@@ -59,6 +59,8 @@ EditableSheet::EditableSheet(const Frame& frame) : mesh_(frame.vertices, triangl
   velocity_.assign(u.begin(), u.end());
   const auto volume = volumes(frame);
   volume_.assign(volume.begin(), volume.end());
+  for (const Corners& c : triangles(frame))
+    shape_.emplace_back(position_[c[0]], position_[c[1]], position_[c[2]]);
   swept_.assign(position_.size(), 0);
   if (const Array* ledger = frame.find(swept_name); ledger != nullptr)
     std::copy_n(ledger->values<double>().begin(), swept_.size(), swept_.begin());

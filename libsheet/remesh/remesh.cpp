@@ -6,18 +6,19 @@
 #include <cmath>
 #include <queue>
 
+#include "libsheet/base/error.h"
 #include "libsheet/remesh/operations.h"
 
 namespace sheet::remesh {
 
 namespace {
 
-const double cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22),
-             cosine_35 = cosine_of_degrees(35);
+const double cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22), cosine_35 = cosine_of_degrees(35);
 
 constexpr double repair_thickness = 1.3; // see Limits::thickness
 constexpr double flat_enough = 0.1;      // of an edge: a flip may move the surface so far at any fold
 constexpr double least_gain = 0.01;      // of the cosine of the smallest angle: about one degree
+constexpr double most_triangles = 1e8;
 constexpr int most_passes = 5, most_repairs = 3;
 
 class Remesher {
@@ -301,7 +302,12 @@ Report remesh(formats::Frame& frame, const Scene* scene, const Options& options)
     return {};
   EditableSheet sheet(frame);
   SizeField size(sheet, scene, options.size);
-  const Report report = Remesher(sheet, size, options, wanted_triangles(sheet, size)).run();
+  const double wanted = wanted_triangles(sheet, size);
+  if (!(wanted <= most_triangles))
+    fail(ExitCode::usage,
+         "edges of {:g} m would cut this sheet into {:.2g} triangles, more than {:.2g}: ask for longer edges",
+         size.shortest(), wanted, most_triangles);
+  const Report report = Remesher(sheet, size, options, wanted).run();
   sheet.put(frame);
   return report;
 }

@@ -9,24 +9,35 @@
 
 namespace sheet::remesh {
 
-RemeshStage::RemeshStage(const Options& options) : options_(options) { options_.size.check(); }
+RemeshStage::RemeshStage(const StageOptions& options) : options_(options) {
+  if (options_.edge_length) {
+    options_.remeshing.size.edge_length = *options_.edge_length;
+    options_.remeshing.size.check();
+  }
+}
 
 void RemeshStage::remesh(formats::Frame& frame) {
   const formats::Array* text = frame.find("scene");
-  if (text != nullptr && options_.size.chord_error && (!scene_ || text->text() != scene_text_)) {
+  const bool needed = options_.remeshing.size.chord_error || !options_.edge_length;
+  if (text != nullptr && needed && (!scene_ || text->text() != scene_text_)) {
     scene_ = parse_scene(text->text(), "the frame's scene");
     scene_text_ = text->text();
   }
+  if (!options_.edge_length) {
+    if (!scene_ || !scene_->sheet.edge_length)
+      fail(ExitCode::usage, "--edge-length is needed: the frame's scene does not say how long edges are");
+    options_.remeshing.size.edge_length = *scene_->sheet.edge_length;
+  }
   const std::uint64_t vertices = frame.vertices;
   const auto start = std::chrono::steady_clock::now();
-  const Report report = remesh::remesh(frame, scene_ ? &*scene_ : nullptr, options_);
+  const Report report = remesh::remesh(frame, scene_ ? &*scene_ : nullptr, options_.remeshing);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   log::detail("step {}: {} splits, {} collapses, {} flips, {} moved, {} absorbed; {} to {} vertices, {:.1f} ms",
               frame.step, report.splits, report.collapses, report.flips, report.smoothed, report.absorbed, vertices,
               frame.vertices, 1e3 * seconds);
   if (report.budget_reached)
     log::warning("step {}: more edits were due than one call makes ({} were made); the next call goes on", frame.step,
-              report.edits());
+                 report.edits());
   if (report.sharp > 0)
     log::detail("step {}: {} triangles have an angle below 20 degrees", frame.step, report.sharp);
   total_.splits += report.splits;

@@ -8,15 +8,21 @@
 
 namespace sheet::remesh {
 
+struct StageOptions {
+  std::optional<double> edge_length; // [m]; absent: the scene's
+  Options remeshing;                 // its edge length is taken from above
+};
+
 class RemeshStage {
 public:
   // Error(usage) if the options say something impossible.
-  explicit RemeshStage(const Options& options);
-  void remesh(formats::Frame& frame); // errors as remesh::remesh; a scene that cannot be read: bad_input
+  explicit RemeshStage(const StageOptions& options);
+  void remesh(formats::Frame& frame); // errors as remesh::remesh; usage: no edge length; bad_input: a scene
+                                      // that cannot be read
   void report() const;                // with -v: how many edits of each kind, over all frames
 
 private:
-  Options options_;
+  StageOptions options_;
   std::string scene_text_;
   std::optional<Scene> scene_;
   Report total_;

@@ -219,6 +219,8 @@ SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeO
   grade(sheet, size_);
 }
 
+double SizeField::shortest() const { return size_.empty() ? uniform_ : *std::min_element(size_.begin(), size_.end()); }
+
 void SizeField::set_between(std::uint32_t v, std::uint32_t a, std::uint32_t b) {
   if (size_.empty())
     return;

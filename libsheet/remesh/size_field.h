@@ -29,6 +29,7 @@ public:
   SizeField(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
   [[nodiscard]] double at(std::uint32_t v) const { return size_.empty() ? uniform_ : size_[v]; }
   [[nodiscard]] double along(std::uint32_t a, std::uint32_t b) const { return 0.5 * (at(a) + at(b)); }
+  [[nodiscard]] double shortest() const;
   // A vertex between two others, or one that takes the place of two.
   void set_between(std::uint32_t v, std::uint32_t a, std::uint32_t b);
 
