@@ -56,6 +56,8 @@ _STANDARD = {
     "next_output_time": ("frame", "float64", 1, "s", "copy"),
     "step_size": ("frame", "float64", 1, "s", "copy"),
     "touch": ("vertex", "uint64", 1, "1", "common"),
+    "inlet": ("vertex", "uint64", 1, "1", "common"),
+    "inlet_origin": ("vertex", "float64", 3, "m", "interpolate"),
     "contact_vertex": ("frame", "uint32", 4, "1", "drop"),
     "contact_weight": ("frame", "float64", 4, "1", "drop"),
     "contact_normal": ("frame", "float64", 3, "1", "drop"),

@@ -2,7 +2,7 @@
 #include "libsheet/collide/collide_stage.h"
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <limits>
 #include <optional>
 #include <string>
@@ -27,16 +27,16 @@ constexpr double edges_of_reach = 2;
 // Rounds of self-response that leave alone what would go into a solid.
 constexpr int rounds_with_solids = 4;
 
-// Seconds since the last call.
+// Processor time of all threads since the last call [s]: other work on the machine disturbs it least.
 class Watch {
 public:
   double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    const std::clock_t now = std::clock();
+    return static_cast<double>(now - std::exchange(last_, now)) / CLOCKS_PER_SEC;
   }
 
 private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::clock_t last_ = std::clock();
 };
 
 struct Totals {
@@ -44,7 +44,7 @@ struct Totals {
   SolidReport solids;
   SelfReport self;
   std::size_t most_springs = 0, most_touching = 0;
-  double with_solids = 0, check = 0, response = 0, springs = 0; // [s]
+  double with_solids = 0, check = 0, response = 0, springs = 0; // processor time [s]
 
   void add(const SolidReport& r) {
     most_touching = std::max(most_touching, r.touching);
@@ -283,15 +283,15 @@ void CollideStage::report() const {
   if (impl_->solids) {
     log::detail("{} steps with solids: {} vertices caught, at most {} touching, {} impulses, {} vertices carried",
                 t.steps, t.solids.caught, t.most_touching, t.solids.pushed, t.solids.carried);
-    log::detail("  a step: {:.2f} ms", ms * t.with_solids);
+    log::detail("  processor time of a step: {:.2f} ms", ms * t.with_solids);
   }
   if (impl_->self()) {
     log::detail("{} steps with the sheet itself, {} of them with hits ({} pairs): {} impulses, {} vertices in rigid "
                 "groups, {} pulled back ({} of them held), {} rounds; at most {} springs",
                 t.steps, t.with_hits, t.self.hits, t.self.by_impulses, t.self.in_groups, t.self.pulled_back,
                 t.self.held_back, t.self.rounds, t.most_springs);
-    log::detail("  a step: check of the start {:.2f} ms, response {:.2f} ms, springs {:.2f} ms", ms * t.check,
-                ms * t.response, ms * t.springs);
+    log::detail("  processor time of a step: check of the start {:.2f} ms, response {:.2f} ms, springs {:.2f} ms",
+                ms * t.check, ms * t.response, ms * t.springs);
   }
 }
 

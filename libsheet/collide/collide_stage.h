@@ -20,7 +20,7 @@ public:
   // sheet that passes through itself at the start.
   void step(formats::Frame& frame);
 
-  // With -v: how often each means was needed, and the time of each part.
+  // With -v: how often each means was needed, and the processor time of each part.
   void report() const;
 
 private:

@@ -20,12 +20,6 @@ constexpr double facing = 0.5;
 
 using Four = std::array<std::uint32_t, 4>;
 
-bool share_vertex(const FeaturePair& p) {
-  const Four& v = p.vertices;
-  const bool crossing = v[0] == v[2] || v[0] == v[3];
-  return p.features == Features::vertex_triangle ? crossing || v[0] == v[1] : crossing || v[1] == v[2] || v[1] == v[3];
-}
-
 std::array<Vector3, 4> points(std::span<const Vector3> x, const Four& v) {
   return {x[v[0]], x[v[1]], x[v[2]], x[v[3]]};
 }
@@ -80,8 +74,14 @@ std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> chosen, Tes
   const auto vertex_triangle = [&](std::vector<Found>& out, std::uint32_t s, std::uint32_t t) {
     const Triangle& c = mesh_.triangles[t];
     for (std::size_t i = 0; i < 3; ++i)
-      if ((owned_[s] >> i & 1) != 0)
-        test(FeaturePair{Features::vertex_triangle, {mesh_.triangles[s][i], c[0], c[1], c[2]}}, out);
+      if (const std::uint32_t v = mesh_.triangles[s][i];
+          (owned_[s] >> i & 1) != 0 && v != c[0] && v != c[1] && v != c[2] && vertex_boxes_[v].overlaps(boxes_[t]))
+        test(FeaturePair{Features::vertex_triangle, {v, c[0], c[1], c[2]}}, out);
+  };
+  const auto edge_edge = [&](std::vector<Found>& out, std::uint32_t e, std::uint32_t f) {
+    const Edge &a = mesh_.edges[std::min(e, f)], &b = mesh_.edges[std::max(e, f)];
+    if (a[0] != b[0] && a[0] != b[1] && a[1] != b[0] && a[1] != b[1] && edge_boxes_[e].overlaps(edge_boxes_[f]))
+      test(FeaturePair{Features::edge_edge, {a[0], a[1], b[0], b[1]}}, out);
   };
   tree_.for_overlaps(chosen, [&](std::size_t chunk, std::uint32_t s, std::uint32_t t) {
     std::vector<Found>& out = found[chunk];
@@ -89,11 +89,8 @@ std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> chosen, Tes
     vertex_triangle(out, t, s);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
-        if ((owned_[s] >> (3 + i) & 1) != 0 && (owned_[t] >> (3 + j) & 1) != 0) {
-          const auto [first, second] = std::minmax(mesh_.triangle_edges[s][i], mesh_.triangle_edges[t][j]);
-          const Edge &a = mesh_.edges[first], &b = mesh_.edges[second];
-          test(FeaturePair{Features::edge_edge, {a[0], a[1], b[0], b[1]}}, out);
-        }
+        if ((owned_[s] >> (3 + i) & 1) != 0 && (owned_[t] >> (3 + j) & 1) != 0)
+          edge_edge(out, mesh_.triangle_edges[s][i], mesh_.triangle_edges[t][j]);
   });
   std::vector<Found> all;
   for (const auto& part : found)
@@ -104,15 +101,24 @@ std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> chosen, Tes
 
 void SelfSearch::place_boxes(std::span<const Vector3> start, std::span<const Vector3> end,
                              std::span<const double> reach, double part) {
+  vertex_boxes_.assign(mesh_.vertices, {});
+  edge_boxes_.assign(mesh_.edges.size(), {});
   boxes_.assign(mesh_.triangles.size(), {});
-  for (std::size_t t = 0; t < boxes_.size(); ++t) {
-    const Triangle& c = mesh_.triangles[t];
-    const double margin = 0.5 * part * std::max({reach[c[0]], reach[c[1]], reach[c[2]]});
-    for (const std::uint32_t v : c) {
-      boxes_[t].add(start[v], margin);
-      boxes_[t].add(end[v], margin);
+  const auto place = [&](Box& box, std::span<const std::uint32_t> vertices) {
+    double most = 0;
+    for (const std::uint32_t v : vertices)
+      most = std::max(most, reach[v]);
+    for (const std::uint32_t v : vertices) {
+      box.add(start[v], 0.5 * part * most);
+      box.add(end[v], 0.5 * part * most);
     }
-  }
+  };
+  for (std::uint32_t v = 0; v < vertex_boxes_.size(); ++v)
+    place(vertex_boxes_[v], {&v, 1});
+  for (std::size_t e = 0; e < edge_boxes_.size(); ++e)
+    place(edge_boxes_[e], mesh_.edges[e]);
+  for (std::size_t t = 0; t < boxes_.size(); ++t)
+    place(boxes_[t], mesh_.triangles[t]);
 }
 
 std::vector<Hit> SelfSearch::hits(std::span<const Vector3> start, std::span<const Vector3> end,
@@ -127,8 +133,6 @@ std::vector<Hit> SelfSearch::hits(std::span<const Vector3> start, std::span<cons
       chosen.push_back(moved[c[0]] | moved[c[1]] | moved[c[2]]);
   }
   return collect<Hit>(chosen, [&](const FeaturePair& pair, std::vector<Hit>& out) {
-    if (share_vertex(pair))
-      return;
     const Four& v = pair.vertices;
     if (!moved.empty() && (moved[v[0]] | moved[v[1]] | moved[v[2]] | moved[v[3]]) == 0)
       return;
@@ -172,8 +176,6 @@ std::vector<NearPair> SelfSearch::near(std::span<const Vector3> x, std::span<con
     return height > facing * closest.offset.norm() && !joins(v, 1) ? std::optional(closest) : std::nullopt;
   };
   return collect<NearPair>({}, [&](const FeaturePair& pair, std::vector<NearPair>& out) {
-    if (share_vertex(pair))
-      return;
     const auto closest = touching(pair);
     if (!closest)
       return;

@@ -63,8 +63,8 @@ private:
                    double part);
 
   const Connectivity& mesh_;
-  std::vector<std::uint8_t> owned_; // a triangle: bits 0 to 2 its vertices, bits 3 to 5 its edges
-  std::vector<Box> boxes_;
+  std::vector<std::uint8_t> owned_;                    // a triangle: bits 0 to 2 its vertices, bits 3 to 5 its edges
+  std::vector<Box> vertex_boxes_, edge_boxes_, boxes_; // of vertices, edges, triangles
   BoxTree tree_;
 };
 

@@ -47,7 +47,8 @@ public:
   [[nodiscard]] double swept(std::uint32_t v) const { return swept_[v]; }
 
   // Makes the edit, unless it breaks the limits or makes a triangle without area; then nothing changes. Where the edit
-  // has no overlap yet, it is found by projecting the patch along its mean normal.
+  // has no overlap yet, it is found by projecting the patch along its mean normal. Triangles in the slot of an inlet
+  // (inlet.h) stay as they are.
   [[nodiscard]] bool make(Edit& edit, const Limits& limits);
   [[nodiscard]] std::uint64_t edits() const { return edits_; }
 
@@ -55,6 +56,7 @@ public:
   void put(formats::Frame& frame);
 
 private:
+  [[nodiscard]] bool in_slot(std::uint32_t t) const;
   [[nodiscard]] bool check_shapes(const Edit& edit, const Limits& limits);
   void find_overlap(Edit& edit);
   [[nodiscard]] bool intersects(const Edit& edit);
@@ -73,6 +75,7 @@ private:
   std::vector<TriangleShape> shape_;
   std::vector<std::uint32_t> grip_; // empty: nothing is held
   std::vector<std::vector<std::byte>> grips_;
+  std::vector<bool> in_inlet_;                              // vertices of the frame; empty: there is no inlet
   std::vector<formats::Array> vertex_rows_, triangle_rows_; // all other arrays, by slot
   std::vector<std::uint32_t> successor_;                    // of removed vertices; itself: still there
   std::optional<TriangleGrid> grid_;

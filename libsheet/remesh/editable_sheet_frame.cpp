@@ -70,6 +70,8 @@ EditableSheet::EditableSheet(const Frame& frame) : mesh_(frame.vertices, triangl
     carried_.push_back(carried_volume(v));
     successor_.push_back(v);
   }
+  for (const std::uint64_t bits : masks(frame, "inlet"))
+    in_inlet_.push_back((bits & sheet::in_inlet) != 0);
   const bool any_grip = std::any_of(vertex_rows_.begin(), vertex_rows_.end(),
                                     [](const Array& array) { return array.transfer == Transfer::common; });
   for (std::uint32_t v = 0; any_grip && v < position_.size(); ++v)
