@@ -6,6 +6,7 @@
 //   bench_solids meshes MESH...       a sheet and each mesh, 0.4 m in size: at rest, moving, spinning
 //   bench_solids cost [MESH]          a step's time where nothing, something, everything touches
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <string>
@@ -67,7 +68,8 @@ std::vector<Named> targets(const std::string& mesh) {
   const scene::Rotation corner{Vector3(1, 0, -1).normalized(), std::acos(1 / std::sqrt(3.0))};
   result.push_back(
       {"box on its corner", one(scene::SolidBox{{0.1, 0.1, 0.1}}, {0, 0, 0}, corner), 0.05 * std::sqrt(3.0)});
-  const std::string file = "/tmp/needle-" + std::to_string(getpid()) + ".obj";
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("needle-" + std::to_string(getpid()) + ".obj")).string();
   write_obj(file, test::needle(2e-3, 0.2, 8));
   result.push_back({"needle, a mesh", one(scene::SolidMesh{file, 1, {}}, {3e-3, 0, 2e-3}), 0.2});
   std::remove(file.c_str());
