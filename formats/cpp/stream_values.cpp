@@ -32,6 +32,7 @@ constexpr std::array standards{
     Standard{"volume", Place::triangle, Type::float64, 1, "m^3", Transfer::conserve, true},
     Standard{"velocity", Place::vertex, Type::float64, 3, "m/s", Transfer::interpolate, false},
     Standard{"start_position", Place::vertex, Type::float64, 3, "m", Transfer::drop, false},
+    Standard{"start_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"hold", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
     Standard{"touch", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
     Standard{"inlet", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},

@@ -51,6 +51,7 @@ _STANDARD = {
     "volume": ("triangle", "float64", 1, "m^3", "conserve"),
     "velocity": ("vertex", "float64", 3, "m/s", "interpolate"),
     "start_position": ("vertex", "float64", 3, "m", "drop"),
+    "start_time": ("frame", "float64", 1, "s", "copy"),
     "hold": ("vertex", "uint64", 1, "1", "common"),
     "next_output_time": ("frame", "float64", 1, "s", "copy"),
     "step_size": ("frame", "float64", 1, "s", "copy"),
