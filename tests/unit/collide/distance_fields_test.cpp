@@ -182,7 +182,9 @@ protected:
   void SetUp() override {
     setenv("SHEET_CACHE_DIR", "", 1);
     openvdb::initialize();
-    file_ = (fs::path(testing::TempDir()) / "sheet_level_set.vdb").string();
+    file_ = (fs::path(testing::TempDir()) /
+             (std::string("sheet_level_set_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".vdb"))
+                .string();
   }
   void TearDown() override {
     unsetenv("SHEET_CACHE_DIR");
