@@ -87,7 +87,7 @@ struct RenderStage::Impl {
     std::optional<Plane> ground;
   };
   std::optional<Fixed> fixed;
-  bool told_out_of_sight = false, told_empty = false;
+  bool told_out_of_sight = false, told_empty = false, told_noisy = false;
   std::uint64_t pictures = 0;
 
   explicit Impl(RenderOptions o) : options(std::move(o)) {
@@ -239,6 +239,11 @@ struct RenderStage::Impl {
     const World world(make_surface(frame, thinnest * fixed->subject.diagonal()), meshes, motions, planes,
                       fixed->subject);
     Picture picture = picture_of(frame, world, progress);
+    if (options.draw.noise > 0 && picture.worst_noise > options.draw.noise && !told_noisy) {
+      log::warning("the noise of the frame at {} s stays above {:g} in places, at most {:.2g}: give more --samples",
+                   frame.time, options.draw.noise, picture.worst_noise);
+      told_noisy = true;
+    }
     const std::string file = name ? name->of(index) : "";
     write(picture, world, frame, file);
     ++pictures;
