@@ -118,7 +118,7 @@ void add_contacts(const Scene& scene, const Frame& frame, Model& model) {
     spring.anchor = Vector3(anchor[3 * i], anchor[3 * i + 1], anchor[3 * i + 2]);
     spring.normal_stiffness = stiffness[2 * i];
     spring.tangential_stiffness = stiffness[2 * i + 1];
-    spring.adhesion = scene.contact && scene.contact->adhesion;
+    spring.adhesion = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
     model.contacts.push_back(spring);
   }
 }
@@ -145,6 +145,7 @@ void put_state(const State& state, Frame& frame) {
                                     formats::Transfer::drop, frame.vertices);
   std::copy_n(positions(frame).begin(), frame.vertices, start.values<Vector3>().begin());
   frame.put(std::move(start));
+  put_number(frame, "start_time", "s", frame.time);
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   frame.time = state.time;
