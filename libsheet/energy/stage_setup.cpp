@@ -10,17 +10,29 @@ namespace sheet {
 
 namespace {
 
-// a0 + change, but no principal stretch (squared) outside [1/4, 4]: beyond that the change is scaled down.
+// Principal stretches (squared) of an extrapolated metric, over the start's.
+constexpr double kLeast = 0.25, kGreatest = 4;
+
+// The principal values of a change of the metric a.
+struct Principal {
+  double least, greatest;
+  Principal(const RaisedMetric& a, const Vector3& change) {
+    const double half = 0.5 * a.trace.dot(change);
+    const double root = std::sqrt(std::max(0.0, half * half - form_determinant(change) / a.determinant));
+    least = half - root;
+    greatest = half + root;
+  }
+};
+
+// a0 + change, but no principal stretch outside the bounds: beyond that the change is scaled down.
 RaisedMetric predicted_metric(const Vector3& start, const Vector3& change) {
-  constexpr double kLeast = 0.25, kGreatest = 4;
   const RaisedMetric a(start);
-  const double half = 0.5 * a.trace.dot(change);
-  const double root = std::sqrt(std::max(0.0, half * half - form_determinant(change) / a.determinant));
+  const Principal p(a, change);
   double part = 1;
-  if (half - root < kLeast - 1)
-    part = std::min(part, (kLeast - 1) / (half - root));
-  if (half + root > kGreatest - 1)
-    part = std::min(part, (kGreatest - 1) / (half + root));
+  if (p.least < kLeast - 1)
+    part = std::min(part, (kLeast - 1) / p.least);
+  if (p.greatest > kGreatest - 1)
+    part = std::min(part, (kGreatest - 1) / p.greatest);
   return std::isfinite(part) ? RaisedMetric(start + part * change) : a;
 }
 
@@ -85,7 +97,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
   return stage;
 }
 
-void second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) {
+bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) {
   const State& state = *stage.start;
   stage.previous = &first;
   stage.ratio = (1 - gamma) / gamma;
@@ -98,6 +110,7 @@ void second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
     stage.inertial[v] = x0 + stage.ratio * moved + stage.duration * velocity;
     stage.predicted[v] = x0 + moved / gamma;
   }
+  bool possible = true;
   for (std::size_t t = 0; t < state.mesh->triangles.size(); ++t) {
     const Triangle& c = state.mesh->triangles[t];
     const auto& x = state.positions;
@@ -105,7 +118,9 @@ void second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
     const Vector3 end =
         squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
     stage.raised[t] = predicted_metric(start, (end - start) / gamma);
+    possible = possible && Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= kLeast - 1;
   }
+  return possible;
 }
 
 void raise_as_started(Stage& stage) {
