@@ -184,18 +184,20 @@ double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
     const Corner at = corner(i, k);
     const int low = 3 * at.low, high = 3 * at.high, apex = 3 * k, angle = 9 + k;
     const DirectorHeight& d = height[k];
-    const Matrix3 ee = sg[k] * d.ee, ew = sg[k] * d.ew;
-    const Matrix3 both = 0.5 * (ew + ew.transpose());
     // e = high - low, w = (low + high)/2 - apex
-    hessian.block<3, 3>(low, low) += ee - both;
-    hessian.block<3, 3>(high, high) += ee + both;
-    const Matrix3 lh = -ee - 0.5 * ew + 0.5 * ew.transpose();
-    hessian.block<3, 3>(low, high) += lh;
-    hessian.block<3, 3>(high, low) += lh.transpose();
-    hessian.block<3, 3>(low, apex) += ew;
-    hessian.block<3, 3>(apex, low) += ew.transpose();
-    hessian.block<3, 3>(high, apex) -= ew;
-    hessian.block<3, 3>(apex, high) -= ew.transpose();
+    for (int n = 0; n < 3; ++n)
+      for (int m = 0; m < 3; ++m) {
+        const double ee = sg[k] * d.ee(m, n), ew = sg[k] * d.ew(m, n), we = sg[k] * d.ew(n, m);
+        const double both = 0.5 * (ew + we), mixed = -ee - 0.5 * (ew - we);
+        hessian(low + m, low + n) += ee - both;
+        hessian(high + m, high + n) += ee + both;
+        hessian(low + m, high + n) += mixed;
+        hessian(high + n, low + m) += mixed;
+        hessian(low + m, apex + n) += ew;
+        hessian(apex + n, low + m) += ew;
+        hessian(high + m, apex + n) -= ew;
+        hessian(apex + n, high + m) -= ew;
+      }
     const Vector3 e = sg[k] * d.e_theta, t = sg[k] * d.w_theta;
     const auto mixed = [&](int row, const Vector3& x) {
       hessian.block<3, 1>(row, angle) += x;
