@@ -14,6 +14,10 @@ namespace sheet {
 // points.
 [[nodiscard]] bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
 
+// Sets the angles of u so that each director is the mean of the normals of the triangles at its edge, as at the start:
+// a guess for positions that were extrapolated. Angles stay where the normals cancel.
+void turn_to_normals(const Stage& stage, Unknowns& u);
+
 // Raises indices with the start-of-step metric.
 void raise_as_started(Stage& stage);
 

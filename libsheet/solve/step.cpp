@@ -170,6 +170,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   Unknowns guess = stage.begin, first, last;
   for (std::size_t v = 0; v < n; ++v)
     guess.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
+  turn_to_normals(stage, guess);
   if (!solve(guess, stage.begin, first))
     return Outcome::not_converged;
   double error = 0;
