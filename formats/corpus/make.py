@@ -171,6 +171,12 @@ def contacts(vertex=2, rests=2):
         contact_stiffness=Array(np.array([[1.5, 0.5], [1.5, 0]]), "frame", "N/m", "drop"))
 
 
+def inlet():
+    return triangle_frame(inlet=Array(np.array([0, 3, 3], "u8"), "vertex", "1", "common"),
+                          inlet_origin=Array(np.array([[0, 0, 0], [1, 0, 0], [0, 0.5, 0]], "f8"), "vertex", "m",
+                                             "interpolate"))
+
+
 def extreme_header():
     frame = empty_frame()
     frame.time, frame.step = -0.0, (1 << 64) - 1
@@ -201,6 +207,7 @@ passed = {
     "joined_empty": stream() + stream(empty_frame()) + stream() + stream() + one + stream(),
     "newer_minor": forge_end(forge_end(newer, 10, u(1, 2)), 24, b"reserved"),
     "contacts": stream(contacts()),
+    "inlet": stream(inlet()),
 }
 
 failed = {
@@ -304,6 +311,8 @@ failed = {
     "contact_rows": stream(contacts(rests=1)),
     "contact_alone": with_array("contact_vertex", Array(np.zeros((1, 4), "u4"), "frame", "1", "drop")),
     "touch_rule": with_array("touch", Array(np.zeros(3, "u8"), "vertex", "1", "copy")),
+    "inlet_place": with_array("inlet", Array(np.zeros(1, "u8"), "triangle", "1", "common")),
+    "inlet_origin_nan": with_array("inlet_origin", Array(np.full((3, 3), np.nan), "vertex", "m", "interpolate")),
 }
 
 

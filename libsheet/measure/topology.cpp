@@ -2,36 +2,13 @@
 #include "libsheet/measure/topology.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
+
+#include "libsheet/geometry/disjoint_sets.h"
 
 namespace sheet {
 
 namespace {
-
-// Disjoint sets; the representative is the smallest member.
-class Sets {
-public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::uint64_t{0}); }
-  std::uint64_t find(std::uint64_t i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint64_t a, std::uint64_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<std::uint64_t> take() {
-    for (std::uint64_t i = 0; i < parent_.size(); ++i)
-      parent_[i] = find(i);
-    return std::move(parent_);
-  }
-
-private:
-  std::vector<std::uint64_t> parent_;
-};
 
 // Numbers of the corners at the low and the high end of a side.
 std::pair<std::uint64_t, std::uint64_t> ends(const Side& side) {
@@ -66,7 +43,7 @@ std::vector<Side> sorted_sides(std::span<const Corners> triangles, std::uint64_t
 }
 
 Fans::Fans(std::span<const Corners> triangles, std::span<const Side> sides) {
-  Sets sets(3 * triangles.size());
+  DisjointSets sets(3 * triangles.size());
   for_each_edge(sides, [&](std::span<const Side> edge) {
     for (std::size_t i = 1; i < edge.size(); ++i) {
       sets.join(ends(edge[0]).first, ends(edge[i]).first);
@@ -98,8 +75,8 @@ std::vector<std::uint32_t> find_pinched(std::span<const Corners> triangles, std:
 Topology find_topology(std::span<const Corners> triangles, std::uint64_t vertices, std::span<const Side> sides) {
   Topology result;
   const Fans fans(triangles, sides);
-  Sets pieces(vertices);
-  Sets loops(3 * triangles.size());
+  DisjointSets pieces(vertices);
+  DisjointSets loops(3 * triangles.size());
   std::vector<std::uint64_t> on_boundary; // fans
   for_each_edge(sides, [&](std::span<const Side> edge) {
     ++result.edges;

@@ -138,6 +138,17 @@ std::string_view name_of(scene::Border border) {
   return names[static_cast<std::size_t>(border)];
 }
 
+// Marks the border where liquid enters, and where it is now.
+void add_inlet(const TriangleMesh& mesh, const VertexSet& inlet, formats::Frame& frame) {
+  const auto bits = put_masks(frame, "inlet");
+  for (const std::uint32_t v : inlet)
+    bits[v] = in_inlet | at_inlet_border;
+  formats::Array& origins =
+      frame.put(formats::make_array("inlet_origin", formats::Place::vertex, formats::Type::float64, 3, "m",
+                                    formats::Transfer::interpolate, frame.vertices));
+  std::copy(mesh.positions.begin(), mesh.positions.end(), origins.values<Vector3d>().begin());
+}
+
 // Bits of all holds whose region is a named border (borders of the undisturbed shape), or all others.
 void add_holds(const TriangleMesh& mesh, const std::vector<scene::Hold>& table, bool borders,
                std::vector<std::uint64_t>& bits) {
@@ -170,6 +181,7 @@ formats::Frame build_frame(const Scene& scene) {
     place_mesh(mesh, {plane_of(table.plane), Eigen::Matrix3d::Identity(), Vector3d::Zero()});
   std::vector<std::uint64_t> holds(mesh.positions.size());
   add_holds(mesh, scene.holds, true, holds);
+  const VertexSet inlet = scene.inflow ? named_region(mesh, name_of(scene.inflow->region)) : VertexSet();
   const std::vector<double> h = thicknesses(mesh, table);
   perturb_positions(mesh, table);
   place_mesh(mesh, {Plane::xy, scene::matrix(table.rotation), table.center});
@@ -190,12 +202,10 @@ formats::Frame build_frame(const Scene& scene) {
     for (std::size_t i = 0; i < v.size(); ++i)
       v[i] = table.velocity + (mesh.velocities.empty() ? Vector3d::Zero() : mesh.velocities[i]);
   }
-  if (!scene.holds.empty()) {
-    formats::Array array = formats::make_array("hold", formats::Place::vertex, formats::Type::uint64, 1, "1",
-                                               formats::Transfer::common, frame.vertices);
-    std::copy(holds.begin(), holds.end(), array.values<std::uint64_t>().begin());
-    frame.put(std::move(array));
-  }
+  if (!scene.holds.empty())
+    std::copy(holds.begin(), holds.end(), put_masks(frame, "hold").begin());
+  if (scene.inflow)
+    add_inlet(mesh, inlet, frame);
   frame.put_text("scene", to_toml(scene));
   return frame;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/sheet/sheet.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -74,9 +75,17 @@ std::span<const Eigen::Vector3d> velocities(const Frame& frame) {
   return array == nullptr ? std::span<const Eigen::Vector3d>() : array->values<Eigen::Vector3d>();
 }
 
-std::span<const std::uint64_t> holds(const Frame& frame) {
-  const Array* array = frame.find("hold");
+std::span<const std::uint64_t> masks(const Frame& frame, std::string_view name) {
+  const Array* array = frame.find(name);
   return array == nullptr ? std::span<const std::uint64_t>() : array->values<std::uint64_t>();
+}
+
+std::span<std::uint64_t> put_masks(Frame& frame, std::string_view name) {
+  const auto bits =
+      frame.put(formats::make_array(name, Place::vertex, Type::uint64, 1, "1", Transfer::common, frame.vertices))
+          .values<std::uint64_t>();
+  std::fill(bits.begin(), bits.end(), 0);
+  return bits;
 }
 
 void put_number(Frame& frame, std::string_view name, std::string_view unit, double value) {

@@ -26,8 +26,16 @@ using Corners = std::array<std::uint32_t, 3>; // vertex indices of a triangle, c
 [[nodiscard]] std::span<Eigen::Vector3d> velocities(formats::Frame& frame);
 // Empty if the frame has none: it is at rest.
 [[nodiscard]] std::span<const Eigen::Vector3d> velocities(const formats::Frame& frame);
+// One of the arrays of bits a vertex: hold, touch, inlet. Empty if the frame has none of that name.
+[[nodiscard]] std::span<const std::uint64_t> masks(const formats::Frame& frame, std::string_view name);
 // Bit i: held by the scene's i-th [[hold]]. Empty if the frame has no holds.
-[[nodiscard]] std::span<const std::uint64_t> holds(const formats::Frame& frame);
+[[nodiscard]] inline std::span<const std::uint64_t> holds(const formats::Frame& frame) { return masks(frame, "hold"); }
+// Adds or replaces one; all bits are 0.
+[[nodiscard]] std::span<std::uint64_t> put_masks(formats::Frame& frame, std::string_view name);
+
+// Bits of the array inlet.
+inline constexpr std::uint64_t in_inlet = 1;        // moves at the inflow's velocity
+inline constexpr std::uint64_t at_inlet_border = 2; // where liquid enters
 
 // Adds or replaces a float64 array of one row at place frame.
 void put_number(formats::Frame& frame, std::string_view name, std::string_view unit, double value);

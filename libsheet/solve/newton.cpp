@@ -25,6 +25,7 @@ constexpr int kHalvings = 40;
 constexpr int kBeforeSlope = 3;          // halvings before the slope is asked
 constexpr double kSlopeKept = 0.5;       // of the slope that may remain after a step accepted for its slope
 constexpr double kSmall = 1e-3;          // steps below this are done if the potential has no more to gain
+constexpr double kNothing = 1e-13;       // of an edge: a step that is lost in the rounding of positions
 constexpr double kLeastBlend = 1.0 / 16; // least part of the positive Hessian in a mixture
 constexpr double kBlendFactor = 4;
 
@@ -207,6 +208,11 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
     report.last_step = step.cwiseQuotient(scale).cwiseAbs().maxCoeff();
     if (!std::isfinite(report.last_step))
       return report;
+
+    if (report.last_step <= kNothing) {
+      report.converged = true;
+      return report;
+    }
 
     // Below round-off of the potential a full Newton step is the best there is.
     const double noise = kRoundOff * energy.magnitude;

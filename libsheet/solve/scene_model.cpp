@@ -42,13 +42,8 @@ std::vector<std::uint32_t> with_bit(std::span<const std::uint64_t> masks, std::s
   return vertices;
 }
 
-std::span<const std::uint64_t> masks_of(const Frame& frame, std::string_view name) {
-  const Array* array = frame.find(name);
-  return array == nullptr ? std::span<const std::uint64_t>() : array->values<std::uint64_t>();
-}
-
 void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
-  const auto masks = masks_of(frame, "hold");
+  const auto masks = sheet::masks(frame, "hold");
   for (std::size_t i = 0; i < scene.holds.size(); ++i) {
     const scene::Hold& table = scene.holds[i];
     if (table.until && frame.time >= *table.until)
@@ -72,7 +67,7 @@ void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh,
 
 // No slip: what touches a solid moves with its surface [Batty et al. 2012, section 3.5].
 void add_touching(const Scene& scene, const Frame& frame, Model& model) {
-  const auto masks = masks_of(frame, "touch");
+  const auto masks = sheet::masks(frame, "touch");
   for (std::size_t i = 0; i < scene.solids.size() && !masks.empty(); ++i) {
     Hold hold;
     hold.vertices = with_bit(masks, i);
@@ -85,6 +80,24 @@ void add_touching(const Scene& scene, const Frame& frame, Model& model) {
     };
     model.holds.push_back(std::move(hold));
   }
+}
+
+// What is in the inlet moves at the inflow's velocity, and does not turn.
+void add_inlet(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
+  const auto masks = sheet::masks(frame, "inlet");
+  if (!scene.inflow || (scene.inflow->until && frame.time >= *scene.inflow->until))
+    return;
+  Hold hold;
+  hold.vertices = with_bit(masks, 0);
+  if (hold.vertices.empty())
+    return;
+  for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
+    if ((masks[mesh.edges[e][0]] & masks[mesh.edges[e][1]] & in_inlet) != 0)
+      hold.clamped_edges.push_back(e);
+  hold.motion = [velocity = scene.inflow->velocity](double from, double to) {
+    return RigidMotion{.shift = scene::integral(velocity, from, to)};
+  };
+  model.holds.push_back(std::move(hold));
 }
 
 // Springs between near features of the sheet, as sheet-collide has set them up.
@@ -105,7 +118,7 @@ void add_contacts(const Scene& scene, const Frame& frame, Model& model) {
     spring.anchor = Vector3(anchor[3 * i], anchor[3 * i + 1], anchor[3 * i + 2]);
     spring.normal_stiffness = stiffness[2 * i];
     spring.tangential_stiffness = stiffness[2 * i + 1];
-    spring.adhesion = scene.contact && scene.contact->adhesion;
+    spring.adhesion = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
     model.contacts.push_back(spring);
   }
 }
@@ -132,6 +145,7 @@ void put_state(const State& state, Frame& frame) {
                                     formats::Transfer::drop, frame.vertices);
   std::copy_n(positions(frame).begin(), frame.vertices, start.values<Vector3>().begin());
   frame.put(std::move(start));
+  put_number(frame, "start_time", "s", frame.time);
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   frame.time = state.time;
@@ -154,6 +168,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
     model.bath = BathModel{scene.environment.bath->density, scene.environment.bath->level};
   add_holds(scene, frame, mesh, model);
   add_touching(scene, frame, model);
+  add_inlet(scene, frame, mesh, model);
   add_contacts(scene, frame, model);
   return model;
 }
@@ -183,6 +198,11 @@ double next_event(const Scene& scene, double t) {
   }
   for (const scene::Solid& solid : scene.solids)
     consider_motion(solid.motion);
+  if (scene.inflow) {
+    consider_motion(scene::Translating{scene.inflow->velocity});
+    if (scene.inflow->until)
+      consider(*scene.inflow->until);
+  }
   return next;
 }
 

@@ -17,14 +17,14 @@ namespace sheet {
 void put_state(const State& state, formats::Frame& frame);
 
 // The terms that the scene asks for, and its holds that are in force at the frame's time: those of the scene's [[hold]]
-// tables (array "hold") and the vertices that touch a solid and move with it (array "touch"); contact springs (arrays
-// "contact_..."). Bending is as `bending` says, unless the scene wants none. Throws Error (bad_input) where the scene
-// has too little for a model.
+// tables (array "hold"), the vertices that touch a solid and move with it (array "touch"), those in the inlet (array
+// "inlet", until the inflow ends); contact springs (arrays "contact_..."). Bending is as `bending` says, unless the
+// scene wants none. Throws Error (bad_input) where the scene has too little for a model.
 [[nodiscard]] Model model_of(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh, Bending bending,
                              bool arcs);
 
-// The first time after t [s] at which a prescribed motion has a kink or a hold is released; infinity if there is none.
-// A step that does not pass it keeps its order.
+// The first time after t [s] at which a prescribed motion has a kink, a hold is released or the inflow ends; infinity
+// if there is none. A step that does not pass it keeps its order.
 [[nodiscard]] double next_event(const Scene& scene, double t);
 
 } // namespace sheet

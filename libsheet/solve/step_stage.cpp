@@ -10,7 +10,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
-#include "libsheet/scene/read.h"
+#include "libsheet/scene/frame_scene.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/scene_model.h"
 
@@ -77,21 +77,10 @@ double fixed_step(double t, double until, double dt) {
 
 struct StepStage::Impl {
   StepStageOptions options;
-  std::string scene_text;
-  std::optional<Scene> scene;
+  FrameScene scenes;
   std::shared_ptr<const Connectivity> mesh;
   std::optional<Stepper> stepper;
   Totals totals;
-
-  void read_scene_of(const Frame& frame) {
-    const formats::Array* array = frame.find("scene");
-    if (array == nullptr)
-      fail(ExitCode::bad_input, "the frame has no scene, so nothing is known of its material: make it with sheet-init");
-    if (scene && array->text() == scene_text)
-      return;
-    scene = parse_scene(array->text(), "the frame's scene");
-    scene_text = array->text();
-  }
 
   void connect_mesh(const Frame& frame) {
     const auto corners = triangles(frame);
@@ -103,8 +92,8 @@ struct StepStage::Impl {
     mesh = std::move(connected);
   }
 
-  [[nodiscard]] double end_of_step(const Frame& frame) const {
-    double until = next_event(*scene, frame.time);
+  [[nodiscard]] static double end_of_step(const Scene& scene, const Frame& frame) {
+    double until = next_event(scene, frame.time);
     const double output = number(frame, "next_output_time", std::numeric_limits<double>::infinity());
     if (output > frame.time)
       until = std::min(until, output);
@@ -112,13 +101,13 @@ struct StepStage::Impl {
   }
 
   void step(Frame& frame) {
-    read_scene_of(frame);
+    const Scene& scene = scenes.of(frame);
     connect_mesh(frame);
-    const double until = end_of_step(frame);
+    const double until = end_of_step(scene, frame);
     if (mesh->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
     // Arcs reduce locking where the sheet bends by directors (docs/hard-cases.md says what they cost).
-    Model model = model_of(*scene, frame, *mesh, options.bending, use_arcs);
+    Model model = model_of(scene, frame, *mesh, options.bending, use_arcs);
     if (stepper) {
       stepper->set_model(std::move(model));
     } else {

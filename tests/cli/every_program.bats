@@ -64,6 +64,8 @@ stream_reader() {
   sheet-init | sheet-loop | sheet-diff | sheet-parse) return 1 ;;
   sheet-export) arguments=(--format obj -o -) ;;
   sheet-step) arguments=(--dt 0.01) ;;
+  sheet-remesh) arguments=(--edge-length 1) ;;
+  sheet-render) arguments=(--ppm --size 32x18 --samples 2) ;;
   *) arguments=() ;;
   esac
 }
@@ -79,7 +81,7 @@ stream_reader() {
 @test "output to a full disk is exit code 6, a reader that has gone is none" {
   stream_reader || skip "reads no stream from standard input"
   [[ $PROGRAM != sheet-check ]] || skip "prints nothing if all is well"
-  if [[ $PROGRAM == sheet-step ]]; then # it needs a scene
+  if [[ $PROGRAM == sheet-@(step|emit|tear) ]]; then # they need a scene
     sheet-init - > grid.sheet << 'END'
 [sheet]
 shape = "disk"

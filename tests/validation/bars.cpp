@@ -59,6 +59,12 @@ TEST(Validation, PulledStripsTubeDiskHole) {
   EXPECT_LT(error("V13", settings("V13", 0.0625, 20)), 0.01);
 }
 
+// What remeshing adds. The tables of docs/remeshing.md go on to finer meshes.
+TEST(Validation, RemeshedOnTheWay) {
+  EXPECT_LT(error("V9r", settings("V9r", 0.05, 40)), 0.01);
+  EXPECT_LT(error("V10", settings("V10", 0.02, 150)), 0.01);
+}
+
 TEST(Validation, CircularPlate) {
   for (const int set : {1, 2}) {
     EXPECT_LT(error("V11", settings("V11", 1.0 / 32, 1, set)), 0.01) << "set " << set;
@@ -108,6 +114,13 @@ TEST(Validation, MomentumAndEnergy) {
   EXPECT_GE(order_in_time("V20", settings("V20", 0.3, 20, 2), Scheme::sdirk2), 1.9); // angular momentum
   EXPECT_GE(order_in_time("V20", settings("V20", 0.3, 20, 3), Scheme::sdirk2), 1.9); // balance of energy
   EXPECT_LT(error("V20", settings("V20", 0.15, 20, 3)), 3e-3);
+}
+
+TEST(Validation, FallingCurtain) {
+  const Result r = run(find_case("V18"), settings("V18", 0.01, 350));
+  EXPECT_LT(std::abs(r.error), 0.01);
+  ASSERT_EQ(r.more.back().first, "volume");
+  EXPECT_LT(std::abs(r.more.back().second), 1e-13);
 }
 
 // Figures 6 and 7: 2,562 vertices, 100 steps, radius within 0.3 %.

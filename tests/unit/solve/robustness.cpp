@@ -121,6 +121,18 @@ TEST(HardCases, CompressedInOneStep) {
   }
 }
 
+// Nothing acts on it and it moves as what is held does: all energies are round-off.
+TEST(HardCases, NothingToDo) {
+  State s = square(0.1);
+  for (std::size_t v = 0; v < s.velocities.size(); ++v)
+    s.velocities[v] = Vector3(0, -1 + (v % 3 == 0 ? 1e-13 : -2e-13), 0);
+  Model m = sagging(s);
+  m.viscosity = m.density = 1;
+  m.gravity.setZero();
+  m.holds[0].motion = [](double from, double to) { return RigidMotion{.shift = {0, from - to, 0}}; };
+  EXPECT_LE(expect_done(s, m, 0.25, 20), 20 * 4);
+}
+
 // When the iterations allowed are spent, the rest of the step is taken unfinished, and said to be; or it fails, the
 // state untouched. Without the limit the step is done, in pieces.
 TEST(HardCases, FailureIsBounded) {

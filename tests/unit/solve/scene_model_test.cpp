@@ -123,6 +123,33 @@ TEST(SceneModel, WhatTouchesASolidMovesWithItsSurface) {
   EXPECT_EQ(frame.step, 1u);
 }
 
+TEST(SceneModel, WhatIsInTheInletMovesAtTheInflowsVelocityUntilItEnds) {
+  Frame frame = two_squares();
+  put_masks(frame, "inlet", {3, 3, 3, 1, 1, 0});
+  const std::string text = std::string(scene_text) +
+                           "[inflow]\nregion = \"z_max\"\nvelocity = [[0, 0, 0, 0], [2, 0, -1, -4]]\nuntil = 1.5\n";
+  frame.put_text("scene", text);
+  const Scene scene = parse_scene(text, "test");
+  EXPECT_EQ(next_event(scene, 0.5), 1.5);
+  EXPECT_EQ(next_event(scene, 1.5), 2);
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  const Model model = model_of(scene, frame, mesh, Bending::mid_edge, false);
+  ASSERT_EQ(model.holds.size(), 1u);
+  EXPECT_EQ(model.holds[0].vertices, (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(model.holds[0].clamped_edges.size(), 6u); // (0,1) (0,3) (0,4) (1,2) (1,4) (3,4)
+  const std::vector<Vector3> before(positions(frame).begin(), positions(frame).end());
+  StepStageOptions options;
+  options.dt = 0.25;
+  StepStage stage(options); // it ends at the kink of a hold, too
+  stage.step(frame);
+  const auto x = positions(static_cast<const Frame&>(frame));
+  for (int v = 0; v < 5; ++v) // the velocity is t (0, -1/2, -2)
+    EXPECT_LT((x[v] - before[v] - 0.5 * 0.25 * 0.25 * Vector3(0, -0.5, -2)).norm(), 1e-15) << v;
+  EXPECT_LT((velocities(static_cast<const Frame&>(frame))[3] - 0.25 * Vector3(0, -0.5, -2)).norm(), 1e-12);
+  frame.time = 1.5;
+  EXPECT_TRUE(model_of(scene, frame, mesh, Bending::mid_edge, false).holds.empty());
+}
+
 TEST(SceneModel, ContactSpringsPush) {
   Frame frame = two_squares();
   put_spring(frame);

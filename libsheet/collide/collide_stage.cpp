@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/collide/collide_stage.h"
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/log.h"
+#include "libsheet/collide/contact_arrays.h"
+#include "libsheet/collide/self_response.h"
+#include "libsheet/collide/solid_contact.h"
+#include "libsheet/scene/read.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::collide {
+
+using formats::Array;
+using formats::Frame;
+
+namespace {
+
+// The mesh cannot tell apart what is nearer than two edges along the sheet.
+constexpr double edges_of_reach = 2;
+// Rounds of self-response that leave alone what would go into a solid.
+constexpr int rounds_with_solids = 4;
+
+// Processor time of all threads since the last call [s]: other work on the machine disturbs it least.
+class Watch {
+public:
+  double lap() {
+    const std::clock_t now = std::clock();
+    return static_cast<double>(now - std::exchange(last_, now)) / CLOCKS_PER_SEC;
+  }
+
+private:
+  std::clock_t last_ = std::clock();
+};
+
+struct Totals {
+  std::uint64_t steps = 0, with_hits = 0;
+  SolidReport solids;
+  SelfReport self;
+  std::size_t most_springs = 0, most_touching = 0;
+  double with_solids = 0, check = 0, response = 0, springs = 0; // processor time [s]
+
+  void add(const SolidReport& r) {
+    most_touching = std::max(most_touching, r.touching);
+    solids.caught += r.caught;
+    solids.pushed += r.pushed;
+    solids.carried += r.carried;
+    solids.unresolved += r.unresolved;
+  }
+
+  void add(const SelfReport& r) {
+    with_hits += r.hits > 0;
+    self.hits += r.hits;
+    self.rounds += r.rounds;
+    self.by_impulses += r.by_impulses;
+    self.in_groups += r.in_groups;
+    self.pulled_back += r.pulled_back;
+    self.held_back += r.held_back;
+  }
+};
+
+// Of each vertex: a third of its triangles'.
+struct Shares {
+  std::vector<double> area, volume, edge; // [m²], [m³], mean length of the sides around it [m]
+};
+
+Shares shares(std::span<const Corners> triangles, std::span<const double> volumes, std::span<const Vector3> x) {
+  const std::size_t n = x.size();
+  Shares s{std::vector<double>(n, 0), std::vector<double>(n, 0), std::vector<double>(n, 0)};
+  std::vector<int> count(n, 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Corners& c = triangles[t];
+    const Vector3 u = x[c[1]] - x[c[0]], v = x[c[2]] - x[c[0]];
+    const double area = 0.5 * u.cross(v).norm(), edge = (u.norm() + v.norm() + (u - v).norm()) / 3;
+    for (const std::uint32_t i : c) {
+      s.area[i] += area / 3;
+      s.volume[i] += volumes[t] / 3;
+      s.edge[i] += edge;
+      ++count[i];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    s.edge[i] /= std::max(count[i], 1);
+  return s;
+}
+
+std::span<const std::uint64_t> masks(const Frame& frame, std::string_view name) {
+  const Array* array = frame.find(name);
+  return array == nullptr ? std::span<const std::uint64_t>() : array->values<std::uint64_t>();
+}
+
+} // namespace
+
+struct CollideStage::Impl {
+  std::string scene_text;
+  std::optional<Scene> scene;
+  std::optional<Solids> solids; // if the scene has some
+  std::optional<Connectivity> mesh;
+  std::optional<SelfSearch> search;
+  std::vector<Vector3> last_end; // safe, so a step that starts there needs no check
+  Totals totals;
+
+  void read_scene_of(const Frame& frame) {
+    const Array* array = frame.find("scene");
+    if (array == nullptr)
+      fail(ExitCode::bad_input, "the frame has no scene, so nothing is known of its contacts: make it with sheet-init");
+    if (scene && array->text() == scene_text)
+      return;
+    scene = parse_scene(array->text(), "the frame's scene");
+    scene_text = array->text();
+    solids.reset();
+    if (!scene->solids.empty())
+      solids.emplace(*scene);
+  }
+
+  [[nodiscard]] bool self() const { return scene->contact && scene->contact->self; }
+
+  void connect_mesh(const Frame& frame) {
+    const auto corners = triangles(frame);
+    if (mesh && mesh->vertices == frame.vertices &&
+        std::equal(corners.begin(), corners.end(), mesh->triangles.begin(), mesh->triangles.end()))
+      return;
+    search.reset();
+    last_end.clear();
+    mesh = connect(frame.vertices, corners);
+    search.emplace(*mesh);
+  }
+
+  [[nodiscard]] StepPath path_of(const Frame& frame) const {
+    const Array* start = frame.find("start_position");
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    StepPath path;
+    path.start_time = number(frame, "start_time", nan);
+    path.end_time = frame.time;
+    if (start == nullptr || !(path.start_time < path.end_time))
+      fail(ExitCode::bad_input,
+           "the frame does not say where and when its step started (start_position, start_time before {} s): "
+           "sheet-collide stands right behind sheet-step",
+           frame.time);
+    path.triangles = triangles(frame);
+    path.start = start->values<Vector3>();
+    path.end.assign(positions(frame).begin(), positions(frame).end());
+    const auto v = velocities(frame);
+    path.velocity.assign(v.begin(), v.end());
+    path.velocity.resize(frame.vertices, Vector3::Zero());
+    const auto touch = masks(frame, "touch");
+    path.touch.assign(touch.begin(), touch.end());
+    path.touch.resize(frame.vertices, 0);
+    path.fixed = held(frame, path.start_time);
+    const Shares s = shares(path.triangles, volumes(frame), path.start);
+    const double density = scene->material.density > 0 ? scene->material.density : 1;
+    for (std::size_t i = 0; i < path.start.size(); ++i) {
+      path.thickness.push_back(s.area[i] > 0 ? s.volume[i] / s.area[i] : 0);
+      path.mass.push_back(s.volume[i] * density);
+    }
+    return path;
+  }
+
+  // By a [[hold]] that is in force at time t. A vertex held along some axes only counts as held.
+  [[nodiscard]] std::vector<bool> held(const Frame& frame, double t) const {
+    std::uint64_t in_force = 0;
+    for (std::size_t i = 0; i < scene->holds.size(); ++i)
+      if (const auto& until = scene->holds[i].until; !until || t < *until)
+        in_force |= std::uint64_t{1} << i;
+    std::vector<bool> fixed(frame.vertices, false);
+    const auto hold = holds(frame);
+    for (std::size_t v = 0; v < hold.size(); ++v)
+      fixed[v] = (hold[v] & in_force) != 0;
+    return fixed;
+  }
+
+  // Contact distance at each vertex.
+  [[nodiscard]] std::vector<double> reach_of(const StepPath& path, const Shares& shares) const {
+    std::vector<double> reach = path.thickness;
+    for (std::size_t v = 0; v < reach.size(); ++v)
+      reach[v] = std::min(scene->contact->distance.value_or(reach[v]), edges_of_reach * shares.edge[v]);
+    return reach;
+  }
+
+  void check_start(const StepPath& path) {
+    if (std::equal(path.start.begin(), path.start.end(), last_end.begin(), last_end.end()))
+      return;
+    if (const auto pair = search->crossing(path.start))
+      fail(ExitCode::bad_input,
+           "the sheet passes through itself before the step: triangles {} and {}, and perhaps more (sheet-check lists "
+           "them); start from a sheet that does not, or let it: [contact] self = false",
+           pair->first, pair->second);
+  }
+
+  void step(Frame& frame) {
+    StepPath path = path_of(frame);
+    Watch watch;
+    if (solids) {
+      const SolidReport report = resolve_solids(path, *solids);
+      if (report.unresolved > 0)
+        log::warning("step {}: {} triangles come too close to solids", frame.step, report.unresolved);
+      totals.add(report);
+      totals.with_solids += watch.lap();
+      put_touch(frame, path.touch);
+    }
+    if (self()) {
+      connect_mesh(frame);
+      check_start(path);
+      totals.check += watch.lap();
+      const std::vector<double> reach = reach_of(path, shares(path.triangles, volumes(frame), path.start));
+      const std::vector<bool> fixed = path.fixed;
+      resolve_self_beside_solids(path, reach, frame.step);
+      totals.response += watch.lap();
+      set_springs(frame, path, fixed, reach);
+      totals.springs += watch.lap();
+    }
+    std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
+    std::copy(path.velocity.begin(), path.velocity.end(), velocities(frame).begin());
+    last_end = std::move(path.end);
+    ++totals.steps;
+  }
+
+  // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
+  void resolve_self_beside_solids(StepPath& path, std::span<const double> reach, std::uint64_t step) {
+    const StepPath asked = path;
+    SelfReport report;
+    for (int round = 1;; ++round) {
+      report = resolve_self(path, *search, reach);
+      if (!solids || report.hits == 0 || round == rounds_with_solids)
+        break;
+      std::vector<bool> fixed = path.fixed;
+      for (const std::uint32_t t : unsafe_triangles(path, *solids))
+        for (const std::uint32_t v : path.triangles[t])
+          if (path.end[v] != asked.end[v])
+            fixed[v] = true;
+      if (fixed == path.fixed)
+        break;
+      path = asked;
+      path.fixed = std::move(fixed);
+    }
+    if (report.held_back > 0)
+      log::warning("step {}: {} vertices on solids or held stay behind, or the sheet would pass through itself", step,
+                   report.held_back);
+    totals.add(report);
+    log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", step, report.hits,
+                report.by_impulses, report.in_groups, report.pulled_back);
+  }
+
+  static void put_touch(Frame& frame, std::span<const std::uint64_t> touch) {
+    Array array = formats::make_array("touch", formats::Place::vertex, formats::Type::uint64, 1, "1",
+                                      formats::Transfer::common, frame.vertices);
+    std::copy(touch.begin(), touch.end(), array.values<std::uint64_t>().begin());
+    frame.put(std::move(array));
+  }
+
+  void set_springs(Frame& frame, StepPath& path, const std::vector<bool>& fixed, std::span<const double> reach) {
+    const Shares at_end = shares(path.triangles, volumes(frame), path.end);
+    const SpringSheet sheet{path.start, path.end, reach, path.thickness, at_end.area, fixed, path.length()};
+    std::vector<ContactSpring> springs = read_springs(frame);
+    follow(springs, *scene, sheet);
+    add_springs(springs, search->near(path.end, reach), *scene, sheet);
+    level_velocities(springs, *scene, path.mass, fixed, path.velocity);
+    totals.most_springs = std::max(totals.most_springs, springs.size());
+    write_springs(frame, springs);
+  }
+};
+
+CollideStage::CollideStage() : impl_(std::make_unique<Impl>()) {}
+CollideStage::~CollideStage() = default;
+
+void CollideStage::step(Frame& frame) {
+  impl_->read_scene_of(frame);
+  if (frame.triangles > 0 && (impl_->solids || impl_->self()))
+    impl_->step(frame);
+}
+
+void CollideStage::report() const {
+  const Totals& t = impl_->totals;
+  if (t.steps == 0)
+    return;
+  const double ms = 1e3 / static_cast<double>(t.steps);
+  if (impl_->solids) {
+    log::detail("{} steps with solids: {} vertices caught, at most {} touching, {} impulses, {} vertices carried",
+                t.steps, t.solids.caught, t.most_touching, t.solids.pushed, t.solids.carried);
+    log::detail("  processor time of a step: {:.2f} ms", ms * t.with_solids);
+  }
+  if (impl_->self()) {
+    log::detail("{} steps with the sheet itself, {} of them with hits ({} pairs): {} impulses, {} vertices in rigid "
+                "groups, {} pulled back ({} of them held), {} rounds; at most {} springs",
+                t.steps, t.with_hits, t.self.hits, t.self.by_impulses, t.self.in_groups, t.self.pulled_back,
+                t.self.held_back, t.self.rounds, t.most_springs);
+    log::detail("  processor time of a step: check of the start {:.2f} ms, response {:.2f} ms, springs {:.2f} ms",
+                ms * t.check, ms * t.response, ms * t.springs);
+  }
+}
+
+} // namespace sheet::collide

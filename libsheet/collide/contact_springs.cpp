@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/collide/contact_springs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace sheet::collide {
+
+namespace {
+
+bool of_vertex(const ContactSpring& s) { return s.weights[0] == 1; }
+
+Vector3 offset(const ContactSpring& s, std::span<const Vector3> x) {
+  Vector3 c = Vector3::Zero();
+  for (std::size_t i = 1; i < 4; ++i)
+    c += s.weights[i] * (x[s.vertices[i]] - x[s.vertices[0]]);
+  return c;
+}
+
+// Unit normal of the triangle, or of both edges; none where they nearly degenerate.
+std::optional<Vector3> normal_of(const ContactSpring& s, std::span<const Vector3> x) {
+  const auto& v = s.vertices;
+  const Vector3 a = of_vertex(s) ? x[v[2]] - x[v[1]] : x[v[1]] - x[v[0]];
+  const Vector3 b = of_vertex(s) ? x[v[3]] - x[v[1]] : x[v[3]] - x[v[2]];
+  const Vector3 n = a.cross(b);
+  const double length = n.norm();
+  if (!(length > 1e-3 * a.norm() * b.norm()))
+    return std::nullopt;
+  return n / length;
+}
+
+// Half of the area that a spring stands for.
+double area_of(const ContactSpring& s, std::span<const double> area) {
+  if (of_vertex(s))
+    return 0.5 * area[s.vertices[0]];
+  return 0.125 * (area[s.vertices[0]] + area[s.vertices[1]] + area[s.vertices[2]] + area[s.vertices[3]]);
+}
+
+double mean_at(std::span<const double> values, const ContactSpring& s) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    sum += std::abs(s.weights[i]) * values[s.vertices[i]];
+  return 0.5 * sum;
+}
+
+double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
+  if (scene.contact && scene.contact->stiffness)
+    return *scene.contact->stiffness;
+  const double area = area_of(s, sheet.area), h = mean_at(sheet.thickness, s), d = mean_at(sheet.reach, s);
+  const double mass = area * scene.material.density * h;
+  const double g = scene.environment.gravity ? scene.environment.gravity->norm() : 0;
+  const double inertia = scene.model.inertia ? mass / (sheet.step * sheet.step) : 0;
+  return inertia + 200 * mass * g / d + 0.5 * scene.material.viscosity * h / sheet.step;
+}
+
+// Goes with its features; false where it parts.
+bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
+  const auto before = normal_of(s, sheet.start), after = normal_of(s, sheet.end);
+  if (!before || !after)
+    return false;
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(*before, *after);
+  s.normal = (turn * s.normal).normalized();
+  s.anchor = turn * s.anchor;
+  const double gap = s.normal.dot(offset(s, sheet.end));
+  if (!(gap > 0))
+    return false;
+  if (!scene.contact || !scene.contact->adhesion)
+    return true;
+  return s.stiffness[0] * (gap - s.rest) <= *scene.contact->adhesion * area_of(s, sheet.area);
+}
+
+} // namespace
+
+void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet) {
+  std::erase_if(springs, [&](ContactSpring& s) { return !follows(s, scene, sheet); });
+}
+
+void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
+                      const std::vector<bool>& fixed, std::span<Vector3> velocity) {
+  constexpr int sweeps = 30;
+  const bool sticks = !scene.contact || scene.contact->adhesion != 0.0;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (const ContactSpring& s : springs) {
+      double rate = 0, compliance = 0;
+      std::array<double, 4> share{};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t v = s.vertices[i];
+        rate += s.weights[i] * s.normal.dot(velocity[v]);
+        share[i] = fixed[v] ? 0 : s.weights[i] / mass[v];
+        compliance += s.weights[i] * share[i];
+      }
+      if (compliance > 0 && (sticks || rate < 0))
+        for (std::size_t i = 0; i < 4; ++i)
+          velocity[s.vertices[i]] -= rate / compliance * share[i] * s.normal;
+    }
+}
+
+void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
+                 const SpringSheet& sheet) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> linked; // vertices of the two features of a spring
+  const auto link = [&](const ContactSpring& s) {
+    const std::size_t first = of_vertex(s) ? 1 : 2;
+    for (std::size_t a = 0; a < first; ++a)
+      for (std::size_t b = first; b < 4; ++b)
+        linked.emplace(s.vertices[a], s.vertices[b]);
+  };
+  const auto is_linked = [&](const ContactSpring& s) {
+    if (of_vertex(s)) // the other way, from a vertex of the triangle to this one, is another spring
+      return linked.contains({s.vertices[0], s.vertices[1]}) || linked.contains({s.vertices[0], s.vertices[2]}) ||
+             linked.contains({s.vertices[0], s.vertices[3]});
+    for (std::size_t a = 0; a < 2; ++a)
+      for (std::size_t b = 2; b < 4; ++b)
+        if (linked.contains({s.vertices[a], s.vertices[b]}) || linked.contains({s.vertices[b], s.vertices[a]}))
+          return true;
+    return false;
+  };
+  for (const ContactSpring& s : springs)
+    link(s);
+  std::vector<const NearPair*> order;
+  for (const NearPair& pair : near)
+    order.push_back(&pair);
+  std::stable_sort(order.begin(), order.end(), [](const NearPair* a, const NearPair* b) {
+    const bool edges_a = a->pair.features == Features::edge_edge, edges_b = b->pair.features == Features::edge_edge;
+    return edges_a != edges_b ? edges_b : a->closest.offset.squaredNorm() < b->closest.offset.squaredNorm();
+  });
+  for (const NearPair* pair : order) {
+    const auto& v = pair->pair.vertices;
+    ContactSpring s;
+    s.vertices = v;
+    s.weights = pair->closest.weights;
+    if (std::all_of(v.begin(), v.end(), [&](auto i) { return sheet.fixed[i]; }) || is_linked(s) ||
+        !normal_of(s, sheet.end))
+      continue;
+    s.anchor = pair->closest.offset;
+    s.rest = s.anchor.norm();
+    s.normal = s.anchor / s.rest;
+    s.stiffness.fill(stiffness_of(s, scene, sheet));
+    springs.push_back(s);
+    link(s);
+  }
+}
+
+} // namespace sheet::collide

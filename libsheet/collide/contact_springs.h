@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The springs between near features of a sheet that hold layers apart, and together, in the next steps [Batty et al.
+// 2012, section 3.5]. The energy of a spring is that of libsheet/energy/contact.h; the frame carries them
+// (formats/sheet.md, contact_*). SI units.
+//
+// A vertex and a triangle whose distance falls below the mean of their thicknesses get a spring, the nearest triangle
+// first and none that shares a corner with one that the vertex has already; so do two edges between whose vertices
+// there is no such contact. The normal part is at rest at the distance that they have, the tangential part at the
+// offset that they have. A spring goes with its features: its normal and anchor turn by the smallest rotation that
+// takes the features' normal from before the step to after it, so turning as a whole costs nothing.
+//
+// Stiffness [N/m] of both parts, unless the scene says one, for a spring that stands for the area A = half of the area
+// of its vertex (the vertices of both layers get springs; edges: half of the mean of their vertices'):
+//   k = A rho h / dt²  +  200 A rho g h / d  +  mu h / (2 dt)
+// with h the mean thickness, d the contact distance, dt the length of the step that brought the features together.
+// Terms: inertia (if it is modelled): an approach is stopped within about a step; weight: ten layers compress by a
+// twentieth of d; viscosity: as stiff as the sheet itself is against stretching within a step, so that what a viscous
+// sheet presses together does not go through either. None is stiffer than what stands in the step's matrix anyway.
+#pragma once
+#include "libsheet/collide/self_search.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet::collide {
+
+struct ContactSpring {
+  std::array<std::uint32_t, 4> vertices{};
+  std::array<double, 4> weights{};
+  Vector3 normal = Vector3::Zero();
+  double rest = 0;                   // [m]
+  Vector3 anchor = Vector3::Zero();  // [m]
+  std::array<double, 2> stiffness{}; // normal, tangential [N/m]
+};
+
+// The sheet at the end of a step, as springs see it; one value a vertex.
+struct SpringSheet {
+  std::span<const Vector3> start, end; // [m]
+  std::span<const double> reach;       // contact distance [m]
+  std::span<const double> thickness;   // [m]
+  std::span<const double> area;        // a third of the area of its triangles [m²]
+  std::vector<bool> fixed;             // pairs of fixed vertices alone get no spring
+  double step = 0;                     // its length [s]
+};
+
+// Turns the springs with their features and takes away those that parted: whose features passed each other or became
+// parallel edges, and whose tension [Pa] exceeds the scene's adhesion. Without `adhesion` in the scene none parts.
+void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet);
+
+// Adds springs for near pairs that have none.
+void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
+                 const SpringSheet& sheet);
+
+// What touches does not bounce: takes away the velocity of each spring's features along its normal, relative to each
+// other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of
+// Gauss-Seidel: nearly all of it in small piles). Where the scene's adhesion is 0, only that of approach. `mass` [kg];
+// fixed vertices have infinite mass.
+void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
+                      const std::vector<bool>& fixed, std::span<Vector3> velocity);
+
+} // namespace sheet::collide

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/collide/self_response.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "libsheet/collide/rigid_group.h"
+
+namespace sheet::collide {
+
+namespace {
+
+constexpr std::size_t impulse_rounds = 10, sweeps_of_round = 30, group_rounds = 5;
+constexpr std::array<double, 4> parts_of_way = {1, 0.5, 0.25, 0}; // pull-back
+constexpr double impulse_part = 0.5;                              // of the contact distance, that impulses want
+
+// n·Σ w_i x_i ≥ distance
+struct Inequality {
+  std::array<std::uint32_t, 4> vertices{};
+  std::array<double, 4> weights{};
+  Vector3 normal = Vector3::Zero();
+  double distance = 0;
+  double impulse = 0; // what it has given so far [kg m], not negative
+};
+
+class Response {
+public:
+  Response(StepPath& path, SelfSearch& search, std::span<const double> reach)
+      : path_(path), search_(search), reach_(reach), islands_(path.start.size()), inverse_mass_(path.start.size()) {
+    for (std::size_t v = 0; v < inverse_mass_.size(); ++v)
+      inverse_mass_[v] = path.fixed[v] ? 0 : 1 / path.mass[v];
+  }
+
+  SelfReport run() {
+    std::vector<Hit> hits = search_.hits(path_.start, path_.end, reach_, {});
+    report_.hits = hits.size();
+    if (hits.empty())
+      return report_;
+    const std::vector<Vector3> asked = path_.end, velocity = path_.velocity;
+    note(hits);
+    hits = give_impulses(std::move(hits));
+    hits = move_groups(std::move(hits));
+    pull_back(std::move(hits));
+    set_velocities(asked, velocity);
+    return report_;
+  }
+
+private:
+  void note(std::span<const Hit> hits) {
+    for (const Hit& hit : hits)
+      for (std::size_t i = 1; i < 4; ++i)
+        islands_.join(hit.pair.vertices[0], hit.pair.vertices[i]);
+  }
+
+  // The hits of vertices whose ends are not those of `before`, and the hits among `old` that may remain.
+  std::vector<Hit> hits_after(const std::vector<Vector3>& before) {
+    ++report_.rounds;
+    std::vector<std::uint8_t> moved(before.size());
+    for (std::size_t v = 0; v < moved.size(); ++v)
+      moved[v] = path_.end[v] != before[v];
+    std::vector<Hit> hits = search_.hits(path_.start, path_.end, reach_, moved);
+    note(hits);
+    return hits;
+  }
+
+  void add_inequality(const Hit& hit) {
+    std::array<Vector3, 4> x;
+    double contact = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint32_t v = hit.pair.vertices[i];
+      x[i] = (1 - hit.time) * path_.start[v] + hit.time * path_.end[v];
+      contact = std::min(contact, reach_[v]);
+    }
+    const ClosestPoints closest =
+        hit.pair.features == Features::vertex_triangle ? closest_vertex_triangle(x) : closest_edge_edge(x);
+    const double length = closest.offset.norm();
+    if (!(length > 0))
+      return; // no direction: left to the other means
+    inequalities_.push_back({hit.pair.vertices, closest.weights, closest.offset / length,
+                             std::min(hit.distance, impulse_part * contact), 0});
+    ++report_.by_impulses;
+  }
+
+  void sweep() {
+    for (Inequality& q : inequalities_) {
+      double gap = -q.distance, compliance = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        gap += q.weights[i] * q.normal.dot(path_.end[q.vertices[i]]);
+        compliance += q.weights[i] * q.weights[i] * inverse_mass_[q.vertices[i]];
+      }
+      if (!(compliance > 0))
+        continue; // all fixed
+      const double impulse = std::max(0.0, q.impulse - gap / compliance), change = impulse - q.impulse;
+      q.impulse = impulse;
+      if (change != 0)
+        for (std::size_t i = 0; i < 4; ++i)
+          path_.end[q.vertices[i]] += change * q.weights[i] * inverse_mass_[q.vertices[i]] * q.normal;
+    }
+  }
+
+  std::vector<Hit> give_impulses(std::vector<Hit> hits) {
+    for (std::size_t round = 0; round < impulse_rounds && !hits.empty(); ++round) {
+      for (const Hit& hit : hits)
+        add_inequality(hit);
+      const std::vector<Vector3> before = path_.end;
+      for (std::size_t i = 0; i < sweeps_of_round; ++i)
+        sweep();
+      hits = remaining(std::move(hits), before);
+    }
+    return hits;
+  }
+
+  // Hits of the path as it is now, when `hits` were those of the ends `before`.
+  std::vector<Hit> remaining(std::vector<Hit> hits, const std::vector<Vector3>& before) {
+    std::vector<Hit> now = hits_after(before);
+    for (const Hit& hit : hits) // not looked at again, because none of its vertices moved
+      if (std::all_of(hit.pair.vertices.begin(), hit.pair.vertices.end(),
+                      [&](std::uint32_t v) { return path_.end[v] == before[v]; }))
+        now.push_back(hit);
+    return now;
+  }
+
+  std::vector<Hit> move_groups(std::vector<Hit> hits) {
+    Sets groups(path_.start.size());
+    const std::vector<Vector3> wanted = path_.end;
+    std::vector<std::uint8_t> grouped(wanted.size(), 0);
+    for (std::size_t round = 0; round < group_rounds && !hits.empty(); ++round) {
+      for (const Hit& hit : hits)
+        for (std::size_t i = 1; i < 4; ++i)
+          groups.join(hit.pair.vertices[0], hit.pair.vertices[i]);
+      const std::vector<Vector3> before = path_.end;
+      for (const auto& group : groups.all())
+        if (const auto motion = motion_of(group, wanted))
+          for (const std::uint32_t v : group)
+            if (!path_.fixed[v]) {
+              path_.end[v] = (*motion)(path_.start[v]);
+              grouped[v] = 1;
+            }
+      hits = remaining(std::move(hits), before);
+    }
+    report_.in_groups = static_cast<std::size_t>(std::count(grouped.begin(), grouped.end(), 1));
+    return hits;
+  }
+
+  std::optional<RigidStep> motion_of(const std::vector<std::uint32_t>& group,
+                                     const std::vector<Vector3>& wanted) const {
+    std::vector<std::uint32_t> fixed;
+    std::copy_if(group.begin(), group.end(), std::back_inserter(fixed), [&](auto v) { return path_.fixed[v]; });
+    return fixed.empty() ? momentum_motion(group, path_.mass, path_.start, wanted)
+                         : common_motion(fixed, path_.start, wanted);
+  }
+
+  void pull_back(std::vector<Hit> hits) {
+    const std::vector<Vector3> wanted = path_.end;
+    std::vector<std::uint8_t> level(wanted.size(), 0);
+    constexpr std::uint8_t last = parts_of_way.size() - 1;
+    while (!hits.empty()) {
+      std::vector<std::uint8_t> next = level;
+      for (const Hit& hit : hits) {
+        const auto& v = hit.pair.vertices;
+        const bool some_free =
+            std::any_of(v.begin(), v.end(), [&](auto i) { return !path_.fixed[i] && level[i] < last; });
+        for (const std::uint32_t i : v)
+          if (level[i] < last && (!some_free || !path_.fixed[i]))
+            next[i] = static_cast<std::uint8_t>(level[i] + 1);
+      }
+      const std::vector<Vector3> before = path_.end;
+      for (std::size_t v = 0; v < level.size(); ++v)
+        if (next[v] != level[v]) {
+          const double part = parts_of_way[next[v]];
+          path_.end[v] = part == 0 ? path_.start[v] : Vector3(path_.start[v] + part * (wanted[v] - path_.start[v]));
+        }
+      level = std::move(next);
+      hits = remaining(std::move(hits), before);
+    }
+    for (std::size_t v = 0; v < level.size(); ++v)
+      if (level[v] > 0) {
+        ++report_.pulled_back;
+        report_.held_back += path_.fixed[v];
+      }
+  }
+
+  void set_velocities(const std::vector<Vector3>& asked, const std::vector<Vector3>& before) {
+    for (std::size_t v = 0; v < asked.size(); ++v)
+      if (path_.end[v] != asked[v])
+        path_.velocity[v] = before[v] + (path_.end[v] - asked[v]) / path_.length();
+    for (const auto& island : islands_.all()) {
+      if (std::any_of(island.begin(), island.end(), [&](auto v) { return path_.fixed[v]; }))
+        continue;
+      const Vector3& center = asked[island.front()];
+      const Momentum was = momentum(island, path_.mass, asked, before, center);
+      const Momentum is = momentum(island, path_.mass, path_.end, path_.velocity, center);
+      add_momentum(island, path_.mass, path_.end, path_.velocity, {was.linear - is.linear, was.angular - is.angular},
+                   center);
+    }
+  }
+
+  StepPath& path_;
+  SelfSearch& search_;
+  std::span<const double> reach_;
+  Sets islands_;
+  std::vector<double> inverse_mass_; // [1/kg]
+  std::vector<Inequality> inequalities_;
+  SelfReport report_;
+};
+
+} // namespace
+
+SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach) {
+  return Response(path, search, reach).run();
+}
+
+} // namespace sheet::collide

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The end of a step made safe from the sheet itself.
+//
+// Three means, one after the other, for pairs of features that come too near to each other (SelfSearch::hits):
+// 1. Impulses [Bridson et al. 2002]. Each pair that was found adds an inequality n·Σ w_i x_i ≥ g, with normal n and
+//    weights w from the moment of the hit; the ends move as little as possible, measured by their masses, for all
+//    inequalities to hold (projected Gauss-Seidel). g is the distance at the start or half the contact distance, the
+//    less of them. Vertices that are held or touch a solid have infinite mass.
+// 2. Rigid groups [Provot 1997; Bridson et al. 2002]. Vertices of pairs that still hit are joined to groups, which move
+//    as rigid bodies with the momentum and angular momentum of their vertices, or with those of their vertices that are
+//    fixed, if these move as a rigid body does. (A straight path between two places of a rigid body is an affine map
+//    that keeps what is apart apart, for turns by less than half a circle.)
+// 3. Pull-back. What still hits ends at 1/2, 1/4, then none of its way; free vertices first, then, because nothing else
+//    is left, fixed ones too.
+//
+// It ends: the first two have a number of rounds; each round of the third shortens the way of at least one vertex of
+// each hit, three times at most, and four vertices without any way do not hit.
+// It guarantees, because the search for hits never misses one: if no triangles intersect at the start, none does at any
+// time of the step, whatever is prescribed to held vertices or by solids. Where what they prescribe cannot be had
+// without an intersection, they stay behind; the report counts them. What touches a solid may then be inside of it; the
+// next step pushes it out.
+//
+// Velocities change by the displacement over the step's length. Then each island (vertices joined by hits) without
+// fixed vertices gets the rigid motion that gives its momentum and angular momentum back; of nearly collinear islands
+// the part about their line is left out.
+#pragma once
+#include "libsheet/collide/self_search.h"
+#include "libsheet/collide/step_path.h"
+
+namespace sheet::collide {
+
+struct SelfReport {
+  std::size_t hits = 0;        // pairs that hit on the way that was asked for
+  std::size_t rounds = 0;      // of any of the three means
+  std::size_t by_impulses = 0; // inequalities
+  std::size_t in_groups = 0;   // vertices that moved in rigid groups
+  std::size_t pulled_back = 0; // vertices, fixed ones included
+  std::size_t held_back = 0;   // fixed ones among them
+};
+
+// Corrects end and velocity of the path. `reach`: contact distance at each vertex [m].
+SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach);
+
+} // namespace sheet::collide

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/collide/solid_contact.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "libsheet/base/error.h"
+#include "libsheet/collide/solid_sweep.h"
+
+namespace sheet::collide {
+namespace {
+
+// Rounds of impulses before what still hits is carried.
+constexpr int kRounds = 10;
+
+std::int32_t first_bit(std::uint64_t mask) { return mask == 0 ? kRidesNone : std::countr_zero(mask); }
+
+// A point of the solid's frame brought to `offset` from its surface, along the normal. One turn where the surface is
+// smooth; a hollow narrower than the offset has no such point, so the turns are counted.
+Vector3 settle(const SolidDistance& shape, Vector3 x, double offset) {
+  for (int turn = 0; turn < 10; ++turn) {
+    const Near near = shape.nearest(x);
+    const double error = offset - near.distance;
+    if (std::abs(error) <= 1e-9 * offset)
+      break;
+    x += error * near.normal;
+  }
+  return x;
+}
+
+// The least thickness that is one; infinity if there is none.
+double thinnest(const StepPath& path) {
+  double result = std::numeric_limits<double>::infinity();
+  for (const double thickness : path.thickness)
+    if (thickness > 0)
+      result = std::min(result, thickness);
+  return result;
+}
+
+std::vector<SolidView> views_of(const Solids& solids, const StepPath& path) {
+  std::vector<SolidView> views;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    views.emplace_back(solids, i, path, 0.01 * thinnest(path));
+  return views;
+}
+
+class Resolution {
+public:
+  Resolution(StepPath& path, const Solids& solids)
+      : path_(path), solids_(solids), held_(path.fixed), views_(views_of(solids, path)) {
+    // Vertices of no triangle have no thickness of their own.
+    const double least = thinnest(path);
+    for (double& thickness : path.thickness)
+      thickness = std::max(thickness, least);
+    rides_.resize(path.start.size());
+    for (std::size_t v = 0; v < rides_.size(); ++v)
+      rides_[v] = held_[v] ? kRidesNone : first_bit(path.touch[v]);
+    changed_.assign(path.start.size(), 0);
+    carried_.assign(path.start.size(), 0);
+    active_.resize(path.triangles.size());
+    std::iota(active_.begin(), active_.end(), 0U);
+  }
+
+  SolidReport run() {
+    hold_vertices();
+    for (int round = 0; round < kRounds && !active_.empty(); ++round) {
+      const auto hits = find_hits(path_, views_, rides_, active_, {.mend = true});
+      count_across(hits);
+      for (const FoundHit& hit : hits)
+        push(hit);
+      report_.pushed += hits.size();
+      activate();
+    }
+    while (!active_.empty()) {
+      for (const FoundHit& hit : find_hits(path_, views_, rides_, active_))
+        carry(hit);
+      activate();
+    }
+    finish();
+    return report_;
+  }
+
+private:
+  // Vertices that touch, or come to.
+  void hold_vertices() {
+    const std::size_t n = path_.start.size();
+    std::vector<double> depth(n, 0);
+    std::vector<std::uint8_t> caught(n, 0); // vector<bool> is not safe to write from several threads
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 256), [&](const auto& range) {
+      for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v) {
+        if (held_[v])
+          continue;
+        if (rides_[v] != kRidesNone) {
+          const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
+          hold(v, view.own(view.pieces(), path_.end[v]));
+        } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
+          rides_[v] = static_cast<std::int32_t>(hit->solid);
+          caught[v] = 1;
+          hold(v, hit->place + views_[hit->solid].belt(1 - hit->s));
+        }
+      }
+    });
+    refuse_inside(depth);
+    for (const std::uint8_t c : caught)
+      report_.caught += c;
+  }
+
+  // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, out of the others.
+  void hold(std::uint32_t v, Vector3 own) {
+    const double offset = path_.thickness[v] / 2;
+    const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
+    own = settle(view.shape(), own, offset);
+    Vector3 end = view.world_at_end(own);
+    // Between solids that nearly meet, in turns: out of the others, back to the own one.
+    for (int turn = 0; turn < 10; ++turn) {
+      bool moved = false;
+      for (const SolidView& other : views_) {
+        const Vector3 there = other.own(other.pieces(), end);
+        if (&other == &view || other.shape().distance(there, offset) >= offset * (1 - 1e-6))
+          continue;
+        end = other.world_at_end(settle(other.shape(), there, offset));
+        moved = true;
+      }
+      if (!moved)
+        break;
+      end = view.world_at_end(settle(view.shape(), view.own(view.pieces(), end), offset));
+    }
+    path_.end[v] = end;
+  }
+
+  void refuse_inside(const std::vector<double>& depth) const {
+    const auto deepest = std::ranges::min_element(depth);
+    const auto v = static_cast<std::size_t>(deepest - depth.begin());
+    if (*deepest >= -path_.thickness[v] / 2)
+      return;
+    const Vector3& x = path_.start[v];
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      const double distance = views_[i].shape().nearest(views_[i].own(0, x)).distance;
+      if (distance <= *deepest) // which may have been less than exact
+        fail(
+            ExitCode::bad_input,
+            "vertex {} at ({:.6g}, {:.6g}, {:.6g}) starts {:.3g} m inside {}; move the sheet or the solid so that they "
+            "start apart",
+            v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
+    }
+  }
+
+  // An inelastic impulse without slip: the point that hits first goes on with the solid. Equal and opposite impulses
+  // at a point of weights w move the corners by w_i / m_i in proportion.
+  void push(const FoundHit& hit) {
+    const SolidView& view = views_[hit.solid];
+    const Corners& corners = path_.triangles[hit.triangle];
+    double half = std::numeric_limits<double>::infinity(), compliance = 0;
+    Vector3 end = Vector3::Zero(); // of the point, in the solid's frame
+    std::array<double, 3> share{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = corners[c];
+      const double weight = hit.point.weights[c];
+      half = std::min(half, path_.thickness[v] / 2);
+      end += weight * view.own(view.pieces(), path_.end[v]);
+      if (held_[v])
+        continue;
+      share[c] = weight / path_.mass[v];
+      compliance += weight * share[c];
+    }
+    if (compliance == 0)
+      return;
+    const Near& near = hit.point.near;
+    const Vector3 wanted =
+        hit.place + std::max(0.0, kTarget * half - near.distance) * near.normal + view.belt(1 - hit.s);
+    // What only must come out does so along the normal.
+    const Vector3 move = hit.kind == FoundHit::Kind::meeting ? Vector3(wanted - end) : Vector3(wanted - hit.place);
+    const Vector3 out = std::max(0.0, move.dot(near.normal)) * near.normal;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (share[c] == 0)
+        continue;
+      const std::uint32_t v = corners[c];
+      // A vertex that touches does not slide.
+      const Vector3 by = share[c] / compliance * view.turned_at_end(rides_[v] == kRidesNone ? move : out);
+      path_.end[v] += by;
+      path_.velocity[v] += by / path_.length();
+      changed_[v] = 1;
+    }
+  }
+
+  void carry(const FoundHit& hit) {
+    if (hit.kind == FoundHit::Kind::across) {
+      ++report_.unresolved;
+      return;
+    }
+    bool any = false; // moved in this round, by this hit or another
+    for (const std::uint32_t v : path_.triangles[hit.triangle]) {
+      if (!held_[v] && carried_[v] == 0) {
+        rides_[v] = static_cast<std::int32_t>(hit.solid);
+        path_.end[v] = views_[hit.solid].carried(path_.start[v]);
+        path_.velocity[v] = scene::velocity_at(solids_.scene(hit.solid).motion, path_.end_time, path_.end[v]);
+        carried_[v] = changed_[v] = 1;
+        ++report_.carried;
+      }
+      any = any || changed_[v] != 0;
+    }
+    if (!any)
+      ++report_.unresolved;
+  }
+
+  void count_across(const std::vector<FoundHit>& hits) {
+    if (counted_across_)
+      return;
+    counted_across_ = true;
+    for (const FoundHit& hit : hits)
+      report_.started_across += hit.kind == FoundHit::Kind::across ? 1 : 0;
+  }
+
+  // Triangles with a corner that has changed must be looked at again.
+  void activate() {
+    active_.clear();
+    for (std::uint32_t t = 0; t < path_.triangles.size(); ++t) {
+      const auto& [a, b, c] = path_.triangles[t];
+      if (changed_[a] != 0 || changed_[b] != 0 || changed_[c] != 0)
+        active_.push_back(t);
+    }
+    std::ranges::fill(changed_, std::uint8_t{0});
+  }
+
+  void finish() {
+    for (std::size_t v = 0; v < rides_.size(); ++v) {
+      if (held_[v] || rides_[v] == kRidesNone)
+        continue;
+      path_.fixed[v] = true;
+      if (carried_[v] != 0 && path_.touch[v] == 0)
+        continue;
+      const auto solid = static_cast<std::size_t>(rides_[v]);
+      path_.touch[v] = std::uint64_t{1} << solid;
+      path_.velocity[v] = solids_.surface_velocity(solid, path_.end[v], path_.end_time);
+      ++report_.touching;
+    }
+  }
+
+  StepPath& path_;
+  const Solids& solids_;
+  const std::vector<bool> held_; // by [[hold]]s
+  std::vector<SolidView> views_;
+  std::vector<std::int32_t> rides_;             // the solid that each vertex moves with, or none
+  std::vector<std::uint8_t> changed_, carried_; // per vertex
+  std::vector<std::uint32_t> active_;           // triangles to be looked at
+  SolidReport report_;
+  bool counted_across_ = false;
+};
+
+} // namespace
+
+SolidReport resolve_solids(StepPath& path, const Solids& solids) {
+  if (solids.empty() || path.triangles.empty())
+    return {};
+  return Resolution(path, solids).run();
+}
+
+std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& solids) {
+  if (solids.empty() || path.triangles.empty())
+    return {};
+  const std::vector<SolidView> views = views_of(solids, path);
+  // What touches rides, and what ends where a solid has taken it.
+  std::vector<std::int32_t> rides;
+  for (std::size_t v = 0; v < path.start.size(); ++v) {
+    rides.push_back(first_bit(path.touch[v]));
+    for (std::size_t i = 0; i < views.size() && rides[v] == kRidesNone; ++i)
+      if ((views[i].carried(path.start[v]) - path.end[v]).norm() < 1e-9 * path.thickness[v])
+        rides[v] = static_cast<std::int32_t>(i);
+  }
+  std::vector<std::uint32_t> all(path.triangles.size()), result;
+  std::iota(all.begin(), all.end(), 0U);
+  // A little less than what resolve_solids keeps, so that round-off raises no alarm.
+  for (const FoundHit& hit : find_hits(path, views, rides, all, {0.8 * kClearance, 0.1 * kClearance}))
+    result.push_back(hit.triangle);
+  return result;
+}
+
+} // namespace sheet::collide

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The end of a step made safe from the scene's solids: what touches them is held, nothing passes through them.
+//
+// Vertices [Batty et al. 2012, section 3.5]. A vertex whose path comes within half the sheet's thickness of a solid's
+// surface sticks to it from then on: it moves with the surface, belts included, and ends at half the thickness from it.
+// It keeps its touch bit from then on: the reaction of a solid is not known here, so tension that overcomes adhesion
+// must be found where forces are, and the bit taken away there. A vertex without a bit that starts within half the
+// thickness and moves out is left alone, so what has been released gets away.
+//
+// Triangles. Where a triangle's path comes within an eighth of its thickness of a solid while its corners stay clear
+// (a rod or a tip through its middle, a corner of a box), the point that hits first sticks: the corners' ends are moved
+// by an inelastic impulse without slip, shared as their masses ask. After some rounds of that, what still hits is
+// carried with the solid from its start on. A carried triangle does not move in the solid's frame, and each further
+// round carries at least one vertex more, so this ends; after it no triangle's path comes closer to a solid than an
+// eighth of its thickness. One that started closer keeps nine tenths of its distance on the way and ends with all of
+// it; impulses try to bring it out to a quarter. Exceptions, counted in the report: triangles that start across a
+// solid's surface, those that [[hold]]s drive into one, and those between two solids that close on each other.
+//
+// Paths. In the frame of a solid that turns or speeds up, straight paths are bent; they are followed in pieces, as many
+// as it takes to stay within a hundredth of the sheet's least thickness of the true path.
+//
+// The results are the same bits for any number of threads: what is found in parallel is applied in order.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libsheet/collide/solids.h"
+#include "libsheet/collide/step_path.h"
+
+namespace sheet::collide {
+
+struct SolidReport {
+  std::size_t touching = 0;       // vertices held by solids at the end
+  std::size_t caught = 0;         // those that were not at the start
+  std::size_t pushed = 0;         // impulses on triangles
+  std::size_t carried = 0;        // vertices carried with a solid because impulses did not help
+  std::size_t started_across = 0; // triangles that start across a solid's surface
+  std::size_t unresolved = 0;     // triangles that still come too close (see above)
+};
+
+// Corrects end, velocity, touch and fixed of the path; `touch` has a bit or none for each vertex at the start, `fixed`
+// is set there for the vertices of [[hold]]s, which are left alone. Vertices of no triangle, whose thickness is 0, are
+// given the least thickness. Does nothing without solids. Throws Error (bad_input) where a vertex starts deeper in a
+// solid than half the sheet's thickness, unless a [[hold]] put it there.
+SolidReport resolve_solids(StepPath& path, const Solids& solids);
+
+// The triangles that the path takes too close to a solid (as above, less a fifth so that round-off raises no alarm),
+// ascending. For checks after other corrections; the vertices of [[hold]]s are followed too. Paths are straight, but in
+// a solid's frame for what touches it or ends where it is carried.
+[[nodiscard]] std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& solids);
+
+} // namespace sheet::collide

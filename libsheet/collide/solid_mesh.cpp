@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/collide/solid_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "formats/cpp/mesh_import.h"
+#include "libsheet/base/error.h"
+#include "libsheet/base/log.h"
+#include "libsheet/collide/distance_cache.h"
+#include "libsheet/collide/distance_field.h"
+#include "libsheet/collide/solid_check.h"
+#include "libsheet/collide/triangle_tree.h"
+
+namespace sheet::collide {
+namespace {
+
+// Half the field's width in voxels. Wider fields answer farther out, but there a box does nearly as well.
+constexpr double kBand = 6;
+// Voxels along the longest side, where the scene does not say.
+constexpr double kVoxels = 128;
+// No field is larger than this, whatever the scene says: the time would be lost, not gained.
+constexpr double kVoxelsMax = 1024;
+
+double voxel_size_for(const SolidSurface& surface, double wanted) {
+  Box3 box;
+  for (const Vector3& x : surface.points)
+    box.extend(x);
+  const double side = box.sizes().maxCoeff();
+  return wanted > 0 ? std::max(wanted, side / kVoxelsMax) : side / kVoxels;
+}
+
+class MeshDistance final : public SolidDistance {
+public:
+  MeshDistance(SolidSurface surface, DistanceField field)
+      : tree_(std::move(surface)), field_(std::move(field)), slack_(field_.slack()) {}
+
+  [[nodiscard]] Box3 bounds() const override { return tree_.bounds(); }
+
+  [[nodiscard]] Near nearest(const Vector3& x) const override {
+    return *tree_.nearest(x, std::numeric_limits<double>::infinity());
+  }
+
+  [[nodiscard]] double distance(const Vector3& x, double enough) const override {
+    const double outside = tree_.bounds().exteriorDistance(x);
+    if (outside >= enough)
+      return outside;
+    const double field = field_.at(x);
+    if (std::abs(field) - slack_ >= enough)
+      return std::copysign(std::abs(field) - slack_, field);
+    return nearest(x).distance;
+  }
+
+  [[nodiscard]] std::optional<TriangleHit> first_hit(const MovingTriangle& triangle, double clearance,
+                                                     double tolerance) const override {
+    auto hit = tree_.first_hit(triangle, clearance, tolerance);
+    if (hit)
+      hit->point.near = nearest(point_of(triangle.at(hit->s), hit->point.weights));
+    return hit;
+  }
+
+  [[nodiscard]] double separation(const Triangle3& triangle, double enough, double /*tolerance*/) const override {
+    const double least = tree_.nearest(triangle, enough).distance;
+    // What does not cross the surface lies on one side of it.
+    return least > 0 && distance(triangle[0], least) < 0 ? 0.0 : least;
+  }
+
+private:
+  TriangleTree tree_;
+  DistanceField field_;
+  double slack_;
+};
+
+} // namespace
+
+SolidSurface read_surface(const scene::SolidMesh& mesh) {
+  SolidSurface surface;
+  std::string ending = std::filesystem::path(mesh.file).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".vdb")
+    surface = read_level_set(mesh.file);
+  else {
+    try {
+      const formats::MeshImport import = formats::import_mesh(mesh.file);
+      for (const std::string& note : import.notes)
+        log::warning(note);
+      for (const auto& [x, y, z] : import.mesh.points)
+        surface.points.emplace_back(x, y, z);
+      surface.triangles = import.mesh.triangles;
+    } catch (const formats::MeshFileError& error) {
+      fail(error.kind() == formats::MeshFileError::Kind::io ? ExitCode::io : ExitCode::bad_input, "{}", error.what());
+    }
+  }
+  for (Vector3& x : surface.points)
+    x *= mesh.scale;
+  return surface;
+}
+
+std::unique_ptr<const SolidDistance> make_distance(const scene::SolidMesh& mesh, const std::string& name) {
+  SolidSurface surface = read_surface(mesh);
+  check_surface(surface, name, true);
+  const double voxel_size = voxel_size_for(surface, mesh.voxel_size.value_or(0));
+  const std::string key = cache_key(surface, voxel_size, kBand);
+  std::optional<DistanceField> field = load_field(key);
+  if (!field) {
+    check_surface(surface, name);
+    field.emplace(surface, voxel_size, kBand);
+    store_field(key, *field);
+  }
+  return std::make_unique<MeshDistance>(std::move(surface), std::move(*field));
+}
+
+std::unique_ptr<const SolidDistance> make_distance(SolidSurface surface, double voxel_size) {
+  DistanceField field(surface, voxel_size_for(surface, voxel_size), kBand);
+  return std::make_unique<MeshDistance>(std::move(surface), std::move(field));
+}
+
+} // namespace sheet::collide

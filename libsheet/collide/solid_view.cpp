@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/collide/solid_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/scene/overloaded.h"
+
+namespace sheet::collide {
+namespace {
+
+double size_of(double value) { return std::abs(value); }
+double size_of(const Vector3& value) { return value.norm(); }
+
+// The largest slope of a piecewise linear quantity between two times.
+template <class T> double steepest(const scene::Timed<T>& timed, double from, double to) {
+  double result = 0;
+  for (std::size_t i = 1; i < timed.entries.size(); ++i) {
+    const auto &a = timed.entries[i - 1], &b = timed.entries[i];
+    if (a.time < to && b.time > from)
+      result = std::max(result, size_of(T(b.value - a.value)) / (b.time - a.time));
+  }
+  return result;
+}
+
+// Its largest magnitude between them: at one of them or at a bend.
+double largest(const scene::Timed<double>& timed, double from, double to) {
+  double result = std::max(std::abs(scene::value_at(timed, from)), std::abs(scene::value_at(timed, to)));
+  for (const auto& entry : timed.entries)
+    if (entry.time > from && entry.time < to)
+      result = std::max(result, std::abs(entry.value));
+  return result;
+}
+
+// How far and how fast points are.
+struct Reach {
+  double radius = 0, speed = 0; // from a rotation's center [m], in the world [m/s]
+};
+
+// A bound of the acceleration of such points as the moving frame sees it [m/s²]: for rotations those of Coriolis,
+// centrifugal and Euler.
+double acceleration_bound(const scene::Motion& motion, double from, double to, const Reach& reach) {
+  return std::visit(scene::Overloaded{[](const scene::Fixed&) { return 0.0; },
+                                      [&](const scene::Translating& m) { return steepest(m.velocity, from, to); },
+                                      [&](const scene::Rotating& m) {
+                                        const double rate = largest(m.rate, from, to);
+                                        return 2 * rate * reach.speed +
+                                               (rate * rate + steepest(m.rate, from, to)) * reach.radius;
+                                      }},
+                    motion);
+}
+
+Vector3 center_of(const scene::Motion& motion) {
+  const auto* rotating = std::get_if<scene::Rotating>(&motion);
+  return rotating != nullptr ? rotating->center : Vector3(Vector3::Zero());
+}
+
+Reach reach_of(const StepPath& path, const Vector3& center) {
+  Reach reach;
+  for (std::size_t v = 0; v < path.start.size(); ++v) {
+    reach.radius = std::max({reach.radius, (path.start[v] - center).norm(), (path.end[v] - center).norm()});
+    reach.speed = std::max(reach.speed, (path.end[v] - path.start[v]).norm() / path.length());
+  }
+  return reach;
+}
+
+} // namespace
+
+SolidView::SolidView(const Solids& solids, std::size_t solid, const StepPath& path, double deviation)
+    : shape_(&solids.shape(solid)) {
+  const scene::Motion& motion = solids.scene(solid).motion;
+  const auto bent = [&](const Reach& reach, double time) {
+    return acceleration_bound(motion, path.start_time, path.end_time, reach) * time * time / 8;
+  };
+  const Vector3 center = center_of(motion);
+  const auto pieces = static_cast<std::size_t>(
+      std::max(1.0, std::ceil(std::sqrt(bent(reach_of(path, center), path.length()) / deviation))));
+  const Box3 own = shape_->bounds();
+  const bool finite = own.sizes().allFinite();
+  swept_ = finite ? Box3() : own;
+  Reach solid_reach;
+  for (std::size_t k = 0; k <= pieces; ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(pieces);
+    const Eigen::Isometry3d place = solids.pose(solid, (1 - part) * path.start_time + part * path.end_time);
+    to_own_.push_back(place.inverse());
+    if (!finite)
+      continue;
+    const Box3 now = own.transformed(place);
+    swept_.extend(now);
+    solid_reach.radius = std::max(solid_reach.radius, (now.center() - center).norm() + now.diagonal().norm() / 2);
+  }
+  from_own_at_end_ = to_own_.back().inverse();
+  belt_ = to_own_.back().linear() * (path.length() * solids.scene(solid).surface_velocity);
+  if (finite) { // the solid's own points bow out between the pieces' ends
+    const double bow = bent(solid_reach, path.length() / static_cast<double>(pieces));
+    swept_.min().array() -= bow;
+    swept_.max().array() += bow;
+  }
+}
+
+} // namespace sheet::collide

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The closest points of two features of a triangle mesh: a vertex and a triangle, or two edges. Lengths in any unit.
+#pragma once
+#include <array>
+#include <optional>
+
+#include "libsheet/geometry/types.h"
+
+namespace sheet {
+
+// c = Σ weights[i] x[i] is the vector from the second feature's closest point to the first one's; the weights sum to 0.
+struct ClosestPoints {
+  std::array<double, 4> weights{}; // vertex, triangle: 1, -λ0, -λ1, -λ2; edges: λ, 1-λ, -κ, κ-1; all λ, κ in [0, 1]
+  Vector3 offset = Vector3::Zero(); // c
+};
+
+// x[0] the vertex, x[1..3] the triangle, which may be degenerate. Relative error of |c| a few roundings, unless the
+// triangle's height is below 1e-7 of its sides.
+[[nodiscard]] ClosestPoints closest_vertex_triangle(const std::array<Vector3, 4>& x);
+
+// x[0], x[1] one edge, x[2], x[3] the other; either may have no length. Parallel edges: one of their closest pairs.
+[[nodiscard]] ClosestPoints closest_edge_edge(const std::array<Vector3, 4>& x);
+
+// The same where they are perpendicular to both features: the vertex is above the inside of the triangle, the edges
+// cross seen along their common perpendicular. Cheaper.
+[[nodiscard]] std::optional<ClosestPoints> over_triangle(const std::array<Vector3, 4>& x);
+[[nodiscard]] std::optional<ClosestPoints> crossing_edges(const std::array<Vector3, 4>& x);
+
+} // namespace sheet

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "libsheet/remesh/operations.h"
+
+namespace sheet::remesh {
+
+namespace {
+
+// The rim's neighbours of a rim vertex: where the rim comes from and where it goes to (the sheet on its left).
+struct RimNeighbours {
+  std::uint32_t before, after;
+};
+RimNeighbours rim_neighbours(const Mesh& mesh, std::uint32_t v) {
+  RimNeighbours found{none, mesh.to(mesh.side_at(v))};
+  mesh.for_fan(v, [&](std::uint32_t side) {
+    if (mesh.twin(Mesh::previous(side)) == none)
+      found.before = mesh.from(Mesh::previous(side));
+  });
+  return found;
+}
+
+// Link condition: the ends have no common neighbours but the apices of the edge's triangles, and no apex would be left
+// with two triangles (inside) or none (at a rim).
+bool keeps_manifold(const Mesh& mesh, std::uint32_t side) {
+  const std::uint32_t u = mesh.from(side), v = mesh.to(side), twin = mesh.twin(side);
+  if (twin != none && mesh.on_rim(u) && mesh.on_rim(v))
+    return false;
+  std::size_t common = 0;
+  mesh.for_neighbours(u, [&](std::uint32_t w) {
+    if (w != v && mesh.adjacent(w, v))
+      ++common;
+  });
+  if (common != (twin == none ? 1U : 2U))
+    return false;
+  const auto survives = [&](std::uint32_t apex) { return mesh.degree(apex) >= (mesh.on_rim(apex) ? 2U : 4U); };
+  return survives(mesh.apex(side)) && (twin == none || survives(mesh.apex(twin)));
+}
+
+// Regularised quadric of the planes of triangles: the point with the least Σ A (n·(x - c))² + r ΣA |x - middle|².
+Vector3 quadric_point(const EditableSheet& sheet, std::span<const std::uint32_t> triangles, const Vector3& middle) {
+  constexpr double regularisation = 0.0001;
+  Matrix3 quadric = Matrix3::Zero();
+  Vector3 pull = Vector3::Zero();
+  double area = 0;
+  for (const std::uint32_t t : triangles) {
+    const TriangleShape s = sheet.shape(t);
+    const Vector3 to = sheet.at(sheet.mesh().corners(t)[0]) - middle;
+    quadric += s.area * s.normal * s.normal.transpose();
+    pull += s.area * s.normal.dot(to) * s.normal;
+    area += s.area;
+  }
+  if (!(area > 0))
+    return middle;
+  quadric += regularisation * area * Matrix3::Identity();
+  return middle + quadric.ldlt().solve(pull);
+}
+
+// Moves x along the ring's area vector until the cone over the ring has the wanted volume; at most `reach` far.
+Vector3 with_volume(const EditableSheet& sheet, const Edit& edit, const Vector3& x, const Vector3& origin,
+                    double six_volumes, double reach) {
+  // Each added triangle (w, p, q) makes (x - o)·((p - o) × (q - o)) = six times its cone's volume.
+  Vector3 gradient = Vector3::Zero();
+  for (const Corners& t : edit.added) {
+    const std::size_t i = static_cast<std::size_t>(std::find(t.begin(), t.end(), edit.vertex) - t.begin());
+    gradient += (sheet.at(t[(i + 1) % 3]) - origin).cross(sheet.at(t[(i + 2) % 3]) - origin);
+  }
+  const double square = gradient.squaredNorm();
+  if (!(square > 0))
+    return x;
+  Vector3 shift = (six_volumes - gradient.dot(x - origin)) / square * gradient;
+  const double length = shift.norm();
+  if (length > reach)
+    shift *= reach / length;
+  return x + shift;
+}
+
+double six_cones(const EditableSheet& sheet, const Edit& edit, const Vector3& tip) {
+  double sum = 0;
+  for (const Corners& t : edit.added) {
+    std::array<Vector3, 3> x;
+    for (std::size_t i = 0; i < 3; ++i)
+      x[i] = (t[i] == edit.vertex ? edit.position : sheet.at(t[i])) - tip;
+    sum += x[0].cross(x[1]).dot(x[2]);
+  }
+  return sum;
+}
+
+// The point x nearest to the middle of the edge u v for which the rim a-x-b encloses what a-u-v-b does: with the middle
+// as origin, x × (b - a) = a × u + u × v + v × b [Lindstrom, Turk 1998].
+Vector3 rim_point(const EditableSheet& sheet, const Vector3& u, const Vector3& v, std::uint32_t before,
+                  std::uint32_t after) {
+  const Vector3 middle = 0.5 * (u + v), a = sheet.at(before) - middle, b = sheet.at(after) - middle;
+  const Vector3 chord = b - a;
+  const double square = chord.squaredNorm();
+  if (before == after || !(square > 0))
+    return middle;
+  const Vector3 p = u - middle, q = v - middle;
+  return middle + chord.cross(a.cross(p) + p.cross(q) + q.cross(b)) / square;
+}
+
+void make_fans(const EditableSheet& sheet, std::uint32_t kept, std::uint32_t gone, Edit& edit) {
+  const Mesh& mesh = sheet.mesh();
+  const auto take = [&](std::uint32_t side) {
+    const std::uint32_t t = Mesh::triangle_of(side);
+    if (std::find(edit.removed.begin(), edit.removed.end(), t) != edit.removed.end())
+      return;
+    edit.removed.push_back(t);
+    Corners corners = mesh.corners(t);
+    if (std::find(corners.begin(), corners.end(), kept) != corners.end() &&
+        std::find(corners.begin(), corners.end(), gone) != corners.end())
+      return;
+    std::replace(corners.begin(), corners.end(), gone, kept);
+    edit.added.push_back(corners);
+    edit.former.push_back(edit.removed.size() - 1);
+  };
+  mesh.for_fan(kept, take);
+  mesh.for_fan(gone, take);
+}
+
+} // namespace
+
+bool is_corner(const EditableSheet& sheet, std::uint32_t v) {
+  const Mesh& mesh = sheet.mesh();
+  if (!mesh.on_rim(v))
+    return false;
+  const auto [before, after] = rim_neighbours(mesh, v);
+  const Vector3 in = sheet.at(v) - sheet.at(before), out = sheet.at(after) - sheet.at(v);
+  return in.dot(out) < corner_cosine * in.norm() * out.norm();
+}
+
+double cone_volume(const EditableSheet& sheet, std::span<const std::uint32_t> triangles, const Vector3& tip) {
+  double sum = 0;
+  for (const std::uint32_t t : triangles) {
+    const Corners& c = sheet.mesh().corners(t);
+    sum += (sheet.at(c[0]) - tip).cross(sheet.at(c[1]) - tip).dot(sheet.at(c[2]) - tip);
+  }
+  return sum;
+}
+
+bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit) {
+  const Mesh& mesh = sheet.mesh();
+  if (!keeps_manifold(mesh, side))
+    return false;
+  const std::uint32_t u = mesh.from(side), v = mesh.to(side);
+  const bool rim_u = mesh.on_rim(u), rim_v = mesh.on_rim(v);
+  const bool under_v = sheet.held_within(u, v), under_u = sheet.held_within(v, u);
+  if (!under_u && !under_v)
+    return false;
+  // An end may insist on its place as a corner of the rim, as held more than the other, as the one on the rim; if both
+  // do for different reasons, neither can go.
+  std::uint32_t kept = none;
+  const auto insist = [&](bool u_does, bool v_does) {
+    if (u_does == v_does)
+      return true;
+    const std::uint32_t who = u_does ? u : v;
+    if (kept != none && kept != who)
+      return false;
+    kept = who;
+    return true;
+  };
+  const bool corner_u = is_corner(sheet, u), corner_v = is_corner(sheet, v);
+  if ((corner_u && corner_v) || !insist(corner_u, corner_v) || !insist(!under_v, !under_u) || !insist(rim_u, rim_v))
+    return false;
+  const bool stays = kept != none || sheet.fixed(u);
+  kept = kept == none ? u : kept;
+  const std::uint32_t gone = kept == u ? v : u;
+
+  edit.clear();
+  edit.kind = Edit::Kind::collapse;
+  edit.vertex = kept;
+  edit.removed_vertex = gone;
+  make_fans(sheet, kept, gone, edit);
+  if (edit.added.empty())
+    return false;
+  const Vector3 a = sheet.at(kept), b = sheet.at(gone), middle = 0.5 * (a + b);
+  const double before = cone_volume(sheet, edit.removed, middle);
+  if (stays) {
+    edit.position = a;
+  } else if (rim_u) {
+    const std::uint32_t start = rim_neighbours(mesh, u).before, end = rim_neighbours(mesh, v).after;
+    edit.position = rim_point(sheet, sheet.at(u), sheet.at(v), start, end);
+  } else {
+    const Vector3 best = quadric_point(sheet, edit.removed, middle);
+    const double owed = 6 * (sheet.swept(u) + sheet.swept(v));
+    const double reach = (b - a).norm();
+    const Vector3 exact = with_volume(sheet, edit, best, middle, before, reach);
+    edit.position = with_volume(sheet, edit, exact, middle, before - owed, pay);
+  }
+  if (!stays)
+    for (int axis = 0; axis < 3; ++axis)
+      if (sheet.held_axes(kept)[static_cast<std::size_t>(axis)])
+        edit.position[axis] = middle[axis];
+  if ((edit.position - middle).norm() > 1.5 * (b - a).norm())
+    return false;
+  edit.swept = rim_u && rim_v ? 0 : (six_cones(sheet, edit, middle) - before) / 6;
+  if (stays)
+    edit.parents = {{kept, 1, 1}, {gone, 0, 1}};
+  else {
+    const double along = std::clamp((edit.position - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    edit.parents = {{kept, 1 - along, 1}, {gone, along, 1}};
+  }
+  return true;
+}
+
+} // namespace sheet::remesh

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/remesh/editable_sheet.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "libsheet/geometry/triangle_pair.h"
+#include "libsheet/remesh/row_storage.h"
+#include "libsheet/remesh/thickness.h"
+
+namespace sheet::remesh {
+
+namespace {
+const double sliver_cosine = cosine_of_degrees(15);
+}
+
+Box EditableSheet::box_of(const Corners& c) const {
+  Box box{position_[c[0]], position_[c[0]]};
+  box.add(position_[c[1]]);
+  box.add(position_[c[2]]);
+  return box;
+}
+
+double EditableSheet::carried_volume(std::uint32_t v) const {
+  double sum = 0;
+  mesh_.for_fan(v, [&](std::uint32_t side) { sum += volume_[Mesh::triangle_of(side)] / 3; });
+  return sum;
+}
+
+// Puts the edit's vertex where it will be; its slot may be new.
+void EditableSheet::place(const Edit& edit) {
+  if (edit.vertex == none)
+    return;
+  if (edit.vertex >= position_.size())
+    position_.resize(edit.vertex + 1, Vector3::Zero());
+  old_position_ = position_[edit.vertex];
+  position_[edit.vertex] = edit.position;
+}
+
+bool EditableSheet::check_shapes(const Edit& edit, const Limits& limits) {
+  double sharpest = limits.sharpest;
+  for (const TriangleShape& old : old_shapes_)
+    sharpest = std::max(sharpest, old.sharpest - limits.gain);
+  new_shapes_.clear();
+  new_areas_.clear();
+  for (std::size_t i = 0; i < edit.added.size(); ++i) {
+    const Corners& c = edit.added[i];
+    const TriangleShape& made = new_shapes_.emplace_back(position_[c[0]], position_[c[1]], position_[c[2]]);
+    if (!(made.area > 0) || made.sharpest > sharpest)
+      return false;
+    const TriangleShape* former = edit.former.empty() ? nullptr : &old_shapes_[edit.former[i]];
+    const bool sliver = former != nullptr && former->sharpest > sliver_cosine; // its normal says little
+    if (former != nullptr && !sliver ? made.normal.dot(former->normal) < limits.facing
+                                     : made.normal.dot(facing_) < (sliver ? 0 : limits.facing))
+      return false;
+    new_areas_.push_back(made.area);
+  }
+  return true;
+}
+
+void EditableSheet::find_overlap(Edit& edit) {
+  const PlaneFrame plane(facing_);
+  new_flat_.clear();
+  for (const Corners& c : edit.added)
+    new_flat_.push_back({plane.flat(position_[c[0]]), plane.flat(position_[c[1]]), plane.flat(position_[c[2]])});
+  edit.overlap.clear();
+  for (const FlatTriangle& a : new_flat_)
+    for (const FlatTriangle& b : old_flat_)
+      edit.overlap.push_back(overlap_area(a, b));
+}
+
+void EditableSheet::make_grid() {
+  double size = 0;
+  for (std::uint32_t t = 0; t < mesh_.triangle_slots(); ++t)
+    if (mesh_.has_triangle(t))
+      size += box_of(mesh_.corners(t)).half_size();
+  const std::size_t count = mesh_.triangle_count();
+  grid_.emplace(4 * size / static_cast<double>(count), count);
+  for (std::uint32_t t = 0; t < mesh_.triangle_slots(); ++t)
+    if (mesh_.has_triangle(t))
+      grid_->add(t, box_of(mesh_.corners(t)));
+}
+
+// The patch's border stays, so whatever the new triangles meet, they meet outside of the patch, or each other.
+bool EditableSheet::intersects(const Edit& edit) {
+  for (std::size_t i = 0; i < edit.added.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (triangles_intersect(position_, edit.added[i], edit.added[k]))
+        return true;
+  Box patch = box_of(edit.added[0]);
+  for (const Corners& c : edit.added)
+    patch.add(box_of(c));
+  bool found = false;
+  grid_->for_meeting(patch, [&](std::uint32_t t) {
+    if (found || std::find(edit.removed.begin(), edit.removed.end(), t) != edit.removed.end())
+      return;
+    for (const Corners& c : edit.added)
+      if (box_of(c).meets(grid_->box_of(t)) && triangles_intersect(position_, c, mesh_.corners(t))) {
+        found = true;
+        return;
+      }
+  });
+  return found;
+}
+
+bool EditableSheet::in_slot(std::uint32_t t) const {
+  return std::ranges::all_of(mesh_.corners(t), [&](std::uint32_t v) { return v < in_inlet_.size() && in_inlet_[v]; });
+}
+
+bool EditableSheet::make(Edit& edit, const Limits& limits) {
+  if (edit.added.empty() && edit.removed.empty())
+    return false;
+  if (std::ranges::any_of(edit.removed, [&](std::uint32_t t) { return in_slot(t); }))
+    return false;
+  if (limits.intersections && !grid_)
+    make_grid();
+  old_shapes_.clear();
+  old_areas_.clear();
+  old_volumes_.clear();
+  Vector3 facing = Vector3::Zero();
+  for (const std::uint32_t t : edit.removed) {
+    const TriangleShape& old = old_shapes_.emplace_back(shape(t));
+    old_areas_.push_back(old.area);
+    old_volumes_.push_back(volume_[t]);
+    facing += old.area * old.normal;
+  }
+  facing_ = facing.stableNormalized();
+  const bool project = edit.overlap.empty();
+  if (project) {
+    if (facing_.isZero())
+      return false;
+    const PlaneFrame plane(facing_);
+    old_flat_.clear();
+    for (const std::uint32_t t : edit.removed) {
+      const Corners& c = mesh_.corners(t);
+      old_flat_.push_back({plane.flat(position_[c[0]]), plane.flat(position_[c[1]]), plane.flat(position_[c[2]])});
+    }
+  }
+  place(edit);
+  const auto accepted = [&] {
+    if (!check_shapes(edit, limits))
+      return false;
+    if (project)
+      find_overlap(edit);
+    return share_volume(edit, old_areas_, old_volumes_, new_areas_, limits.thickness) &&
+           !(limits.intersections && intersects(edit));
+  };
+  if (!accepted()) {
+    if (edit.vertex != none)
+      position_[edit.vertex] = old_position_;
+    return false;
+  }
+  commit(edit);
+  ++edits_;
+  return true;
+}
+
+void EditableSheet::commit(const Edit& edit) {
+  patch_.clear();
+  for (const std::uint32_t t : edit.removed)
+    for (const std::uint32_t v : mesh_.corners(t))
+      if (std::find(patch_.begin(), patch_.end(), v) == patch_.end())
+        patch_.push_back(v);
+  Flow before;
+  if (!velocity_.empty())
+    for (const std::uint32_t v : patch_)
+      before.add(carried_[v], velocity_[v]);
+
+  const bool is_new = edit.kind == Edit::Kind::split;
+  if (is_new) {
+    static_cast<void>(mesh_.add_vertex());
+    swept_.resize(position_.size(), 0);
+    carried_.resize(position_.size(), 0);
+    successor_.resize(position_.size());
+    successor_[edit.vertex] = edit.vertex;
+    swept_[edit.vertex] = 0;
+    patch_.push_back(edit.vertex);
+  }
+  if (grid_)
+    for (const std::uint32_t t : edit.removed)
+      grid_->remove(t);
+  write_vertex_rows(edit);
+  mesh_.replace(edit.removed, edit.added, slots_);
+  write_triangle_rows(edit);
+  if (grid_)
+    for (const std::uint32_t t : slots_)
+      grid_->add(t, box_of(mesh_.corners(t)));
+  if (edit.removed_vertex != none) {
+    mesh_.remove_vertex(edit.removed_vertex);
+    successor_[edit.removed_vertex] = edit.vertex;
+    std::erase(patch_, edit.removed_vertex);
+  }
+  for (const std::uint32_t v : patch_)
+    carried_[v] = carried_volume(v);
+
+  // The ledger: what an edit sweeps is shared by the vertices that can pay it back.
+  if (edit.kind == Edit::Kind::flip)
+    for (const std::uint32_t v : patch_)
+      swept_[v] += edit.swept / static_cast<double>(patch_.size());
+  else if (edit.kind == Edit::Kind::collapse)
+    swept_[edit.vertex] += swept_[edit.removed_vertex] + edit.swept;
+  else
+    swept_[edit.vertex] += edit.swept;
+
+  if (!velocity_.empty()) {
+    moving_.clear();
+    for (const std::uint32_t v : patch_)
+      moving_.push_back({carried_[v], &velocity_[v], held_axes(v)});
+    restore_flow(before, moving_);
+  }
+}
+
+void EditableSheet::write_vertex_rows(const Edit& edit) {
+  if (edit.vertex == none)
+    return;
+  if (!velocity_.empty()) {
+    Vector3 velocity = Vector3::Zero();
+    for (const Parent& p : edit.parents)
+      velocity += p.weight * velocity_[p.row];
+    velocity_.resize(position_.size());
+    velocity_[edit.vertex] = velocity;
+  }
+  for (formats::Array& array : vertex_rows_) {
+    if (edit.keeps_hold && array.transfer == formats::Transfer::common)
+      continue;
+    row_.resize(row_size(array));
+    transfer_row(array, edit.parents, row_.data());
+    grow_rows(array, position_.size());
+    std::memcpy(row_at(array, edit.vertex), row_.data(), row_.size());
+    if (array.transfer == formats::Transfer::conserve && edit.kind == Edit::Kind::split)
+      for (const Parent& p : edit.parents) { // what the new vertex got, they gave
+        const Parent rest{p.row, 1, 1 - p.share};
+        transfer_row(array, {&rest, 1}, row_.data());
+        std::memcpy(row_at(array, p.row), row_.data(), row_.size());
+      }
+  }
+  if (!grip_.empty()) {
+    grip_.resize(position_.size());
+    grip_[edit.vertex] = grip_of(edit.vertex);
+  }
+}
+
+void EditableSheet::write_triangle_rows(const Edit& edit) {
+  volume_.resize(mesh_.triangle_slots());
+  shape_.resize(mesh_.triangle_slots());
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    volume_[slots_[i]] = edit.volumes[i];
+    shape_[slots_[i]] = new_shapes_[i];
+  }
+  if (triangle_rows_.empty())
+    return;
+  const std::size_t old_count = edit.removed.size(), new_count = edit.added.size();
+  std::vector<double> given(old_count, 0);
+  for (std::size_t i = 0; i < new_count; ++i)
+    for (std::size_t j = 0; j < old_count; ++j)
+      given[j] += edit.overlap[i * old_count + j];
+  std::vector<std::vector<Parent>> parents(new_count);
+  for (std::size_t i = 0; i < new_count; ++i) {
+    double covered = 0;
+    for (std::size_t j = 0; j < old_count; ++j)
+      covered += edit.overlap[i * old_count + j];
+    for (std::size_t j = 0; j < old_count; ++j) {
+      const double overlap = edit.overlap[i * old_count + j];
+      if (overlap > 0)
+        parents[i].push_back({edit.removed[j], overlap / covered, overlap / given[j]});
+      else if (!(given[j] > 0)) // covered by none of the new ones: all get the same
+        parents[i].push_back({edit.removed[j], 0, 1 / static_cast<double>(new_count)});
+    }
+    if (!(covered > 0)) { // covers none of the old ones: the mean of all, of their amounts nothing
+      parents[i].clear();
+      for (std::size_t j = 0; j < old_count; ++j)
+        parents[i].push_back({edit.removed[j], 1 / static_cast<double>(old_count),
+                              given[j] > 0 ? 0 : 1 / static_cast<double>(new_count)});
+    }
+  }
+  for (formats::Array& array : triangle_rows_) {
+    const std::size_t size = row_size(array);
+    row_.resize(size * new_count);
+    for (std::size_t i = 0; i < new_count; ++i)
+      transfer_row(array, parents[i], row_.data() + i * size);
+    grow_rows(array, mesh_.triangle_slots());
+    for (std::size_t i = 0; i < new_count; ++i)
+      std::memcpy(row_at(array, slots_[i]), row_.data() + i * size, size);
+  }
+}
+
+} // namespace sheet::remesh

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A sheet whose mesh is being edited. Each edit is checked, then made: connectivity, volumes (thickness.h), velocities
+// (velocity.h), and every other array by its transfer rule. Sums over the sheet that no edit changes: volume, momentum
+// of free vertices, amounts (rule conserve), and enclosed volume less what the vertices' ledgers hold (swept()).
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "libsheet/remesh/edit.h"
+#include "libsheet/remesh/overlap.h"
+#include "libsheet/remesh/triangle_grid.h"
+#include "libsheet/remesh/triangle_shape.h"
+#include "libsheet/remesh/velocity.h"
+#include "libsheet/scene/scene.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::remesh {
+
+// What an edit must keep to.
+struct Limits {
+  double thickness = 1.1; // largest factor by which an edit may change thickness beyond the old range
+  // Cosine of the smallest angle that new triangles may have; where the old ones had a smaller angle, its cosine less
+  // gain.
+  double sharpest = 1;
+  double gain = 0;
+  double facing = 0;         // least cosine between a triangle's normal and its former one, or the mean of the old ones
+  bool intersections = true; // new triangles must not intersect others
+};
+
+class EditableSheet {
+public:
+  // Copies what it needs from the frame. `scene` says which axes its holds hold; without it they hold all. Errors:
+  // bad_input as Mesh.
+  explicit EditableSheet(const formats::Frame& frame, const Scene* scene = nullptr);
+
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+  [[nodiscard]] const std::vector<Vector3>& positions() const { return position_; }
+  [[nodiscard]] const Vector3& at(std::uint32_t v) const { return position_[v]; }
+  [[nodiscard]] const TriangleShape& shape(std::uint32_t t) const { return shape_[t]; }
+  [[nodiscard]] double volume(std::uint32_t t) const { return volume_[t]; }
+  [[nodiscard]] Vector3 velocity(std::uint32_t v) const { return velocity_.empty() ? Vector3::Zero() : velocity_[v]; }
+  // Of a third of each triangle around v [m³].
+  [[nodiscard]] double carried(std::uint32_t v) const { return carried_[v]; }
+  // What holds a vertex: any array with the rule common (hold, touch, ...). True if whatever holds u holds v, too.
+  [[nodiscard]] bool held_within(std::uint32_t u, std::uint32_t v) const;
+  [[nodiscard]] bool held_alike(std::uint32_t u, std::uint32_t v) const { return grip(u) == grip(v); }
+  // The coordinates in which a vertex is held.
+  [[nodiscard]] const Axes& held_axes(std::uint32_t v) const { return grips_[grip(v)].axes; }
+  [[nodiscard]] bool fixed(std::uint32_t v) const { return held_axes(v) == Axes{true, true, true}; }
+  // By how much edits at this vertex have made the enclosed volume grow, not yet paid back [m³].
+  [[nodiscard]] double swept(std::uint32_t v) const { return swept_[v]; }
+
+  // Makes the edit, unless it breaks the limits or makes a triangle without area; then nothing changes. Where the edit
+  // has no overlap yet, it is found by projecting the patch along its mean normal. Triangles in the slot of an inlet
+  // (inlet.h) stay as they are.
+  [[nodiscard]] bool make(Edit& edit, const Limits& limits);
+  [[nodiscard]] std::uint64_t edits() const { return edits_; }
+
+  // The frame with the edited mesh; untouched if there was no edit.
+  void put(formats::Frame& frame);
+
+private:
+  [[nodiscard]] bool in_slot(std::uint32_t t) const;
+  [[nodiscard]] bool check_shapes(const Edit& edit, const Limits& limits);
+  void find_overlap(Edit& edit);
+  [[nodiscard]] bool intersects(const Edit& edit);
+  void place(const Edit& edit);
+  void commit(const Edit& edit);
+  void write_vertex_rows(const Edit& edit);
+  void write_triangle_rows(const Edit& edit);
+  void make_grid();
+  [[nodiscard]] Box box_of(const Corners& corners) const;
+  struct Grip {
+    std::vector<std::byte> masks; // one after the other
+    Axes axes;
+  };
+  [[nodiscard]] std::uint32_t grip(std::uint32_t v) const { return grip_.empty() ? 0 : grip_[v]; }
+  [[nodiscard]] std::uint32_t grip_of(std::uint32_t v);
+  [[nodiscard]] Axes axes_of(std::uint32_t v);
+  [[nodiscard]] double carried_volume(std::uint32_t v) const;
+
+  Mesh mesh_;
+  std::vector<Vector3> position_, velocity_; // velocity_: empty in a frame at rest
+  std::vector<double> volume_, swept_, carried_;
+  std::vector<TriangleShape> shape_;
+  std::vector<std::uint32_t> grip_;                         // of vertices, indices of grips_; empty: nothing is held
+  std::vector<Grip> grips_ = {{{}, {false, false, false}}}; // the first: free
+  std::vector<Axes> hold_axes_;                             // of the scene's holds
+  std::vector<bool> in_inlet_;                              // vertices of the frame; empty: there is no inlet
+  std::vector<formats::Array> vertex_rows_, triangle_rows_; // all other arrays, by slot
+  std::vector<std::uint32_t> successor_;                    // of removed vertices; itself: still there
+  std::optional<TriangleGrid> grid_;
+  std::uint64_t edits_ = 0;
+
+  // scratch of make()
+  std::vector<TriangleShape> old_shapes_, new_shapes_;
+  std::vector<double> old_areas_, new_areas_, old_volumes_;
+  std::vector<FlatTriangle> old_flat_, new_flat_;
+  std::vector<std::uint32_t> patch_, slots_;
+  std::vector<std::byte> row_;
+  std::vector<MovingVertex> moving_;
+  Vector3 facing_ = Vector3::Zero(); // mean normal of the old patch
+  Vector3 old_position_ = Vector3::Zero();
+};
+
+} // namespace sheet::remesh

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The inlet of a frame (arrays inlet and inlet_origin, formats/sheet.md, section 5). Liquid enters at its border. Once
+// enough has entered, a strip of it hangs there, two triangles behind each edge of the border, whose far row of
+// vertices is the lip: between border and lip the liquid is still in the slot and moves at the inflow's velocity,
+// beyond the lip the sheet is free.
+//
+//     a' -> b'   border: bits in_inlet and at_inlet_border
+//     |  /  |    strip, or the same with the other diagonal
+//     a --- b    lip: bit in_inlet, and the origin of the border's vertex above
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::remesh {
+
+// A connected piece of the border.
+struct InletChain {
+  bool closed = false;
+  std::vector<std::uint32_t> border; // vertices in the order in which the sheet lies to the left of a -> b
+  std::vector<std::uint32_t> behind; // for each edge of the border, the triangle at it
+  std::vector<std::uint32_t> lip;    // for each vertex of the border; empty: there is no strip yet
+  std::vector<std::array<std::uint32_t, 2>>
+      strip; // for each edge of the border its triangles, that at the border first
+
+  [[nodiscard]] std::size_t edges() const { return behind.size(); }
+  [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == border.size() ? 0 : i + 1; }
+};
+
+// All pieces, open ones first, each kind by its first vertex. A strip that is not as drawn above (somebody has remeshed
+// it) is none. Throws Error (bad_input) where the border is no manifold.
+[[nodiscard]] std::vector<InletChain> find_inlet(const formats::Frame& frame);
+
+} // namespace sheet::remesh

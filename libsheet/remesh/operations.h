@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The local operations as edits. Each fills an edit, or returns false where the operation is not possible: connectivity
+// would break, a held border or a corner would be touched. Whether the edit is good is for EditableSheet::make to say.
+#pragma once
+#include "libsheet/remesh/editable_sheet.h"
+
+namespace sheet::remesh {
+
+// Cosine of the angle by which a rim may turn at a vertex that may go; beyond, it is a corner.
+inline constexpr double corner_cosine = 0.70710678118654752; // 45 degrees
+
+// True for a rim vertex at which the rim turns by more than 45 degrees.
+[[nodiscard]] bool is_corner(const EditableSheet& sheet, std::uint32_t v);
+
+// Six times the volume between a patch of triangles and a point.
+[[nodiscard]] double cone_volume(const EditableSheet& sheet, std::span<const std::uint32_t> triangles,
+                                 const Vector3& tip);
+
+// The edge of `side` gets a vertex in its middle; children keep their parent's thickness.
+void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
+
+// The edge becomes the other diagonal of its two triangles, which get equal thickness. False on a rim, where the
+// diagonal exists elsewhere, between two vertices that are held alike.
+[[nodiscard]] bool propose_flip(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
+
+// The edge becomes a point. Within the sheet, where it is nearest to the planes of the triangles around [Garland,
+// Heckbert 1997] and sweeps no volume (but what the vertices' ledgers owe, up to `pay` metres of movement); on a rim,
+// where the rim's area stays [Lindstrom, Turk 1998]; an inner vertex goes to the rim's, a free one to the held one.
+// False where the result would be no manifold [Dey et al. 1999], between rims, between vertices that are held
+// differently, at corners.
+[[nodiscard]] bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit);
+
+// A free inner vertex moves along the sheet to the middle of its triangles, weighted by `weight` of each triangle's
+// area; volume flows over the edges that it takes along. The movement sweeps no volume, but what the ledger owes, up to
+// `pay`.
+[[nodiscard]] bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edit& edit);
+
+// The triangle of a rim side goes and its apex, an inner vertex, moves onto the side: cures triangles that are flat
+// towards the rim.
+[[nodiscard]] bool propose_absorb(const EditableSheet& sheet, std::uint32_t rim_side, Edit& edit);
+
+} // namespace sheet::remesh

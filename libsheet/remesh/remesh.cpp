@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/remesh/remesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+#include "libsheet/base/error.h"
+#include "libsheet/remesh/operations.h"
+
+namespace sheet::remesh {
+
+namespace {
+
+const double cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22), cosine_35 = cosine_of_degrees(35);
+
+constexpr double repair_thickness = 1.3; // see Limits::thickness
+constexpr double flat_enough = 0.1;      // of an edge: a flip may move the surface so far at any fold
+constexpr double least_gain = 0.01;      // of the cosine of the smallest angle: about one degree
+constexpr double most_triangles = 1e8;
+constexpr int most_passes = 5, most_repairs = 3;
+
+class Remesher {
+public:
+  Remesher(EditableSheet& sheet, SizeField& size, const Options& options, double wanted_triangles)
+      : sheet_(sheet), mesh_(sheet.mesh()), size_(size), options_(options),
+        budget_(100 +
+                static_cast<std::uint64_t>(4 * (wanted_triangles + static_cast<double>(mesh_.triangle_count())))) {}
+
+  Report run() {
+    for (int pass = 0; pass < most_passes; ++pass) {
+      const std::uint64_t before = report_.splits + report_.collapses;
+      split_long();
+      collapse_short();
+      flip_all();
+      if (options_.smooth)
+        smooth_sharp();
+      for (int round = 0; round < most_repairs && repair() > 0; ++round)
+        flip_all();
+      const std::uint64_t changed = report_.splits + report_.collapses - before;
+      if (changed * 50 <= mesh_.triangle_count() || report_.budget_reached)
+        break;
+    }
+    for_triangles([&](std::uint32_t t) { report_.sharp += sheet_.shape(t).sharpest > cosine_20; });
+    return report_;
+  }
+
+private:
+  // An edge by its length over the wanted one. Vertices outlive the edge: whoever takes it from a queue looks it up.
+  struct Candidate {
+    double ratio;
+    std::uint32_t a, b;
+    bool operator<(const Candidate& o) const {
+      return ratio != o.ratio ? ratio < o.ratio : std::pair(a, b) > std::pair(o.a, o.b);
+    }
+    bool operator>(const Candidate& o) const {
+      return ratio != o.ratio ? ratio > o.ratio : std::pair(a, b) > std::pair(o.a, o.b);
+    }
+  };
+
+  [[nodiscard]] double length(std::uint32_t a, std::uint32_t b) const { return (sheet_.at(b) - sheet_.at(a)).norm(); }
+  [[nodiscard]] double ratio(std::uint32_t a, std::uint32_t b) const { return length(a, b) / size_.along(a, b); }
+  [[nodiscard]] std::uint32_t edge(std::uint32_t a, std::uint32_t b) const {
+    if (!mesh_.has_vertex(a) || !mesh_.has_vertex(b))
+      return none;
+    const std::uint32_t side = mesh_.find_side(a, b);
+    return side != none ? side : mesh_.find_side(b, a);
+  }
+  template <class Visit> void for_triangles(Visit visit) const {
+    for (std::uint32_t t = 0; t < mesh_.triangle_slots(); ++t)
+      if (mesh_.has_triangle(t))
+        visit(t);
+  }
+  template <class Visit> void for_edges(Visit visit) const {
+    for (std::uint32_t side = 0; side < 3 * mesh_.triangle_slots(); ++side)
+      if (mesh_.has_triangle(Mesh::triangle_of(side)) && (mesh_.twin(side) == none || side < mesh_.twin(side)))
+        visit(side);
+  }
+  bool within_budget() {
+    report_.budget_reached = report_.budget_reached || sheet_.edits() >= budget_;
+    return !report_.budget_reached;
+  }
+  [[nodiscard]] Limits limits(double sharpest, double facing, double thickness, double gain = 0) const {
+    return {.thickness = thickness,
+            .sharpest = sharpest,
+            .gain = gain,
+            .facing = facing,
+            .intersections = options_.intersections};
+  }
+
+  bool split(std::uint32_t side) {
+    const std::uint32_t a = mesh_.from(side), b = mesh_.to(side);
+    propose_split(sheet_, side, edit_);
+    // A midpoint in its own triangles meets nothing that they did not meet.
+    if (!sheet_.make(edit_, {.thickness = 1.1, .sharpest = 1, .facing = -1, .intersections = false}))
+      return false;
+    size_.set_between(edit_.vertex, a, b);
+    ++report_.splits;
+    return true;
+  }
+
+  bool collapse(std::uint32_t side, const Limits& limits, double longest) {
+    const std::uint32_t a = mesh_.from(side), b = mesh_.to(side);
+    if (!propose_collapse(sheet_, side, pay_ * size_.along(a, b), edit_))
+      return false;
+    for (const Corners& t : edit_.added) // what is collapsed here must not be split there
+      for (const std::uint32_t v : t)
+        if (v != edit_.vertex && (sheet_.at(v) - edit_.position).norm() > longest * size_.along(v, edit_.vertex))
+          return false;
+    if (!sheet_.make(edit_, limits))
+      return false;
+    size_.set_between(edit_.vertex, a, b);
+    ++report_.collapses;
+    return true;
+  }
+
+  // Between the lines a b and c d: how far a flip moves the surface.
+  [[nodiscard]] double diagonal_distance(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+    const Vector3 across = (sheet_.at(b) - sheet_.at(a)).cross(sheet_.at(d) - sheet_.at(c));
+    const double length = across.norm();
+    return length > 0 ? std::abs(across.dot(sheet_.at(c) - sheet_.at(a))) / length : 0;
+  }
+
+  // The diagonal is turned only if that enlarges the smallest angle of the two triangles.
+  bool flip(std::uint32_t side, double least_facing, double thickness) {
+    const std::uint32_t twin = mesh_.twin(side);
+    if (twin == none)
+      return false;
+    const TriangleShape one = sheet_.shape(Mesh::triangle_of(side)), two = sheet_.shape(Mesh::triangle_of(twin));
+    const double sharpest = std::max(one.sharpest, two.sharpest);
+    if (sharpest < cosine_35)
+      return false;
+    const std::uint32_t a = mesh_.from(side), b = mesh_.to(side), c = mesh_.apex(side), d = mesh_.apex(twin);
+    if (one.normal.dot(two.normal) < least_facing && diagonal_distance(a, b, c, d) > flat_enough * size_.along(a, b))
+      return false;
+    const TriangleShape left(sheet_.at(a), sheet_.at(d), sheet_.at(c)), right(sheet_.at(d), sheet_.at(b), sheet_.at(c));
+    if (std::max(left.sharpest, right.sharpest) > sharpest - least_gain)
+      return false;
+    if (!propose_flip(sheet_, side, edit_) || !sheet_.make(edit_, limits(1, 0, thickness)))
+      return false;
+    ++report_.flips;
+    return true;
+  }
+
+  bool smooth(std::uint32_t v, double thickness) {
+    if (!propose_smooth(sheet_, v, pay_ * size_.at(v), edit_))
+      return false;
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < edit_.removed.size(); ++i) {
+      before = std::max(before, sheet_.shape(edit_.removed[i]).sharpest);
+      const Corners& c = edit_.added[i];
+      after = std::max(after, TriangleShape(edit_.position, sheet_.at(c[1]), sheet_.at(c[2])).sharpest);
+    }
+    if (after > before - least_gain || !sheet_.make(edit_, limits(1, 0.5, thickness)))
+      return false;
+    ++report_.smoothed;
+    return true;
+  }
+
+  bool absorb(std::uint32_t rim_side) {
+    if (!propose_absorb(sheet_, rim_side, edit_) ||
+        !sheet_.make(edit_, limits(cosine_22, 0.5, repair_thickness, least_gain)))
+      return false;
+    ++report_.absorbed;
+    return true;
+  }
+
+  void split_long() {
+    std::priority_queue<Candidate> queue; // longest first
+    const auto push = [&](std::uint32_t a, std::uint32_t b) {
+      if (const double r = ratio(a, b); r > split_above)
+        queue.push({r, a, b});
+    };
+    for_edges([&](std::uint32_t side) { push(mesh_.from(side), mesh_.to(side)); });
+    while (!queue.empty() && within_budget()) {
+      const Candidate longest = queue.top();
+      queue.pop();
+      const std::uint32_t side = edge(longest.a, longest.b);
+      if (side == none || !split(side))
+        continue;
+      const std::uint32_t m = edit_.vertex;
+      mesh_.for_neighbours(m, [&](std::uint32_t w) { push(m, w); });
+    }
+  }
+
+  void collapse_short() {
+    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue; // shortest first
+    const auto push = [&](std::uint32_t a, std::uint32_t b) {
+      if (const double r = ratio(a, b); r < collapse_below)
+        queue.push({r, a, b});
+    };
+    for_edges([&](std::uint32_t side) { push(mesh_.from(side), mesh_.to(side)); });
+    while (!queue.empty() && within_budget()) {
+      const Candidate shortest = queue.top();
+      queue.pop();
+      const std::uint32_t side = edge(shortest.a, shortest.b);
+      if (side == none || ratio(shortest.a, shortest.b) >= collapse_below)
+        continue;
+      if (!collapse(side, limits(cosine_22, 0.3, 1.1), split_above))
+        continue;
+      const std::uint32_t kept = edit_.vertex;
+      mesh_.for_neighbours(kept, [&](std::uint32_t w) { push(kept, w); });
+    }
+  }
+
+  void flip_all() {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> stack;
+    for_edges([&](std::uint32_t side) {
+      if (mesh_.twin(side) != none)
+        stack.emplace_back(mesh_.from(side), mesh_.to(side));
+    });
+    std::reverse(stack.begin(), stack.end());
+    while (!stack.empty() && within_budget()) {
+      const auto [a, b] = stack.back();
+      stack.pop_back();
+      const std::uint32_t side = mesh_.find_side(a, b);
+      if (side == none || !flip(side, 0.94, 1.1)) // 20 degrees
+        continue;
+      for (const Corners& t : edit_.added)
+        for (std::size_t i = 0; i < 3; ++i)
+          stack.emplace_back(t[i], t[(i + 1) % 3]);
+    }
+  }
+
+  void smooth_sharp() {
+    for (std::uint32_t v = 0; v < mesh_.vertex_slots() && within_budget(); ++v) {
+      if (!mesh_.has_vertex(v) || mesh_.side_at(v) == none || mesh_.on_rim(v))
+        continue;
+      double sharpest = 0;
+      mesh_.for_fan(v, [&](std::uint32_t side) {
+        sharpest = std::max(sharpest, sheet_.shape(Mesh::triangle_of(side)).sharpest);
+      });
+      if (sharpest > cosine_35)
+        static_cast<void>(smooth(v, 1.1));
+    }
+  }
+
+  // Each bad triangle gets the first of these that helps: its longest edge flipped, its shortest or another one
+  // collapsed, a flat one at the rim absorbed, its corners moved. Returns how many were helped.
+  std::uint64_t repair() {
+    std::vector<std::uint32_t> bad;
+    for_triangles([&](std::uint32_t t) {
+      if (sheet_.shape(t).sharpest > cosine_22)
+        bad.push_back(t);
+    });
+    std::uint64_t helped = 0;
+    for (const std::uint32_t t : bad) {
+      if (!within_budget())
+        break;
+      if (mesh_.has_triangle(t) && sheet_.shape(t).sharpest > cosine_22)
+        helped += help(t);
+    }
+    return helped;
+  }
+
+  bool help(std::uint32_t t) {
+    std::array<std::uint32_t, 3> sides = {3 * t, 3 * t + 1, 3 * t + 2};
+    std::sort(sides.begin(), sides.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return std::pair(length(mesh_.from(a), mesh_.to(a)), a) < std::pair(length(mesh_.from(b), mesh_.to(b)), b);
+    });
+    const Corners corners = mesh_.corners(t);
+    if (flip(sides[2], 0.5, repair_thickness))
+      return true;
+    for (const std::uint32_t side : sides)
+      if (collapse(side, limits(cosine_22, 0, repair_thickness, least_gain), 1.3 * split_above))
+        return true;
+    if (mesh_.twin(sides[2]) == none && absorb(sides[2]))
+      return true;
+    bool moved = false;
+    for (const std::uint32_t v : corners)
+      moved = smooth(v, repair_thickness) || moved;
+    return moved;
+  }
+
+  static constexpr double pay_ = 0.02; // of an edge: how far a vertex moves at most to pay back swept volume
+  EditableSheet& sheet_;
+  const Mesh& mesh_;
+  SizeField& size_;
+  const Options& options_;
+  std::uint64_t budget_;
+  Edit edit_;
+  Report report_;
+};
+
+// Triangles of a mesh of the wanted size: equilateral ones cover sqrt(3)/4 l².
+double wanted_triangles(const EditableSheet& sheet, const SizeField& size) {
+  double sum = 0;
+  for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t) {
+    const Corners& c = sheet.mesh().corners(t);
+    const double length = std::min({size.at(c[0]), size.at(c[1]), size.at(c[2])});
+    sum += sheet.shape(t).area / (std::sqrt(3.0) / 4 * length * length);
+  }
+  return sum;
+}
+
+} // namespace
+
+Report remesh(formats::Frame& frame, const Scene* scene, const Options& options) {
+  options.size.check();
+  if (frame.triangles == 0)
+    return {};
+  EditableSheet sheet(frame, scene);
+  SizeField size(sheet, scene, options.size);
+  const double wanted = wanted_triangles(sheet, size);
+  if (!(wanted <= most_triangles))
+    fail(ExitCode::usage,
+         "edges of {:g} m would cut this sheet into {:.2g} triangles, more than {:.2g}: ask for longer edges",
+         size.shortest(), wanted, most_triangles);
+  const Report report = Remesher(sheet, size, options, wanted).run();
+  sheet.put(frame);
+  return report;
+}
+
+} // namespace sheet::remesh

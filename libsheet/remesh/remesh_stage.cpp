@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/remesh/remesh_stage.h"
+
+#include <chrono>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/log.h"
+#include "libsheet/scene/read.h"
+
+namespace sheet::remesh {
+
+RemeshStage::RemeshStage(const StageOptions& options) : options_(options) {
+  if (options_.edge_length) {
+    options_.remeshing.size.edge_length = *options_.edge_length;
+    options_.remeshing.size.check();
+  }
+}
+
+void RemeshStage::remesh(formats::Frame& frame) {
+  const formats::Array* text = frame.find("scene");
+  if (text != nullptr && (!scene_ || text->text() != scene_text_)) {
+    scene_ = parse_scene(text->text(), "the frame's scene");
+    scene_text_ = text->text();
+  }
+  if (!options_.edge_length) {
+    if (!scene_ || !scene_->sheet.edge_length)
+      fail(ExitCode::usage, "--edge-length is needed: the frame's scene does not say how long edges are");
+    options_.remeshing.size.edge_length = *scene_->sheet.edge_length;
+  }
+  const std::uint64_t vertices = frame.vertices;
+  const auto start = std::chrono::steady_clock::now();
+  const Report report = remesh::remesh(frame, scene_ ? &*scene_ : nullptr, options_.remeshing);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  log::detail("step {}: {} splits, {} collapses, {} flips, {} moved, {} absorbed; {} to {} vertices, {:.1f} ms",
+              frame.step, report.splits, report.collapses, report.flips, report.smoothed, report.absorbed, vertices,
+              frame.vertices, 1e3 * seconds);
+  if (report.budget_reached)
+    log::warning("step {}: more edits were due than one call makes ({} were made); the next call goes on", frame.step,
+                 report.edits());
+  if (report.sharp > 0)
+    log::detail("step {}: {} triangles have an angle below 20 degrees", frame.step, report.sharp);
+  total_.splits += report.splits;
+  total_.collapses += report.collapses;
+  total_.flips += report.flips;
+  total_.smoothed += report.smoothed;
+  total_.absorbed += report.absorbed;
+  ++frames_;
+}
+
+void RemeshStage::report() const {
+  if (frames_ > 0)
+    log::detail("{} frames: {} splits, {} collapses, {} flips, {} moved, {} absorbed", frames_, total_.splits,
+                total_.collapses, total_.flips, total_.smoothed, total_.absorbed);
+}
+
+} // namespace sheet::remesh

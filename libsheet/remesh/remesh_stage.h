@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stage sheet-remesh.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "libsheet/remesh/remesh.h"
+
+namespace sheet::remesh {
+
+struct StageOptions {
+  std::optional<double> edge_length; // [m]; absent: the scene's
+  Options remeshing;                 // its edge length is taken from above
+};
+
+class RemeshStage {
+public:
+  // Error(usage) if the options say something impossible.
+  explicit RemeshStage(const StageOptions& options);
+  void remesh(formats::Frame& frame); // errors as remesh::remesh; usage: no edge length; bad_input: a scene
+                                      // that cannot be read
+  void report() const;                // with -v: how many edits of each kind, over all frames
+
+private:
+  StageOptions options_;
+  std::string scene_text_;
+  std::optional<Scene> scene_;
+  Report total_;
+  std::uint64_t frames_ = 0;
+};
+
+} // namespace sheet::remesh

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/remesh/tear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libsheet/base/log.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/remesh/fans.h"
+#include "libsheet/remesh/tear_cuts.h"
+#include "libsheet/sheet/account.h"
+#include "libsheet/sheet/contact_springs.h"
+#include "libsheet/sheet/transfer.h"
+
+namespace sheet {
+
+using formats::Frame;
+using remesh::Fans;
+
+namespace {
+
+constexpr double gap = 1e-3; // of the way from a vertex to the nearest opposite side
+
+// For each new vertex the volume of a third of its triangles [m³].
+std::vector<double> carried(const Fans& fans, std::span<const double> volumes) {
+  std::vector<double> carried(fans.old_vertex.size(), 0);
+  for (std::size_t t = 0; t < fans.triangles.size(); ++t)
+    for (const std::uint32_t v : fans.triangles[t])
+      carried[v] += volumes[t] / 3;
+  return carried;
+}
+
+// Vertices, as they were numbered before and behind a cut, that have a triangle left or never had one; each one's
+// number in the new frame, kNone for the others.
+std::vector<std::uint32_t> numbers_of(const Fans& fans, const std::vector<bool>& dropped) {
+  std::vector<bool> stays(fans.old_vertex.size(), false);
+  for (std::size_t v = 0; v < fans.fan_count.size(); ++v)
+    stays[v] = fans.fan_count[v] == 0;
+  for (std::size_t t = 0; t < fans.triangles.size(); ++t)
+    for (const std::uint32_t v : fans.triangles[t])
+      stays[v] = stays[v] || !dropped[t];
+  std::vector<std::uint32_t> numbers(stays.size(), kNone);
+  std::uint32_t next = 0;
+  for (std::size_t v = 0; v < stays.size(); ++v)
+    if (stays[v])
+      numbers[v] = next++;
+  return numbers;
+}
+
+// Each fan of a vertex gets its part of what the old vertex carried, by volume.
+Lineage vertex_lineage(const Fans& fans, std::span<const double> volumes, const std::vector<std::uint32_t>& numbers) {
+  const std::vector<double> part = carried(fans, volumes);
+  std::vector<double> whole(fans.fan_count.size(), 0), left(fans.fan_count.size(), 1);
+  std::vector<std::uint32_t> to_come = fans.fan_count;
+  for (std::size_t v = 0; v < part.size(); ++v)
+    whole[fans.old_vertex[v]] += part[v];
+  Lineage lineage;
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    const std::uint32_t old = fans.old_vertex[v];
+    const bool last = to_come[old] <= 1; // takes the remainder
+    const double share = last ? left[old] : part[v] / whole[old];
+    left[old] -= share;
+    if (to_come[old] > 0)
+      --to_come[old];
+    const Parent parent{old, 1, share};
+    if (numbers[v] != kNone)
+      lineage.add({&parent, 1});
+  }
+  return lineage;
+}
+
+// How a vertex moves into its fan: along the bisector of the fan's whole angle.
+class Retreat {
+public:
+  void add(const Vector3& x, const Vector3& next, const Vector3& previous) {
+    const Vector3 a = (next - x).normalized(), b = (previous - x).normalized();
+    const Vector3 between = a + b;
+    const double angle = std::atan2(a.cross(b).norm(), a.dot(b)), length = between.norm();
+    if (length > 0)
+      bisector_ += 2 * std::sin(angle / 2) / length * between; // the integral of unit vectors over the angle
+    const double opposite = (previous - next).norm();
+    if (opposite > 0)
+      room_ = std::min(room_, (next - x).cross(previous - x).norm() / opposite);
+  }
+  [[nodiscard]] Vector3 step() const {
+    const double length = bisector_.norm();
+    return length > 0 && std::isfinite(room_) ? Vector3(gap * room_ / length * bisector_) : Vector3::Zero();
+  }
+
+private:
+  Vector3 bisector_ = Vector3::Zero();
+  double room_ = std::numeric_limits<double>::infinity();
+};
+
+// Moves the vertices of the frame that have come apart.
+void open_cracks(Frame& frame, const std::vector<bool>& apart) {
+  const auto x = positions(frame);
+  std::vector<Retreat> retreats(frame.vertices);
+  for (const Corners& c : triangles(frame))
+    for (std::size_t i = 0; i < 3; ++i)
+      if (apart[c[i]])
+        retreats[c[i]].add(x[c[i]], x[c[(i + 1) % 3]], x[c[(i + 2) % 3]]);
+  for (std::size_t v = 0; v < x.size(); ++v)
+    if (apart[v])
+      x[v] += retreats[v].step();
+}
+
+// Gives the frame the vertices of the fans, without dropped triangles.
+void put_fans(Frame& frame, const Fans& fans, const std::vector<bool>& dropped) {
+  const std::vector<std::uint32_t> numbers = numbers_of(fans, dropped);
+  const Lineage vertices = vertex_lineage(fans, volumes(static_cast<const Frame&>(frame)), numbers);
+  Lineage kept;
+  std::vector<Corners> corners;
+  for (std::uint32_t t = 0; t < fans.triangles.size(); ++t) {
+    if (dropped[t])
+      continue;
+    kept.keep(t);
+    const Triangle& c = fans.triangles[t];
+    corners.push_back({numbers[c[0]], numbers[c[1]], numbers[c[2]]});
+  }
+  std::vector<bool> apart;
+  for (std::size_t v = 0; v < fans.old_vertex.size(); ++v)
+    if (numbers[v] != kNone)
+      apart.push_back(fans.fan_count[fans.old_vertex[v]] > 1);
+  transfer_frame(frame, vertices, kept, corners);
+  const ContactSprings springs(frame);
+  open_cracks(frame, apart);
+  springs.put(frame);
+}
+
+std::size_t count_apart(const Fans& fans) { return fans.old_vertex.size() - fans.fan_count.size(); }
+
+std::vector<bool> none_of(std::size_t size) { return std::vector<bool>(size, false); }
+
+// For [[hold]] tables and solids, which of them hold each vertex fast.
+std::vector<std::vector<std::uint64_t>> grips_of(const Frame& frame, const Scene& scene) {
+  std::uint64_t in_force = 0;
+  for (std::size_t i = 0; i < scene.holds.size(); ++i) {
+    const scene::Hold& hold = scene.holds[i];
+    if (hold.axes[0] && hold.axes[1] && hold.axes[2] && !(hold.until && frame.time >= *hold.until))
+      in_force |= std::uint64_t{1} << i;
+  }
+  std::vector<std::vector<std::uint64_t>> grips;
+  for (const auto& [name, wanted] : {std::pair("hold", in_force), std::pair("touch", ~std::uint64_t{0})}) {
+    const auto bits = masks(frame, name);
+    if (bits.empty())
+      continue;
+    grips.emplace_back(bits.begin(), bits.end());
+    for (std::uint64_t& b : grips.back())
+      b &= wanted;
+  }
+  return grips;
+}
+
+std::vector<bool> inlet_of(const Frame& frame) {
+  std::vector<bool> inlet;
+  for (const std::uint64_t bits : masks(frame, "inlet"))
+    inlet.push_back(bits != 0);
+  return inlet;
+}
+
+} // namespace
+
+Torn tear(Frame& frame, const Scene& scene) {
+  Torn torn;
+  Connectivity mesh = connect(frame.vertices, triangles(frame));
+  if (const Fans fans = remesh::take_apart(mesh, none_of(mesh.edges.size())); count_apart(fans) > 0) {
+    torn.vertices = count_apart(fans);
+    put_fans(frame, fans, none_of(mesh.triangles.size()));
+    mesh = connect(frame.vertices, triangles(frame));
+  }
+  const auto x = positions(static_cast<const Frame&>(frame));
+  const auto volume = volumes(static_cast<const Frame&>(frame));
+  std::vector<double> areas;
+  for (const Triangle& c : mesh.triangles)
+    areas.push_back(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area);
+  const remesh::TearCuts cuts = remesh::find_cuts({.mesh = mesh,
+                                                   .volumes = volume,
+                                                   .areas = areas,
+                                                   .below = scene.tear->below,
+                                                   .drop_crumbs = scene.tear->drop_crumbs,
+                                                   .grips = grips_of(frame, scene),
+                                                   .whole = inlet_of(frame)});
+  torn.edges = cuts.edges;
+  torn.vetoed = cuts.vetoed;
+  if (cuts.edges == 0)
+    return torn;
+  const auto v = velocities(static_cast<const Frame&>(frame));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!cuts.dropped[t])
+      continue;
+    ++torn.dropped;
+    torn.volume += volume[t];
+    for (const std::uint32_t c : mesh.triangles[t])
+      if (!v.empty())
+        torn.momentum += scene.material.density * volume[t] / 3 * v[c];
+  }
+  const Fans fans = remesh::take_apart(mesh, cuts.cut);
+  torn.vertices += count_apart(fans);
+  put_fans(frame, fans, cuts.dropped);
+  if (torn.dropped > 0) {
+    add_to_account(frame, "tear.volume", "m^3", {&torn.volume, 1});
+    add_to_account(frame, "tear.momentum", "kg*m/s", {torn.momentum.data(), 3});
+  }
+  return torn;
+}
+
+void TearStage::tear(Frame& frame) {
+  const Scene& scene = scenes_.of(frame);
+  if (!scene.tear)
+    return;
+  const Torn torn = sheet::tear(frame, scene);
+  if (torn.vertices > 0)
+    log::detail("step {}: {} edges cut, {} vertices came apart, {} edges left whole for crumbs, {} triangles dropped",
+                frame.step, torn.edges, torn.vertices, torn.vetoed, torn.dropped);
+  total_.edges += torn.edges;
+  total_.dropped += torn.dropped;
+  total_.volume += torn.volume;
+}
+
+void TearStage::report() const {
+  log::detail("{} edges cut", total_.edges);
+  if (total_.dropped > 0)
+    log::warning("{} triangles of crumbs dropped, {:.6g} m^3 (the frame's arrays tear.volume, tear.momentum)",
+                 total_.dropped, total_.volume);
+}
+
+} // namespace sheet

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/remesh/thickness.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sheet::remesh {
+
+bool share_volume(Edit& edit, std::span<const double> areas_removed, std::span<const double> volumes_removed,
+                  std::span<const double> areas_added, double limit) {
+  const std::size_t old_count = areas_removed.size(), new_count = areas_added.size();
+  const double volume = std::accumulate(volumes_removed.begin(), volumes_removed.end(), 0.0);
+  const double mean = volume / std::accumulate(areas_added.begin(), areas_added.end(), 0.0);
+  edit.volumes.assign(new_count, 0);
+  double total = 0;
+  for (std::size_t i = 0; i < new_count; ++i) {
+    double weighted = 0, covered = 0;
+    for (std::size_t j = 0; j < old_count; ++j) {
+      const double overlap = edit.overlap[i * old_count + j];
+      if (!(overlap > 0 && areas_removed[j] > 0)) // a triangle without area covers nothing
+        continue;
+      weighted += overlap * (volumes_removed[j] / areas_removed[j]);
+      covered += overlap;
+    }
+    edit.volumes[i] = (covered > 0 ? weighted / covered : mean) * areas_added[i];
+    total += edit.volumes[i];
+  }
+  const double scale = volume / total;
+  if (!(scale <= limit && scale >= 1 / limit))
+    return false;
+  double others = 0;
+  const auto largest = std::max_element(edit.volumes.begin(), edit.volumes.end());
+  for (auto it = edit.volumes.begin(); it != edit.volumes.end(); ++it) {
+    *it *= scale;
+    if (it != largest)
+      others += *it;
+  }
+  *largest = volume - others;
+  return *largest > 0 && std::all_of(edit.volumes.begin(), edit.volumes.end(), [](double v) { return v > 0; });
+}
+
+} // namespace sheet::remesh

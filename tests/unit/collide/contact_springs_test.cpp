@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which near pairs get a spring, how stiff, how it goes with the sheet, when it parts.
+#include "libsheet/collide/contact_springs.h"
+
+#include <gtest/gtest.h>
+
+#include "libsheet/collide/contact_arrays.h"
+#include "libsheet/scene/read.h"
+#include "libsheet/sheet/sheet.h"
+#include "tests/support/meshes.h"
+
+namespace sheet::collide {
+namespace {
+
+// Two layers of the same mesh, the upper one shifted, at distance 0.01 m.
+struct Layers {
+  std::vector<Vector3> start, end;
+  std::vector<double> reach, thickness, area, mass;
+  std::vector<bool> fixed;
+  Connectivity mesh;
+  double step = 0.01;
+
+  Layers() {
+    std::vector<Triangle> triangles;
+    const test::Mesh one = test::rectangle(1, 1, 5, 5, 0.2);
+    const auto n = static_cast<std::uint32_t>(one.positions.size());
+    for (std::uint32_t layer = 0; layer < 2; ++layer) {
+      for (const Triangle& t : one.triangles)
+        triangles.push_back({t[0] + n * layer, t[1] + n * layer, t[2] + n * layer});
+      for (const Vector3& x : one.positions)
+        start.push_back(x + Vector3(0.03, 0.02, 0.01) * layer);
+    }
+    end = start;
+    reach.assign(start.size(), 0.02);
+    thickness.assign(start.size(), 0.015);
+    area.assign(start.size(), 0.04);
+    mass.assign(start.size(), 2);
+    fixed.assign(start.size(), false);
+    mesh = connect(start.size(), triangles);
+  }
+  [[nodiscard]] SpringSheet sheet() const { return {start, end, reach, thickness, area, fixed, step}; }
+  [[nodiscard]] std::vector<ContactSpring> springs(const Scene& scene) const {
+    std::vector<ContactSpring> list;
+    SelfSearch search(mesh);
+    add_springs(list, search.near(end, reach), scene, sheet());
+    return list;
+  }
+  void move(const Eigen::Isometry3d& motion) {
+    for (std::size_t v = 0; v < end.size(); ++v)
+      end[v] = motion * start[v];
+  }
+};
+
+Vector3 offset(const ContactSpring& s, const std::vector<Vector3>& x) {
+  Vector3 c = Vector3::Zero();
+  for (std::size_t i = 0; i < 4; ++i)
+    c += s.weights[i] * x[s.vertices[i]];
+  return c;
+}
+
+Scene scene_with(const std::string& contact) {
+  return parse_scene(
+      "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.01\n[material]\nviscosity = 3\n"
+      "density = 1000\n[environment]\ngravity = [0, -10, 0]\n[contact]\n" +
+          contact,
+      "test");
+}
+
+TEST(ContactSprings, NewOnesAreAtRest) {
+  const Layers layers;
+  const auto springs = layers.springs(scene_with(""));
+  std::vector<int> of_vertex(layers.start.size(), 0);
+  for (const ContactSpring& s : springs) {
+    EXPECT_NEAR(s.rest, 0.01, 1e-15);
+    EXPECT_NEAR(std::abs(s.normal.z()), 1, 1e-12);
+    EXPECT_NEAR(s.normal.dot(offset(s, layers.end)), s.rest, 1e-15);
+    EXPECT_LT((s.anchor - offset(s, layers.end)).norm(), 1e-15);
+    EXPECT_NEAR(s.weights[0] + s.weights[1] + s.weights[2] + s.weights[3], 0, 1e-15);
+    if (s.weights[0] == 1)
+      ++of_vertex[s.vertices[0]];
+  }
+  // each vertex over the inside of the other layer stands on one triangle, also where it is over an edge of two
+  for (std::size_t v = 0; v < of_vertex.size(); ++v)
+    EXPECT_LE(of_vertex[v], 1);
+  EXPECT_GE(std::count(of_vertex.begin(), of_vertex.end(), 1), 50);
+  // nothing is added where all is in contact
+  std::vector<ContactSpring> again = springs;
+  SelfSearch search(layers.mesh);
+  add_springs(again, search.near(layers.end, layers.reach), scene_with(""), layers.sheet());
+  EXPECT_EQ(again.size(), springs.size());
+}
+
+TEST(ContactSprings, StiffnessIsThatOfTheFormula) {
+  const Layers layers;
+  // A = 0.02, h = 0.015, d = 0.02: inertia 0.3 / 1e-4, weight 200 * 0.3 * 10 / 0.02, viscosity 3 * 0.015 / 0.02
+  for (const ContactSpring& s : layers.springs(scene_with("")))
+    EXPECT_NEAR(s.stiffness[0], 3000 + 30000 + 2.25, 1e-9);
+  for (const ContactSpring& s : layers.springs(scene_with("stiffness = 7")))
+    EXPECT_EQ(s.stiffness, (std::array<double, 2>{7, 7}));
+}
+
+TEST(ContactSprings, FixedVerticesAloneGetNone) {
+  Layers layers;
+  layers.fixed.assign(layers.fixed.size(), true);
+  EXPECT_TRUE(layers.springs(scene_with("")).empty());
+  layers.fixed[40] = false;
+  EXPECT_FALSE(layers.springs(scene_with("")).empty());
+}
+
+TEST(ContactSprings, RigidMotionCostsNothing) {
+  Layers layers;
+  auto springs = layers.springs(scene_with(""));
+  const std::size_t count = springs.size();
+  layers.move(Eigen::Translation3d(3, 2, 1) * Eigen::AngleAxisd(0.8, Vector3(1, 2, 0).normalized()));
+  follow(springs, scene_with(""), layers.sheet());
+  EXPECT_EQ(springs.size(), count);
+  for (const ContactSpring& s : springs) {
+    EXPECT_NEAR(s.normal.dot(offset(s, layers.end)), s.rest, 1e-14);
+    EXPECT_LT((s.anchor - offset(s, layers.end)).norm(), 1e-14);
+  }
+}
+
+TEST(ContactSprings, PartAtTheAdhesion) {
+  Layers layers;
+  for (std::size_t v = layers.end.size() / 2; v < layers.end.size(); ++v)
+    layers.end[v].z() += 0.001; // tension: 7 N/m * 0.001 m / 0.02 m² = 0.35 Pa
+  for (const auto& [contact, stays] : std::vector<std::pair<std::string, bool>>{
+           {"", true}, {"\nadhesion = 0.36", true}, {"\nadhesion = 0.34", false}, {"\nadhesion = 0", false}}) {
+    const Scene scene = scene_with("stiffness = 7" + contact);
+    Layers before;
+    auto springs = before.springs(scene);
+    std::erase_if(springs, [](const ContactSpring& s) { return s.weights[0] != 1; });
+    follow(springs, scene, layers.sheet());
+    EXPECT_EQ(!springs.empty(), stays) << contact;
+  }
+}
+
+TEST(ContactSprings, DoNotBounceAndKeepMomentum) {
+  const Layers layers;
+  const Scene scene = scene_with("");
+  const auto springs = layers.springs(scene);
+  std::vector<Vector3> velocity(layers.start.size(), Vector3(0.5, 0, 0));
+  for (std::size_t v = velocity.size() / 2; v < velocity.size(); ++v)
+    velocity[v] = Vector3(0, 0, -1);
+  const auto rate = [&] {
+    double most = 0;
+    for (const ContactSpring& s : springs) {
+      double r = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+        r += s.weights[i] * s.normal.dot(velocity[s.vertices[i]]);
+      most = std::max(most, std::abs(r));
+    }
+    return most;
+  };
+  const auto momentum = [&] {
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t v = 0; v < velocity.size(); ++v)
+      sum += layers.mass[v] * velocity[v];
+    return sum;
+  };
+  const Vector3 before = momentum();
+  EXPECT_NEAR(rate(), 1, 1e-9);
+  level_velocities(springs, scene, layers.mass, layers.fixed, velocity);
+  EXPECT_LT(rate(), 0.05);
+  EXPECT_LT((momentum() - before).norm(), 1e-12);
+  // what moves apart does so freely where nothing sticks
+  for (std::size_t v = velocity.size() / 2; v < velocity.size(); ++v)
+    velocity[v] = Vector3(0, 0, 1);
+  const std::vector<Vector3> apart = velocity;
+  level_velocities(springs, scene_with("adhesion = 0"), layers.mass, layers.fixed, velocity);
+  EXPECT_EQ(velocity, apart);
+}
+
+TEST(ContactArrays, RoundTrip) {
+  const Layers layers;
+  const auto springs = layers.springs(scene_with(""));
+  const std::vector<double> volumes(layers.mesh.triangles.size(), 1e-3);
+  formats::Frame frame = make_frame(layers.start, layers.mesh.triangles, volumes);
+  write_springs(frame, springs);
+  EXPECT_EQ(formats::find_value_error(frame), "");
+  const auto read = read_springs(frame);
+  ASSERT_EQ(read.size(), springs.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].vertices, springs[i].vertices);
+    EXPECT_EQ(read[i].weights, springs[i].weights);
+    EXPECT_EQ(read[i].normal, springs[i].normal);
+    EXPECT_EQ(read[i].rest, springs[i].rest);
+    EXPECT_EQ(read[i].anchor, springs[i].anchor);
+    EXPECT_EQ(read[i].stiffness, springs[i].stiffness);
+  }
+  write_springs(frame, {});
+  EXPECT_EQ(frame.find("contact_vertex"), nullptr);
+  EXPECT_TRUE(read_springs(frame).empty());
+}
+
+} // namespace
+} // namespace sheet::collide

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What resolve_solids promises.
+#include "libsheet/collide/solid_contact.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/parallel.h"
+#include "tests/unit/collide/solid_support.h"
+
+namespace sheet::collide {
+namespace {
+
+using test::FallingSheet;
+
+scene::Solid solid(scene::SolidShape shape, const Vector3& center = Vector3::Zero()) {
+  scene::Solid result;
+  result.shape = std::move(shape);
+  result.center = center;
+  return result;
+}
+
+Solids solids_of(std::vector<scene::Solid> list) {
+  Scene scene;
+  scene.solids = std::move(list);
+  return Solids(scene);
+}
+
+scene::Solid lying_rod(double radius) {
+  scene::Solid rod = solid(scene::Capsule{radius, 1});
+  rod.rotation = scene::Rotation{Vector3::UnitX(), std::numbers::pi / 2};
+  return rod;
+}
+
+// 10 cm wide, 2 mm thick, edges of 1 cm, 1 mm above y = 0.
+constexpr double kThickness = 2e-3, kStep = 1.0 / 24;
+FallingSheet falling(double speed, double height = 2e-3, const Vector3& across = Vector3::Zero()) {
+  return {0.1, 10, kThickness, height, Vector3(0, -speed, 0) + across, kStep};
+}
+
+double distance_at_end(const FallingSheet& sheet, const Solids& solids, std::size_t v, std::size_t i = 0) {
+  return solids.at(i, sheet.path.end[v], sheet.path.end_time).distance;
+}
+
+TEST(SolidContact, nothing_to_do) {
+  FallingSheet sheet = falling(1), far = falling(1);
+  const auto end = sheet.path.end;
+  EXPECT_EQ(resolve_solids(sheet.path, solids_of({})).touching, 0U);
+  EXPECT_EQ(resolve_solids(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).touching, 0U);
+  EXPECT_EQ(sheet.path.end, end);
+  EXPECT_EQ(far.path.end, end);
+  EXPECT_TRUE(unsafe_triangles(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).empty());
+}
+
+// Everything falls on the ground: it lies there, half its thickness up, at rest, where it was above.
+TEST(SolidContact, on_the_ground) {
+  for (const double speed : {0.1, 10.0, 1000.0}) {
+    const Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
+    FallingSheet sheet = falling(speed);
+    EXPECT_FALSE(unsafe_triangles(sheet.path, ground).empty());
+    const SolidReport report = resolve_solids(sheet.path, ground);
+    EXPECT_EQ(report.touching, sheet.start.size());
+    EXPECT_EQ(report.caught, sheet.start.size());
+    EXPECT_EQ(report.pushed, 0U);
+    for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+      EXPECT_NEAR(sheet.path.end[v].y(), kThickness / 2, 1e-12);
+      EXPECT_NEAR(sheet.path.end[v].x(), sheet.start[v].x(), 1e-12);
+      EXPECT_EQ(sheet.path.velocity[v], Vector3(0, 0, 0));
+      EXPECT_EQ(sheet.path.touch[v], 1U);
+      EXPECT_TRUE(sheet.path.fixed[v]);
+    }
+    EXPECT_TRUE(unsafe_triangles(sheet.path, ground).empty());
+  }
+}
+
+// Every shape, every speed: the guaranteed clearance is kept all along the way, and nothing is left unresolved.
+TEST(SolidContact, nothing_gets_through) {
+  std::vector<std::pair<const char*, scene::Solid>> targets;
+  targets.emplace_back("sphere", solid(scene::Sphere{0.03}, {0, -0.03, 0}));
+  targets.emplace_back("rod", lying_rod(1e-4));
+  targets.emplace_back("pin", solid(scene::Capsule{1e-4, 0.1}, {1e-3, -0.0501, 2e-3}));
+  scene::Solid corner = solid(scene::SolidBox{{0.02, 0.02, 0.02}}, {0, -0.01 * std::sqrt(3.0), 0});
+  corner.rotation = scene::Rotation{Vector3(1, 0, -1), std::acos(1 / std::sqrt(3.0))};
+  targets.emplace_back("corner", corner);
+  for (const auto& [name, target] : targets)
+    for (const double speed : {1.0, 10.0, 100.0}) {
+      const Solids solids = solids_of({target});
+      FallingSheet sheet = falling(speed);
+      const SolidReport report = resolve_solids(sheet.path, solids);
+      EXPECT_EQ(report.unresolved, 0U) << name << speed;
+      EXPECT_EQ(report.started_across, 0U) << name << speed;
+      EXPECT_GE(test::least_distance(sheet.path, solids, 0, 1e-4, 10), kThickness / 8 - 1e-9) << name << speed;
+      EXPECT_LT(test::least_distance(sheet.path, solids, 0, 1e-4, 10), kThickness) << name << speed;
+      EXPECT_TRUE(unsafe_triangles(sheet.path, solids).empty()) << name << speed;
+      for (std::size_t v = 0; v < sheet.start.size(); ++v)
+        if (sheet.path.touch[v] != 0 && report.pushed == 0) {
+          EXPECT_NEAR(distance_at_end(sheet, solids, v), kThickness / 2, 1e-9) << name << speed;
+        }
+    }
+}
+
+// A mesh is as sharp as it is, however coarse the field: a needle whose tip no voxel sees.
+TEST(SolidContact, needle) {
+  const auto shape = make_distance(test::needle(1e-4, 0.05, 6), 5e-3);
+  EXPECT_NEAR(shape->nearest({0, 0.06, 0}).distance, 0.01, 1e-12);
+  FallingSheet sheet = falling(50, 0.052);
+  MovingTriangle over{};
+  for (const Corners& c : sheet.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      over.start[i] = sheet.start[c[i]];
+      over.end[i] = sheet.path.end[c[i]];
+    }
+    const Triangle3& t = over.start; // the one right above the tip
+    const auto side = [](const Vector3& a, const Vector3& b) { return a.z() * b.x() - a.x() * b.z() > 0; };
+    if (side(t[0], t[1]) && side(t[1], t[2]) && side(t[2], t[0]))
+      break;
+  }
+  const auto hit = shape->first_hit(over, 2e-4, 1e-4);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->s * 50 * kStep, 0.002, 4e-4);
+}
+
+TEST(SolidContact, sticks_to_a_moving_belt) {
+  scene::Solid belt = solid(scene::HalfSpace{{0, 1, 0}});
+  belt.surface_velocity = {0.4, 0, 0};
+  const Solids solids = solids_of({belt});
+  FallingSheet sheet = falling(0.048); // touches after half of the step
+  resolve_solids(sheet.path, solids);
+  for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+    EXPECT_NEAR(sheet.path.end[v].x() - sheet.start[v].x(), 0.4 * kStep / 2, 0.05 * 0.4 * kStep);
+    EXPECT_EQ(sheet.path.velocity[v], Vector3(0.4, 0, 0));
+  }
+}
+
+TEST(SolidContact, is_carried_by_a_moving_solid) {
+  scene::Solid plate = solid(scene::SolidBox{{1, 0.2, 1}}, {0, -0.1, 0});
+  plate.motion = scene::Translating{{{{0, {0, 0.5, 0.25}}}}};
+  const Solids solids = solids_of({plate});
+  FallingSheet sheet = falling(0, kThickness / 2); // lies on it
+  for (int step = 0; step < 5; ++step) {
+    resolve_solids(sheet.path, solids);
+    for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+      EXPECT_NEAR(distance_at_end(sheet, solids, v), kThickness / 2, 1e-12);
+      EXPECT_LT((sheet.path.velocity[v] - Vector3(0, 0.5, 0.25)).norm(), 1e-15);
+      EXPECT_LT((sheet.path.end[v] - sheet.start[v] - kStep * Vector3(0, 0.5, 0.25)).norm(), 1e-12);
+    }
+    sheet.go_on();
+  }
+}
+
+// A bar turns two thirds round in one step and meets the sheet, which stands still, in the course of it.
+TEST(SolidContact, met_by_a_turning_bar) {
+  scene::Solid bar = solid(scene::Capsule{2e-3, 0.4}, {0, -0.02, 0});
+  bar.motion = scene::Rotating{Vector3::UnitX(), {0, -0.02, 0}, {{{0, 100}}}};
+  bar.rotation = scene::Rotation{Vector3::UnitX(), 1.8}; // on its way to the sheet from below
+  const Solids solids = solids_of({bar});
+  FallingSheet sheet = falling(0, 0.1);
+  EXPECT_FALSE(unsafe_triangles(sheet.path, solids).empty());
+  const SolidReport report = resolve_solids(sheet.path, solids);
+  EXPECT_GT(report.caught, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  EXPECT_TRUE(unsafe_triangles(sheet.path, solids).empty());
+  for (std::size_t v = 0; v < sheet.start.size(); ++v)
+    if (sheet.path.touch[v] != 0) {
+      const Vector3 arm = sheet.path.end[v] - Vector3(0, -0.02, 0);
+      EXPECT_LT((sheet.path.velocity[v] - 100 * Vector3::UnitX().cross(arm)).norm(), 1e-9);
+    }
+}
+
+TEST(SolidContact, what_leaves_is_let_go) {
+  const Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
+  FallingSheet sheet = falling(-0.01, kThickness / 2);
+  EXPECT_EQ(resolve_solids(sheet.path, ground).touching, 0U);
+  FallingSheet stuck = falling(-0.01, kThickness / 2);
+  stuck.path.touch.assign(stuck.start.size(), 1);
+  EXPECT_EQ(resolve_solids(stuck.path, ground).touching, stuck.start.size());
+  EXPECT_NEAR(stuck.path.end[0].y(), kThickness / 2, 1e-12);
+}
+
+TEST(SolidContact, holds_are_left_alone) {
+  const Solids ball = solids_of({solid(scene::Sphere{0.03}, {0, -0.03, 0})});
+  FallingSheet sheet = falling(1);
+  sheet.path.fixed[0] = sheet.path.fixed[60] = true;
+  const Vector3 corner = sheet.path.end[0], middle = sheet.path.end[60];
+  const SolidReport report = resolve_solids(sheet.path, ball);
+  EXPECT_EQ(sheet.path.end[0], corner);
+  EXPECT_EQ(sheet.path.end[60], middle);
+  EXPECT_EQ(sheet.path.touch[60], 0U);
+  EXPECT_GT(report.unresolved, 0U); // the held middle goes through the ball, and the report says so
+}
+
+TEST(SolidContact, between_two_solids) {
+  const Solids solids = solids_of({solid(scene::HalfSpace{{0, 1, 0}}), solid(scene::Sphere{0.02}, {0, 0.01, 0})});
+  FallingSheet sheet = falling(1, 0.035);
+  const SolidReport report = resolve_solids(sheet.path, solids);
+  EXPECT_EQ(report.unresolved, 0U);
+  bool ground = false, ball = false;
+  for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+    ground = ground || sheet.path.touch[v] == 1;
+    ball = ball || sheet.path.touch[v] == 2;
+    EXPECT_GE(distance_at_end(sheet, solids, v, 0), kThickness / 8);
+    EXPECT_GE(distance_at_end(sheet, solids, v, 1), kThickness / 8);
+  }
+  EXPECT_TRUE(ground);
+  EXPECT_TRUE(ball);
+  EXPECT_GE(test::least_distance(sheet.path, solids, 0, 1e-4, 10), kThickness / 8 - 1e-9);
+  EXPECT_GE(test::least_distance(sheet.path, solids, 1, 1e-4, 10), kThickness / 8 - 1e-9);
+}
+
+TEST(SolidContact, starting_inside_is_refused) {
+  const Solids ball = solids_of({solid(scene::Sphere{0.03})});
+  FallingSheet sheet = falling(1, 0.01);
+  try {
+    resolve_solids(sheet.path, ball);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("m inside solid 0 (sphere)"),
+                                             testing::HasSubstr("vertex"), testing::HasSubstr("start apart")));
+  }
+}
+
+// A rod that runs through the sheet from the start is brought to one side of it.
+TEST(SolidContact, starting_across_is_brought_out) {
+  const Solids rod = solids_of({lying_rod(1e-4)});
+  FallingSheet sheet = falling(0, 1e-5);
+  const SolidReport report = resolve_solids(sheet.path, rod);
+  EXPECT_GT(report.started_across, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  sheet.path.start = sheet.path.end;
+  EXPECT_GE(test::least_distance(sheet.path, rod, 0, 1e-4, 1), kThickness / 8 - 1e-5);
+}
+
+TEST(SolidContact, same_bits_for_any_number_of_threads) {
+  std::vector<Vector3> first;
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    const Solids solids = solids_of({lying_rod(1e-3), solid(scene::Sphere{0.02}, {0.03, -0.02, 0})});
+    FallingSheet sheet = falling(30);
+    resolve_solids(sheet.path, solids);
+    if (first.empty())
+      first = sheet.path.end;
+    EXPECT_EQ(sheet.path.end, first);
+  }
+}
+
+// Many steps of falling onto a ball and hanging there.
+TEST(SolidContact, many_steps) {
+  const Solids ball = solids_of({solid(scene::Sphere{0.03}, {0, -0.03, 0})});
+  FallingSheet sheet(0.1, 16, kThickness, 2e-3, {0, -0.2, 0}, 2e-3);
+  for (int step = 0; step < 60; ++step) {
+    const SolidReport report = resolve_solids(sheet.path, ball);
+    ASSERT_EQ(report.unresolved, 0U) << step;
+    ASSERT_EQ(report.started_across, 0U) << step;
+    ASSERT_GE(test::least_distance(sheet.path, ball, 0, 2e-4, 1), 0.999 * kThickness / 8) << step;
+    sheet.go_on();
+  }
+}
+
+} // namespace
+} // namespace sheet::collide

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The first frame: where its inlet is.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/scene/read.h"
+#include "libsheet/shape/build.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+namespace {
+
+using formats::Frame;
+
+constexpr const char* liquid = "[material]\nviscosity = 1\ndensity = 1\n";
+
+TEST(BuildFrame, TheInletIsABorderOfTheUndisturbedSheetWhereverItIsNow) {
+  const Frame frame = build_frame(parse_scene(
+      std::string("[sheet]\nshape = \"rectangle\"\nsize = [4, 2]\nsegments = [8, 4]\npattern = \"structured\"\nplane = "
+                  "\"xy\"\nthickness = 0.1\ncenter = [0, 0, 7]\nrotation = {axis = [1, 0, 0], angle = \"90 deg\"}\n"
+                  "perturbation = {amplitude = 0.01, seed = 1}\n") +
+          liquid + "[inflow]\nregion = \"y_max\"\nvelocity = [0, 0, -1]\n",
+      "scene"));
+  const auto bits = masks(frame, "inlet");
+  const auto x = positions(frame), origins = frame.find("inlet_origin")->values<Eigen::Vector3d>();
+  ASSERT_EQ(bits.size(), 45);
+  for (std::size_t v = 0; v < 45; ++v) {
+    EXPECT_EQ(bits[v], x[v].z() > 7.9 ? in_inlet | at_inlet_border : 0) << v; // y = 1 has become z = 8
+    EXPECT_EQ(origins[v], x[v]);
+  }
+  EXPECT_EQ(std::ranges::count(bits, 3), 9);
+  EXPECT_EQ(formats::find_value_error(frame), "");
+}
+
+TEST(BuildFrame, ARingIsAnInletAndNoInflowIsNone) {
+  const std::string tube = "[sheet]\nshape = \"tube\"\nradius = 1\nheight = 2\nsegments = [12, 4]\npattern = "
+                           "\"structured\"\nthickness = 0.1\n";
+  const Frame frame =
+      build_frame(parse_scene(tube + liquid + "[inflow]\nregion = \"y_max\"\nvelocity = [0, -1, 0]\n", "scene"));
+  EXPECT_EQ(std::ranges::count(masks(frame, "inlet"), 3), 12);
+  const Frame closed = build_frame(parse_scene(tube + liquid, "scene"));
+  EXPECT_EQ(closed.find("inlet"), nullptr);
+  EXPECT_EQ(closed.find("inlet_origin"), nullptr);
+}
+
+} // namespace
+} // namespace sheet

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sheet-tear: separates a sheet where it has become too thin.
+#include "libsheet/base/filter.h"
+#include "libsheet/remesh/tear.h"
+
+int main(int argc, char** argv) {
+  sheet::Tool tool(
+      "sheet-tear", "separate a sheet where it has become too thin",
+      "Parts the sheet along edges both of whose triangles are thinner than the scene's [tear] allows, the thinnest "
+      "first: holes open inside, cracks run on and meet. Pieces of fewer than 8 triangles do not come off; or they do "
+      "and are taken away, if the scene says crumbs = \"drop\": then the frame's arrays `tear.volume` [m^3] and "
+      "`tear.momentum` [kg m/s] keep account of them. Nothing else changes volume, momentum or energy. Vertices at "
+      "which pieces of the sheet meet in a point come apart.\n"
+      "Without [tear] in the scene, frames pass unchanged.");
+  sheet::FilterOptions filter;
+  sheet::declare_filter_options(tool, filter);
+  tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-step | sheet-tear' > run.sheet",
+               "a sheet that tears as it is stretched");
+  return tool.run(argc, argv, [&] {
+    sheet::TearStage stage;
+    sheet::run_filter(tool, filter, [&](sheet::formats::Frame& frame) { stage.tear(frame); });
+    stage.report();
+  });
+}
