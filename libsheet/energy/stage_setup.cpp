@@ -137,6 +137,8 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
 }
 
 void turn_to_normals(const Stage& stage, Unknowns& u) {
+  if (stage.frames.empty())
+    return;
   const Connectivity& mesh = *stage.start->mesh;
   const std::vector<Vector3> normals = face_normals(mesh, [&](std::uint32_t v) { return stage.position(u, v); });
   for (std::size_t e = 0; e < stage.frames.size(); ++e) {
