@@ -5,7 +5,6 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
-#include "libsheet/scene/read.h"
 
 namespace sheet::remesh {
 
@@ -17,19 +16,15 @@ RemeshStage::RemeshStage(const StageOptions& options) : options_(options) {
 }
 
 void RemeshStage::remesh(formats::Frame& frame) {
-  const formats::Array* text = frame.find("scene");
-  if (text != nullptr && (!scene_ || text->text() != scene_text_)) {
-    scene_ = parse_scene(text->text(), "the frame's scene");
-    scene_text_ = text->text();
-  }
+  const Scene* scene = frame.find("scene") == nullptr ? nullptr : &scenes_.of(frame);
   if (!options_.edge_length) {
-    if (!scene_ || !scene_->sheet.edge_length)
+    if (scene == nullptr || !scene->sheet.edge_length)
       fail(ExitCode::usage, "--edge-length is needed: the frame's scene does not say how long edges are");
-    options_.remeshing.size.edge_length = *scene_->sheet.edge_length;
+    options_.remeshing.size.edge_length = *scene->sheet.edge_length;
   }
   const std::uint64_t vertices = frame.vertices;
   const auto start = std::chrono::steady_clock::now();
-  const Report report = remesh::remesh(frame, scene_ ? &*scene_ : nullptr, options_.remeshing);
+  const Report report = remesh::remesh(frame, scene, options_.remeshing);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   log::detail("step {}: {} splits, {} collapses, {} flips, {} moved, {} absorbed; {} to {} vertices, {:.1f} ms",
               frame.step, report.splits, report.collapses, report.flips, report.smoothed, report.absorbed, vertices,

@@ -2,9 +2,9 @@
 // The stage sheet-remesh.
 #pragma once
 #include <optional>
-#include <string>
 
 #include "libsheet/remesh/remesh.h"
+#include "libsheet/scene/frame_scene.h"
 
 namespace sheet::remesh {
 
@@ -23,8 +23,7 @@ public:
 
 private:
   StageOptions options_;
-  std::string scene_text_;
-  std::optional<Scene> scene_;
+  FrameScene scenes_;
   Report total_;
   std::uint64_t frames_ = 0;
 };
