@@ -6,6 +6,7 @@
 #include "formats/cpp/stream_reader.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/numbered_name.h"
 #include "libsheet/base/tool.h"
 #include "libsheet/shape/export.h"
 

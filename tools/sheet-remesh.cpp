@@ -28,9 +28,8 @@ int main(int argc, char** argv) {
               "with --adaptive: longest wanted length (four times --edge-length)");
   tool.flag("--smooth", o.remeshing.smooth, "also move vertices along the sheet where angles are below 35 degrees");
   tool.example("sheet-remesh --edge-length 0.01 < a.sheet > b.sheet", "one frame");
-  tool.example(
-      "sheet-loop --until 2 --fps 24 -- 'sheet-step | sheet-remesh --edge-length 0.025 --smooth' < a.sheet > run.sheet",
-      "after every step");
+  tool.example("sheet-loop --until 2 --fps 24 -- 'sheet-step | sheet-remesh --smooth' < a.sheet > run.sheet",
+               "after every step");
   return tool.run(argc, argv, [&] {
     sheet::remesh::RemeshStage stage(o);
     sheet::run_filter(tool, filter, [&](sheet::formats::Frame& frame) { stage.remesh(frame); });

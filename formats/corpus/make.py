@@ -208,6 +208,7 @@ passed = {
     "newer_minor": forge_end(forge_end(newer, 10, u(1, 2)), 24, b"reserved"),
     "contacts": stream(contacts()),
     "inlet": stream(inlet()),
+    "swept_volume": stream(triangle_frame(swept_volume=Array(np.array([1e-9, -2e-9, 0], "f8"), "vertex", "m^3", "conserve"))),
 }
 
 failed = {
@@ -313,6 +314,7 @@ failed = {
     "touch_rule": with_array("touch", Array(np.zeros(3, "u8"), "vertex", "1", "copy")),
     "inlet_place": with_array("inlet", Array(np.zeros(1, "u8"), "triangle", "1", "common")),
     "inlet_origin_nan": with_array("inlet_origin", Array(np.full((3, 3), np.nan), "vertex", "m", "interpolate")),
+    "swept_volume_nan": with_array("swept_volume", Array(np.full(3, np.nan), "vertex", "m^3", "conserve")),
 }
 
 

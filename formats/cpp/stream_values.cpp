@@ -37,6 +37,7 @@ constexpr std::array standards{
     Standard{"touch", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
     Standard{"inlet", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
     Standard{"inlet_origin", Place::vertex, Type::float64, 3, "m", Transfer::interpolate, false},
+    Standard{"swept_volume", Place::vertex, Type::float64, 1, "m^3", Transfer::conserve, false},
     Standard{"contact_vertex", Place::frame, Type::uint32, 4, "1", Transfer::drop, false},
     Standard{"contact_weight", Place::frame, Type::float64, 4, "1", Transfer::drop, false},
     Standard{"contact_normal", Place::frame, Type::float64, 3, "1", Transfer::drop, false},

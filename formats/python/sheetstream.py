@@ -58,6 +58,7 @@ _STANDARD = {
     "touch": ("vertex", "uint64", 1, "1", "common"),
     "inlet": ("vertex", "uint64", 1, "1", "common"),
     "inlet_origin": ("vertex", "float64", 3, "m", "interpolate"),
+    "swept_volume": ("vertex", "float64", 1, "m^3", "conserve"),
     "contact_vertex": ("frame", "uint32", 4, "1", "drop"),
     "contact_weight": ("frame", "float64", 4, "1", "drop"),
     "contact_normal": ("frame", "float64", 3, "1", "drop"),

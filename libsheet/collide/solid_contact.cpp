@@ -139,13 +139,15 @@ private:
     if (*deepest >= -path_.thickness[v] / 2)
       return;
     const Vector3& x = path_.start[v];
-    for (std::size_t i = 0; i < views_.size(); ++i)
-      if (views_[i].shape().nearest(views_[i].own(0, x)).distance <= *deepest)
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      const double distance = views_[i].shape().nearest(views_[i].own(0, x)).distance;
+      if (distance <= *deepest) // which may have been less than exact
         fail(
             ExitCode::bad_input,
             "vertex {} at ({:.6g}, {:.6g}, {:.6g}) starts {:.3g} m inside {}; move the sheet or the solid so that they "
             "start apart",
-            v, x.x(), x.y(), x.z(), -*deepest, solids_.name(i));
+            v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
+    }
   }
 
   // An inelastic impulse without slip: the point that hits first goes on with the solid. Equal and opposite impulses

@@ -39,11 +39,6 @@ public:
   [[nodiscard]] Box3 bounds() const override { return tree_.bounds(); }
 
   [[nodiscard]] Near nearest(const Vector3& x) const override {
-    // Where the field has a distance, the true one is mostly not much larger; the tree tells whether that was right.
-    const double field = std::abs(field_.at(x));
-    for (const double within : {field + slack_ / 2, field + 4 * slack_})
-      if (const auto near = tree_.nearest(x, within))
-        return *near;
     return *tree_.nearest(x, std::numeric_limits<double>::infinity());
   }
 

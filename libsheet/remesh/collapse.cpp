@@ -147,20 +147,27 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
     return false;
   const std::uint32_t u = mesh.from(side), v = mesh.to(side);
   const bool rim_u = mesh.on_rim(u), rim_v = mesh.on_rim(v);
-  const std::uint32_t grip_u = sheet.grip(u), grip_v = sheet.grip(v);
-  if (grip_u != 0 && grip_v != 0 && grip_u != grip_v)
+  const bool under_v = sheet.held_within(u, v), under_u = sheet.held_within(v, u);
+  if (!under_u && !under_v)
     return false;
+  // An end may insist on its place as a corner of the rim, as held more than the other, as the one on the rim; if both
+  // do for different reasons, neither can go.
+  std::uint32_t kept = none;
+  const auto insist = [&](bool u_does, bool v_does) {
+    if (u_does == v_does)
+      return true;
+    const std::uint32_t who = u_does ? u : v;
+    if (kept != none && kept != who)
+      return false;
+    kept = who;
+    return true;
+  };
   const bool corner_u = is_corner(sheet, u), corner_v = is_corner(sheet, v);
-  if (corner_u && corner_v)
+  if ((corner_u && corner_v) || !insist(corner_u, corner_v) || !insist(!under_v, !under_u) || !insist(rim_u, rim_v))
     return false;
-  // how strongly each end insists on its place
-  const auto rank = [](bool rim, std::uint32_t grip, bool corner) { return 4 * corner + 2 * (grip != 0) + rim; };
-  const int rank_u = rank(rim_u, grip_u, corner_u), rank_v = rank(rim_v, grip_v, corner_v);
-  if ((rim_u && !rim_v && grip_v != 0) || (rim_v && !rim_u && grip_u != 0))
-    return false; // the rim would jump to a held vertex, or the held vertex to the rim
-  if ((corner_u && grip_v != 0 && grip_u == 0) || (corner_v && grip_u != 0 && grip_v == 0))
-    return false;
-  const std::uint32_t kept = rank_u >= rank_v ? u : v, gone = kept == u ? v : u;
+  const bool stays = kept != none || sheet.fixed(u);
+  kept = kept == none ? u : kept;
+  const std::uint32_t gone = kept == u ? v : u;
 
   edit.clear();
   edit.kind = Edit::Kind::collapse;
@@ -171,7 +178,6 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
     return false;
   const Vector3 a = sheet.at(kept), b = sheet.at(gone), middle = 0.5 * (a + b);
   const double before = cone_volume(sheet, edit.removed, middle);
-  const bool stays = rank_u != rank_v || sheet.grip(kept) != 0;
   if (stays) {
     edit.position = a;
   } else if (rim_u) {
@@ -184,6 +190,10 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
     const Vector3 exact = with_volume(sheet, edit, best, middle, before, reach);
     edit.position = with_volume(sheet, edit, exact, middle, before - owed, pay);
   }
+  if (!stays)
+    for (int axis = 0; axis < 3; ++axis)
+      if (sheet.held_axes(kept)[static_cast<std::size_t>(axis)])
+        edit.position[axis] = middle[axis];
   if ((edit.position - middle).norm() > 1.5 * (b - a).norm())
     return false;
   edit.swept = rim_u && rim_v ? 0 : (six_cones(sheet, edit, middle) - before) / 6;

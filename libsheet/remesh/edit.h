@@ -25,6 +25,7 @@ struct Edit {
   std::uint32_t vertex = none;
   Vector3 position = Vector3::Zero();  // of `vertex` afterwards [m]
   std::vector<Parent> parents;         // of `vertex`
+  bool keeps_hold = false;             // what holds `vertex` goes on holding it, whatever its parents
   std::uint32_t removed_vertex = none; // collapse
 
   // overlap[i * removed.size() + j]: the area of added triangle i that covers removed triangle j [m²]
@@ -43,6 +44,7 @@ struct Edit {
     volumes.clear();
     vertex = removed_vertex = none;
     swept = 0;
+    keeps_hold = false;
   }
 };
 

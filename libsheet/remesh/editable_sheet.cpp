@@ -205,7 +205,7 @@ void EditableSheet::commit(const Edit& edit) {
   if (!velocity_.empty()) {
     moving_.clear();
     for (const std::uint32_t v : patch_)
-      moving_.push_back({carried_[v], &velocity_[v], grip(v) != 0});
+      moving_.push_back({carried_[v], &velocity_[v], held_axes(v)});
     restore_flow(before, moving_);
   }
 }
@@ -221,6 +221,8 @@ void EditableSheet::write_vertex_rows(const Edit& edit) {
     velocity_[edit.vertex] = velocity;
   }
   for (formats::Array& array : vertex_rows_) {
+    if (edit.keeps_hold && array.transfer == formats::Transfer::common)
+      continue;
     row_.resize(row_size(array));
     transfer_row(array, edit.parents, row_.data());
     grow_rows(array, position_.size());

@@ -13,6 +13,7 @@
 #include "libsheet/remesh/triangle_grid.h"
 #include "libsheet/remesh/triangle_shape.h"
 #include "libsheet/remesh/velocity.h"
+#include "libsheet/scene/scene.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::remesh {
@@ -30,8 +31,9 @@ struct Limits {
 
 class EditableSheet {
 public:
-  // Copies what it needs from the frame. Errors: bad_input as Mesh.
-  explicit EditableSheet(const formats::Frame& frame);
+  // Copies what it needs from the frame. `scene` says which axes its holds hold; without it they hold all. Errors:
+  // bad_input as Mesh.
+  explicit EditableSheet(const formats::Frame& frame, const Scene* scene = nullptr);
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const std::vector<Vector3>& positions() const { return position_; }
@@ -41,8 +43,12 @@ public:
   [[nodiscard]] Vector3 velocity(std::uint32_t v) const { return velocity_.empty() ? Vector3::Zero() : velocity_[v]; }
   // Of a third of each triangle around v [m³].
   [[nodiscard]] double carried(std::uint32_t v) const { return carried_[v]; }
-  // Vertices with equal grips are held by the same things (any array with the rule common: hold, touch, ...); 0: free.
-  [[nodiscard]] std::uint32_t grip(std::uint32_t v) const { return grip_.empty() ? 0 : grip_[v]; }
+  // What holds a vertex: any array with the rule common (hold, touch, ...). True if whatever holds u holds v, too.
+  [[nodiscard]] bool held_within(std::uint32_t u, std::uint32_t v) const;
+  [[nodiscard]] bool held_alike(std::uint32_t u, std::uint32_t v) const { return grip(u) == grip(v); }
+  // The coordinates in which a vertex is held.
+  [[nodiscard]] const Axes& held_axes(std::uint32_t v) const { return grips_[grip(v)].axes; }
+  [[nodiscard]] bool fixed(std::uint32_t v) const { return held_axes(v) == Axes{true, true, true}; }
   // By how much edits at this vertex have made the enclosed volume grow, not yet paid back [m³].
   [[nodiscard]] double swept(std::uint32_t v) const { return swept_[v]; }
 
@@ -66,15 +72,22 @@ private:
   void write_triangle_rows(const Edit& edit);
   void make_grid();
   [[nodiscard]] Box box_of(const Corners& corners) const;
+  struct Grip {
+    std::vector<std::byte> masks; // one after the other
+    Axes axes;
+  };
+  [[nodiscard]] std::uint32_t grip(std::uint32_t v) const { return grip_.empty() ? 0 : grip_[v]; }
   [[nodiscard]] std::uint32_t grip_of(std::uint32_t v);
+  [[nodiscard]] Axes axes_of(std::uint32_t v);
   [[nodiscard]] double carried_volume(std::uint32_t v) const;
 
   Mesh mesh_;
   std::vector<Vector3> position_, velocity_; // velocity_: empty in a frame at rest
   std::vector<double> volume_, swept_, carried_;
   std::vector<TriangleShape> shape_;
-  std::vector<std::uint32_t> grip_; // empty: nothing is held
-  std::vector<std::vector<std::byte>> grips_;
+  std::vector<std::uint32_t> grip_;                         // of vertices, indices of grips_; empty: nothing is held
+  std::vector<Grip> grips_ = {{{}, {false, false, false}}}; // the first: free
+  std::vector<Axes> hold_axes_;                             // of the scene's holds
   std::vector<bool> in_inlet_;                              // vertices of the frame; empty: there is no inlet
   std::vector<formats::Array> vertex_rows_, triangle_rows_; // all other arrays, by slot
   std::vector<std::uint32_t> successor_;                    // of removed vertices; itself: still there

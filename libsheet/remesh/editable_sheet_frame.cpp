@@ -52,7 +52,7 @@ Array made_like(const Array& old, const std::vector<std::uint32_t>& slots, Array
 
 } // namespace
 
-EditableSheet::EditableSheet(const Frame& frame) : mesh_(frame.vertices, triangles(frame)) {
+EditableSheet::EditableSheet(const Frame& frame, const Scene* scene) : mesh_(frame.vertices, triangles(frame)) {
   const auto x = sheet::positions(frame);
   position_.assign(x.begin(), x.end());
   const auto u = velocities(frame);
@@ -72,6 +72,9 @@ EditableSheet::EditableSheet(const Frame& frame) : mesh_(frame.vertices, triangl
   }
   for (const std::uint64_t bits : masks(frame, "inlet"))
     in_inlet_.push_back((bits & sheet::in_inlet) != 0);
+  if (scene != nullptr)
+    for (const scene::Hold& hold : scene->holds)
+      hold_axes_.push_back(hold.axes);
   const bool any_grip = std::any_of(vertex_rows_.begin(), vertex_rows_.end(),
                                     [](const Array& array) { return array.transfer == Transfer::common; });
   for (std::uint32_t v = 0; any_grip && v < position_.size(); ++v)
@@ -85,10 +88,41 @@ std::uint32_t EditableSheet::grip_of(std::uint32_t v) {
       masks.insert(masks.end(), row_at(array, v), row_at(array, v) + row_size(array));
   if (std::all_of(masks.begin(), masks.end(), [](std::byte b) { return b == std::byte{0}; }))
     return 0;
-  auto it = std::find(grips_.begin(), grips_.end(), masks);
+  auto it = std::find_if(grips_.begin(), grips_.end(), [&](const Grip& grip) { return grip.masks == masks; });
   if (it == grips_.end())
-    it = grips_.insert(grips_.end(), masks);
-  return static_cast<std::uint32_t>(it - grips_.begin()) + 1;
+    it = grips_.insert(grips_.end(), {masks, axes_of(v)});
+  return static_cast<std::uint32_t>(it - grips_.begin());
+}
+
+// A [[hold]] holds its axes; what else holds a vertex holds it in all.
+Axes EditableSheet::axes_of(std::uint32_t v) {
+  Axes axes = {false, false, false};
+  for (Array& array : vertex_rows_) {
+    if (array.transfer != Transfer::common)
+      continue;
+    const std::byte* row = row_at(array, v);
+    if (array.name != "hold") {
+      if (std::any_of(row, row + row_size(array), [](std::byte b) { return b != std::byte{0}; }))
+        axes.fill(true);
+      continue;
+    }
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, row, sizeof bits);
+    for (std::size_t i = 0; i < 64; ++i)
+      for (std::size_t axis = 0; axis < 3 && (bits >> i & 1) != 0; ++axis)
+        axes[axis] = axes[axis] || i >= hold_axes_.size() || hold_axes_[i][axis];
+  }
+  return axes;
+}
+
+bool EditableSheet::held_within(std::uint32_t u, std::uint32_t v) const {
+  if (grip(u) == 0 || grip(u) == grip(v))
+    return true;
+  const std::vector<std::byte>&one = grips_[grip(u)].masks, &other = grips_[grip(v)].masks;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    if (other.empty() || (one[i] & ~other[i]) != std::byte{0})
+      return false;
+  return true;
 }
 
 void EditableSheet::put(Frame& frame) {

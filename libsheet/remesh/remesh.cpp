@@ -300,7 +300,7 @@ Report remesh(formats::Frame& frame, const Scene* scene, const Options& options)
   options.size.check();
   if (frame.triangles == 0)
     return {};
-  EditableSheet sheet(frame);
+  EditableSheet sheet(frame, scene);
   SizeField size(sheet, scene, options.size);
   const double wanted = wanted_triangles(sheet, size);
   if (!(wanted <= most_triangles))

@@ -18,8 +18,7 @@ RemeshStage::RemeshStage(const StageOptions& options) : options_(options) {
 
 void RemeshStage::remesh(formats::Frame& frame) {
   const formats::Array* text = frame.find("scene");
-  const bool needed = options_.remeshing.size.chord_error || !options_.edge_length;
-  if (text != nullptr && needed && (!scene_ || text->text() != scene_text_)) {
+  if (text != nullptr && (!scene_ || text->text() != scene_text_)) {
     scene_ = parse_scene(text->text(), "the frame's scene");
     scene_text_ = text->text();
   }

@@ -17,6 +17,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double jump_tolerance = 0.2;    // τ: of strain rate and of thickness, from triangle to triangle
 constexpr double edges_in_a_wave = 8;     // of a buckle
+constexpr double growth_over_rate = 5;    // of a buckle, over the rate at which the sheet deforms
 constexpr double thicknesses_an_edge = 2; // a shell model says nothing about what is shorter
 constexpr double grading = 0.4;           // growth of length over distance
 
@@ -38,28 +39,64 @@ struct State {
   std::vector<TriangleShape> shape;
   std::vector<double> thickness;
   std::vector<Matrix3> strain_rate; // in the triangle's plane [1/s]
+  double rate_scale = 0;            // what is a large rate in this sheet [1/s]
 };
 
-Matrix3 strain_rate_of(const EditableSheet& sheet, std::uint32_t t, const TriangleShape& shape) {
-  Matrix3 gradient = Matrix3::Zero(); // of a linear function: Σ u_i (n × e_i)ᵀ / (2 A), e_i opposite corner i
+// Surface gradient of the velocity: of a linear function, Σ u_i (n × e_i)ᵀ / (2 A), e_i opposite corner i.
+Matrix3 velocity_gradient(const EditableSheet& sheet, std::uint32_t t, const TriangleShape& shape) {
+  Matrix3 gradient = Matrix3::Zero();
   const Corners& c = sheet.mesh().corners(t);
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3 opposite = sheet.at(c[(i + 2) % 3]) - sheet.at(c[(i + 1) % 3]);
     gradient += sheet.velocity(c[i]) * shape.normal.cross(opposite).transpose() / (2 * shape.area);
   }
+  return gradient;
+}
+
+Matrix3 strain_rate_of(const Matrix3& gradient, const TriangleShape& shape) {
   const Matrix3 plane = Matrix3::Identity() - shape.normal * shape.normal.transpose();
   const Matrix3 in_plane = plane * gradient;
   return 0.5 * (in_plane + in_plane.transpose());
 }
 
+// Root mean square over the sheet of the velocity gradient G, less the rotation Ω of the whole that makes it least,
+// which is that of the mean antisymmetric part where the sheet lies all around, so that a turning frame changes nothing
+// that matters: |G - Ω P|², P the projection onto the triangle's plane.
+double rate_scale(const std::vector<Matrix3>& gradients, const std::vector<TriangleShape>& shapes) {
+  Matrix3 left = Matrix3::Zero();
+  Vector3 right = Vector3::Zero();
+  double area = 0;
+  const auto plane = [](const TriangleShape& s) {
+    return Matrix3(Matrix3::Identity() - s.normal * s.normal.transpose());
+  };
+  // Ω P = Σ ω_i L_i P with (L_i)_jk = -ε_ijk
+  const auto turn = [](int i) { return skew(Vector3::Unit(i)); };
+  for (std::size_t t = 0; t < shapes.size(); ++t) {
+    area += shapes[t].area;
+    for (int i = 0; i < 3; ++i) {
+      right[i] += shapes[t].area * (turn(i) * plane(shapes[t])).cwiseProduct(gradients[t]).sum();
+      for (int k = 0; k < 3; ++k)
+        left(i, k) += shapes[t].area * (turn(i) * plane(shapes[t])).cwiseProduct(turn(k) * plane(shapes[t])).sum();
+    }
+  }
+  const Vector3 spin = left.ldlt().solve(right);
+  double sum = 0;
+  for (std::size_t t = 0; t < shapes.size(); ++t)
+    sum += shapes[t].area * (gradients[t] - skew(spin) * plane(shapes[t])).squaredNorm();
+  return area > 0 ? std::sqrt(sum / area) : 0;
+}
+
 State state_of(const EditableSheet& sheet) {
   State state;
+  std::vector<Matrix3> gradients;
   for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t) {
     const TriangleShape& shape = state.shape.emplace_back(sheet.shape(t));
     const bool flat = !(shape.area > 0);
+    gradients.push_back(flat ? Matrix3::Zero() : velocity_gradient(sheet, t, shape));
     state.thickness.push_back(flat ? 0 : sheet.volume(t) / shape.area);
-    state.strain_rate.push_back(flat ? Matrix3::Zero() : strain_rate_of(sheet, t, shape));
+    state.strain_rate.push_back(flat ? Matrix3::Zero() : strain_rate_of(gradients.back(), shape));
   }
+  state.rate_scale = rate_scale(gradients, state.shape);
   return state;
 }
 
@@ -110,20 +147,29 @@ double least_eigenvalue(const Matrix3& m) {
   return solver.eigenvalues()[0];
 }
 
-// Length of the wave that compression at this rate makes grow fastest [m]; infinite where there is none.
-double buckling_wavelength(const Scene& scene, double strain_rate, double h) {
+// Length of the wave that compression at this rate makes grow fastest [m]; infinite where none grows much faster than
+// the sheet deforms (`rate_scale`), as it must to get anywhere.
+double buckling_wavelength(const Scene& scene, double strain_rate, double h, double rate_scale) {
   const double infinite = std::numeric_limits<double>::infinity();
   const scene::Material& m = scene.material;
   const double load = -4 * m.viscosity * h * strain_rate - 2 * m.surface_tension;
-  if (!(load > 0 && scene.model.bending))
+  const double modulus = m.viscosity * h * h * h / 3;
+  if (!(load > 0 && modulus > 0 && scene.model.bending))
     return infinite;
   double wavenumber = 0;
+  const auto consider = [&](double k, double growth) {
+    if (growth > growth_over_rate * rate_scale)
+      wavenumber = std::max(wavenumber, k);
+  };
   const auto& gravity = scene.environment.gravity;
-  if (scene.environment.bath && gravity)
-    wavenumber = std::sqrt(2 * scene.environment.bath->density * gravity->norm() / load);
-  const double modulus = m.viscosity * h * h * h / 3;
-  if (scene.model.inertia && modulus > 0)
-    wavenumber = std::max(wavenumber, std::pow(m.density * h * load / (2 * modulus * modulus), 1.0 / 6));
+  if (scene.environment.bath && gravity) {
+    const double weight = scene.environment.bath->density * gravity->norm();
+    consider(std::sqrt(2 * weight / load), load * load / (4 * modulus * weight));
+  }
+  if (scene.model.inertia) {
+    const double k = std::pow(m.density * h * load / (2 * modulus * modulus), 1.0 / 6);
+    consider(k, load / (2 * modulus * k * k));
+  }
   return wavenumber > 0 ? 2 * pi / wavenumber : infinite;
 }
 
@@ -141,20 +187,20 @@ void limit_by_flow(const EditableSheet& sheet, const Scene* scene, const State& 
     const std::uint32_t one = Mesh::triangle_of(side), two = Mesh::triangle_of(twin);
     const double length = (sheet.at(mesh.to(side)) - sheet.at(mesh.from(side))).norm();
     const auto limit_both = [&](double value, double jump) {
-      if (jump > jump_tolerance * value) {
+      if (jump > jump_tolerance * value && value > 0) {
         limit(one, length * jump_tolerance * value / jump);
         limit(two, length * jump_tolerance * value / jump);
       }
     };
-    limit_both(std::max(state.strain_rate[one].norm(), state.strain_rate[two].norm()),
-               (state.strain_rate[one] - state.strain_rate[two]).norm());
+    limit_both(state.rate_scale, (state.strain_rate[one] - state.strain_rate[two]).norm());
     limit_both(std::max(state.thickness[one], state.thickness[two]),
                std::abs(state.thickness[one] - state.thickness[two]));
   }
   if (scene != nullptr)
     for (std::uint32_t t = 0; t < mesh.triangle_slots(); ++t)
       limit(t,
-            buckling_wavelength(*scene, least_eigenvalue(state.strain_rate[t]), state.thickness[t]) / edges_in_a_wave);
+            buckling_wavelength(*scene, least_eigenvalue(state.strain_rate[t]), state.thickness[t], state.rate_scale) /
+                edges_in_a_wave);
 }
 
 // size[v] <= size[w] + grading |x_v - x_w| along edges, by shortest paths [Dijkstra 1959].

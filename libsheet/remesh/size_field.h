@@ -17,13 +17,17 @@ struct SizeOptions {
   void check() const;
 };
 
-// Adaptive length at a vertex, the least of
-//   sqrt(8 ε / |k|)    chord error of the largest principal curvature k [Cohen-Steiner, Morvan 2003]
-//   l τ |e| / |Δe|     the jump of the strain rate from triangle to triangle (l: edges now; uniform stretching is
-//   exact) l τ h / |Δh|       the jump of the thickness λ / 8              the wavelength about to buckle where
-//   compression exceeds surface tension, P = -4 μ h e - 2 γ > 0:
-//                      k² = 2 ρ_b g / P on a bath (VALIDATION.md V15), k⁶ = ρ h P / (2 D²), D = μ h³ / 3 by inertia
-// but not below 2 h, within the bounds, and growing by at most 0.4 of the distance.
+// Adaptive length at a vertex, the least of these, but not below 2 h, within the bounds, growing by at most 0.4 of the
+// distance:
+// - sqrt(8 ε / |k|): chord error of the largest principal curvature k [Cohen-Steiner, Morvan 2003];
+// - l τ E / |Δe|: the jump of the strain rate e from triangle to triangle (uniform stretching is exact), l the edges
+// now, E
+//   the mean rate at which the sheet deforms, bending counted, turning as a whole not;
+// - l τ h / |Δh|: the jump of the thickness;
+// - an eighth of the wave about to buckle where compression exceeds surface tension, P = -4 μ h e - 2 γ > 0, and it
+// grows
+//   five times faster than the sheet deforms: k² = 2 ρ_b g / P on a bath (VALIDATION.md V15), k⁶ = ρ h P / (2 D²) by
+//   inertia, D = μ h³ / 3.
 class SizeField {
 public:
   SizeField(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);

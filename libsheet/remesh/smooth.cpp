@@ -64,11 +64,12 @@ void flow_over_edges(const EditableSheet& sheet, const Vector3& normal, const Ve
 
 bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edit& edit) {
   const Mesh& mesh = sheet.mesh();
-  if (mesh.on_rim(v) || sheet.grip(v) != 0 || mesh.side_at(v) == none)
+  if (mesh.on_rim(v) || sheet.fixed(v) || mesh.side_at(v) == none)
     return false;
   edit.clear();
   edit.kind = Edit::Kind::smooth;
   edit.vertex = v;
+  edit.keeps_hold = true;
   const Vector3 x = sheet.at(v);
   Vector3 normal = Vector3::Zero(), middle = Vector3::Zero();
   double area = 0;
@@ -91,11 +92,15 @@ bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edi
   step -= normal.dot(step) * normal;
   // The step h along the normal sweeps h |Σ A n| / 3.
   const double owed = std::clamp(3 * sheet.swept(v) / length, -pay, pay);
-  find_parents(sheet, x + step, edit);
-  flow_over_edges(sheet, normal, step, edit);
   step -= owed * normal;
+  for (int axis = 0; axis < 3; ++axis)
+    if (sheet.held_axes(v)[static_cast<std::size_t>(axis)])
+      step[axis] = 0;
+  const double rise = normal.dot(step);
+  find_parents(sheet, x + step - rise * normal, edit);
+  flow_over_edges(sheet, normal, step - rise * normal, edit);
   edit.position = x + step;
-  edit.swept = -owed * length / 3;
+  edit.swept = rise * length / 3;
   return true;
 }
 
@@ -105,7 +110,7 @@ bool propose_absorb(const EditableSheet& sheet, std::uint32_t rim_side, Edit& ed
     return false;
   const std::uint32_t a = mesh.from(rim_side), b = mesh.to(rim_side), c = mesh.apex(rim_side);
   const std::uint32_t flat = Mesh::triangle_of(rim_side);
-  if (mesh.on_rim(c) || sheet.grip(c) != 0)
+  if (mesh.on_rim(c) || !sheet.held_within(c, a) || !sheet.held_within(c, b))
     return false;
   const Vector3 along = sheet.at(b) - sheet.at(a);
   const double t = along.dot(sheet.at(c) - sheet.at(a)) / along.squaredNorm();
@@ -115,10 +120,13 @@ bool propose_absorb(const EditableSheet& sheet, std::uint32_t rim_side, Edit& ed
   edit.kind = Edit::Kind::smooth;
   edit.vertex = c;
   edit.position = sheet.at(a) + t * along;
-  if (sheet.grip(a) != 0 && sheet.grip(a) == sheet.grip(b))
+  // held by what holds both ends, if anything does more than hold it now
+  if (!sheet.held_alike(c, a) && !sheet.held_alike(c, b))
     edit.parents = {{a, 1 - t, 0}, {b, t, 0}, {c, 0, 1}};
-  else
+  else {
     edit.parents = {{c, 1, 1}};
+    edit.keeps_hold = true;
+  }
   mesh.for_fan(c, [&](std::uint32_t side) {
     edit.removed.push_back(Mesh::triangle_of(side));
     if (Mesh::triangle_of(side) == flat)

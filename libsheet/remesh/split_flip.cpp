@@ -36,7 +36,7 @@ bool propose_flip(const EditableSheet& sheet, std::uint32_t side, Edit& edit) {
   if (twin == none)
     return false;
   const std::uint32_t a = mesh.from(side), b = mesh.to(side), c = mesh.apex(side), d = mesh.apex(twin);
-  if (c == d || mesh.adjacent(c, d) || (sheet.grip(a) != 0 && sheet.grip(a) == sheet.grip(b)))
+  if (c == d || mesh.adjacent(c, d) || (sheet.held_alike(a, b) && sheet.fixed(a)))
     return false;
   edit.clear();
   edit.kind = Edit::Kind::flip;

@@ -18,30 +18,26 @@ Flow flow_of(std::span<const MovingVertex> vertices) {
 } // namespace
 
 void restore_flow(const Flow& before, std::span<const MovingVertex> vertices) {
-  double free_volume = 0;
-  for (const MovingVertex& v : vertices)
-    if (!v.held)
-      free_volume += v.volume;
-  if (!(free_volume > 0))
-    return;
-  const Vector3 push = (before.momentum - flow_of(vertices).momentum) / free_volume;
-  Vector3 mean = Vector3::Zero();
-  for (const MovingVertex& v : vertices)
-    if (!v.held) {
-      *v.velocity += push;
-      mean += v.volume / free_volume * *v.velocity;
-    }
+  Vector3 free_volume = Vector3::Zero(), mean = Vector3::Zero();
+  const auto for_free = [&](auto visit) {
+    for (const MovingVertex& v : vertices)
+      for (int axis = 0; axis < 3; ++axis)
+        if (!v.held[static_cast<std::size_t>(axis)])
+          visit(v.volume, (*v.velocity)[axis], axis);
+  };
+  for_free([&](double volume, double, int axis) { free_volume[axis] += volume; });
+  const Vector3 missing = before.momentum - flow_of(vertices).momentum;
+  for_free([&](double volume, double& u, int axis) {
+    u += missing[axis] / free_volume[axis];
+    mean[axis] += volume / free_volume[axis] * u;
+  });
   const double excess = flow_of(vertices).energy - before.energy;
   if (!(excess > 0))
     return;
   double relative = 0;
-  for (const MovingVertex& v : vertices)
-    if (!v.held)
-      relative += 0.5 * v.volume * (*v.velocity - mean).squaredNorm();
+  for_free([&](double volume, double u, int axis) { relative += 0.5 * volume * (u - mean[axis]) * (u - mean[axis]); });
   const double scale = relative > excess ? std::sqrt(1 - excess / relative) : 0;
-  for (const MovingVertex& v : vertices)
-    if (!v.held)
-      *v.velocity = mean + scale * (*v.velocity - mean);
+  for_free([&](double, double& u, int axis) { u = mean[axis] + scale * (u - mean[axis]); });
 }
 
 } // namespace sheet::remesh

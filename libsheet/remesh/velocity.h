@@ -4,6 +4,7 @@
 // kinetic energy has grown, the velocities are drawn together about their mean until it is what it was. (Interpolation
 // alone loses momentum in flips and collapses and raises the energy in a quarter of them.)
 #pragma once
+#include <array>
 #include <span>
 
 #include "libsheet/geometry/types.h"
@@ -19,10 +20,12 @@ struct Flow {
   }
 };
 
+using Axes = std::array<bool, 3>; // of the coordinates x, y, z
+
 struct MovingVertex {
   double volume;     // that the vertex carries after the edit [m³]
   Vector3* velocity; // [m/s]
-  bool held;         // its velocity is prescribed and stays
+  Axes held;         // these components of its velocity are prescribed and stay
 };
 
 // Makes the vertices' momentum that of `before`, and their energy at most that of `before` (with held vertices among

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames as meshes for other programs, and the names of the files that they go to.
+// Frames as meshes for other programs.
 #pragma once
-#include <optional>
-#include <string>
-
 #include "formats/cpp/foreign_mesh.h"
 #include "formats/cpp/stream_frame.h"
 
@@ -18,24 +15,5 @@ namespace sheet {
 // The closed outer surface (solidify.h); arrays at vertices go to both sides, those at triangles are left out.
 // Throws Error (bad_input) unless the frame is an oriented manifold.
 [[nodiscard]] formats::ForeignMesh to_solid_mesh(const formats::Frame& frame);
-
-// File names that number the frames: "out/frame_%04d.vtu".
-class NumberedName {
-public:
-  // At most one of %d, %4d, %04d; %% is a percent sign. Throws Error (usage).
-  explicit NumberedName(const std::string& pattern);
-  [[nodiscard]] bool has_number() const { return number_.has_value(); }
-  [[nodiscard]] std::string of(std::uint64_t index) const;
-  // The name of a collection of all of them: the pattern without its number, "out/frame.pvd".
-  [[nodiscard]] std::string collection(const std::string& ending) const;
-
-private:
-  struct Number {
-    std::size_t width = 0;
-    char fill = ' ';
-  };
-  std::string before_, after_;
-  std::optional<Number> number_;
-};
 
 } // namespace sheet

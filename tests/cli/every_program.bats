@@ -64,6 +64,8 @@ stream_reader() {
   sheet-init | sheet-loop | sheet-diff | sheet-parse) return 1 ;;
   sheet-export) arguments=(--format obj -o -) ;;
   sheet-step) arguments=(--dt 0.01) ;;
+  sheet-remesh) arguments=(--edge-length 1) ;;
+  sheet-render) arguments=(--ppm --size 32x18 --samples 2) ;;
   *) arguments=() ;;
   esac
 }

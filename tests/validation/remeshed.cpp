@@ -28,7 +28,8 @@ struct Staged {
 // Steps and remeshes; `each` sees every frame.
 Staged run_stages(const std::string& scene_text, const Settings& s, double duration,
                   const std::function<void(const Frame&)>& each = {}) {
-  Staged run{build_frame(parse_scene(scene_text, "validation case"))};
+  const Scene scene = parse_scene(scene_text, "validation case");
+  Staged run{build_frame(scene)};
   StepStageOptions options;
   options.dt = duration / s.steps;
   options.scheme = s.scheme;
@@ -40,7 +41,7 @@ Staged run_stages(const std::string& scene_text, const Settings& s, double durat
   const auto start = std::chrono::steady_clock::now();
   for (int k = 0; k < s.steps; ++k) {
     stage.step(run.frame);
-    run.edits += remesh::remesh(run.frame, nullptr, remeshing).edits();
+    run.edits += remesh::remesh(run.frame, &scene, remeshing).edits();
     if (each)
       each(run.frame);
   }

@@ -216,7 +216,7 @@ TEST(SolidContact, starting_inside_is_refused) {
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("inside solid 0 (sphere)"),
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("m inside solid 0 (sphere)"),
                                              testing::HasSubstr("vertex"), testing::HasSubstr("start apart")));
   }
 }

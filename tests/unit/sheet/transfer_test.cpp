@@ -72,6 +72,7 @@ TEST(TransferRow, CommonKeepsTheBitsOfAll) {
   EXPECT_THAT(row<std::uint64_t>(a, {{0, 0.5, 0}, {1, 0.5, 0}}), ElementsAre(0b0101));
   EXPECT_THAT(row<std::uint64_t>(a, {{0, 0.5, 0}, {1, 0.25, 0}, {2, 0.25, 0}}), ElementsAre(0b0101));
   EXPECT_THAT(row<std::uint64_t>(a, {{2, 1, 1}}), ElementsAre(1ULL << 63 | 0b0101));
+  EXPECT_THAT(row<std::uint64_t>(a, {{0, 1, 1}, {1, 0, 1}}), ElementsAre(0b1101)); // gives of its amount only
   const Array b = column<std::int8_t>("b", Place::vertex, Transfer::common, {-1, 6});
   EXPECT_THAT(row<std::int8_t>(b, {{0, 0.5, 0}, {1, 0.5, 0}}), ElementsAre(6));
 }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A pinhole camera. Lengths in metres; the tracer works in units of its own (world.h), so rays come as directions.
+#pragma once
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "libsheet/geometry/types.h"
+#include "libsheet/render/sampler.h"
+#include "libsheet/render/types.h"
+
+namespace sheet::render {
+
+struct CameraOptions {
+  std::optional<Vector3> eye, target;  // [m]; absent: found so that everything is in the picture
+  double field_of_view = 28;           // from the picture's lower to its upper edge [degrees]
+  double azimuth = 30, elevation = 25; // [degrees] of the camera as seen from what it looks at, if it is found
+};
+
+struct Box {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
+  void add(const Vector3& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  void add(const Box& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  [[nodiscard]] bool empty() const { return !(low.array() <= high.array()).all(); }
+  [[nodiscard]] Vector3 center() const { return 0.5 * (low + high); }
+  [[nodiscard]] double diagonal() const { return empty() ? 0 : (high - low).norm(); }
+};
+
+class Camera {
+public:
+  // Looks from `eye` at `target`; both different. `aspect`: width / height.
+  Camera(const Vector3& eye, const Vector3& target, const Vector3& up, double field_of_view, double aspect);
+  // The direction through a point of the picture, x and y in [0, 1] from the upper left.
+  [[nodiscard]] Vec direction(double x, double y) const;
+  // Whether the point lies before the camera and in the picture.
+  [[nodiscard]] bool sees(const Vector3& x) const;
+  [[nodiscard]] const Vector3& eye() const { return eye_; }
+  [[nodiscard]] Vec axis() const { return ahead_.cast<float>(); } // where it looks
+  // The angle that a pixel's edge spans, if the picture is `height` pixels high [rad].
+  [[nodiscard]] double pixel_angle(int height) const { return 2 * tangent_y_ / height; }
+
+private:
+  Vector3 eye_, ahead_, right_, up_;
+  double tangent_x_, tangent_y_;
+};
+
+// The direction from what is looked at to the camera. Azimuth runs from the scene's z axis to its x axis if up is y; up
+// may be any unit vector.
+[[nodiscard]] Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up);
+
+// Finds the place of a camera of given direction from which all of some points are in the picture. A point p is in it
+// if
+//   |(p - eye).right| <= tangent_x (eye - p).toward,   likewise upwards,
+// which bounds four linear functions of p: their greatest values over the points are all that need be kept.
+class ViewFit {
+public:
+  // Margins: parts of the picture's width and height that stay free at each edge.
+  ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin_x, double margin_y);
+  void add(const Vector3& center, double radius); // a ball
+  void add(const ViewFit& other);                 // of the same camera
+  // With a target, on the line through it. `growth`: as if all points were so many times their distance farther from
+  // `middle`. At least one point must have been added.
+  [[nodiscard]] Camera camera(const Vector3& middle, double growth) const;
+
+private:
+  CameraOptions options_;
+  Vector3 up_, toward_, right_, above_;
+  double aspect_, tangent_x_, tangent_y_;
+  std::array<double, 4>
+      most_; // of p.(tangent_x toward + right), (.. - right), (tangent_y toward + above), (.. - above)
+};
+
+} // namespace sheet::render

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/display.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sheet::render {
+
+float shoulder(float x) {
+  constexpr float joint = 0.6F;
+  return x <= joint ? x : joint + (1 - joint) * (1 - std::exp(-(x - joint) / (1 - joint)));
+}
+
+float encode_srgb(float x) {
+  x = std::clamp(x, 0.0F, 1.0F);
+  return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
+}
+
+float decode_srgb(float x) { return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F); }
+
+float display_level(float x) { return 255 * encode_srgb(shoulder(x)); }
+
+Bitmap to_bitmap(const Image& image, Tone tone) {
+  Bitmap bitmap(image.width, image.height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const float x = image.pixels[i][c];
+      const float level = tone == Tone::photographic ? display_level(x) : 255 * encode_srgb(x);
+      bitmap.bytes[3 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(level));
+    }
+  return bitmap;
+}
+
+} // namespace sheet::render

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From linear light to what a display shows: exposure, a shoulder that takes highlights to white without clipping, and
+// the transfer function of sRGB.
+#pragma once
+#include <cstdint>
+
+#include "libsheet/render/image.h"
+
+namespace sheet::render {
+
+// Each channel by itself: x up to 0.6, above it 0.6 + 0.4 (1 - exp(-(x - 0.6) / 0.4)), smooth at the joint. So all but
+// highlights are shown true.
+[[nodiscard]] float shoulder(float x);
+// Linear [0, 1] to sRGB [0, 1] and back [IEC 61966-2-1].
+[[nodiscard]] float encode_srgb(float x);
+[[nodiscard]] float decode_srgb(float x);
+// 0 to 255, not rounded; photographic.
+[[nodiscard]] float display_level(float x);
+
+enum class Tone {
+  photographic, // with the shoulder
+  plain,        // clipped at 1
+};
+[[nodiscard]] Bitmap to_bitmap(const Image& image, Tone tone);
+
+} // namespace sheet::render

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All pixels of a picture: tiles in parallel, samples by number or by their noise. Every pixel is the mean of its own
+// samples (filter importance sampling [Ernst et al. 2006], a tent two pixels wide), so the same bits come out for any
+// number of threads.
+#pragma once
+#include <functional>
+
+#include "libsheet/render/camera.h"
+#include "libsheet/render/image.h"
+#include "libsheet/render/world.h"
+
+namespace sheet::render {
+
+// The light along a camera ray; counts its rays.
+using Shader = std::function<Colour(const Ray&, Sampler&, std::uint64_t&)>;
+// Told now and then, by one thread at a time, what part of the picture is done.
+using Progress = std::function<void(double)>;
+
+struct DrawOptions {
+  int width = 1280, height = 720;
+  int samples = 64;   // a pixel; even, at least 2; at most so many if noise is given
+  float noise = 0;    // > 0: go on until a tile's noise is below it (Picture::noise)
+  float exposure = 1; // factor on the light
+};
+
+// Noise is measured by comparing the pictures that the two halves of the samples make. With a noise target, the samples
+// of a tile are doubled from 16 until it is met.
+[[nodiscard]] Picture draw(const World& world, const Camera& camera, const Shader& shader, const DrawOptions& options,
+                           const Progress& progress);
+
+// The layers alone: one ray through the middle of each pixel.
+void fill_layers(const World& world, const Camera& camera, Picture& picture);
+
+} // namespace sheet::render

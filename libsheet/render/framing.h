@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What there is to see in the frames that will be drawn, so that camera, ground and scale of a film stand still.
+#pragma once
+#include <vector>
+
+#include "libsheet/render/looks.h"
+#include "libsheet/render/solids.h"
+
+namespace sheet::render {
+
+// A box and the camera that sees all of some things.
+struct Extent {
+  Box box; // [m]
+  ViewFit view;
+  void add(const Vector3& center, double radius);
+  void add(const Extent& other);
+};
+
+class Survey {
+public:
+  explicit Survey(const ViewFit& empty) : sheet_{{}, empty}, solids_{{}, empty} {}
+  // `meshes`: of the frame's scene.
+  void add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look);
+  // What the picture is about: the sheet, with half its thickness to all sides, and the finite solids unless they are
+  // more than 4 times as large. Its box is empty if there is nothing at all.
+  [[nodiscard]] Extent subject() const;
+  [[nodiscard]] const Scale& scale() const { return scale_; } // of the look's values
+
+private:
+  Extent sheet_, solids_;
+  Scale scale_ = Scale::nothing();
+};
+
+// The scene's upward direction; y without gravity or scene.
+[[nodiscard]] Vector3 up_of(const Scene* scene);
+
+// A ground for a scene that has no plane of its own, a little below the subject.
+[[nodiscard]] Plane ground_below(const Box& subject, const Vector3& up);
+
+} // namespace sheet::render

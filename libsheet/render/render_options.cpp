@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command line of sheet-render.
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "libsheet/base/units.h"
+#include "libsheet/render/codecs.h"
+#include "libsheet/render/render_stage.h"
+
+namespace sheet::render {
+namespace {
+
+constexpr int most_samples = 1 << 20;
+
+// The numbers between separators, which must be N and finite.
+template <std::size_t N>
+std::array<double, N> numbers(const std::string& text, char separator, const char* expected,
+                              const Quantity& kind = quantity::number) {
+  std::array<double, N> values{};
+  std::size_t start = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::size_t end = i + 1 < N ? text.find(separator, start) : text.size();
+    if (end == std::string::npos)
+      fail(ExitCode::usage, "\"{}\" is not {}", text, expected);
+    values[i] = parse_quantity(text.substr(start, end - start), kind);
+    if (!std::isfinite(values[i]))
+      fail(ExitCode::usage, "\"{}\" is not {}", text, expected);
+    start = end + 1;
+  }
+  return values;
+}
+
+void vector_option(Tool& tool, const char* name, std::optional<Vector3>& value, const char* text) {
+  tool.custom(
+      name, "X,Y,Z", text,
+      [&value](const std::string& s) {
+        const auto v = numbers<3>(s, ',', "a point such as 0.1,0.2,1", quantity::length);
+        value = Vector3(v[0], v[1], v[2]);
+      },
+      [&value] { return value ? fmt::format("{},{},{}", value->x(), value->y(), value->z()) : std::string(); });
+}
+
+void colour_option(Tool& tool, const char* name, std::optional<Colour>& value, const char* text) {
+  tool.custom(
+      name, "R,G,B", text,
+      [&value](const std::string& s) {
+        const auto v = numbers<3>(s, ',', "three numbers such as 10,40,200");
+        if (!(v[0] >= 0 && v[1] >= 0 && v[2] >= 0))
+          fail(ExitCode::usage, "\"{}\": none may be negative", s);
+        value = Colour(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+      },
+      [&value] { return value ? fmt::format("{},{},{}", (*value)[0], (*value)[1], (*value)[2]) : std::string(); });
+}
+
+void size_option(Tool& tool, DrawOptions& draw) {
+  tool.custom(
+      "--size", "WIDTHxHEIGHT", "of the picture in pixels",
+      [&draw](const std::string& s) {
+        const auto [w, h] = numbers<2>(s, 'x', "a size such as 1280x720");
+        for (const double side : {w, h})
+          if (!(side >= 1 && side <= longest_side) || side != std::floor(side))
+            fail(ExitCode::usage, "\"{}\": width and height are whole numbers of pixels from 1 to {}", s, longest_side);
+        draw.width = static_cast<int>(w);
+        draw.height = static_cast<int>(h);
+      },
+      [&draw] { return fmt::format("{}x{}", draw.width, draw.height); });
+}
+
+void range_option(Tool& tool, std::optional<Scale>& range) {
+  tool.custom(
+      "--range", "LOW:HIGH",
+      "ends of the scale of false colours, in SI units or with their own (1mm:3mm); without it, the least and greatest "
+      "value of all frames, as far as they are known",
+      [&range](const std::string& s) {
+        const auto colon = s.find(':');
+        const auto number = [&](const std::string& part) {
+          std::string problem;
+          for (const Quantity& kind : {quantity::number, quantity::length, quantity::velocity})
+            if (const auto value = read_quantity(part, kind, problem); value && std::isfinite(*value))
+              return *value;
+          fail(ExitCode::usage, "\"{}\" is not a range such as 0.001:0.003 or 1mm:3mm", s);
+        };
+        if (colon == std::string::npos)
+          fail(ExitCode::usage, "\"{}\" is not a range such as 0.001:0.003 or 1mm:3mm", s);
+        const Scale scale{number(s.substr(0, colon)), number(s.substr(colon + 1))};
+        if (!(scale.low < scale.high))
+          fail(ExitCode::usage, "\"{}\": the first end must be below the second", s);
+        range = scale;
+      },
+      [&range] { return range ? fmt::format("{}:{}", range->low, range->high) : std::string(); });
+}
+
+// An option whose value is an enumeration of the words' order.
+template <class T>
+void word_option(Tool& tool, const char* name, T& value, const std::vector<std::string>& words, const char* text) {
+  std::string placeholder;
+  for (const std::string& word : words)
+    placeholder += (placeholder.empty() ? "" : "|") + word;
+  tool.custom(
+      name, placeholder, text,
+      [&value, words, placeholder](const std::string& s) {
+        for (std::size_t i = 0; i < words.size(); ++i)
+          if (words[i] == s) {
+            value = static_cast<T>(i);
+            return;
+          }
+        fail(ExitCode::usage, "\"{}\" is not one of {}", s, placeholder);
+      },
+      [&value, words] { return words[static_cast<std::size_t>(value)]; });
+}
+
+} // namespace
+
+void declare_render_options(Tool& tool, RenderOptions& o) {
+  tool.option("-o,--output", o.output, "FILE",
+              "picture to write, .png or .exr; %d or %04d in its name stands for the frame's number in the stream. Its "
+              "folder is made if it is missing");
+  tool.flag("--y4m", o.y4m, "write a y4m video to standard output instead, for ffmpeg");
+  tool.flag("--ppm", o.ppm, "write PPM images to standard output instead, one behind the other");
+  tool.option("--fps", o.frames_per_second, "FPS", "frames a second that a y4m video states");
+  size_option(tool, o.draw);
+  tool.custom(
+      "--samples", "N", "samples a pixel; with --noise, at most",
+      [&o](const std::string& s) {
+        const double v = numbers<1>(s, ' ', "a whole number")[0];
+        if (!(v >= 1 && v <= most_samples) || v != std::floor(v))
+          fail(ExitCode::usage, "\"{}\" is not a whole number from 1 to {}", s, most_samples);
+        o.draw.samples = static_cast<int>(v);
+      },
+      [&o] { return fmt::format("{}", o.draw.samples); });
+  tool.custom(
+      "--noise", "LEVELS",
+      "go on sampling until the noise is below so many of 255 levels; 2 looks clean, 0 takes --samples as they are",
+      [&o](const std::string& s) {
+        const double v = numbers<1>(s, ' ', "a number of levels")[0];
+        if (!(v >= 0))
+          fail(ExitCode::usage, "\"{}\" is negative", s);
+        o.draw.noise = static_cast<float>(v);
+      },
+      [&o] { return fmt::format("{}", o.draw.noise); });
+  word_option(tool, "--look", o.look, look_names(), "the material itself, or a quantity in false colours, or the mesh");
+  word_option(tool, "--material", o.liquid, liquid_names(), "what the sheet is made of");
+  tool.option("--index", o.index, "N", "index of refraction, instead of the material's");
+  colour_option(tool, "--absorption", o.absorption, "absorption coefficients [1/m], instead of the material's");
+  colour_option(tool, "--scattering", o.scattering, "reduced scattering coefficients [1/m], instead of the material's");
+  tool.option("--optical-scale", o.optical_scale, "F",
+              "factor on absorption and scattering: the sheet looks as if it were so many times as thick");
+  vector_option(tool, "--eye", o.camera.eye, "where the camera stands [m]; without it, so that everything is seen");
+  vector_option(tool, "--target", o.camera.target, "what it looks at [m]; without it, the middle of everything");
+  tool.option("--fov", o.camera.field_of_view, "DEGREES", "field of view from the lower to the upper edge");
+  tool.option("--azimuth", o.camera.azimuth, "DEGREES",
+              "where the camera stands if it finds its place itself: angle about the upward axis, from z towards x");
+  tool.option("--elevation", o.camera.elevation, "DEGREES", "likewise: angle above level");
+  tool.option(
+      "--environment", o.environment, "FILE",
+      "image of the surroundings to light the scene with instead of the studio, .exr or .png, longitude across");
+  tool.option("--exposure", o.exposure, "STOPS", "brighter by so many factors of two");
+  tool.custom(
+      "--ground", "auto|none", "the ground below a scene that has no plane of its own",
+      [&o](const std::string& s) {
+        if (s != "auto" && s != "none")
+          fail(ExitCode::usage, "\"{}\" is not one of auto|none", s);
+        o.ground = s == "auto";
+      },
+      [&o] { return o.ground ? "auto" : "none"; });
+  range_option(tool, o.range);
+}
+
+} // namespace sheet::render

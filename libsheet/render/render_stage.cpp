@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/render_stage.h"
+
+#include <cmath>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/files.h"
+#include "libsheet/base/log.h"
+#include "libsheet/base/numbered_name.h"
+#include "libsheet/render/display.h"
+#include "libsheet/render/framing.h"
+#include "libsheet/render/path_tracer.h"
+#include "libsheet/render/picture_file.h"
+#include "libsheet/render/scale_bar.h"
+#include "libsheet/scene/read.h"
+
+namespace sheet::render {
+namespace {
+
+constexpr double margin = 0.04;         // of the picture, around the subject
+constexpr double scale_margin = 0.19;   // of its width, where a scale is drawn
+constexpr double unknown_growth = 0.25; // of a subject of which only the first frame is known
+constexpr double thinnest = 1e-4;       // of the subject: a sheet below it is drawn as its mid-surface
+
+void check(const RenderOptions& o) {
+  const CameraOptions& c = o.camera;
+  if (!o.y4m && !o.ppm && o.output.empty())
+    fail(ExitCode::usage, "give -o FILE, such as -o frames/%04d.png, or --y4m and pipe it on");
+  if ((o.y4m ? 1 : 0) + (o.ppm ? 1 : 0) + (o.output.empty() ? 0 : 1) > 1)
+    fail(ExitCode::usage, "-o, --y4m and --ppm exclude each other");
+  if (!o.output.empty() && !o.output.ends_with(".png") && !o.output.ends_with(".exr"))
+    fail(ExitCode::usage, "-o {}: the name must end in .png or .exr", o.output);
+  if (!(c.field_of_view >= 1 && c.field_of_view <= 160))
+    fail(ExitCode::usage, "--fov: {} is not between 1 and 160 degrees", c.field_of_view);
+  if (!(std::abs(c.elevation) <= 90))
+    fail(ExitCode::usage, "--elevation: {} is not between -90 and 90 degrees", c.elevation);
+  if (c.eye && c.target && !((*c.eye - *c.target).norm() > 0))
+    fail(ExitCode::usage, "--eye and --target are the same point: the camera has no direction");
+  if (!(o.frames_per_second > 0 && o.frames_per_second <= 1000))
+    fail(ExitCode::usage, "--fps: {} is not above 0 and at most 1000", o.frames_per_second);
+  if (o.index && !(*o.index > 1 && *o.index <= 4))
+    fail(ExitCode::usage, "--index: {} is not above 1 and at most 4", *o.index);
+  if (!(o.optical_scale > 0))
+    fail(ExitCode::usage, "--optical-scale: {} is not positive", o.optical_scale);
+  if (!(std::abs(o.exposure) <= 30))
+    fail(ExitCode::usage, "--exposure: {} is not between -30 and 30 stops", o.exposure);
+}
+
+Liquid liquid_of(const RenderOptions& o) {
+  Liquid liquid = preset(o.liquid);
+  if (o.index)
+    liquid.index = static_cast<float>(*o.index);
+  const auto scale = static_cast<float>(o.optical_scale);
+  liquid.absorption = scale * o.absorption.value_or(liquid.absorption);
+  liquid.scattering = scale * o.scattering.value_or(liquid.scattering);
+  return liquid;
+}
+
+// Reflectances of solids, in turn.
+Colour solid_colour(std::size_t i) {
+  static const Colour colours[] = {
+      {0.66F, 0.63F, 0.58F}, {0.45F, 0.52F, 0.58F}, {0.58F, 0.50F, 0.42F}, {0.50F, 0.55F, 0.48F}};
+  return colours[i % 4];
+}
+
+} // namespace
+
+struct RenderStage::Impl {
+  RenderOptions options;
+  std::optional<NumberedName> name;
+  std::optional<OutputFile> video;
+  std::optional<Image> surroundings;
+
+  std::string scene_text;
+  std::optional<Scene> scene;
+  std::vector<SolidMesh> meshes;
+
+  Vector3 up = Vector3::UnitY(); // in the first scene
+  std::optional<Survey> survey;
+  bool surveyed = false; // by survey()
+  struct Fixed {         // for all pictures
+    Box subject;
+    Camera camera;
+    Lighting lighting;
+    Scale scale;
+    std::optional<Plane> ground;
+  };
+  std::optional<Fixed> fixed;
+  bool told_out_of_sight = false, told_empty = false;
+  std::uint64_t pictures = 0;
+
+  explicit Impl(RenderOptions o) : options(std::move(o)) {
+    check(options);
+    options.draw.samples += options.draw.samples & 1;
+    options.draw.exposure = static_cast<float>(std::exp2(options.exposure));
+    if (options.output.empty())
+      video.emplace("-", OutputFile::Content::binary);
+    else
+      name.emplace(options.output);
+    if (!options.environment.empty())
+      surroundings = read_picture(options.environment);
+  }
+
+  void read_scene_of(const formats::Frame& frame) {
+    const formats::Array* array = frame.find("scene");
+    const std::string_view text = array == nullptr ? std::string_view() : array->text();
+    if (text == scene_text && scene.has_value() == (array != nullptr))
+      return;
+    scene.reset();
+    meshes.clear();
+    if (array != nullptr) {
+      scene = parse_scene(text, "the frame's scene");
+      meshes = make_solids(*scene);
+    }
+    scene_text = text;
+  }
+  [[nodiscard]] const Scene* scene_or_none() const { return scene ? &*scene : nullptr; }
+
+  void look_at(const formats::Frame& frame) {
+    read_scene_of(frame);
+    if (!survey) {
+      up = up_of(scene_or_none());
+      const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
+      survey.emplace(ViewFit(options.camera, up, aspect, has_scale(options.look) ? scale_margin : margin, margin));
+    }
+    survey->add(frame, scene_or_none(), meshes, options.look);
+  }
+
+  // Decides what stays the same in all pictures.
+  void fix(const formats::Frame& frame) {
+    if (!surveyed)
+      look_at(frame);
+    const Extent extent = survey->subject();
+    Box subject = extent.box;
+    if (subject.empty())
+      fail(ExitCode::bad_input,
+           "there is nothing to see: the sheet has no triangles and the scene no solids with an end");
+    if (options.camera.eye && !((options.camera.target.value_or(subject.center()) - *options.camera.eye).norm() > 0))
+      fail(ExitCode::usage, "--eye is the middle of what there is to see: give --target too");
+    const double growth = surveyed ? 0 : unknown_growth;
+    const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.center();
+    subject = {middle - reach, middle + reach};
+    const Camera camera = extent.view.camera(middle, 2 * growth);
+    const Vec toward = -camera.axis(), upward = up.cast<float>();
+    Fixed f{subject, camera,
+            surroundings ? Lighting::surroundings(*surroundings, toward, upward) : Lighting::studio(toward, upward),
+            options.range ? *options.range : widened(survey->scale(), options.look), std::nullopt};
+    if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
+      f.ground = ground_below(subject, up);
+    fixed.emplace(std::move(f));
+    const Vector3 eye = camera.eye(), axis = camera.axis().cast<double>(),
+                  target = options.camera.target.value_or(eye + (middle - eye).dot(axis) * axis);
+    log::detail("camera: --eye {:.6g},{:.6g},{:.6g} --target {:.6g},{:.6g},{:.6g}", eye.x(), eye.y(), eye.z(),
+                target.x(), target.y(), target.z());
+    if (has_scale(options.look))
+      log::detail("scale: {:.9g} to {:.9g}", fixed->scale.low, fixed->scale.high);
+  }
+
+  void warn_if_out_of_sight(const formats::Frame& frame) {
+    if (frame.triangles == 0) {
+      if (!told_empty)
+        log::warning("the sheet of the frame at {} s has no triangles: only what is around it is drawn", frame.time);
+      told_empty = true;
+      return;
+    }
+    if (told_out_of_sight)
+      return;
+    for (const Vector3& x : positions(frame))
+      if (fixed->camera.sees(x))
+        return;
+    told_out_of_sight = true;
+    log::warning("the sheet of the frame at {} s is out of the picture: {}", frame.time,
+                 options.camera.eye
+                     ? "--eye and --target look elsewhere"
+                     : "give --eye and --target, or read the stream from a file, so that all frames are known");
+  }
+
+  [[nodiscard]] Picture picture_of(const formats::Frame& frame, const World& world, const Progress& progress) const {
+    const int height = options.draw.height;
+    if (options.look != Look::material)
+      return render::draw(world, fixed->camera,
+                          look_shader(world, options.look, values_of(frame, options.look), fixed->scale,
+                                      fixed->camera.pixel_angle(height)),
+                          options.draw, progress);
+    Surroundings around;
+    for (std::size_t i = 0; scene && i < scene->solids.size(); ++i)
+      around.solids.push_back(std::holds_alternative<scene::HalfSpace>(scene->solids[i].shape) ? around.ground
+                                                                                               : solid_colour(i));
+    const PathTracer tracer(world, fixed->lighting, liquid_of(options), std::move(around));
+    return render::draw(
+        world, fixed->camera,
+        [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) { return tracer.radiance(ray, sampler, rays); },
+        options.draw, progress);
+  }
+
+  void write(Picture& picture, const World& world, const formats::Frame& frame, const std::string& file) {
+    if (file.ends_with(".exr")) {
+      fill_layers(world, fixed->camera, picture);
+      write_whole(file, encode_exr(picture));
+      return;
+    }
+    const bool photo = options.look == Look::material;
+    Bitmap bitmap = to_bitmap(picture.light, photo ? Tone::photographic : Tone::plain);
+    if (!photo)
+      draw_scale(bitmap, fixed->scale, options.look, frame.time);
+    if (name) {
+      write_whole(file, encode_png(bitmap));
+    } else if (options.ppm) {
+      video->write(encode_ppm(bitmap));
+    } else {
+      if (pictures == 0)
+        video->write(y4m_header(bitmap.width, bitmap.height, options.frames_per_second));
+      video->write(encode_y4m(bitmap));
+    }
+  }
+
+  PictureReport draw(const formats::Frame& frame, std::uint64_t index, const Progress& progress) {
+    if (name && !name->has_number() && pictures > 0)
+      fail(ExitCode::usage,
+           "-o {} names one file and there are several frames: number them, as in frame_%04d.png, or pick one with "
+           "--frames",
+           options.output);
+    read_scene_of(frame);
+    if (!fixed)
+      fix(frame);
+    warn_if_out_of_sight(frame);
+    std::vector<Eigen::Isometry3d> motions;
+    for (const SolidMesh& mesh : meshes)
+      motions.push_back(motion_of(scene->solids[mesh.solid], frame.time));
+    std::vector<Plane> planes = scene ? make_planes(*scene, frame.time) : std::vector<Plane>{};
+    if (fixed->ground)
+      planes.push_back(*fixed->ground);
+    const World world(make_surface(frame, thinnest * fixed->subject.diagonal()), meshes, motions, planes,
+                      fixed->subject);
+    Picture picture = picture_of(frame, world, progress);
+    const std::string file = name ? name->of(index) : "";
+    write(picture, world, frame, file);
+    ++pictures;
+    return {picture.noise, picture.worst_noise, picture.samples, picture.rays, file};
+  }
+};
+
+RenderStage::RenderStage(RenderOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+RenderStage::~RenderStage() = default;
+
+void RenderStage::survey(const formats::Frame& frame) {
+  impl_->look_at(frame);
+  impl_->surveyed = true;
+}
+
+PictureReport RenderStage::draw(const formats::Frame& frame, std::uint64_t index, const Progress& progress) {
+  return impl_->draw(frame, index, progress);
+}
+
+void RenderStage::finish() {
+  if (impl_->video)
+    impl_->video->close();
+}
+
+} // namespace sheet::render

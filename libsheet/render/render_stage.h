@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stage sheet-render: a picture of each frame, as a file or as a part of a film.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/base/tool.h"
+#include "libsheet/render/camera.h"
+#include "libsheet/render/draw.h"
+#include "libsheet/render/looks.h"
+#include "libsheet/render/slab.h"
+
+namespace sheet::render {
+
+struct RenderOptions {
+  std::string output;            // name of the picture files (NumberedName), .png or .exr; "" with a video
+  bool y4m = false, ppm = false; // a video to standard output
+  DrawOptions draw;              // exposure is not used; see below
+  CameraOptions camera;
+  Look look = Look::material;
+  std::size_t liquid = 0; // number of the preset
+  std::optional<double> index;
+  std::optional<Colour> absorption, scattering; // [1/m]
+  double optical_scale = 1;                     // factor on absorption and scattering
+  double exposure = 0;                          // [stops]
+  std::string environment;                      // image file; "": the studio
+  bool ground = true;
+  std::optional<Scale> range; // of false colours, in SI; absent: that of the frames
+  double frames_per_second = 24;
+};
+
+// Declares all of these. The values that cannot be set by themselves are checked by RenderStage.
+void declare_render_options(Tool& tool, RenderOptions& options);
+
+struct PictureReport {
+  float noise = 0, worst_noise = 0; // Picture::noise
+  double samples = 0;               // a pixel
+  std::uint64_t rays = 0;
+  std::string file; // "" for a video
+};
+
+class RenderStage {
+public:
+  // Throws Error: usage (options that make no picture), io, bad_input (environment image).
+  explicit RenderStage(RenderOptions options);
+  ~RenderStage();
+  RenderStage(const RenderStage&) = delete;
+  RenderStage& operator=(const RenderStage&) = delete;
+
+  // To be told of every frame before the first is drawn: camera, ground and scale then fit them all, and stand still.
+  // Otherwise they are fitted to the first frame that is drawn, with a margin of a quarter of its size to all sides.
+  void survey(const formats::Frame& frame);
+
+  // Draws the frame, which is number `index` of its stream. Throws Error: bad_input (the frame's scene, its solids'
+  // files, nothing to see), io.
+  PictureReport draw(const formats::Frame& frame, std::uint64_t index, const Progress& progress);
+
+  // The video is complete.
+  void finish();
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace sheet::render

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The random numbers of a path. They depend on the pixel and on the number of the sample alone, so that pictures do not
+// depend on the number of threads, and the grain of a film's frames does not move.
+//
+// Each pair of dimensions is the two-dimensional Sobol sequence, shuffled and scrambled by Owen's nested uniform
+// scrambling as a hash [Burley 2020, Practical Hash-based Owen Scrambling; Laine and Karras 2011].
+#pragma once
+#include <cstdint>
+
+namespace sheet::render {
+
+struct Point2 {
+  float x, y; // in [0, 1)
+};
+
+class Sampler {
+public:
+  Sampler(std::uint32_t pixel, std::uint32_t sample) : seed_(mix(pixel + 0x9e3779b9U)), sample_(reversed(sample)) {}
+
+  // The next point of the path.
+  Point2 point() {
+    const std::uint32_t seed = mix(seed_ + 0x85ebca6bU * ++dimension_);
+    const std::uint32_t index = scrambled(sample_, seed);
+    return {unit(scrambled(index, mix(seed ^ 0x55555555U))),
+            unit(scrambled(reversed(second_sobol(index)), mix(seed ^ 0xaaaaaaaaU)))};
+  }
+  float number() { return point().x; }
+
+private:
+  static std::uint32_t mix(std::uint32_t x) { // a bijection whose every output bit depends on every input bit
+    x = (x ^ (x >> 16)) * 0x7feb352dU;
+    x = (x ^ (x >> 15)) * 0x846ca68bU;
+    return x ^ (x >> 16);
+  }
+  static std::uint32_t reversed(std::uint32_t x) {
+    x = (x << 16) | (x >> 16);
+    x = ((x & 0x00ff00ffU) << 8) | ((x & 0xff00ff00U) >> 8);
+    x = ((x & 0x0f0f0f0fU) << 4) | ((x & 0xf0f0f0f0U) >> 4);
+    x = ((x & 0x33333333U) << 2) | ((x & 0xccccccccU) >> 2);
+    return ((x & 0x55555555U) << 1) | ((x & 0xaaaaaaaaU) >> 1);
+  }
+  // Owen scrambling of a number whose bits stand in reverse: lower bits decide the flips of higher ones. The result
+  // stands the right way round.
+  static std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
+    x ^= x * 0x3d20adeaU;
+    x += seed;
+    x *= (seed >> 16) | 1;
+    x ^= x * 0x05526c56U;
+    x ^= x * 0x53a22864U;
+    return reversed(x);
+  }
+  static std::uint32_t second_sobol(std::uint32_t index) {
+    std::uint32_t result = 0;
+    for (std::uint32_t direction = 1U << 31; index != 0; index >>= 1, direction ^= direction >> 1)
+      if ((index & 1) != 0)
+        result ^= direction;
+    return result;
+  }
+  static float unit(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24F; }
+
+  std::uint32_t seed_, sample_, dimension_ = 0;
+};
+
+} // namespace sheet::render

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/scale_bar.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "libsheet/render/font.h"
+
+namespace sheet::render {
+namespace {
+
+constexpr Ink dark = {40, 44, 52};
+
+struct Unit {
+  const char* name; // Latin-1
+  double size;      // in SI
+};
+
+// From large to small.
+std::vector<Unit> units_of(Look look) {
+  switch (look) {
+  case Look::thickness:
+    return {{"m", 1}, {"mm", 1e-3}, {"\xb5m", 1e-6}, {"nm", 1e-9}};
+  case Look::speed:
+    return {{"m/s", 1}, {"mm/s", 1e-3}, {"\xb5m/s", 1e-6}, {"nm/s", 1e-9}};
+  default:
+    return {{"1/mm", 1e3}, {"1/m", 1}, {"1/km", 1e-3}};
+  }
+}
+
+std::uint8_t byte_of(float x) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0F, 1.0F))); }
+Ink ink_of(const Colour& displayed) { return {byte_of(displayed[0]), byte_of(displayed[1]), byte_of(displayed[2])}; }
+
+void draw_key(Bitmap& bitmap, int text, int margin) {
+  const char* names[] = {"free", "on a solid", "on the sheet"};
+  int y = margin;
+  for (int i = 0; i < 3; ++i, y += 14 * text) {
+    const int x = bitmap.width - margin - text_width("on the sheet", text) - 12 * text;
+    fill(bitmap, x, y, 7 * text, 7 * text, ink_of(false_colour((static_cast<float>(i) + 0.5F) / 3, Look::contacts)));
+    write_text(bitmap, x + 12 * text, y, names[i], text, dark);
+  }
+}
+
+} // namespace
+
+Ruler make_ruler(const Scale& scale, Look look, int most) {
+  const double largest = std::max(std::abs(scale.low), std::abs(scale.high));
+  const std::vector<Unit> units = units_of(look);
+  Unit unit = units.back();
+  for (const Unit& u : units)
+    if (largest >= u.size) {
+      unit = u;
+      break;
+    }
+  const double low = scale.low / unit.size, high = scale.high / unit.size, raw = (high - low) / most;
+  const double decade = std::pow(10, std::floor(std::log10(raw)));
+  double step = 10 * decade;
+  for (const double round : {5.0, 2.0, 1.0})
+    if (round * decade >= raw)
+      step = round * decade;
+  Ruler ruler{fmt::format("{} [{}]",
+                          look == Look::curvature ? "mean curvature" : look_names()[static_cast<std::size_t>(look)],
+                          unit.name),
+              {}};
+  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
+    ruler.ticks.push_back({(k * step - low) / (high - low), fmt::format("{:.{}f}", k * step + 0.0, decimals)});
+  return ruler;
+}
+
+void draw_scale(Bitmap& bitmap, const Scale& scale, Look look, double time) {
+  const int text = std::max(1, bitmap.height / 320), margin = 12 * text;
+  const std::string clock = fmt::format("t = {:.4g} s", time);
+  write_text(bitmap, margin, bitmap.height - margin - 7 * text, clock, text, dark);
+  if (look == Look::contacts)
+    draw_key(bitmap, text, margin);
+  if (look != Look::thickness && look != Look::curvature && look != Look::speed)
+    return;
+  const int height = bitmap.height * 6 / 10, bar = 10 * text, y0 = margin + 16 * text;
+  const Ruler ruler = make_ruler(scale, look, std::max(2, height / (24 * text)));
+  int widest = 0;
+  for (const Tick& tick : ruler.ticks)
+    widest = std::max(widest, text_width(tick.label, text));
+  const int x0 = bitmap.width - margin - std::max(widest + 6 * text + bar, text_width(ruler.title, text));
+  write_text(bitmap, x0, margin, ruler.title, text, dark);
+  fill(bitmap, x0 - 1, y0 - 1, bar + 2, height + 2, dark);
+  for (int y = 0; y < height; ++y)
+    fill(bitmap, x0, y0 + y, bar, 1,
+         ink_of(false_colour(1 - (static_cast<float>(y) + 0.5F) / static_cast<float>(height), look)));
+  for (const Tick& tick : ruler.ticks) {
+    const int y = y0 + static_cast<int>(std::lround((1 - tick.place) * (height - 1)));
+    fill(bitmap, x0 + bar, y, 3 * text, 1, dark);
+    write_text(bitmap, x0 + bar + 5 * text, y - 3 * text, tick.label, text, dark);
+  }
+}
+
+} // namespace sheet::render

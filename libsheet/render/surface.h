@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface of a sheet of liquid as it is drawn: both sides of the mid-surface at half the thickness, closed along
+// the rim by a half-round bead. The bead stands out by half the thickness; a true rim of the same volume would stand
+// out less.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/render/camera.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::render {
+
+struct Surface {
+  std::vector<Vector3> positions;           // [m]
+  std::vector<Vec> normals;                 // outwards, smooth
+  std::vector<std::uint32_t> source_vertex; // of the sheet, for each position
+  std::vector<Corners> triangles;           // counter-clockwise from outside
+  std::vector<std::uint32_t> source_triangle;
+  std::vector<bool> on_bead; // for each triangle
+  bool closed = true; // false: the mid-surface alone, because the sheet is too thin to have two sides in the arithmetic
+  std::vector<float> thickness; // of the sheet's vertices [m]: all volume around it / all area around it
+};
+
+// Triangles without area are left out. The sheet counts as too thin below `thinnest` [m], by its mean.
+[[nodiscard]] Surface make_surface(const formats::Frame& frame, double thinnest);
+
+// All volume around a vertex over all area around it [m]; 0 where there is no area.
+[[nodiscard]] std::vector<double> vertex_thickness(const formats::Frame& frame);
+
+} // namespace sheet::render

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/world.h"
+
+#include <cmath>
+#include <limits>
+
+#include <embree3/rtcore.h>
+
+#include "libsheet/base/error.h"
+
+namespace sheet::render {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+// Distance of a ray's start from the surface that it leaves, in units of the world: some roundings of its coordinates.
+constexpr float skip = 1e-6F;
+
+struct Corner {
+  float x, y, z, padding; // Embree reads 16 bytes
+};
+
+struct PlaneF {
+  std::uint32_t id;
+  Vec point, normal;
+};
+
+} // namespace
+
+struct World::Impl {
+  Surface surface;
+  Vector3 center = Vector3::Zero();
+  double unit = 1; // [m]
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  struct Geometry {
+    std::uint32_t id;
+    std::vector<Vec> positions, normals;
+    std::vector<Corners> triangles;
+  };
+  std::vector<Geometry> geometries; // by Embree's number
+  std::vector<PlaneF> planes;
+
+  ~Impl() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+
+  [[nodiscard]] Vec to_world(const Vector3& x) const { return ((x - center) / unit).cast<float>(); }
+
+  template <class Place>
+  void add(std::uint32_t id, const std::vector<Vector3>& positions, std::vector<Vec> normals,
+           const std::vector<Corners>& triangles, Place&& place) {
+    if (triangles.empty())
+      return;
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* corners = static_cast<Corner*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Corner), positions.size()));
+    auto* indices = static_cast<Corners*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Corners), triangles.size()));
+    if (corners == nullptr || indices == nullptr)
+      fail(ExitCode::io, "not enough memory for the rays' data structure");
+    std::vector<Vec> placed;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Vec& x = placed.emplace_back(to_world(place(positions[i])));
+      corners[i] = {x.x(), x.y(), x.z(), 0};
+    }
+    std::copy(triangles.begin(), triangles.end(), indices);
+    rtcCommitGeometry(g);
+    rtcAttachGeometry(scene, g);
+    rtcReleaseGeometry(g);
+    geometries.push_back({id, std::move(placed), std::move(normals), triangles});
+  }
+
+  void planes_nearer(const Ray& ray, float beyond, Hit& hit) const {
+    for (const PlaneF& plane : planes) {
+      const float slope = ray.direction.dot(plane.normal);
+      const float distance = (plane.point - ray.origin).dot(plane.normal) / slope;
+      if (!(distance > beyond) || (hit.anything() && distance >= hit.distance) || distance > 1e6F)
+        continue;
+      hit.id = plane.id;
+      hit.plane = true;
+      hit.distance = distance;
+      hit.face = hit.normal = plane.normal;
+      hit.position = ray.origin + distance * ray.direction;
+      hit.position -= (hit.position - plane.point).dot(plane.normal) * plane.normal;
+    }
+  }
+};
+
+World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
+             const std::vector<Eigen::Isometry3d>& motions, const std::vector<Plane>& planes, const Box& box)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->surface = surface;
+  impl_->center = box.center();
+  impl_->unit = box.diagonal() > 0 ? box.diagonal() : 1;
+  // One thread builds, so that the tree, and with it who wins a tie between neighbours, is always the same.
+  impl_->device = rtcNewDevice("threads=1,set_affinity=0");
+  if (impl_->device == nullptr)
+    fail(ExitCode::internal, "Embree cannot start: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
+  impl_->scene = rtcNewScene(impl_->device);
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  impl_->add(sheet_id, surface.positions, surface.normals, surface.triangles, [](const Vector3& x) { return x; });
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const SolidMesh& mesh = meshes[i];
+    std::vector<Vec> normals;
+    for (const Vec& n : mesh.normals)
+      normals.emplace_back(motions[i].linear().cast<float>() * n);
+    impl_->add(first_solid_id + static_cast<std::uint32_t>(mesh.solid), mesh.positions, std::move(normals),
+               mesh.triangles, [&](const Vector3& x) -> Vector3 { return motions[i] * x; });
+  }
+  rtcCommitScene(impl_->scene);
+  for (const Plane& plane : planes)
+    impl_->planes.push_back({plane.id, impl_->to_world(plane.point), plane.normal.cast<float>()});
+}
+
+World::~World() = default;
+
+namespace {
+
+RTCRayHit shoot(RTCScene scene, const Ray& ray, float beyond) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit r{};
+  r.ray.org_x = ray.origin.x();
+  r.ray.org_y = ray.origin.y();
+  r.ray.org_z = ray.origin.z();
+  r.ray.dir_x = ray.direction.x();
+  r.ray.dir_y = ray.direction.y();
+  r.ray.dir_z = ray.direction.z();
+  r.ray.tnear = beyond;
+  r.ray.tfar = infinity;
+  r.ray.mask = ~0U;
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context, &r);
+  return r;
+}
+
+} // namespace
+
+float World::bare_distance(const Ray& ray) const {
+  const RTCRayHit r = shoot(impl_->scene, ray, 0);
+  return r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? infinity : r.ray.tfar;
+}
+
+Hit World::nearest(const Ray& ray) const { return nearest(ray, 0); }
+
+Hit World::nearest(const Ray& ray, float beyond) const {
+  const RTCRayHit r = shoot(impl_->scene, ray, beyond);
+  Hit hit;
+  if (r.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+    const Impl::Geometry& g = impl_->geometries[r.hit.geomID];
+    const Corners& t = g.triangles[r.hit.primID];
+    hit.id = g.id;
+    hit.distance = r.ray.tfar;
+    hit.face = Vec(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z).stableNormalized();
+    hit.u = r.hit.u;
+    hit.v = r.hit.v;
+    hit.triangle = r.hit.primID;
+    const auto between = [&](const std::vector<Vec>& values) -> Vec {
+      return (1 - hit.u - hit.v) * values[t[0]] + hit.u * values[t[1]] + hit.v * values[t[2]];
+    };
+    hit.position = between(g.positions); // rounded less than along the ray
+    const Vec n = between(g.normals);
+    const float length = n.norm();
+    hit.normal = length > 1e-3F ? Vec(n / length) : hit.face;
+  }
+  impl_->planes_nearer(ray, beyond, hit);
+  return hit;
+}
+
+float World::thickness_at(const Hit& hit) const {
+  const Surface& s = impl_->surface;
+  const Corners& t = s.triangles[hit.triangle];
+  const auto h = [&](std::uint32_t v) { return s.thickness[s.source_vertex[v]]; };
+  return (1 - hit.u - hit.v) * h(t[0]) + hit.u * h(t[1]) + hit.v * h(t[2]);
+}
+
+const Surface& World::surface() const { return impl_->surface; }
+Vec World::to_world(const Vector3& x) const { return impl_->to_world(x); }
+double World::unit() const { return impl_->unit; }
+
+Ray leave(const Hit& hit, const Vec& direction) {
+  const float side = direction.dot(hit.face) > 0 ? 1.0F : -1.0F;
+  const float size = std::max(1.0F, hit.position.cwiseAbs().maxCoeff());
+  return {hit.position + side * skip * size * hit.face, direction};
+}
+
+} // namespace sheet::render

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/framing.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/render/scenes.h"
+
+namespace sheet::render {
+namespace {
+
+const ViewFit any_view({}, Vector3::UnitY(), 1, 0, 0);
+
+Box box(const Vector3& low, const Vector3& high) {
+  Box b;
+  b.add(low);
+  b.add(high);
+  return b;
+}
+
+TEST(Camera, the_box_is_in_the_picture_and_fills_it) {
+  for (const double aspect : {0.5, 1.0, 16.0 / 9})
+    for (const double azimuth : {-100.0, 0.0, 30.0})
+      for (const double elevation : {-90.0, 0.0, 25.0, 90.0})
+        for (const Vector3& up : {Vector3(0, 1, 0), Vector3(0, 0, 1), Vector3(0.6, -0.8, 0)}) {
+          CameraOptions o;
+          o.azimuth = azimuth;
+          o.elevation = elevation;
+          const Box b = box({1, 2, 3}, {1.4, 2.1, 5});
+          const Camera camera = test::frame_box(b, o, up, aspect, 0.02),
+                       tight = test::frame_box(b, o, up, aspect, -0.02);
+          bool all = true, all_tight = true;
+          for (int c = 0; c < 8; ++c) {
+            const Vector3 p((c & 1) != 0 ? 1.4 : 1, (c & 2) != 0 ? 2.1 : 2, (c & 4) != 0 ? 5 : 3);
+            all = all && camera.sees(p);
+            all_tight = all_tight && tight.sees(p);
+          }
+          EXPECT_TRUE(all);
+          EXPECT_FALSE(all_tight);
+        }
+}
+
+TEST(Camera, grows_about_the_middle_and_looks_at_its_target) {
+  CameraOptions o;
+  ViewFit fit(o, {0, 1, 0}, 1, 0, 0);
+  fit.add({0, 0, 0}, 1);
+  const Vector3 eye = fit.camera({0, 0, 0}, 0).eye(), far = fit.camera({0, 0, 0}, 0.5).eye();
+  EXPECT_NEAR(eye.norm(), 1 / std::sin(14 * std::numbers::pi / 180), 1e-9); // the cone touches the ball
+  EXPECT_NEAR((far - 1.5 * eye).norm(), 0, 1e-9);
+  o.target = Vector3(0.3, 0.1, 0.2);
+  ViewFit aimed(o, {0, 1, 0}, 1, 0, 0);
+  aimed.add({0, 0, 0}, 1);
+  const Camera camera = aimed.camera({0, 0, 0}, 0);
+  EXPECT_NEAR((*o.target - camera.eye()).normalized().dot(camera.axis().cast<double>()), 1, 1e-6);
+  for (const Vector3& p : {Vector3(1, 0, 0), Vector3(0, -1, 0), Vector3(0, 0, -1), Vector3(0, 1, 0)})
+    EXPECT_TRUE(camera.sees(p));
+}
+
+TEST(Camera, directions_are_upright) {
+  const Camera camera({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 40, 2);
+  const Vec middle = camera.direction(0.5, 0.5), upper = camera.direction(0.5, 0), right = camera.direction(1, 0.5);
+  EXPECT_NEAR((middle - Vec(0, 0, -1)).norm(), 0, 1e-6);
+  EXPECT_NEAR(std::atan2(upper.y(), -upper.z()), 20 * std::numbers::pi / 180, 1e-6);
+  EXPECT_GT(right.x(), 0);
+  EXPECT_NEAR(right.x() / -right.z(), 2 * std::tan(20 * std::numbers::pi / 180), 1e-6);
+  EXPECT_FALSE(camera.sees({0, 0, 6}));
+  EXPECT_TRUE(camera.sees({0, 0, 1}));
+}
+
+TEST(Survey, solids_count_unless_they_are_large) {
+  const formats::Frame frame = test::flat(2, 0.01);
+  Scene scene;
+  scene.solids.resize(1);
+  scene.solids[0].shape = scene::Sphere{0.2};
+  scene.solids[0].center = {0, -1, 0};
+  for (const double radius : {0.2, 20.0}) {
+    scene.solids[0].shape = scene::Sphere{radius};
+    Survey survey(any_view);
+    survey.add(frame, &scene, make_solids(scene), Look::material);
+    EXPECT_NEAR(survey.subject().box.low.y(), radius < 1 ? -1.2 : -0.005, 1e-3);
+  }
+  Survey empty(any_view);
+  empty.add(make_frame({}, {}, {}), nullptr, {}, Look::thickness);
+  EXPECT_TRUE(empty.subject().box.empty());
+  EXPECT_TRUE(empty.scale().empty());
+}
+
+TEST(Survey, moving_solids_are_seen_where_they_are) {
+  formats::Frame frame = test::flat(2, 0.01);
+  frame.time = 2;
+  Scene scene;
+  scene.solids.resize(1);
+  scene.solids[0].shape = scene::SolidBox{{0.2, 0.2, 0.2}};
+  scene::Translating moving;
+  moving.velocity.entries = {{0, Vector3(0, 0.5, 0)}};
+  scene.solids[0].motion = moving;
+  Survey survey(any_view);
+  survey.add(frame, &scene, make_solids(scene), Look::material);
+  EXPECT_NEAR(survey.subject().box.high.y(), 1.1, 1e-4);
+}
+
+TEST(Ground, lies_below) {
+  const Plane ground = ground_below(box({0, -1, 0}, {1, 1, 1}), {0, 0, 1});
+  EXPECT_LT(ground.point.z(), 0);
+  EXPECT_GT(ground.point.z(), -0.1);
+}
+
+} // namespace
+} // namespace sheet::render

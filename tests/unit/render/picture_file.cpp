@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/picture_file.h"
+
+#include <array>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/files.h"
+#include "libsheet/render/codecs.h"
+#include "libsheet/render/display.h"
+
+namespace sheet::render {
+namespace {
+
+Image ramp(int w, int h) {
+  Image image(w, h);
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x)
+      image.at(x, y) = {static_cast<float>(x) / static_cast<float>(w), static_cast<float>(y) / static_cast<float>(h),
+                        0.25F};
+  return image;
+}
+
+TEST(Display, tone_curve) {
+  for (int i = 0; i < 256; ++i) {
+    const float x = static_cast<float>(i) / 255;
+    EXPECT_NEAR(encode_srgb(decode_srgb(x)), x, 1e-5);
+  }
+  EXPECT_FLOAT_EQ(shoulder(0.5F), 0.5F);
+  EXPECT_NEAR((shoulder(0.6F + 1e-3F) - shoulder(0.6F)) / 1e-3F, 1, 1e-2);
+  EXPECT_LT(shoulder(1), shoulder(3));
+  EXPECT_LE(shoulder(1e6F), 1);
+}
+
+TEST(Png, goes_round) {
+  const Image image = ramp(37, 20);
+  const Bitmap bitmap = to_bitmap(image, Tone::plain);
+  const Image again = decode_png(encode_png(bitmap), "ramp");
+  ASSERT_EQ(again.width, 37);
+  const Bitmap same = to_bitmap(again, Tone::plain);
+  EXPECT_EQ(same.bytes, bitmap.bytes);
+}
+
+TEST(Exr, goes_round_with_layers) {
+  Picture picture;
+  picture.light = ramp(19, 30);
+  const std::size_t n = picture.light.pixels.size();
+  picture.layers = {std::vector<float>(n, 2), std::vector<Vec>(n, Vec::UnitY()), std::vector<float>(n, 0.003F),
+                    std::vector<std::uint32_t>(n, sheet_id)};
+  const std::string bytes = encode_exr(picture);
+  for (const char* channel : {"Z", "normal.X", "normal.Y", "normal.Z", "thickness", "id"})
+    EXPECT_NE(bytes.find(std::string(channel) + '\0'), std::string::npos) << channel;
+  const Image again = decode_exr(bytes, "ramp");
+  ASSERT_EQ(again.pixels.size(), n);
+  for (std::size_t i = 0; i < n; ++i)
+    EXPECT_LT((again.pixels[i] - picture.light.pixels[i]).abs().maxCoeff(), 1e-3);
+}
+
+TEST(Decoders, refuse_what_is_no_picture) {
+  Picture picture;
+  picture.light = ramp(8, 8);
+  const std::string png = encode_png(to_bitmap(picture.light, Tone::plain)), exr = encode_exr(picture);
+  for (std::size_t length = 0; length + 32 < png.size();
+       length += 7) // without its end mark alone it is still a picture
+    EXPECT_THROW(static_cast<void>(decode_png(png.substr(0, length), "cut.png")), Error) << length;
+  for (std::size_t length = 0; length + 1 < exr.size(); length += 7)
+    EXPECT_THROW(static_cast<void>(decode_exr(exr.substr(0, length), "cut.exr")), Error) << length;
+  EXPECT_THROW(static_cast<void>(read_picture("/nonexistent/a.exr")), Error);
+  EXPECT_THROW(static_cast<void>(read_picture("sky.jpg")), Error);
+}
+
+TEST(Y4m, knows_the_colours_of_the_standard) {
+  // 75 % bars of BT.601: R'G'B' 191 to Y' 180, and red to Cr 212 [ITU-R BT.801].
+  Bitmap bitmap(3, 3);
+  const auto fill_with = [&](std::uint8_t r, std::uint8_t g, std::uint8_t b) {
+    for (std::size_t i = 0; i < 9; ++i) {
+      bitmap.bytes[3 * i] = r;
+      bitmap.bytes[3 * i + 1] = g;
+      bitmap.bytes[3 * i + 2] = b;
+    }
+    const std::string bytes = encode_y4m(bitmap);
+    EXPECT_EQ(bytes.size(), 6U + 9 + 4 + 4);
+    const auto at = [&](std::size_t i) { return static_cast<int>(static_cast<unsigned char>(bytes[6 + i])); };
+    return std::array{at(0), at(9), at(13)};
+  };
+  EXPECT_EQ(fill_with(255, 255, 255), (std::array{235, 128, 128}));
+  EXPECT_EQ(fill_with(0, 0, 0), (std::array{16, 128, 128}));
+  EXPECT_EQ(fill_with(191, 191, 191), (std::array{180, 128, 128}));
+  EXPECT_EQ(fill_with(191, 0, 0), (std::array{65, 100, 212}));
+  EXPECT_EQ(fill_with(0, 0, 191), (std::array{35, 212, 114}));
+  EXPECT_EQ(y4m_header(640, 360, 24), "YUV4MPEG2 W640 H360 F24:1 Ip A1:1 C420jpeg\n");
+  EXPECT_EQ(y4m_header(640, 360, 29.97), "YUV4MPEG2 W640 H360 F29970:1000 Ip A1:1 C420jpeg\n");
+}
+
+TEST(WriteWhole, leaves_a_whole_file_or_none) {
+  const auto folder = std::filesystem::temp_directory_path() / "sheet_write_whole_test";
+  std::filesystem::remove_all(folder);
+  const std::string path = (folder / "deep" / "a.png").string();
+  write_whole(path, "one");
+  write_whole(path, "two");
+  EXPECT_EQ(read_text_file(path), "two");
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / "deep"))
+    ++files;
+  EXPECT_EQ(files, 1U);
+  EXPECT_THROW(write_whole(path + "/b.png", "three"), Error); // the folder is a file
+  std::filesystem::remove_all(folder);
+}
+
+} // namespace
+} // namespace sheet::render

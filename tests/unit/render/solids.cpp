@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/solids.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/base/error.h"
+
+namespace sheet::render {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+TEST(Solids, have_their_volume_and_face_outwards) {
+  const std::pair<scene::SolidShape, double> cases[] = {{scene::Sphere{0.5}, 4 * pi / 3 * 0.125},
+                                                        {scene::SolidBox{{1, 2, 3}}, 6},
+                                                        {scene::Capsule{0.5, 2}, 4 * pi / 3 * 0.125 + pi * 0.25 * 2},
+                                                        {scene::Cylinder{0.5, 2}, pi * 0.25 * 2}};
+  for (const auto& [shape, volume] : cases) {
+    Scene scene;
+    scene.solids.resize(1);
+    scene.solids[0].shape = shape;
+    scene.solids[0].center = {3, 4, 5};
+    scene.solids[0].rotation = scene::Rotation{{1, 1, 0}, 0.7};
+    const SolidMesh mesh = make_solids(scene)[0];
+    double sum = 0;
+    for (const Corners& t : mesh.triangles) {
+      const Vector3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+      sum += (a - Vector3(3, 4, 5)).dot((b - Vector3(3, 4, 5)).cross(c - Vector3(3, 4, 5))) / 6;
+      const Vector3 n = (b - a).cross(c - a).normalized();
+      for (const std::uint32_t v : t)
+        EXPECT_GT(n.dot(mesh.normals[v].cast<double>()), 0.9);
+    }
+    EXPECT_NEAR(sum, volume, 2e-3 * volume);
+  }
+}
+
+TEST(Solids, planes_move_with_their_motion) {
+  Scene scene;
+  scene.solids.resize(2);
+  scene.solids[1].shape = scene::HalfSpace{{0, 0, 2}};
+  scene.solids[1].center = {0, 0, 1};
+  scene::Rotating turning;
+  turning.axis = {1, 0, 0};
+  turning.rate.entries = {{0, pi / 2}};
+  scene.solids[1].motion = turning;
+  const std::vector<Plane> planes = make_planes(scene, 1);
+  ASSERT_EQ(planes.size(), 1U);
+  EXPECT_EQ(planes[0].id, first_solid_id + 1);
+  EXPECT_NEAR((planes[0].normal - Vector3(0, -1, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((planes[0].point - Vector3(0, -1, 0)).norm(), 0, 1e-12);
+}
+
+TEST(Solids, a_missing_file_is_named) {
+  Scene scene;
+  scene.solids.resize(2);
+  scene.solids[1].shape = scene::SolidMesh{"nowhere.off", 1, {}};
+  try {
+    static_cast<void>(make_solids(scene));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::io);
+    EXPECT_NE(std::string(error.what()).find("[[solid]] 1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("nowhere.off"), std::string::npos) << error.what();
+  }
+}
+
+} // namespace
+} // namespace sheet::render

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sheet-render: path-traced pictures of a stream.
+#include <fmt/format.h>
+
+#include "libsheet/loop/film.h"
+#include "libsheet/render/render_stage.h"
+
+int main(int argc, char** argv) {
+  sheet::Tool tool(
+      "sheet-render", "draw the frames of a stream",
+      "Draws each frame by path tracing: the sheet as a slab of its liquid, of its true thickness, glossy, coloured by "
+      "what it absorbs, turbid by what it scatters; the scene's solids; a studio's light or that of an image. Or a "
+      "quantity of the sheet in false colours with a scale, or its mesh.\n"
+      "The camera, unless it is told where to stand, is placed so that everything is in the picture, and stands still: "
+      "a stream in a file is read twice, first to see what is in all the frames to draw; of a stream in a pipe only "
+      "the first is known, and gets a margin of a quarter of its size to all sides. So do scales and the ground.");
+  sheet::render::RenderOptions o;
+  sheet::FilmOptions film;
+  tool.argument("INPUT", film.input, "stream to read; - for standard input");
+  sheet::render::declare_render_options(tool, o);
+  tool.option(
+      "--frames", film.frames, "RANGES",
+      "draw only these frames, as in 0,5,10-20,30-; counted from 0. Negative ones count from the end of a file");
+  tool.example("sheet-render run.sheet -o frames/%04d.png --material honey", "a picture of each frame");
+  tool.example("sheet-render run.sheet --y4m | ffmpeg -i - bunny.mp4", "a film");
+  tool.example("sheet-render run.sheet --frames -1 -o end.png --look thickness", "where the sheet is thin at the end");
+  tool.example("sheet-render run.sheet --frames -1 -o end.exr --noise 1",
+               "light, depth, normals, thickness for other programs");
+  return tool.run(argc, argv, [&] {
+    sheet::render::RenderStage stage(o);
+    sheet::run_film(
+        film, [&](const sheet::formats::Frame& frame) { stage.survey(frame); },
+        [&](const sheet::formats::Frame& frame, std::uint64_t index, const std::function<void(double)>& progress) {
+          const auto report = stage.draw(frame, index, progress);
+          return fmt::format("{:.4g} samples a pixel, {:.3g} Mrays, noise {:.2g} of 255 levels (worst tile {:.2g}){}{}",
+                             report.samples, 1e-6 * static_cast<double>(report.rays), report.noise, report.worst_noise,
+                             report.file.empty() ? "" : ", ", report.file);
+        });
+    stage.finish();
+  });
+}
