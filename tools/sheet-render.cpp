@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   tool.example("sheet-render run.sheet -o frames/%04d.png --material honey", "a picture of each frame");
   tool.example("sheet-render run.sheet --y4m | ffmpeg -i - bunny.mp4", "a film");
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look thickness", "where the sheet is thin at the end");
-  tool.example("sheet-render run.sheet --frames -1 -o end.exr --noise 1",
+  tool.example("sheet-render run.sheet --frames -1 -o end.exr --noise 1 --samples 4096",
                "light, depth, normals, thickness for other programs");
   return tool.run(argc, argv, [&] {
     sheet::render::RenderStage stage(o);

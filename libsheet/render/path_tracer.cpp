@@ -44,7 +44,7 @@ struct PathTracer::Path {
   Ray ray;
   Colour weight = Colour::Ones();
   bool inside = false;            // in a sheet whose slab has been met already
-  bool split = true;              // the first sheet's mirror image is followed for itself
+  int splits = 2;                 // so many mirror images in turn are followed for themselves
   bool straight = true;           // nothing but straight transmission since the camera
   bool indirect = false;          // has left a turbid or matte surface
   std::optional<float> density{}; // of its direction, if a turbid or matte surface chose it [1/sr]
@@ -128,9 +128,10 @@ Colour PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std:
   enum Lobe { mirror, through, turbid_back, turbid_through };
   std::array<Colour, 4> part = {straight.reflected, straight.transmitted, straight.coupled * diffuse.reflected,
                                 straight.coupled * diffuse.transmitted};
-  if (path.split) {
-    path.split = false;
+  if (path.splits > 0) {
     Path image = path;
+    --image.splits;
+    path.splits = 0;
     image.weight *= part[mirror];
     image.straight = false;
     image.density.reset();
@@ -222,7 +223,8 @@ Colour PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std:
   const float below = d.dot(face);
   if (below < 0)
     d = (d - 2 * below * face).normalized();
-  path.straight = path.split = false;
+  path.straight = false;
+  path.splits = 0;
   path.indirect = true;
   path.inside = false;
   path.ray = leave(hit, d);

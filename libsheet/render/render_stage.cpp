@@ -18,6 +18,7 @@ namespace sheet::render {
 namespace {
 
 constexpr double margin = 0.04;         // of the picture, around the subject
+constexpr double largest = 1e30;        // subject, far from where single precision ends [m]
 constexpr double scale_margin = 0.19;   // of its width, where a scale is drawn
 constexpr double unknown_growth = 0.25; // of a subject of which only the first frame is known
 constexpr double thinnest = 1e-4;       // of the subject: a sheet below it is drawn as its mid-surface
@@ -86,7 +87,7 @@ struct RenderStage::Impl {
     std::optional<Plane> ground;
   };
   std::optional<Fixed> fixed;
-  bool told_out_of_sight = false, told_empty = false;
+  bool told_out_of_sight = false, told_empty = false, told_noisy = false;
   std::uint64_t pictures = 0;
 
   explicit Impl(RenderOptions o) : options(std::move(o)) {
@@ -135,6 +136,11 @@ struct RenderStage::Impl {
     if (subject.empty())
       fail(ExitCode::bad_input,
            "there is nothing to see: the sheet has no triangles and the scene no solids with an end");
+    if (!(subject.diagonal() < largest))
+      fail(ExitCode::bad_input,
+           "what there is to see measures {:.3g} m across, more than {:g} m: the sheet has blown up, or a triangle has "
+           "next to no area, so that it is thick without bound (sheet-check tells which)",
+           subject.diagonal(), largest);
     if (options.camera.eye && !((options.camera.target.value_or(subject.center()) - *options.camera.eye).norm() > 0))
       fail(ExitCode::usage, "--eye is the middle of what there is to see: give --target too");
     const double growth = surveyed ? 0 : unknown_growth;
@@ -233,6 +239,11 @@ struct RenderStage::Impl {
     const World world(make_surface(frame, thinnest * fixed->subject.diagonal()), meshes, motions, planes,
                       fixed->subject);
     Picture picture = picture_of(frame, world, progress);
+    if (options.draw.noise > 0 && picture.worst_noise > options.draw.noise && !told_noisy) {
+      log::warning("the noise of the frame at {} s stays above {:g} in places, at most {:.2g}: give more --samples",
+                   frame.time, options.draw.noise, picture.worst_noise);
+      told_noisy = true;
+    }
     const std::string file = name ? name->of(index) : "";
     write(picture, world, frame, file);
     ++pictures;

@@ -104,7 +104,8 @@ TEST(BadSolids, too_few_triangles) { EXPECT_THAT(problem({}), HasSubstr("at leas
 class BadFiles : public testing::Test {
 protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / "sheet_bad_solids";
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("sheet_bad_solids_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

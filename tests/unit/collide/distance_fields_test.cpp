@@ -85,7 +85,9 @@ TEST(DistanceField, voxel_size_does_not_change_the_result) {
 class Cache : public testing::Test {
 protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "sheet_cache_test";
+    // one for each test: they run side by side
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("sheet_cache_test_") + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     std::ofstream off(folder_ / "box.off");
@@ -180,7 +182,9 @@ protected:
   void SetUp() override {
     setenv("SHEET_CACHE_DIR", "", 1);
     openvdb::initialize();
-    file_ = (fs::path(testing::TempDir()) / "sheet_level_set.vdb").string();
+    file_ = (fs::path(testing::TempDir()) /
+             (std::string("sheet_level_set_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".vdb"))
+                .string();
   }
   void TearDown() override {
     unsetenv("SHEET_CACHE_DIR");
