@@ -61,6 +61,11 @@ Assembly::Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms,
     }
     group_of_term_.push_back(static_cast<int>(groups_.size()) - 1);
   }
+  for (std::size_t t = 0; t < terms.size(); ++t)
+    term_order_.push_back(t);
+  std::stable_partition(term_order_.begin(), term_order_.end(), [&](std::size_t t) {
+    return terms[t]->stencil() == groups_[static_cast<std::size_t>(group_of_term_[t])].stencil;
+  });
   std::size_t elements = 0;
   for (ElementGroup& group : groups_) {
     stride_ = std::max(stride_, stencil_unknowns(group.stencil));
@@ -176,15 +181,15 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
   each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
     double local[kChunk * 12];
     collect(groups_[g], first, last, u, local);
-    const std::size_t place = groups_[g].first + first, count = last - first;
+    const std::size_t place = groups_[g].first + first;
     double* gradients = &gradients_[place * static_cast<std::size_t>(stride_)];
     double* hessians = &hessians_[place * static_cast<std::size_t>(stride_ * stride_)];
-    std::fill_n(gradients, count * static_cast<std::size_t>(stride_), 0.0);
-    std::fill_n(hessians, count * static_cast<std::size_t>(stride_ * stride_), 0.0);
     double before = now();
-    for (std::size_t t = 0; t < terms.size(); ++t)
+    bool overwrite = true;
+    for (const std::size_t t : term_order_)
       if (group_of_term_[t] == g) {
-        sums[c].add(terms[t]->add_derivatives(first, last, local, stride_, gradients, hessians, definite));
+        sums[c].add(terms[t]->add_derivatives(first, last, local, stride_, gradients, hessians, definite, overwrite));
+        overwrite = false;
         const double after = now();
         seconds[c * terms.size() + t] = after - before;
         before = after;

@@ -46,6 +46,7 @@ private:
   int stride_ = 9;
   std::vector<ElementGroup> groups_;
   std::vector<int> group_of_term_;
+  std::vector<std::size_t> term_order_; // a group's first term has all of its nodes, so it need not add, but sets
   std::optional<MatrixPattern> pattern_;
   std::vector<double> gradients_, hessians_;
   std::vector<double> seconds_;

@@ -4,6 +4,7 @@
 //   const char* name() const;
 //   std::size_t size() const;                                 number of elements
 //   std::array<std::uint32_t, 4> nodes(i) const;              the vertices; only where the stencil is hinge or four
+//   static constexpr bool linear = true;                      optional: the Hessian is zero and need not be added
 //   void begin(const Stage&);                                 start-of-stage quantities; called before each solve
 //   void prepare(const Unknowns&);                            optional: what is global (an enclosed volume)
 //   double rank_one(const Unknowns&, VectorXd&) const;        optional: what couples all unknowns, see term.h

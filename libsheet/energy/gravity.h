@@ -9,6 +9,7 @@ namespace sheet {
 class Gravity {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
+  static constexpr bool linear = true;
   Gravity(double density, const Vector3& gravity) : weight_(density / 3 * gravity) {}
   [[nodiscard]] const char* name() const { return "gravity"; }
   [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }

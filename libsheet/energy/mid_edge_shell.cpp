@@ -11,6 +11,8 @@ namespace {
 // β = -2 K g with K = [[0,1,1],[1,0,1],[1,1,0]]; its transpose is itself.
 Vector3 curvature(const Vector3& g) { return {-2 * (g[1] + g[2]), -2 * (g[2] + g[0]), -2 * (g[0] + g[1])}; }
 
+constexpr double kCap = 0.92; // -cos 157°: triangles with a greater angle are caps
+
 VectorN<9> corners(const VectorN<12>& u) { return u.head<9>(); }
 
 } // namespace
@@ -45,20 +47,35 @@ void MidEdgeShell::begin(const Stage& stage) {
       return Vector3(EdgeSprings(corners(x)).squared_lengths() + beta.cwiseProduct(beta) / 12);
     };
     const VectorN<12> start = local(stage.begin);
-    const Vector3 beta = curvature(heights(t, start));
+    const Vector3 g0 = heights(t, start);
+    const Vector3 beta = curvature(g0);
     Reference& r = reference_[t];
     r.curvature = beta;
     r.lengths = arc_lengths(start, beta);
+    Vector3 g = g0;
     if (stage.previous) {
       const VectorN<12> previous = local(*stage.previous);
-      const Vector3 beta_previous = curvature(heights(t, previous));
+      const Vector3 g1 = heights(t, previous);
+      g += stage.ratio * (g1 - g0);
+      const Vector3 beta_previous = curvature(g1);
       r.curvature += stage.ratio * (beta_previous - beta);
       r.lengths += stage.ratio * (arc_lengths(previous, beta_previous) - r.lengths);
     }
     const double volume = stage.start->volumes[t], thickness = volume / stage.raised[t].area();
     r.membrane = volume * viscosity_ / (2 * stage.duration);
     r.weight = r.membrane * thickness * thickness / 3;
+    stiffen_cap(r, stage.raised[t], g);
   }
+}
+
+void MidEdgeShell::stiffen_cap(Reference& r, const RaisedMetric& metric, const Vector3& heights) const {
+  const Vector3& q = metric.lengths;
+  const double longest = q.maxCoeff(&r.longest), p = q[(r.longest + 1) % 3], s = q[(r.longest + 2) % 3];
+  const double flatness = (longest - p - s) / (2 * std::sqrt(p * s)); // -cos α
+  const double part = std::max(0.0, (flatness - kCap) / (1 - kCap));
+  const double squared_height = metric.determinant / longest;
+  r.stiffness = 4 * part * r.weight / (squared_height * squared_height);
+  r.height = heights[r.longest];
 }
 
 double MidEdgeShell::value(std::size_t i, const VectorN<12>& u) const {
@@ -68,8 +85,11 @@ double MidEdgeShell::value(std::size_t i, const VectorN<12>& u) const {
     const double trace = a.trace.dot(m);
     return 2 * trace * trace - 2 * form_determinant(m) / a.determinant;
   };
-  const Vector3 beta = curvature(heights(i, u));
+  const Vector3 g = heights(i, u);
+  const Vector3 beta = curvature(g);
   double w = 0.5 * r.weight * dissipation(beta - r.curvature);
+  const double turned = g[r.longest] - r.height;
+  w += 0.5 * r.stiffness * turned * turned;
   if (arcs_)
     w += 0.5 * r.membrane *
          dissipation(EdgeSprings(corners(u)).squared_lengths() + beta.cwiseProduct(beta) / 12 - r.lengths);
@@ -139,13 +159,17 @@ double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
   }
 
   // From β to g: s_g = -2 K s, C_g = 4 K C K.
-  const Vector3 sg = curvature(s);
+  Vector3 sg = curvature(s);
   Matrix3 ck;
   for (int k = 0; k < 3; ++k)
     ck.col(k) = curvature(c.col(k));
   Matrix3 cg;
   for (int k = 0; k < 3; ++k)
     cg.row(k) = curvature(ck.row(k).transpose()).transpose();
+  const double turned = g[r.longest] - r.height;
+  w += 0.5 * r.stiffness * turned * turned;
+  sg[r.longest] += r.stiffness * turned;
+  cg(r.longest, r.longest) += r.stiffness;
   gradient.noalias() += by_u.transpose() * sg;
   const Eigen::Matrix<double, 3, 12> cu = cg.lazyProduct(by_u);
   hessian += by_u.transpose().lazyProduct(cu); // Eigen's general product costs more than this small one
@@ -160,18 +184,20 @@ double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
     const Corner at = corner(i, k);
     const int low = 3 * at.low, high = 3 * at.high, apex = 3 * k, angle = 9 + k;
     const DirectorHeight& d = height[k];
-    const Matrix3 ee = sg[k] * d.ee, ew = sg[k] * d.ew;
-    const Matrix3 both = 0.5 * (ew + ew.transpose());
     // e = high - low, w = (low + high)/2 - apex
-    hessian.block<3, 3>(low, low) += ee - both;
-    hessian.block<3, 3>(high, high) += ee + both;
-    const Matrix3 lh = -ee - 0.5 * ew + 0.5 * ew.transpose();
-    hessian.block<3, 3>(low, high) += lh;
-    hessian.block<3, 3>(high, low) += lh.transpose();
-    hessian.block<3, 3>(low, apex) += ew;
-    hessian.block<3, 3>(apex, low) += ew.transpose();
-    hessian.block<3, 3>(high, apex) -= ew;
-    hessian.block<3, 3>(apex, high) -= ew.transpose();
+    for (int n = 0; n < 3; ++n)
+      for (int m = 0; m < 3; ++m) {
+        const double ee = sg[k] * d.ee(m, n), ew = sg[k] * d.ew(m, n), we = sg[k] * d.ew(n, m);
+        const double both = 0.5 * (ew + we), mixed = -ee - 0.5 * (ew - we);
+        hessian(low + m, low + n) += ee - both;
+        hessian(high + m, high + n) += ee + both;
+        hessian(low + m, high + n) += mixed;
+        hessian(high + n, low + m) += mixed;
+        hessian(low + m, apex + n) += ew;
+        hessian(apex + n, low + m) += ew;
+        hessian(high + m, apex + n) -= ew;
+        hessian(apex + n, high + m) -= ew;
+      }
     const Vector3 e = sg[k] * d.e_theta, t = sg[k] * d.w_theta;
     const auto mixed = [&](int row, const Vector3& x) {
       hessian.block<3, 1>(row, angle) += x;

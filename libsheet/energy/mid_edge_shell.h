@@ -5,6 +5,13 @@
 // indices and its area Â as in membrane.h. On edges: β_k = b(e_k, e_k) = -2 (g_i + g_j). With arcs, also the membrane,
 // edges taken for circular arcs: squared lengths |e_k|² + β_k²/12 in the first fundamental form, which takes away the
 // leading part of the locking of flat triangles (DESIGN.md section 4). The membrane term is then absent.
+//
+// Flat caps, triangles with an angle α above 157 degrees, also have
+//   k (g - ḡ)²/2,   k = (-cos α - c)/(1 - c) (V μ ĥ²/(6 τ)) 4/H⁴,   c = -cos 157°,
+// g the height of the longest edge's director, H the triangle's height over that edge. Without it the vertex at α can
+// pop out by δ, which turns the triangle by δ/H while its three directors stay as they are: b sees a bump as long as
+// the edge only, so compressed caps fold over. The term is half a hinge at the longest edge, which holds face and
+// director together (docs/hard-cases.md).
 #pragma once
 #include "libsheet/energy/element.h"
 
@@ -29,6 +36,9 @@ private:
     Vector3 lengths;   // reference squared arc lengths [m²]; with arcs only
     double weight;     // V μ ĥ²/(6 τ) [J]: ∂²W/∂β² = weight C
     double membrane;   // V μ/(2 τ) [J]
+    int longest;       // edge, of a cap only
+    double stiffness;  // k of a cap, else 0 [J/m²]
+    double height;     // ḡ of its longest edge [m]
   };
   struct Corner { // of edge i: local indices of its lower and higher vertex
     int low, high;
@@ -39,6 +49,7 @@ private:
     return v[a] < v[b] ? Corner{a, b} : Corner{b, a};
   }
   [[nodiscard]] Vector3 heights(std::size_t i, const VectorN<12>& u) const;
+  void stiffen_cap(Reference& r, const RaisedMetric& metric, const Vector3& heights) const;
 
   double viscosity_; // [Pa s]
   bool arcs_;

@@ -8,8 +8,15 @@ namespace sheet {
 // The first (or only) stage: refers to the start; metrics predicted from the velocities.
 [[nodiscard]] Stage first_stage(const State& state, double duration, double end_time, bool angles);
 
-// Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it).
-void second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
+// Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it). False if a
+// triangle shrank so much that its reference metric is none, or nearly none: a principal stretch, squared, below 1/4 of
+// the start's. Where it is negative SDIRK2's stability function is, too (z < -1/(1 - 2γ)), and triangles shrink to
+// points.
+[[nodiscard]] bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
+
+// Sets the angles of u so that each director is the mean of the normals of the triangles at its edge, as at the start:
+// a guess for positions that were extrapolated. Angles stay where the normals cancel.
+void turn_to_normals(const Stage& stage, Unknowns& u);
 
 // Raises indices with the start-of-step metric.
 void raise_as_started(Stage& stage);

@@ -29,9 +29,10 @@ public:
   virtual void prepare(const Unknowns& u) = 0;
   // Elements first to last-1; u: their unknowns, `stride` apart.
   [[nodiscard]] virtual EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const = 0;
-  // Adds to gradients (`stride` apart) and Hessians (stride x stride, column major).
+  // Adds to gradients (`stride` apart) and Hessians (stride x stride, column major), or sets those of its own
+  // unknowns.
   virtual EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
-                                    double* hessians, bool definite) const = 0;
+                                    double* hessians, bool definite, bool overwrite) const = 0;
   // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an
   // unknown.
   [[nodiscard]] virtual double rank_one(const Unknowns&, Eigen::VectorXd&) const { return 0; }
@@ -66,14 +67,22 @@ public:
   }
 
   EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
-                            double* hessians, bool definite) const override {
+                            double* hessians, bool definite, bool overwrite) const override {
     EnergySum sum;
     VectorN<kSize> g;
     MatrixN<kSize> h;
     for (std::size_t i = first; i < last; ++i, u += stride, gradients += stride, hessians += stride * stride) {
       sum.add(element_.derivatives(i, Eigen::Map<const VectorN<kSize>>(u), g, h, definite));
-      Eigen::Map<VectorN<kSize>>(gradients, kSize) += g;
-      Eigen::Map<MatrixN<kSize>, 0, Eigen::OuterStride<>>(hessians, kSize, kSize, Eigen::OuterStride<>(stride)) += h;
+      Eigen::Map<VectorN<kSize>> gradient(gradients, kSize);
+      Eigen::Map<MatrixN<kSize>, 0, Eigen::OuterStride<>> hessian(hessians, kSize, kSize, Eigen::OuterStride<>(stride));
+      if (overwrite) {
+        gradient = g;
+        hessian = h;
+        continue;
+      }
+      gradient += g;
+      if constexpr (!requires { E::linear; })
+        hessian += h;
     }
     return sum;
   }

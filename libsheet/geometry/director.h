@@ -49,31 +49,33 @@ inline DirectorHeight director_height(const EdgeFrame& frame, const Vector3& e, 
   const double tq = t.dot(q), sw = s.dot(w);
   g.value = q.dot(w) - k * tq * sw;
   if constexpr (Order >= 1) {
-    const Vector3 p = sw * q + tq * w;
-    const Vector3 by_t = -k * p + (k * k * tq * sw) * frame.tangent;
-    const double along = by_t.dot(t);
-    const Vector3 across = by_t - along * t;
+    // Projections across the edge; the derivative of t by e is the projection over the length.
+    const Vector3& t0 = frame.tangent;
+    const Vector3 q1 = q - tq * t, w1 = w - t.dot(w) * t, t1 = t0 - t0.dot(t) * t;
+    const Vector3 p1 = sw * q1 + tq * w1;
+    const double c = k * k * tq * sw;
+    const Vector3 across = c * t1 - k * p1;
     const Vector3 dq = cosine * frame.binormal - sine * frame.director; // ∂q/∂θ
     const double tdq = t.dot(dq);
     g.by_e = inverse * across;
     g.by_w = q - (k * tq) * s;
     g.by_theta = dq.dot(w) - k * tdq * sw;
     if constexpr (Order >= 2) {
-      const Vector3& t0 = frame.tangent;
-      Matrix3 tt = -k * (q * w.transpose() + w * q.transpose()) + (k * k) * (p * t0.transpose() + t0 * p.transpose());
-      tt -= (2 * k * k * k * tq * sw) * (t0 * t0.transpose());
-      const Matrix3 project = Matrix3::Identity() - t * t.transpose();
-      const Vector3 tt_t = tt * t;
-      // project * tt * project, without the two matrix products
-      Matrix3 inner = tt - tt_t * t.transpose() - t * tt_t.transpose() + t.dot(tt_t) * (t * t.transpose());
-      inner -= along * project + across * t.transpose() + t * across.transpose();
-      g.ee = (inverse * inverse) * inner;
-      // ∂²f/∂t∂w = -k (q sᵀ + (t·q) I) + k² (t·q) t0 sᵀ, then the derivative of t by e on the left
-      const Vector3 left = -k * q + (k * k * tq) * t0;
-      g.ew = inverse * ((left - t.dot(left) * t) * s.transpose() - (k * tq) * project);
-      const Vector3 dp = sw * dq + tdq * w;
-      const Vector3 t_theta = -k * dp + (k * k * tdq * sw) * t0;
-      g.e_theta = inverse * (t_theta - t.dot(t_theta) * t);
+      // With f(t) the value as a function of the direction, ∂²f/∂t² = -k (q wᵀ + w qᵀ) + (r t0ᵀ + t0 rᵀ), projected,
+      // less what the curvature of the sphere of directions adds.
+      const double along = c * t0.dot(t) - k * tq * (sw + t.dot(w)); // t·∂f/∂t
+      const Vector3 r = (k * k) * p1 - (k * c) * t1, z = (0.5 * along) * t - across;
+      const Vector3 left = inverse * ((k * k * tq) * t1 - k * q1), kq = -k * q1;
+      const double squared = inverse * inverse, ktq = inverse * k * tq;
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) {
+          const double symmetric =
+              kq[i] * w1[j] + w1[i] * kq[j] + r[i] * t1[j] + t1[i] * r[j] + z[i] * t[j] + t[i] * z[j];
+          g.ee(i, j) = squared * (symmetric - (i == j ? along : 0));
+          // ∂²f/∂t∂w = -k (q sᵀ + (t·q) I) + k² (t·q) t0 sᵀ, projected on the left
+          g.ew(i, j) = left[i] * s[j] - ktq * ((i == j ? 1 : 0) - t[i] * t[j]);
+        }
+      g.e_theta = inverse * ((k * k * tdq * sw) * t1 - k * (sw * (dq - tdq * t) + tdq * w1));
       g.w_theta = dq - (k * tdq) * s;
     }
   }

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include "libsheet/solve/with_rank_ones.h"
 
 namespace sheet {
 
@@ -130,50 +133,6 @@ void mix(const std::vector<double>& exact, const std::vector<double>& definite, 
     matrix.values[k] = exact[k] + part * (definite[k] - exact[k]);
 }
 
-// The factorised and scaled matrix plus the rank-one parts of the terms, by the formula of Sherman and Morrison.
-class WithRankOnes {
-public:
-  WithRankOnes(LinearSystem& system, const Terms& terms, std::span<const char> held, const Unknowns& u,
-               const Eigen::VectorXd& row_scale)
-      : system_(system), row_scale_(row_scale) {
-    for (const auto& term : terms) {
-      Part part;
-      const double c = term->rank_one(u, part.g);
-      if (c == 0)
-        continue;
-      for (std::size_t k = 0; k < held.size(); ++k)
-        if (held[k])
-          part.g[static_cast<Eigen::Index>(k)] = 0;
-      part.solved = solve(part.g);
-      part.factor = c / (1 + c * part.g.dot(part.solved));
-      parts_.push_back(std::move(part));
-    }
-  }
-
-  // In the order of the unknowns.
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
-    const auto& permutation = system_.assembly.pattern().permutation();
-    Eigen::VectorXd rhs(b.size()), x(b.size());
-    for (Eigen::Index k = 0; k < b.size(); ++k)
-      rhs[k] = row_scale_[k] * b[permutation[static_cast<std::size_t>(k)]];
-    const Eigen::VectorXd scaled = system_.cholesky.solve(rhs);
-    for (Eigen::Index k = 0; k < b.size(); ++k)
-      x[permutation[static_cast<std::size_t>(k)]] = row_scale_[k] * scaled[k];
-    for (const Part& part : parts_)
-      x -= (part.factor * part.g.dot(x)) * part.solved;
-    return x;
-  }
-
-private:
-  struct Part {
-    Eigen::VectorXd g, solved;
-    double factor = 0;
-  };
-  LinearSystem& system_;
-  const Eigen::VectorXd& row_scale_;
-  std::vector<Part> parts_;
-};
-
 // The length of the step that would come next, from the rate at which the last two shrank: if both used the exact
 // Hessian the rate squares, as Newton's method converges quadratically; otherwise it stays, and the sum of the
 // geometric series counts.
@@ -196,13 +155,15 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
   double blend = always_positive ? 1 : 0; // part of the positive form in the Hessian
   double shift = floor;
   std::vector<double> exact, definite;
-  double previous_step = 0; // 0: none, or not a full one
-  int exact_steps = 0;      // full ones in a row, with the exact Hessian
+  double previous_step = 0;    // 0: none, or not a full one
+  int exact_steps = 0;         // full ones in a row, with the exact Hessian
+  std::optional<double> start; // of the potential
   for (;;) {
     clock.lap();
     const EnergySum energy = system.assembly.derivatives(terms, u, always_positive, held, gradient, system.matrix);
     if (!std::isfinite(energy.value) || !gradient.allFinite())
       return report;
+    start = start.value_or(energy.value);
     if (blend > 0 && !always_positive)
       add_positive(system, terms, held, u, exact, definite);
     report.seconds_assembly += clock.lap();
@@ -255,6 +216,8 @@ NewtonReport minimize(LinearSystem& system, const Terms& terms, std::span<const 
 
     // Below round-off of the potential a full Newton step is the best there is.
     const double noise = kRoundOff * energy.magnitude;
+    report.gained = *start - energy.value;
+    report.promised = -slope;
     double length = 1;
     if (-slope > noise) {
       int halvings = 0;

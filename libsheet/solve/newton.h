@@ -28,10 +28,11 @@ struct NewtonReport {
   bool monotone = true; // the potential never rose by more than round-off
   int iterations = 0;   // Newton steps
   int factorizations = 0;
-  int positive = 0;     // of them with some of the positive form
-  int shifted = 0;      // of them with a shift
-  int halvings = 0;     // of the line search
-  double last_step = 0; // in the units of the stopping rule
+  int positive = 0;                // of them with some of the positive form
+  int shifted = 0;                 // of them with a shift
+  int halvings = 0;                // of the line search
+  double last_step = 0;            // in the units of the stopping rule
+  double gained = 0, promised = 0; // fall of the potential up to the last step, and what that one promised to add [J]
   double seconds_assembly = 0, seconds_factor = 0, seconds_solve = 0, seconds_search = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/solve/damped_newton.h"
 
 namespace sheet {
 
@@ -15,7 +16,8 @@ namespace {
 const double kGamma = 1 - std::sqrt(0.5);
 
 constexpr int kHalvingsBeforeEuler = 1;
-constexpr double kFarBehind = 0.1; // of an edge: held unknowns that are this far from where inertia takes them
+constexpr double kUnfinished = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
+constexpr double kFarBehind = 0.1;   // of an edge: held unknowns that are this far from where inertia takes them
 
 // Whether every triangle still has an area beyond round-off.
 bool sound(const State& s) {
@@ -101,7 +103,8 @@ void Stepper::set_model(Model model) {
   }
 }
 
-bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, StepReport& report) {
+Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end,
+                                  StepReport& report) {
   const bool two = scheme == Scheme::sdirk2;
   const double gamma = two ? kGamma : 1;
   const std::size_t n = state.positions.size();
@@ -146,25 +149,37 @@ bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, 
       }
     }
     NewtonOptions newton = options_.newton;
-    newton.iterations = std::min(newton.iterations, options_.iterations - report.newton.iterations);
+    if (demand == Demand::converged)
+      newton.iterations = std::min(newton.iterations, options_.iterations - report.newton.iterations);
     if (newton.iterations <= 0)
       return false;
-    const NewtonReport r = minimize(*cache_->system, cache_->terms, held, scale, floor, newton, u);
+    NewtonReport r = minimize(*cache_->system, cache_->terms, held, scale, floor, newton, u);
     add(report.newton, r);
-    return r.converged;
+    if (r.converged || demand == Demand::converged)
+      return r.converged;
+    double gained = r.gained;
+    const auto good_enough = [&] { return gained > 0 && r.promised <= kUnfinished * gained; };
+    if (good_enough())
+      return true;
+    r = minimize_damped(*cache_->system, cache_->terms, held, scale, floor, newton, u);
+    add(report.newton, r);
+    gained += r.gained;
+    return r.converged || good_enough();
   };
 
   Unknowns guess = stage.begin, first, last;
   for (std::size_t v = 0; v < n; ++v)
     guess.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
+  turn_to_normals(stage, guess);
   if (!solve(guess, stage.begin, first))
-    return false;
+    return Outcome::not_converged;
   double error = 0;
   if (two) {
-    second_stage(stage, first, gamma, dt);
+    if (!second_stage(stage, first, gamma, dt))
+      return Outcome::shrinks_to_nothing;
     guess = stage.begin + (first - stage.begin) / gamma;
     if (!solve(guess, first, last))
-      return false;
+      return Outcome::not_converged;
   } else {
     last = first;
   }
@@ -185,24 +200,25 @@ bool Stepper::attempt(const State& state, double dt, Scheme scheme, State& end, 
   }
   set_held_velocities(model_.holds, end.time, dt, end);
   report.error = std::max(report.error, error);
-  return sound(end);
+  return sound(end) ? Outcome::done : Outcome::shrinks_to_nothing;
 }
 
 void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
   State end;
-  if (attempt(state, dt, options_.scheme, end, report)) {
+  const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
+  if (outcome == Outcome::done) {
     ++report.substeps;
     state = std::move(end);
     return;
   }
   ++report.failed;
-  if (depth == 0 && model_.arcs && model_.has_angles()) {
+  if (depth == 0 && outcome == Outcome::not_converged && model_.arcs && model_.has_angles()) {
     advance_flat(state, dt, report);
     return;
   }
   const bool exhausted = report.newton.iterations >= options_.iterations;
   if (!exhausted && options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
-      attempt(state, dt, Scheme::backward_euler, end, report)) {
+      attempt(state, dt, Scheme::backward_euler, Demand::converged, end, report) == Outcome::done) {
     ++report.substeps;
     ++report.euler_fallbacks;
     state = std::move(end);
@@ -212,6 +228,12 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     const double middle = state.time + 0.5 * dt, until = state.time + dt;
     advance(state, middle - state.time, depth + 1, report);
     advance(state, until - state.time, depth + 1, report);
+    return;
+  }
+  if (attempt(state, dt, Scheme::backward_euler, Demand::lower_potential, end, report) == Outcome::done) {
+    ++report.substeps;
+    ++report.unfinished;
+    state = std::move(end);
     return;
   }
   fail(ExitCode::not_converged,
@@ -230,6 +252,7 @@ void Stepper::advance_flat(State& state, double dt, StepReport& report) {
   report.substeps += flat.substeps;
   report.failed += flat.failed;
   report.euler_fallbacks += flat.euler_fallbacks;
+  report.unfinished += flat.unfinished;
   ++report.flat_fallbacks;
   add(report.newton, flat.newton);
   report.error = std::max(report.error, flat.error);
@@ -274,7 +297,7 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
   for (int tries = 0;; ++tries) {
     report.error = 0;
     const bool last = dt >= remaining;
-    if (attempt(state, dt, options_.scheme, end, report)) {
+    if (attempt(state, dt, options_.scheme, Demand::converged, end, report) == Outcome::done) {
       const double factor = std::clamp(kSafety * std::sqrt(control.tolerance / report.error), kLeast, kGreatest);
       if (report.error <= control.tolerance) {
         end.time = last ? until : state.time + dt;

@@ -6,7 +6,9 @@
 //                   second stage measures strain from a0 + ((1-γ)/γ)(a1 - a0), curvature likewise, so that each stage
 //                   is the minimum of a potential and a rigid motion costs nothing
 // A step that does not converge with arcs is done without them; one that does not converge is done in halves, halves by
-// backward Euler where SDIRK2 fails; if that fails too, Error(not_converged), the state untouched.
+// backward Euler where SDIRK2 fails. When the Newton iterations allowed to a step are spent, what is left of it is done
+// by backward Euler, and taken where the last iteration promised to lower the potential by less than a hundredth of
+// what all have: a stable step of lower accuracy. If that fails too, Error(not_converged), the state untouched.
 #pragma once
 #include <memory>
 #include <string>
@@ -28,7 +30,7 @@ struct StepOptions {
   Thickness thickness = Thickness::coupled;
   NewtonOptions newton;
   int retries = 12;     // halvings of a step that does not converge
-  int iterations = 400; // of Newton in a step with all its retries, so that one that fails does so soon
+  int iterations = 400; // of Newton in a step with all its retries, so that a hopeless one is given up soon
 };
 
 struct TermTime {
@@ -42,6 +44,7 @@ struct StepReport {
   int rejected = 0;        // that were not accurate enough (step_within)
   int euler_fallbacks = 0; // substeps that only backward Euler could do
   int flat_fallbacks = 0;  // steps that converged only with straight edges instead of arcs
+  int unfinished = 0;      // substeps taken though Newton's iterations had not converged
   NewtonReport newton;     // sums over all stages; last_step of the last one
   double error = 0;        // difference to the first-order result, in edge lengths, greatest of the substeps
   double seconds_analysis = 0;
@@ -72,7 +75,9 @@ public:
 
 private:
   struct Cache;
-  bool attempt(const State& state, double dt, Scheme scheme, State& end, StepReport& report);
+  enum class Outcome { done, not_converged, shrinks_to_nothing };
+  enum class Demand { converged, lower_potential };
+  Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);
   void advance_flat(State& state, double dt, StepReport& report);

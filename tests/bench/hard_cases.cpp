@@ -29,6 +29,7 @@ void run(const std::string& name, State s, const Model& m, double dt, int steps,
       sum.failed += r.failed;
       sum.euler_fallbacks += r.euler_fallbacks;
       sum.flat_fallbacks += r.flat_fallbacks;
+      sum.unfinished += r.unfinished;
       sum.newton.iterations += r.newton.iterations;
       sum.newton.factorizations += r.newton.factorizations;
       sum.newton.positive += r.newton.positive;
@@ -42,10 +43,10 @@ void run(const std::string& name, State s, const Model& m, double dt, int steps,
   for (const Vector3& x : s.positions)
     drop = std::min(drop, x.z());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%s,%g,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%s,%.4g,%.2f,\"%s\"\n", name.c_str(), dt, done, sum.substeps,
-              sum.failed, sum.euler_fallbacks, sum.flat_fallbacks, sum.newton.iterations, sum.newton.factorizations,
-              sum.newton.positive, sum.newton.shifted, sum.newton.halvings, sum.newton.monotone ? "yes" : "no", drop,
-              seconds, outcome.c_str());
+  std::printf("%s,%g,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%s,%.4g,%.2f,\"%s\"\n", name.c_str(), dt, done, sum.substeps,
+              sum.failed, sum.euler_fallbacks, sum.flat_fallbacks, sum.unfinished, sum.newton.iterations,
+              sum.newton.factorizations, sum.newton.positive, sum.newton.shifted, sum.newton.halvings,
+              sum.newton.monotone ? "yes" : "no", drop, seconds, outcome.c_str());
   std::fflush(stdout);
 }
 
@@ -74,9 +75,9 @@ Model sag(const State& s) {
 
 int main(int argc, char** argv) {
   arcs = argc < 2 || std::string(argv[1]) != "flat";
-  std::printf(
-      "case,dt,steps,substeps,failed,euler,flat,newton,factorizations,positive,shifted,halvings,monotone,lowest_z,"
-      "seconds,outcome\n");
+  std::printf("case,dt,steps,substeps,failed,euler,flat,unfinished,newton,factorizations,positive,shifted,halvings,"
+              "monotone,lowest_z,"
+              "seconds,outcome\n");
   const test::Mesh square = test::rectangle(1, 1, 20, 20, 0.2);
   const State flat = test::at_rest(square, 0.02);
   // Time of the sag: μ/(ρ g L) = 0.01 s.

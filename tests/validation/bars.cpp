@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "libsheet/scene/read.h"
+#include "libsheet/shape/build.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/step_stage.h"
 #include "tests/validation/table.h"
 
 namespace sheet::validation {
@@ -133,6 +137,33 @@ TEST(Validation, LongSpaceOrders) {
   // With 10 steps the error in time still shows through its extrapolation: 1.72.
   EXPECT_GE(space_order(find_case("V7"), settings("V7", 0.4, 40)).order, 1.8);
   EXPECT_GE(space_order(find_case("V17"), settings("V17", 0.125, 32)).order, 1.8);
+}
+
+// V21: a small sheet that sags, 10,000 steps of the stage from frame to frame.
+TEST(Validation, LongVolumeOfTenThousandSteps) {
+  const Scene scene = parse_scene(R"(
+    sheet = {shape = "rectangle", size = [1, 1], segments = [6, 3], pattern = "structured", thickness = 0.06}
+    material = {viscosity = 0.0333, density = 0.1, surface_tension = 0.002}
+    environment = {gravity = [0, -9.81, 0]}
+    hold = [{region = "x_min", kind = "clamped"}, {region = "x_max", kind = "clamped"}]
+  )",
+                                  "the scene of this test");
+  formats::Frame frame = build_frame(scene);
+  const auto total = [&] {
+    double sum = 0;
+    for (const double v : volumes(frame))
+      sum += v;
+    return sum;
+  };
+  const double before = total();
+  StepStageOptions options;
+  options.dt = 4e-5;
+  StepStage stage(options);
+  for (int k = 0; k < 10000; ++k)
+    stage.step(frame);
+  EXPECT_EQ(frame.step, 10000u);
+  EXPECT_NEAR(frame.time, 0.4, 1e-9);
+  EXPECT_NEAR(total(), before, 1e-13 * before);
 }
 
 } // namespace
