@@ -90,11 +90,6 @@ Shares shares(std::span<const Corners> triangles, std::span<const double> volume
   return s;
 }
 
-std::span<const std::uint64_t> masks(const Frame& frame, std::string_view name) {
-  const Array* array = frame.find(name);
-  return array == nullptr ? std::span<const std::uint64_t>() : array->values<std::uint64_t>();
-}
-
 } // namespace
 
 struct CollideStage::Impl {
@@ -162,7 +157,7 @@ struct CollideStage::Impl {
     return path;
   }
 
-  // By a [[hold]] that is in force at time t. A vertex held along some axes only counts as held.
+  // By a [[hold]] or inflow that is in force at time t. A vertex held along some axes only counts as held.
   [[nodiscard]] std::vector<bool> held(const Frame& frame, double t) const {
     std::uint64_t in_force = 0;
     for (std::size_t i = 0; i < scene->holds.size(); ++i)
@@ -172,6 +167,10 @@ struct CollideStage::Impl {
     const auto hold = holds(frame);
     for (std::size_t v = 0; v < hold.size(); ++v)
       fixed[v] = (hold[v] & in_force) != 0;
+    const auto inlet = masks(frame, "inlet");
+    if (scene->inflow && (!scene->inflow->until || t < *scene->inflow->until))
+      for (std::size_t v = 0; v < inlet.size(); ++v)
+        fixed[v] = fixed[v] || (inlet[v] & in_inlet) != 0;
     return fixed;
   }
 
@@ -202,7 +201,7 @@ struct CollideStage::Impl {
         log::warning("step {}: {} triangles come too close to solids", frame.step, report.unresolved);
       totals.add(report);
       totals.with_solids += watch.lap();
-      put_touch(frame, path.touch);
+      std::copy(path.touch.begin(), path.touch.end(), put_masks(frame, "touch").begin());
     }
     if (self()) {
       connect_mesh(frame);
@@ -245,13 +244,6 @@ struct CollideStage::Impl {
     totals.add(report);
     log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", step, report.hits,
                 report.by_impulses, report.in_groups, report.pulled_back);
-  }
-
-  static void put_touch(Frame& frame, std::span<const std::uint64_t> touch) {
-    Array array = formats::make_array("touch", formats::Place::vertex, formats::Type::uint64, 1, "1",
-                                      formats::Transfer::common, frame.vertices);
-    std::copy(touch.begin(), touch.end(), array.values<std::uint64_t>().begin());
-    frame.put(std::move(array));
   }
 
   void set_springs(Frame& frame, StepPath& path, const std::vector<bool>& fixed, std::span<const double> reach) {

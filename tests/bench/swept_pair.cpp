@@ -47,7 +47,7 @@ struct Tally {
     worst = std::max(worst, took);
   }
   void print(const std::string& name) const {
-    fmt::print("{:<34} {:>9} {:>9} {:>7} {:>7} {:>9.2f} {:>9.1f}\n", name, queries, touching, missed, false_alarms,
+    fmt::print("{:<54} {:>9} {:>9} {:>7} {:>7} {:>9.2f} {:>9.1f}\n", name, queries, touching, missed, false_alarms,
                1e6 * seconds / queries, 1e6 * worst);
   }
 };
@@ -76,29 +76,35 @@ void ask_file(const std::filesystem::path& path, std::map<std::string, Tally>& t
   }
 }
 
-// Points at random integers up to `range`: the smaller, the more queries touch in an edge, a vertex, or in a plane.
-void ask_random(int count, int range, bool edges, std::map<std::string, Tally>& tallies) {
-  std::mt19937_64 random(static_cast<std::uint64_t>(range) * 2 + edges);
-  std::uniform_int_distribution<int> coordinate(-range, range);
+// Points at random integers up to `range`, times `spacing`, moved by up to `noise`: small ranges make queries that
+// touch in an edge, a vertex, or in a plane; a little noise makes them nearly do so.
+struct Lattice {
+  int range, spacing, noise;
+  const char* name;
+};
+
+void ask_random(int count, const Lattice& lattice, bool edges, std::map<std::string, Tally>& tallies) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(lattice.range) * 2 + edges);
+  std::uniform_int_distribution<int> place(-lattice.range, lattice.range), move(-lattice.noise, lattice.noise);
+  const auto coordinate = [&] { return lattice.spacing * place(random) + move(random); };
   int undecided = 0;
-  Tally& tally = tallies[fmt::format("integers to {}{}", range, edges ? ", edges" : ", vertex and triangle")];
+  const std::string name = fmt::format("{}{}", lattice.name, edges ? ", edges" : ", vertex and triangle");
   for (int i = 0; i < count; ++i) {
     std::array<test::IntegerPoint, 4> start, end;
     SweptPair pair;
     pair.features = edges ? Features::edge_edge : Features::vertex_triangle;
     for (std::size_t p = 0; p < 4; ++p)
       for (std::size_t k = 0; k < 3; ++k) {
-        pair.start[p][static_cast<Eigen::Index>(k)] = start[p][k] = coordinate(random);
-        pair.end[p][static_cast<Eigen::Index>(k)] = end[p][k] = coordinate(random);
+        pair.start[p][static_cast<Eigen::Index>(k)] = start[p][k] = coordinate();
+        pair.end[p][static_cast<Eigen::Index>(k)] = end[p][k] = coordinate();
       }
     const test::Touch truth = test::exact_touch(edges, start, end);
     if (truth == test::Touch::undecided)
       ++undecided;
     else
-      tally.ask(pair, truth == test::Touch::yes);
+      tallies[name].ask(pair, truth == test::Touch::yes);
   }
-  fmt::print("# integers to {}, {}: {} of {} left out, undecided\n", range, edges ? "edges" : "vertex and triangle",
-             undecided, count);
+  fmt::print("# {}: {} of {} left out, undecided\n", name, undecided, count);
 }
 
 } // namespace
@@ -116,10 +122,12 @@ int main(int argc, char** argv) {
     for (const auto& path : files)
       ask_file(path, tallies);
   }
-  for (const int range : {1, 3, 10, 250})
+  for (const Lattice& lattice :
+       {Lattice{1, 1, 0, "integers to 1"}, Lattice{3, 1, 0, "integers to 3"}, Lattice{10, 1, 0, "integers to 10"},
+        Lattice{250, 1, 0, "integers to 250"}, Lattice{1, 250, 1, "250 times integers to 1, off by 1"}})
     for (const bool edges : {false, true})
-      ask_random(count / 8, range, edges, tallies);
-  fmt::print("{:<34} {:>9} {:>9} {:>7} {:>7} {:>9} {:>9}\n", "queries", "number", "touching", "missed", "false",
+      ask_random(count / 10, lattice, edges, tallies);
+  fmt::print("{:<54} {:>9} {:>9} {:>7} {:>7} {:>9} {:>9}\n", "queries", "number", "touching", "missed", "false",
              "mean us", "worst us");
   bool missed = false;
   for (const auto& [name, tally] : tallies) {

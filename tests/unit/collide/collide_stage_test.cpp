@@ -63,6 +63,22 @@ TEST(CollideStage, KeepsTrianglesFromPassing) {
   EXPECT_LT((momentum - Vector3(0, 0, -20)).norm(), 1e-11);
 }
 
+// What is held, or in the inlet, goes its way; the other gives way.
+TEST(CollideStage, WhatIsPrescribedGoesItsWay) {
+  for (const char* name : {"hold", "inlet"}) {
+    Frame frame = two_triangles(-1, "[contact]\n[inflow]\nregion = \"rim\"\nvelocity = [0, 0, 1]\nthickness = 1\n"
+                                    "[[hold]]\nregion = \"rim\"\n");
+    const auto bits = put_masks(frame, name);
+    std::fill(bits.begin() + 3, bits.end(), 1);
+    CollideStage().step(frame);
+    const auto x = positions(static_cast<const Frame&>(frame));
+    for (std::size_t v = 0; v < 3; ++v)
+      EXPECT_LT(x[v].z(), -1) << name;
+    for (std::size_t v = 3; v < 6; ++v)
+      EXPECT_EQ(x[v].z(), -1) << name;
+  }
+}
+
 TEST(CollideStage, WhatTheSceneDoesNotHaveIsLeftAlone) {
   for (const char* more : {"", "[contact]\nself = false\n"}) {
     Frame frame = two_triangles(-1, more);
