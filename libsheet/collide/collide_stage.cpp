@@ -49,6 +49,7 @@ struct Totals {
   void add(const SolidReport& r) {
     most_touching = std::max(most_touching, r.touching);
     solids.caught += r.caught;
+    solids.brought_out += r.brought_out;
     solids.pushed += r.pushed;
     solids.carried += r.carried;
     solids.unresolved += r.unresolved;
@@ -273,8 +274,9 @@ void CollideStage::report() const {
     return;
   const double ms = 1e3 / static_cast<double>(t.steps);
   if (impl_->solids) {
-    log::detail("{} steps with solids: {} vertices caught, at most {} touching, {} impulses, {} vertices carried",
-                t.steps, t.solids.caught, t.most_touching, t.solids.pushed, t.solids.carried);
+    log::detail("{} steps with solids: {} vertices caught, {} brought out, at most {} touching, {} impulses, {} "
+                "vertices carried",
+                t.steps, t.solids.caught, t.solids.brought_out, t.most_touching, t.solids.pushed, t.solids.carried);
     log::detail("  processor time of a step: {:.2f} ms", ms * t.with_solids);
   }
   if (impl_->self()) {

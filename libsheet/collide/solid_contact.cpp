@@ -42,6 +42,19 @@ double thinnest(const StepPath& path) {
   return result;
 }
 
+// Of the edges at each vertex, at the start [m].
+std::vector<double> longest_edges(const StepPath& path) {
+  std::vector<double> longest(path.start.size(), 0);
+  for (const Corners& t : path.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      const double length = (path.start[a] - path.start[b]).norm();
+      longest[a] = std::max(longest[a], length);
+      longest[b] = std::max(longest[b], length);
+    }
+  return longest;
+}
+
 std::vector<SolidView> views_of(const Solids& solids, const StepPath& path) {
   std::vector<SolidView> views;
   for (std::size_t i = 0; i < solids.size(); ++i)
@@ -105,7 +118,7 @@ private:
         }
       }
     });
-    refuse_inside(depth);
+    bring_out(depth);
     for (const std::uint8_t c : caught)
       report_.caught += c;
   }
@@ -133,20 +146,32 @@ private:
     path_.end[v] = end;
   }
 
-  void refuse_inside(const std::vector<double>& depth) const {
-    const auto deepest = std::ranges::min_element(depth);
-    const auto v = static_cast<std::size_t>(deepest - depth.begin());
-    if (*deepest >= -path_.thickness[v] / 2)
+  // Vertices that start deeper than half the thickness. A change of the mesh on a curved solid may have put one there,
+  // by no more than half an edge: it is caught where it is and ends outside. Deeper ones are an error.
+  void bring_out(const std::vector<double>& depth) {
+    std::vector<std::uint32_t> inside;
+    for (std::uint32_t v = 0; v < depth.size(); ++v)
+      if (depth[v] < -path_.thickness[v] / 2)
+        inside.push_back(v);
+    if (inside.empty())
       return;
-    const Vector3& x = path_.start[v];
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      const double distance = views_[i].shape().nearest(views_[i].own(0, x)).distance;
-      if (distance <= *deepest) // which may have been less than exact
-        fail(
-            ExitCode::bad_input,
-            "vertex {} at ({:.6g}, {:.6g}, {:.6g}) starts {:.3g} m inside {}; move the sheet or the solid so that they "
-            "start apart",
-            v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
+    const std::vector<double> edges = longest_edges(path_);
+    for (const std::uint32_t v : inside) {
+      const Vector3& x = path_.start[v];
+      for (std::size_t i = 0; i < views_.size(); ++i) {
+        const double distance = views_[i].shape().nearest(views_[i].own(0, x)).distance;
+        if (distance >= -path_.thickness[v] / 2)
+          continue;
+        if (distance < -edges[v] / 2)
+          fail(ExitCode::bad_input,
+               "vertex {} at ({:.6g}, {:.6g}, {:.6g}) starts {:.3g} m inside {}; move the sheet or the solid so that "
+               "they start apart",
+               v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
+        rides_[v] = static_cast<std::int32_t>(i);
+        hold(v, views_[i].own(0, x));
+        ++report_.brought_out;
+        break;
+      }
     }
   }
 

@@ -36,13 +36,15 @@ struct SolidReport {
   std::size_t pushed = 0;         // impulses on triangles
   std::size_t carried = 0;        // vertices carried with a solid because impulses did not help
   std::size_t started_across = 0; // triangles that start across a solid's surface
+  std::size_t brought_out = 0;    // vertices that started inside a solid, by at most half an edge
   std::size_t unresolved = 0;     // triangles that still come too close (see above)
 };
 
 // Corrects end, velocity, touch and fixed of the path; `touch` has a bit or none for each vertex at the start, `fixed`
 // is set there for the vertices of [[hold]]s, which are left alone. Vertices of no triangle, whose thickness is 0, are
-// given the least thickness. Does nothing without solids. Throws Error (bad_input) where a vertex starts deeper in a
-// solid than half the sheet's thickness, unless a [[hold]] put it there.
+// given the least thickness. Does nothing without solids. A vertex that starts in a solid, by at most half of its
+// longest edge, is caught there and ends outside. Throws Error (bad_input) where one starts deeper, unless a [[hold]]
+// put it there.
 SolidReport resolve_solids(StepPath& path, const Solids& solids);
 
 // The triangles that the path takes too close to a solid (as above, less a fifth so that round-off raises no alarm),

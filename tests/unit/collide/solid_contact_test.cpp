@@ -221,6 +221,18 @@ TEST(SolidContact, starting_inside_is_refused) {
   }
 }
 
+// As a change of the mesh on a curved solid may leave them: a little inside, by more than half the thickness and less
+// than half an edge.
+TEST(SolidContact, starting_a_little_inside_is_brought_out) {
+  const Solids ball = solids_of({solid(scene::Sphere{0.03})});
+  FallingSheet sheet = falling(0, 0.03 - 0.8 * kThickness);
+  const SolidReport report = resolve_solids(sheet.path, ball);
+  EXPECT_GT(report.brought_out, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  for (std::size_t v = 0; v < sheet.path.end.size(); ++v)
+    EXPECT_GT(distance_at_end(sheet, ball, v), 0.49 * kThickness);
+}
+
 // A rod that runs through the sheet from the start is brought to one side of it.
 TEST(SolidContact, starting_across_is_brought_out) {
   const Solids rod = solids_of({lying_rod(1e-4)});
