@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// V18: a falling curtain, through the stages sheet-step and sheet-emit.
+// V18: a falling curtain, through the stages sheet-step and sheet-emit; set 2 also through sheet-remesh.
 #include <algorithm>
 #include <chrono>
 
 #include <fmt/core.h>
 
 #include "libsheet/remesh/emit.h"
+#include "libsheet/remesh/remesh.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
@@ -93,9 +94,14 @@ Result v18(const Settings& s) {
   options.scheme = s.scheme;
   options.failed = "";
   StepStage stage(options);
+  remesh::Options remeshing;
+  remeshing.size.edge_length = row;
+  remeshing.smooth = true;
   const auto start = std::chrono::steady_clock::now();
   for (int k = 0; k < s.steps; ++k) {
     stage.step(frame);
+    if (s.set == 2)
+      static_cast<void>(remesh::remesh(frame, &scene, remeshing));
     emit(frame, scene);
   }
   Result result;
