@@ -81,8 +81,17 @@ void EditableSheet::make_grid() {
       grid_->add(t, box_of(mesh_.corners(t)));
 }
 
+// Corners on a line, exactly. Only slivers can be that.
+bool EditableSheet::degenerate(const Corners& corners, const TriangleShape& shape) const {
+  return shape.sharpest > 1 - 1e-9 && corners_collinear(position_, corners);
+}
+
+// Old triangles without area are passed over: they cover nothing, and their sides are those of their neighbours.
 // The patch's border stays, so whatever the new triangles meet, they meet outside of the patch, or each other.
 bool EditableSheet::intersects(const Edit& edit) {
+  for (std::size_t i = 0; i < edit.added.size(); ++i)
+    if (degenerate(edit.added[i], new_shapes_[i]))
+      return true;
   for (std::size_t i = 0; i < edit.added.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (triangles_intersect(position_, edit.added[i], edit.added[k]))
@@ -92,7 +101,8 @@ bool EditableSheet::intersects(const Edit& edit) {
     patch.add(box_of(c));
   bool found = false;
   grid_->for_meeting(patch, [&](std::uint32_t t) {
-    if (found || std::find(edit.removed.begin(), edit.removed.end(), t) != edit.removed.end())
+    if (found || std::find(edit.removed.begin(), edit.removed.end(), t) != edit.removed.end() ||
+        degenerate(mesh_.corners(t), shape_[t]))
       return;
     for (const Corners& c : edit.added)
       if (box_of(c).meets(grid_->box_of(t)) && triangles_intersect(position_, c, mesh_.corners(t))) {

@@ -65,6 +65,7 @@ private:
   [[nodiscard]] bool in_slot(std::uint32_t t) const;
   [[nodiscard]] bool check_shapes(const Edit& edit, const Limits& limits);
   void find_overlap(Edit& edit);
+  [[nodiscard]] bool degenerate(const Corners& corners, const TriangleShape& shape) const;
   [[nodiscard]] bool intersects(const Edit& edit);
   void place(const Edit& edit);
   void commit(const Edit& edit);
