@@ -101,18 +101,21 @@ TriangleMesh wrinkled(double edge_length, double height) {
   return mesh;
 }
 
-TriangleMesh two_caps(double edge_length, double gap) {
-  TriangleMesh mesh = make_cap(1, pi / 3, edges(edge_length));
-  const TriangleMesh other = mesh;
-  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
+TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other, const Vector3& shift) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vector3& x : other.positions)
-    mesh.positions.push_back(x + Vector3(0, 0, gap));
+    mesh.positions.push_back(x + shift);
   for (TriangleIndices t : other.triangles) {
     for (std::uint32_t& v : t)
-      v += shift;
+      v += first;
     mesh.triangles.push_back(t);
   }
   return mesh;
+}
+
+TriangleMesh two_caps(double edge_length, double gap) {
+  const TriangleMesh cap = make_cap(1, pi / 3, edges(edge_length));
+  return joined(cap, cap, {0, 0, gap});
 }
 
 TriangleMesh z_fold(double edge_length, double gap) {

@@ -22,6 +22,8 @@ struct Account {
 [[nodiscard]] TriangleMesh torus(double radius, double tube_radius, std::uint32_t around, std::uint32_t across);
 // A unit square with waves of this height, four along x, seven along y.
 [[nodiscard]] TriangleMesh wrinkled(double edge_length, double height);
+// Both meshes as one, the second moved.
+[[nodiscard]] TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other, const Vector3& shift);
 // Two hemispherical caps, one this much above the other.
 [[nodiscard]] TriangleMesh two_caps(double edge_length, double gap);
 // A strip folded into a Z whose layers lie this far apart.

@@ -8,6 +8,7 @@
 
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/shape/shapes.h"
+#include "tests/support/remesh/cycles.h"
 #include "tests/support/remesh/flows.h"
 
 namespace sheet::remesh {
@@ -146,13 +147,7 @@ TEST(Arrays, ContactSpringsAreCarriedWithoutStrain) {
   TriangleMesh mesh = make_rectangle(1, 1, mesh_options);
   const TriangleMesh layer = mesh;
   const auto shift = static_cast<std::uint32_t>(layer.positions.size());
-  for (const Vector3& x : layer.positions)
-    mesh.positions.push_back(x + Vector3(0, 0, 0.05));
-  for (TriangleIndices t : layer.triangles) {
-    for (std::uint32_t& v : t)
-      v += shift;
-    mesh.triangles.push_back(t);
-  }
+  mesh = test::joined(mesh, layer, Vector3(0, 0, 0.05));
   formats::Frame frame = test::frame_of(mesh, 0.01);
   using Four = std::array<std::uint32_t, 4>;
   using Weights = std::array<double, 4>;

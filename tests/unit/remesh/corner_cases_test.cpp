@@ -158,14 +158,7 @@ TEST(CornerCase, ClosedAndOpenComponentsTogether) {
   mesh_options.edge_length = 0.2;
   TriangleMesh mesh = make_sphere(0.5, mesh_options);
   const TriangleMesh other = make_rectangle(1, 1, mesh_options);
-  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Vector3& x : other.positions)
-    mesh.positions.push_back(x + Vector3(0, 0, 2));
-  for (TriangleIndices t : other.triangles) {
-    for (std::uint32_t& v : t)
-      v += shift;
-    mesh.triangles.push_back(t);
-  }
+  mesh = test::joined(mesh, other, Vector3(0, 0, 2));
   const formats::Frame frame = test::frame_of(mesh, 0.01);
   expect_right(frame, 0.2);
   EXPECT_EQ(holes(frame), 1U);
@@ -263,14 +256,7 @@ TEST(CornerCase, CoplanarSheetsThatTouch) {
   mesh_options.edge_length = 0.2;
   TriangleMesh mesh = make_rectangle(1, 1, mesh_options);
   const TriangleMesh other = mesh;
-  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Vector3& x : other.positions)
-    mesh.positions.push_back(x + Vector3(1, 0, 0));
-  for (TriangleIndices t : other.triangles) {
-    for (std::uint32_t& v : t)
-      v += shift;
-    mesh.triangles.push_back(t);
-  }
+  mesh = test::joined(mesh, other, Vector3(1, 0, 0));
   expect_right(test::frame_of(mesh, 0.01), 0.2);
 }
 
