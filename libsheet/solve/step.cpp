@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/stage_setup.h"
@@ -212,7 +213,7 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   ++report.failed;
-  if (depth == 0 && outcome == Outcome::not_converged && model_.arcs && model_.has_angles()) {
+  if (depth == 0 && outcome == Outcome::not_converged && has_arcs()) {
     advance_flat(state, dt, report);
     return;
   }
@@ -242,13 +243,17 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
        state.time, dt, report.newton.iterations, report.newton.last_step);
 }
 
-void Stepper::advance_flat(State& state, double dt, StepReport& report) {
+Stepper& Stepper::without_arcs() {
   if (!flat_) {
     Model model = model_;
     model.arcs = false;
     flat_ = std::make_unique<Stepper>(std::move(model), options_);
   }
-  const StepReport flat = flat_->step(state, dt);
+  return *flat_;
+}
+
+void Stepper::advance_flat(State& state, double dt, StepReport& report) {
+  const StepReport flat = without_arcs().step(state, dt);
   report.substeps += flat.substeps;
   report.failed += flat.failed;
   report.euler_fallbacks += flat.euler_fallbacks;
@@ -280,6 +285,19 @@ StepReport Stepper::step(State& state, double dt) {
   return report;
 }
 
+// flat: whether it was done without arcs, as it did not converge with them.
+Stepper::Outcome Stepper::attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report) {
+  flat = false;
+  const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
+  if (outcome != Outcome::not_converged || !has_arcs())
+    return outcome;
+  ++report.failed;
+  flat = true;
+  report.error = 0;
+  without_arcs().prepare_cache(state, report);
+  return without_arcs().attempt(state, dt, options_.scheme, Demand::converged, end, report);
+}
+
 StepReport Stepper::step_within(State& state, double until, StepControl& control) {
   constexpr double kSafety = 0.9, kLeast = 0.2, kGreatest = 4;
   const double remaining = until - state.time;
@@ -292,33 +310,54 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
   const std::vector<double> seconds = cache_->system->assembly.seconds();
   const double wanted = control.dt > 0 ? control.dt : remaining;
   // No sliver of a step before the output time: two equal steps instead.
-  double dt = wanted >= remaining ? remaining : wanted > 0.5 * remaining ? 0.5 * remaining : wanted;
-  State end;
-  for (int tries = 0;; ++tries) {
-    report.error = 0;
-    const bool last = dt >= remaining;
-    if (attempt(state, dt, options_.scheme, Demand::converged, end, report) == Outcome::done) {
-      const double factor = std::clamp(kSafety * std::sqrt(control.tolerance / report.error), kLeast, kGreatest);
-      if (report.error <= control.tolerance) {
-        end.time = last ? until : state.time + dt;
-        // A step that was cut to land says nothing against the longer one that was wanted.
-        control.dt = std::max(dt * factor, factor >= 1 ? std::min(wanted, kGreatest * dt) : 0.0);
-        ++report.substeps;
-        state = std::move(end);
-        break;
-      }
-      dt *= std::min(factor, kSafety);
-      ++report.rejected;
-    } else {
-      dt *= kLeast;
-      ++report.failed;
-    }
-    if (tries == 4 * options_.retries || state.time + dt == state.time ||
+  const double first = wanted >= remaining ? remaining : wanted > 0.5 * remaining ? 0.5 * remaining : wanted;
+  struct Trial {
+    State end;
+    double dt = 0, error = 0;
+    bool flat = false;
+  };
+  std::optional<Trial> best; // of those that converged
+  Trial trial;
+  trial.dt = first;
+  for (int tries = 0; !best || best->error > control.tolerance; ++tries) {
+    if (tries > 4 * options_.retries || state.time + trial.dt == state.time ||
         report.newton.iterations >= options_.iterations)
-      fail(ExitCode::not_converged,
-           "no step from t = {} s keeps the error below {} of an edge length (last tried {} s)", state.time,
-           control.tolerance, dt);
+      break;
+    report.error = 0;
+    if (attempt_either(state, trial.dt, trial.end, trial.flat, report) != Outcome::done) {
+      ++report.failed;
+      trial.dt *= kLeast;
+      continue;
+    }
+    trial.error = report.error;
+    report.rejected += trial.error > control.tolerance;
+    if (!best || trial.error < best->error)
+      best = trial;
+    trial.dt *= std::clamp(kSafety * std::sqrt(control.tolerance / trial.error), kLeast, kSafety);
   }
+  if (!best) {
+    Stepper& last = has_arcs() ? without_arcs() : *this;
+    last.prepare_cache(state, report);
+    trial = {{}, first, 0, has_arcs()};
+    report.error = 0;
+    if (last.attempt(state, first, Scheme::backward_euler, Demand::lower_potential, trial.end, report) != Outcome::done)
+      fail(ExitCode::not_converged, "the step at t = {} s did not converge ({} Newton iterations, last tried {} s)",
+           state.time, report.newton.iterations, first);
+    trial.error = report.error;
+    ++report.unfinished;
+    best = std::move(trial);
+  }
+  report.inaccurate = report.unfinished == 0 && best->error > control.tolerance;
+  report.error = best->error;
+  report.flat_fallbacks = best->flat;
+  ++report.substeps;
+  const double factor =
+      report.unfinished > 0 ? 1 : std::clamp(kSafety * std::sqrt(control.tolerance / best->error), kLeast, kGreatest);
+  // A step that was cut to land says nothing against the longer one that was wanted.
+  control.dt = std::max(best->dt * factor, factor >= 1 ? std::min(wanted, kGreatest * best->dt) : 0.0);
+  state = std::move(best->end);
+  if (best->dt >= remaining)
+    state.time = until;
   finish(report, seconds);
   return report;
 }

@@ -9,6 +9,8 @@
 // backward Euler where SDIRK2 fails. When the Newton iterations allowed to a step are spent, what is left of it is done
 // by backward Euler, and taken where the last iteration promised to lower the potential by less than a hundredth of
 // what all have: a stable step of lower accuracy. If that fails too, Error(not_converged), the state untouched.
+// Steps chosen by their error are shortened instead of halved. When the iterations are spent, the most accurate step
+// that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above.
 #pragma once
 #include <memory>
 #include <string>
@@ -43,10 +45,11 @@ struct StepReport {
   int failed = 0;          // attempts that did not converge
   int rejected = 0;        // that were not accurate enough (step_within)
   int euler_fallbacks = 0; // substeps that only backward Euler could do
-  int flat_fallbacks = 0;  // steps that converged only with straight edges instead of arcs
+  int flat_fallbacks = 0;  // steps done with straight edges instead of arcs, as they did not converge with arcs
   int unfinished = 0;      // substeps taken though Newton's iterations had not converged
-  NewtonReport newton;     // sums over all stages; last_step of the last one
-  double error = 0;        // difference to the first-order result, in edge lengths, greatest of the substeps
+  int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
+  NewtonReport newton; // sums over all stages; last_step of the last one
+  double error = 0;    // difference to the first-order result, in edge lengths, greatest of the substeps
   double seconds_analysis = 0;
   std::vector<TermTime> terms; // assembled terms, their element work summed over threads; last: gathering
 };
@@ -66,8 +69,8 @@ public:
 
   // Advances the state by exactly dt [s].
   StepReport step(State& state, double dt);
-  // Advances the state by one step that keeps the error estimate below control.tolerance and does not pass `until` [s];
-  // lands on it exactly. Leaves the next step in control.dt.
+  // Advances the state by one step that keeps the error estimate below control.tolerance, if any does, and does not
+  // pass `until` [s]; lands on it exactly. Leaves the next step in control.dt.
   StepReport step_within(State& state, double until, StepControl& control);
   // New contacts, holds or forces; the analysis is kept if the same elements remain.
   void set_model(Model model);
@@ -78,8 +81,11 @@ private:
   enum class Outcome { done, not_converged, shrinks_to_nothing };
   enum class Demand { converged, lower_potential };
   Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end, StepReport& report);
+  Outcome attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);
+  [[nodiscard]] bool has_arcs() const { return model_.arcs && model_.has_angles(); }
+  Stepper& without_arcs();
   void advance_flat(State& state, double dt, StepReport& report);
   void finish(StepReport& report, const std::vector<double>& seconds_before) const;
 

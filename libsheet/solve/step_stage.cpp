@@ -23,7 +23,7 @@ namespace {
 // What the whole run took.
 struct Totals {
   std::uint64_t steps = 0;
-  int substeps = 0, failed = 0, rejected = 0, fallbacks = 0, flat = 0, unfinished = 0;
+  int substeps = 0, failed = 0, rejected = 0, fallbacks = 0, flat = 0, unfinished = 0, inaccurate = 0;
   NewtonReport newton;
   double seconds = 0, analysis = 0;
   std::vector<TermTime> terms;
@@ -36,6 +36,7 @@ struct Totals {
     fallbacks += r.euler_fallbacks;
     flat += r.flat_fallbacks;
     unfinished += r.unfinished;
+    inaccurate += r.inaccurate;
     newton.iterations += r.newton.iterations;
     newton.seconds_factor += r.newton.seconds_factor;
     newton.seconds_solve += r.newton.seconds_solve;
@@ -143,6 +144,10 @@ struct StepStage::Impl {
       log::warning("step {}: {} of its {} parts taken before Newton's iterations had converged: stable, but less "
                    "accurate; shorter steps or remeshing help",
                    frame.step + 1, report.unfinished, report.substeps);
+    else if (report.inaccurate > 0)
+      log::warning("step {}: its error is about {:.2g} of an edge length, above the tolerance: no step from t = {:.6g} "
+                   "s keeps to it; remeshing helps",
+                   frame.step + 1, report.error, frame.time);
     put_state(state, frame);
   }
 
@@ -181,10 +186,11 @@ void StepStage::report() const {
   const Totals& t = impl_->totals;
   if (t.steps == 0)
     return;
-  log::detail(
-      "{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs, {} unfinished), {} "
-      "Newton iterations, {:.3g} s",
-      t.steps, t.substeps, t.failed, t.rejected, t.fallbacks, t.flat, t.unfinished, t.newton.iterations, t.seconds);
+  log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs, {} unfinished, {} "
+              "above the "
+              "tolerance), {} Newton iterations, {:.3g} s",
+              t.steps, t.substeps, t.failed, t.rejected, t.fallbacks, t.flat, t.unfinished, t.inaccurate,
+              t.newton.iterations, t.seconds);
   log::detail(
       "  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it",
       100 * t.analysis / t.seconds, 100 * t.newton.seconds_assembly / t.seconds,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hard cases, each with what happened: steps, Newton iterations, whether the potential fell monotonically. CSV.
+// Hard cases, each with what happened: steps, Newton iterations, whether the potential fell monotonically. CSV. Each is
+// done in fixed steps and in steps chosen by their error.
+//   bench_hard_cases [flat] [PART OF A NAME]
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -14,7 +16,29 @@ using namespace sheet;
 
 namespace {
 
-void run(const std::string& name, State s, const Model& m, double dt, int steps, StepOptions options = {}) {
+constexpr int kGreatestSteps = 100; // chosen by their error
+
+std::string wanted; // part of the names of the cases to run
+
+void add(StepReport& sum, const StepReport& r) {
+  sum.substeps += r.substeps;
+  sum.failed += r.failed;
+  sum.rejected += r.rejected;
+  sum.euler_fallbacks += r.euler_fallbacks;
+  sum.flat_fallbacks += r.flat_fallbacks;
+  sum.unfinished += r.unfinished;
+  sum.inaccurate += r.inaccurate;
+  sum.newton.iterations += r.newton.iterations;
+  sum.newton.factorizations += r.newton.factorizations;
+  sum.newton.positive += r.newton.positive;
+  sum.newton.shifted += r.newton.shifted;
+  sum.newton.halvings += r.newton.halvings;
+  sum.newton.monotone = sum.newton.monotone && r.newton.monotone;
+}
+
+// chosen: by their error, to the same times.
+void run_one(const std::string& name, State s, const Model& m, double dt, int steps, const StepOptions& options,
+             bool chosen) {
   StepReport sum;
   sum.newton.monotone = true;
   std::string outcome = "ok";
@@ -23,19 +47,18 @@ void run(const std::string& name, State s, const Model& m, double dt, int steps,
   const auto start = std::chrono::steady_clock::now();
   try {
     Stepper stepper(m, options);
-    for (; done < steps; ++done) {
-      const StepReport r = stepper.step(s, dt);
-      sum.substeps += r.substeps;
-      sum.failed += r.failed;
-      sum.euler_fallbacks += r.euler_fallbacks;
-      sum.flat_fallbacks += r.flat_fallbacks;
-      sum.unfinished += r.unfinished;
-      sum.newton.iterations += r.newton.iterations;
-      sum.newton.factorizations += r.newton.factorizations;
-      sum.newton.positive += r.newton.positive;
-      sum.newton.shifted += r.newton.shifted;
-      sum.newton.halvings += r.newton.halvings;
-      sum.newton.monotone = sum.newton.monotone && r.newton.monotone;
+    if (chosen) {
+      StepControl control;
+      for (int k = 1; k <= steps; ++k)
+        while (s.time < k * dt && done < kGreatestSteps) {
+          add(sum, stepper.step_within(s, k * dt, control));
+          ++done;
+        }
+      if (s.time < steps * dt)
+        outcome = "not further than " + std::to_string(s.time / dt / steps) + " of the time";
+    } else {
+      for (; done < steps; ++done)
+        add(sum, stepper.step(s, dt));
     }
   } catch (const Error& e) {
     outcome = e.what();
@@ -43,11 +66,20 @@ void run(const std::string& name, State s, const Model& m, double dt, int steps,
   for (const Vector3& x : s.positions)
     drop = std::min(drop, x.z());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%s,%g,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%s,%.4g,%.2f,\"%s\"\n", name.c_str(), dt, done, sum.substeps,
-              sum.failed, sum.euler_fallbacks, sum.flat_fallbacks, sum.unfinished, sum.newton.iterations,
-              sum.newton.factorizations, sum.newton.positive, sum.newton.shifted, sum.newton.halvings,
-              sum.newton.monotone ? "yes" : "no", drop, seconds, outcome.c_str());
+  std::printf("%s,%s,%g,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%s,%.4g,%.2f,\"%s\"\n", name.c_str(),
+              chosen ? "chosen" : "fixed", dt, done, sum.substeps, sum.failed, sum.rejected, sum.euler_fallbacks,
+              sum.flat_fallbacks, sum.unfinished, sum.inaccurate, sum.newton.iterations, sum.newton.factorizations,
+              sum.newton.positive, sum.newton.shifted, sum.newton.halvings, sum.newton.monotone ? "yes" : "no", drop,
+              seconds, outcome.c_str());
   std::fflush(stdout);
+}
+
+void run(const std::string& name, const State& s, const Model& m, double dt, int steps, StepOptions options = {}) {
+  if (name.find(wanted) == std::string::npos)
+    return;
+  for (const bool chosen : {false, true})
+    if (!chosen || options.scheme == Scheme::sdirk2)
+      run_one(name, s, m, dt, steps, options, chosen);
 }
 
 Hold where(const State& s, auto&& chosen) {
@@ -58,7 +90,7 @@ Hold where(const State& s, auto&& chosen) {
   return hold;
 }
 
-bool arcs = true; // the first argument is not "flat"
+bool arcs = true; // no argument is "flat"
 
 Model sag(const State& s) {
   Model m;
@@ -74,10 +106,13 @@ Model sag(const State& s) {
 } // namespace
 
 int main(int argc, char** argv) {
-  arcs = argc < 2 || std::string(argv[1]) != "flat";
-  std::printf("case,dt,steps,substeps,failed,euler,flat,unfinished,newton,factorizations,positive,shifted,halvings,"
-              "monotone,lowest_z,"
-              "seconds,outcome\n");
+  for (int k = 1; k < argc; ++k)
+    if (std::string(argv[k]) == "flat")
+      arcs = false;
+    else
+      wanted = argv[k];
+  std::printf("case,steps are,dt,steps,substeps,failed,rejected,euler,flat,unfinished,inaccurate,newton,factorizations,"
+              "positive,shifted,halvings,monotone,lowest_z,seconds,outcome\n");
   const test::Mesh square = test::rectangle(1, 1, 20, 20, 0.2);
   const State flat = test::at_rest(square, 0.02);
   // Time of the sag: μ/(ρ g L) = 0.01 s.

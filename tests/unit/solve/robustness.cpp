@@ -153,6 +153,68 @@ TEST(HardCases, FailureIsBounded) {
   EXPECT_EQ(s.positions, before.positions);
 }
 
+// The same where steps are chosen by their error: the rest of the iterations makes the most accurate step there is.
+TEST(HardCases, FailureIsBoundedWhereStepsAreChosen) {
+  const State before = square(0.02);
+  StepOptions options;
+  options.newton.iterations = 3;
+  options.iterations = 1; // none left after the first attempt
+  State s = before;
+  StepControl control{1e-6, 0.1};
+  StepReport r = Stepper(sagging(s), options).step_within(s, 0.1, control);
+  EXPECT_EQ(r.unfinished, 1);
+  EXPECT_EQ(s.time, 0.1);
+  EXPECT_EQ(control.dt, 0.1);
+  s = before;
+  options.newton.iterations = 50;
+  control.dt = 0.1;
+  options.iterations = 20; // one attempt converges, but is not accurate
+  r = Stepper(sagging(s), options).step_within(s, 0.1, control);
+  EXPECT_EQ(r.unfinished, 0);
+  EXPECT_EQ(r.inaccurate, 1);
+  EXPECT_GT(r.error, control.tolerance);
+  EXPECT_LE(r.newton.iterations, 40);
+  s = before;
+  options.newton.iterations = options.iterations = 1;
+  control.dt = 10;
+  EXPECT_THROW((void)Stepper(sagging(s), options).step_within(s, 10, control), Error);
+  EXPECT_EQ(s.positions, before.positions);
+}
+
+// Films that heavy triangles hang from, without inertia: neither steps of a thousandth of a microsecond nor shorter
+// ones converge. They are done all the same, lower the potential, and say so.
+TEST(HardCases, NoStepConvergesWhereStepsAreChosen) {
+  State s = square(0.02);
+  for (std::size_t t = 0; t < s.volumes.size(); ++t)
+    s.volumes[t] *= t % 2 ? 1e-3 : 1e3;
+  Model m = sagging(s);
+  m.inertia = false;
+  StepControl control{1e-3, 0};
+  const StepReport r = Stepper(m, {}).step_within(s, 1e-7, control);
+  EXPECT_GT(r.failed, 0);
+  EXPECT_EQ(r.unfinished + r.inaccurate, 1);
+  EXPECT_TRUE(r.newton.monotone);
+  EXPECT_LE(r.newton.iterations, 600);
+  for (const Vector3& x : s.positions)
+    EXPECT_LT(x.norm(), 3);
+}
+
+// A film of a millionth of an edge does not converge with arcs; without them it is done, and accurate.
+TEST(HardCases, WithoutArcsWhereStepsAreChosen) {
+  State s = test::at_rest(test::rectangle(1, 1, 20, 20, 0.2), 5e-8);
+  Stepper stepper(sagging(s), {});
+  StepControl control{1e-3, 0};
+  int flat = 0;
+  for (int steps = 0; s.time < 0.01; ++steps) {
+    ASSERT_LT(steps, 10);
+    const StepReport r = stepper.step_within(s, 0.01, control);
+    EXPECT_EQ(r.inaccurate + r.unfinished, 0);
+    EXPECT_TRUE(r.newton.monotone);
+    flat += r.flat_fallbacks;
+  }
+  EXPECT_GT(flat, 0);
+}
+
 // Where a triangle would shrink to nothing in the second stage, the step is done in pieces (surface tension on a disk:
 // without that its area fell by a factor of 1e20 in half of this step).
 TEST(HardCases, FreeDiskInStepsOfFiveTimesItsOwnTime) {
