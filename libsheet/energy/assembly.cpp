@@ -66,14 +66,16 @@ Assembly::Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms,
   std::stable_partition(term_order_.begin(), term_order_.end(), [&](std::size_t t) {
     return terms[t]->stencil() == groups_[static_cast<std::size_t>(group_of_term_[t])].stencil;
   });
-  std::size_t elements = 0;
+  std::size_t elements = 0, entries = 0;
   for (ElementGroup& group : groups_) {
     stride_ = std::max(stride_, stencil_unknowns(group.stencil));
     group.first = elements;
+    group.first_hessian = entries;
     elements += group.size();
+    entries += group.size() * static_cast<std::size_t>(packed_size(group.stencil));
   }
   gradients_.resize(elements * static_cast<std::size_t>(stride_));
-  hessians_.resize(elements * static_cast<std::size_t>(stride_ * stride_));
+  hessians_.resize(entries);
   seconds_.assign(terms.size() + 1, 0.0);
 }
 
@@ -183,7 +185,7 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
     collect(groups_[g], first, last, u, local);
     const std::size_t place = groups_[g].first + first;
     double* gradients = &gradients_[place * static_cast<std::size_t>(stride_)];
-    double* hessians = &hessians_[place * static_cast<std::size_t>(stride_ * stride_)];
+    double hessians[kChunk * 144];
     double before = now();
     bool overwrite = true;
     for (const std::size_t t : term_order_)
@@ -194,6 +196,10 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
         seconds[c * terms.size() + t] = after - before;
         before = after;
       }
+    const std::size_t packed = static_cast<std::size_t>(packed_size(groups_[g].stencil));
+    for (std::size_t i = first; i < last; ++i)
+      pattern_->pack(groups_[g], i, hessians + (i - first) * static_cast<std::size_t>(stride_ * stride_),
+                     &hessians_[groups_[g].first_hessian + i * packed]);
   });
   const double before = now();
   pattern_->gather_gradient(gradients_, gradient);

@@ -3,6 +3,7 @@
 #include "libsheet/energy/pattern.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -11,6 +12,18 @@ namespace sheet {
 
 namespace {
 constexpr std::size_t kColumnsAtOnce = 256;
+
+// The place of the block of the local nodes a and b among an element's packed numbers: pairs of vertices first, then of
+// an edge and a vertex, then of edges.
+int packed_block(Stencil s, int a, int b) {
+  const int v = stencil_vertices(s), high = std::max(a, b), low = std::min(a, b);
+  if (high < v)
+    return 9 * (high * (high + 1) / 2 + low);
+  const int edge = high - v, vertices = 9 * v * (v + 1) / 2;
+  if (low < v)
+    return vertices + 3 * (edge * v + low);
+  return vertices + 3 * v * stencil_edges(s) + edge * (edge + 1) / 2 + (low - v);
+}
 } // namespace
 
 MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
@@ -36,14 +49,12 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
       const std::size_t count = group.size();
       for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t* n = &group.nodes[i * static_cast<std::size_t>(group.width)];
-        const auto base = static_cast<std::uint32_t>((group.first + i) * static_cast<std::size_t>(stride * stride));
-        int at[6];
-        for (int a = 0, p = 0; a < group.width; p += width(n[a]), ++a)
-          at[a] = p;
+        const auto base =
+            static_cast<std::uint32_t>(group.first_hessian + i * static_cast<std::size_t>(packed_size(group.stencil)));
         for (int a = 0; a < group.width; ++a)
           for (int b = 0; b < group.width; ++b)
             if (rank[n[a]] >= rank[n[b]])
-              visit(rank[n[b]], Pair{rank[n[a]], base + static_cast<std::uint32_t>(at[b] * stride + at[a])});
+              visit(rank[n[b]], Pair{rank[n[a]], base + static_cast<std::uint32_t>(packed_block(group.stencil, a, b))});
       }
     }
   };
@@ -60,6 +71,16 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
       std::sort(pairs.begin() + start[k], pairs.begin() + start[k + 1],
                 [](const Pair& p, const Pair& q) { return p.row != q.row ? p.row < q.row : p.source < q.source; });
   });
+
+  for (const ElementGroup& group : groups)
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const std::uint32_t* n = &group.nodes[i * static_cast<std::size_t>(group.width)];
+      unsigned mask = 0;
+      for (int a = 1, bit = 0; a < stencil_vertices(group.stencil); ++a)
+        for (int b = 0; b < a; ++b, ++bit)
+          mask |= static_cast<unsigned>(rank[n[a]] < rank[n[b]]) << bit;
+      reversed_.push_back(static_cast<std::uint8_t>(mask));
+    }
 
   sources_.resize(pairs.size());
   block_start_.assign(nodes + 1, 0);
@@ -118,6 +139,24 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
   each_node([&](std::uint32_t node, std::uint32_t place) { gradient_sources_[next[node]++] = place; });
 }
 
+void MatrixPattern::pack(const ElementGroup& group, std::size_t element, const double* hessian, double* packed) const {
+  const int vertices = stencil_vertices(group.stencil), edges = stencil_edges(group.stencil);
+  const unsigned reversed = reversed_[group.first + element];
+  for (int a = 0, bit = 0; a < vertices; ++a)
+    for (int b = 0; b <= a; ++b) {
+      const bool swapped = b < a && (reversed >> bit++ & 1) != 0;
+      const double* from = hessian + (swapped ? 3 * (a * stride_ + b) : 3 * (b * stride_ + a));
+      for (int c = 0; c < 3; ++c, from += stride_, packed += 3)
+        packed[0] = from[0], packed[1] = from[1], packed[2] = from[2];
+    }
+  for (int e = 0; e < edges; ++e) {
+    const double* from = hessian + (3 * vertices + e) * stride_;
+    packed = std::copy_n(from, 3 * vertices, packed);
+  }
+  for (int e = 0; e < edges; ++e)
+    packed = std::copy_n(hessian + (3 * vertices + e) * stride_ + 3 * vertices, e + 1, packed);
+}
+
 void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const {
   gradient.resize(static_cast<Eigen::Index>(permutation_.size()));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order_.size(), 4 * kColumnsAtOnce), [&](const auto& range) {
@@ -142,24 +181,29 @@ void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<c
     for (std::uint32_t b = block_start_[k]; b < block_start_[k + 1]; ++b) {
       const Block& block = blocks_[b];
       const int rows = width(block.row_node);
-      double sum[9] = {};
-      for (std::uint32_t s = block.first_source; s < blocks_[b + 1].first_source; ++s) {
-        const double* from = &buffer[sources_[s]];
-        for (int c = 0; c < columns; ++c, from += stride_)
-          for (int r = 0; r < rows; ++r)
-            sum[3 * c + r] += from[r];
-      }
+      double sum[9] = {}; // by columns
+      const auto add = [&]<int Size>(std::integral_constant<int, Size>) {
+        for (std::uint32_t s = block.first_source; s < blocks_[b + 1].first_source; ++s)
+          for (int at = 0; at < Size; ++at)
+            sum[at] += buffer[sources_[s] + static_cast<std::size_t>(at)];
+      };
+      if (rows * columns == 9)
+        add(std::integral_constant<int, 9>());
+      else if (rows * columns == 3)
+        add(std::integral_constant<int, 3>());
+      else
+        add(std::integral_constant<int, 1>());
       const bool diagonal = block.row_node == column_node;
       if (!held.empty())
         for (int c = 0; c < columns; ++c)
           for (int r = 0; r < rows; ++r)
             if (held[first_unknown(block.row_node) + r] || held[first_unknown(column_node) + c])
-              sum[3 * c + r] = diagonal && r == c ? 1 : 0;
+              sum[rows * c + r] = diagonal && r == c ? 1 : 0;
       for (int c = 0; c < columns; ++c) {
         // Column c of the node lists its rows from its own diagonal on.
         double* to = &matrix.values[static_cast<std::size_t>(starts[c]) + block.offset] - (diagonal ? 0 : c);
         for (int r = diagonal ? c : 0; r < rows; ++r)
-          *to++ = sum[3 * c + r];
+          *to++ = sum[rows * c + r];
       }
     }
   };

@@ -3,6 +3,8 @@
 // (one each, if the sheet has angle unknowns). The matrix is the lower triangle, by columns, in a given order of the
 // nodes. Each block of it, a pair of nodes, knows all places in the element buffer that it is the sum of, in a fixed
 // order: so gathering is parallel over columns and the result does not depend on the number of threads.
+// The buffer keeps of each symmetric element Hessian one block a pair of nodes, as the matrix wants it (rows of the
+// node that is eliminated later), each block by columns in one piece: 87 numbers a triangle with edges instead of 144.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -24,13 +26,20 @@ struct ElementGroup {
   Stencil stencil;
   int width = 0;
   std::vector<std::uint32_t> nodes;
-  std::size_t first = 0; // of its elements in the common buffer
+  std::size_t first = 0;         // of its elements among all
+  std::size_t first_hessian = 0; // of its elements' packed Hessians in the common buffer
   [[nodiscard]] std::size_t size() const { return width ? nodes.size() / static_cast<std::size_t>(width) : 0; }
 };
 
+// Numbers that the buffer keeps of an element's Hessian.
+constexpr int packed_size(Stencil s) {
+  const int v = stencil_vertices(s), e = stencil_edges(s);
+  return 9 * v * (v + 1) / 2 + 3 * v * e + e * (e + 1) / 2;
+}
+
 class MatrixPattern {
 public:
-  // order: the nodes in the order of elimination. stride: unknowns of an element in the buffer.
+  // order: the nodes in the order of elimination. stride: numbers of an element in the gradient buffer.
   MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
                 std::span<const std::uint32_t> order);
 
@@ -39,6 +48,8 @@ public:
   [[nodiscard]] const std::vector<std::uint32_t>& permutation() const { return permutation_; }
   [[nodiscard]] const SparseLower& structure() const { return structure_; }
 
+  // Puts the Hessian of an element (column major, stride x stride) into its place, packed_size(group.stencil) numbers.
+  void pack(const ElementGroup& group, std::size_t element, const double* hessian, double* packed) const;
   void gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const;
   // Rows and columns of held unknowns become those of the unit matrix. matrix must be a copy of structure().
   void gather_matrix(const std::vector<double>& buffer, std::span<const char> held, SparseLower& matrix) const;
@@ -61,6 +72,7 @@ private:
   std::vector<std::uint32_t> block_start_;  // of each node column, in elimination order
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> sources_; // places in the Hessian buffer
+  std::vector<std::uint8_t> reversed_; // for each element: bit a(a-1)/2 + b, whether vertex a > b is eliminated first
   std::vector<std::uint32_t> gradient_start_, gradient_sources_;
   SparseLower structure_;
 };
