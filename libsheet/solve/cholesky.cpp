@@ -21,7 +21,7 @@ struct Library {
   decltype(&cholmod_factorize_p) factorize_p;
   decltype(&cholmod_rcond) rcond;
   decltype(&cholmod_solve2) solve2;
-  decltype(&cholmod_metis) metis;
+  decltype(&cholmod_nested_dissection) nested_dissection;
   decltype(&cholmod_free_factor) free_factor;
   decltype(&cholmod_free_dense) free_dense;
   std::string core = "unknown";
@@ -49,7 +49,7 @@ struct Library {
     find(factorize_p, "cholmod_factorize_p");
     find(rcond, "cholmod_rcond");
     find(solve2, "cholmod_solve2");
-    find(metis, "cholmod_metis");
+    find(nested_dissection, "cholmod_nested_dissection");
     find(free_factor, "cholmod_free_factor");
     find(free_dense, "cholmod_free_dense");
     // Neither BLAS threads nor OpenMP threads inside CHOLMOD gain anything on these sizes (DESIGN.md section 5).
@@ -69,6 +69,11 @@ const Library& library() {
   static const Library instance;
   return instance;
 }
+
+// Parts of fewer vertices are not dissected further: METIS takes longer for them than the minimum degree does, and the
+// factorisation is as fast (docs/speed-error.md).
+constexpr std::size_t kLeastDissected = 1000;
+constexpr int kCsymamd = 2;
 
 void quiet(int, const char*, int, const char*) {}
 
@@ -124,12 +129,16 @@ std::vector<std::uint32_t> nested_dissection(std::size_t vertices, std::span<con
   if (graph.empty())
     a.rows.push_back(0);
   cholmod_common common = started();
+  common.current = 0;
+  common.method[0].nd_small = kLeastDissected;
+  common.method[0].nd_camd = kCsymamd;
+  common.method[0].nd_compress = 0; // no two vertices of a sheet have the same neighbours
   cholmod_sparse s = view(a, false);
-  std::vector<int> order(vertices);
-  const bool good = library().metis(&s, nullptr, 0, 1, order.data(), &common);
+  std::vector<int> order(vertices), parents(vertices), parts(vertices);
+  const auto found = library().nested_dissection(&s, nullptr, 0, order.data(), parents.data(), parts.data(), &common);
   library().finish(&common);
-  if (!good)
-    fail(ExitCode::internal, "METIS found no order for {} vertices (status {})", vertices, common.status);
+  if (found < 0)
+    fail(ExitCode::internal, "no order found for {} vertices (status {})", vertices, common.status);
   return {order.begin(), order.end()};
 }
 

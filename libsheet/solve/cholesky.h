@@ -19,7 +19,9 @@ namespace sheet {
 // The processor that OpenBLAS works for, e.g. "SkylakeX"; print it with every benchmark.
 [[nodiscard]] std::string blas_core_name();
 
-// A fill-reducing order of the vertices of a graph (METIS nested dissection).
+// A fill-reducing order of the vertices of a graph: nested dissection [George 1973] with METIS's separators, parts
+// below a thousand vertices by minimum degree (CSYMAMD). Of the graph alone, not of positions, so that a resumed run
+// has the same one.
 [[nodiscard]] std::vector<std::uint32_t> nested_dissection(std::size_t vertices, std::span<const Edge> graph);
 
 class Cholesky {
