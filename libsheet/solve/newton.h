@@ -18,7 +18,7 @@ enum class HessianChoice {
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-6; // of the error that remains, estimated from the last two steps
+  double tolerance = 1e-5; // of the error that remains, estimated from the last two steps
   int iterations = 50;
   HessianChoice hessian = HessianChoice::exact_first;
 };

@@ -114,6 +114,8 @@ struct StepStage::Impl {
     } else {
       StepOptions step_options;
       step_options.scheme = options.scheme;
+      if (options.tolerance) // of a step's error Newton's iterations add a hundredth at most
+        step_options.newton.tolerance = std::min(step_options.newton.tolerance, 0.01 * *options.tolerance);
       stepper.emplace(std::move(model), step_options);
     }
     State state = state_of(frame, mesh);
