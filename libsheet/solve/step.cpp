@@ -18,6 +18,7 @@ const double kGamma = 1 - std::sqrt(0.5);
 
 constexpr int kHalvingsBeforeEuler = 1;
 constexpr double kUnfinished = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
+constexpr int kHopeless = 4;         // times the iterations allowed, with those of unfinished substeps
 constexpr double kFarBehind = 0.1;   // of an edge: held unknowns that are this far from where inertia takes them
 
 // Whether every triangle still has an area beyond round-off.
@@ -225,16 +226,18 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     state = std::move(end);
     return;
   }
-  if (!exhausted && depth < options_.retries) {
-    const double middle = state.time + 0.5 * dt, until = state.time + dt;
-    advance(state, middle - state.time, depth + 1, report);
-    advance(state, until - state.time, depth + 1, report);
-    return;
-  }
-  if (attempt(state, dt, Scheme::backward_euler, Demand::lower_potential, end, report) == Outcome::done) {
+  const bool divisible = depth < options_.retries;
+  if ((exhausted || !divisible) &&
+      attempt(state, dt, Scheme::backward_euler, Demand::lower_potential, end, report) == Outcome::done) {
     ++report.substeps;
     ++report.unfinished;
     state = std::move(end);
+    return;
+  }
+  if (divisible && report.newton.iterations < kHopeless * options_.iterations) {
+    const double middle = state.time + 0.5 * dt, until = state.time + dt;
+    advance(state, middle - state.time, depth + 1, report);
+    advance(state, until - state.time, depth + 1, report);
     return;
   }
   fail(ExitCode::not_converged,
@@ -340,9 +343,16 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
     last.prepare_cache(state, report);
     trial = {{}, first, 0, has_arcs()};
     report.error = 0;
-    if (last.attempt(state, first, Scheme::backward_euler, Demand::lower_potential, trial.end, report) != Outcome::done)
+    while (last.attempt(state, trial.dt, Scheme::backward_euler, Demand::lower_potential, trial.end, report) !=
+           Outcome::done) {
+      ++report.failed;
+      trial.dt *= kLeast;
+      report.error = 0;
+      if (report.newton.iterations < kHopeless * options_.iterations && state.time + trial.dt > state.time)
+        continue;
       fail(ExitCode::not_converged, "the step at t = {} s did not converge ({} Newton iterations, last tried {} s)",
-           state.time, report.newton.iterations, first);
+           state.time, report.newton.iterations, trial.dt);
+    }
     trial.error = report.error;
     ++report.unfinished;
     best = std::move(trial);

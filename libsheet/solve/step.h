@@ -8,7 +8,8 @@
 // A step that does not converge with arcs is done without them; one that does not converge is done in halves, halves by
 // backward Euler where SDIRK2 fails. When the Newton iterations allowed to a step are spent, what is left of it is done
 // by backward Euler, and taken where the last iteration promised to lower the potential by less than a hundredth of
-// what all have: a stable step of lower accuracy. If that fails too, Error(not_converged), the state untouched.
+// what all have: a stable step of lower accuracy, in halves if need be, with up to four times the iterations. If that
+// fails too, Error(not_converged), the state untouched.
 // Steps chosen by their error are shortened instead of halved. When the iterations are spent, the most accurate step
 // that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above.
 #pragma once
