@@ -94,9 +94,9 @@ double step_megabytes(const Choice& choice, int vertices) {
 
 void bench(int vertices, int steps, const std::vector<double>& memory) {
   struct Sample {
-    std::vector<double> assembly, factor, solve, search, step, over_factor;
+    std::vector<double> analysis, assembly, factor, solve, search, step, over_factor;
     std::vector<TermTime> terms;
-    double analysis = 0, later_analysis = 0;
+    double later_analysis = 0;
     int iterations = 0, factorizations = 0;
   };
   std::vector<Stepper> steppers;
@@ -113,7 +113,7 @@ void bench(int vertices, int steps, const std::vector<double>& memory) {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
       Sample& s = samples[c];
       if (k == 0) {
-        s.analysis = r.seconds_analysis;
+        s.analysis.push_back(r.seconds_analysis);
         continue;
       }
       const NewtonReport& t = r.newton;
@@ -127,12 +127,18 @@ void bench(int vertices, int steps, const std::vector<double>& memory) {
       s.terms = r.terms;
       s.iterations += t.iterations, s.factorizations += t.factorizations;
     }
+  for (int k = 0; k < steps; ++k)
+    for (std::size_t c = 0; c < steppers.size(); ++c) {
+      const Model& m = steppers[c].model();
+      const LinearSystem system(states[c].mesh, make_terms(m, states[c].mesh), m.has_angles());
+      samples[c].analysis.push_back(system.seconds_analysis);
+    }
   for (std::size_t c = 0; c < steppers.size(); ++c) {
     const Sample& s = samples[c];
     std::printf("%zu,%s,%.1f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.1f,%.3f,%.1f,%.1f\n", states[c].positions.size(),
                 kChoices[c].name, static_cast<double>(s.iterations) / steps, 1e3 * median(s.assembly),
                 1e3 * median(s.factor), 1e3 * median(s.solve), 1e3 * median(s.search), median(s.over_factor),
-                s.analysis / median(s.factor), s.later_analysis, 1e3 * median(s.step),
+                median(s.analysis) / median(s.factor), s.later_analysis, 1e3 * median(s.step),
                 median(s.step) / median(samples[1].step), memory[c],
                 1024 * memory[c] / static_cast<double>(states[c].positions.size()));
     std::fflush(stdout);
