@@ -12,6 +12,7 @@ namespace sheet {
 
 namespace {
 constexpr std::size_t kColumnsAtOnce = 256;
+constexpr std::size_t kAhead = 24; // sources are asked for this early, as they lie all over the buffer
 
 // The place of the block of the local nodes a and b among an element's packed numbers: pairs of vertices first, then of
 // an edge and a vertex, then of edges.
@@ -82,7 +83,7 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
       reversed_.push_back(static_cast<std::uint8_t>(mask));
     }
 
-  sources_.resize(pairs.size());
+  sources_.resize(pairs.size() + kAhead);
   block_start_.assign(nodes + 1, 0);
   structure_.size = static_cast<int>(permutation_.size());
   structure_.starts.assign(permutation_.size() + 1, 0);
@@ -104,7 +105,7 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
     for (int d = 0; d < width(order_[k]); ++d)
       structure_.starts[column_start_[k] + d + 1] = static_cast<int>(offset) - d;
   }
-  blocks_.push_back({0, 0, static_cast<std::uint32_t>(sources_.size())}); // the end of the last block's sources
+  blocks_.push_back({0, 0, static_cast<std::uint32_t>(pairs.size())}); // the end of the last block's sources
   for (std::size_t c = 0; c < permutation_.size(); ++c)
     structure_.starts[c + 1] += structure_.starts[c];
   structure_.rows.resize(static_cast<std::size_t>(structure_.starts.back()));
@@ -183,9 +184,11 @@ void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<c
       const int rows = width(block.row_node);
       double sum[9] = {}; // by columns
       const auto add = [&]<int Size>(std::integral_constant<int, Size>) {
-        for (std::uint32_t s = block.first_source; s < blocks_[b + 1].first_source; ++s)
+        for (std::uint32_t s = block.first_source; s < blocks_[b + 1].first_source; ++s) {
+          __builtin_prefetch(&buffer[sources_[s + kAhead]]);
           for (int at = 0; at < Size; ++at)
             sum[at] += buffer[sources_[s] + static_cast<std::size_t>(at)];
+        }
       };
       if (rows * columns == 9)
         add(std::integral_constant<int, 9>());
