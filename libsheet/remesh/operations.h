@@ -9,6 +9,12 @@ namespace sheet::remesh {
 // Cosine of the angle by which a rim may turn at a vertex that may go; beyond, it is a corner.
 inline constexpr double corner_cosine = 0.70710678118654752; // 45 degrees
 
+// The rim's neighbours of a rim vertex: where the rim comes from and where it goes to (the sheet on its left).
+struct RimNeighbours {
+  std::uint32_t before, after;
+};
+[[nodiscard]] RimNeighbours rim_neighbours(const Mesh& mesh, std::uint32_t v);
+
 // True for a rim vertex at which the rim turns by more than 45 degrees.
 [[nodiscard]] bool is_corner(const EditableSheet& sheet, std::uint32_t v);
 

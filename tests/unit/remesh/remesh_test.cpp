@@ -159,7 +159,7 @@ TEST(Adaptive, FollowsCurvatureWithinBounds) {
     }
   }
   formats::Frame frame = test::frame_of(mesh, 0.001);
-  Options o = options(0.05);
+  Options o = options(0.15);
   o.size.chord_error = 0.001; // sqrt(8 * 0.001 * 0.4) = 0.057 on the cylinder
   o.size.min_edge = 0.02;
   o.size.max_edge = 0.2;
