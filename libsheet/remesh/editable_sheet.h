@@ -10,6 +10,7 @@
 
 #include "libsheet/remesh/edit.h"
 #include "libsheet/remesh/overlap.h"
+#include "libsheet/remesh/thickness.h"
 #include "libsheet/remesh/triangle_grid.h"
 #include "libsheet/remesh/triangle_shape.h"
 #include "libsheet/remesh/velocity.h"
@@ -64,7 +65,8 @@ public:
 private:
   [[nodiscard]] bool in_slot(std::uint32_t t) const;
   [[nodiscard]] bool check_shapes(const Edit& edit, const Limits& limits);
-  void find_overlap(Edit& edit);
+  void flatten_old(const Edit& edit, const PlaneFrame& plane);
+  void find_overlap(Edit& edit, const PlaneFrame& plane, bool given);
   [[nodiscard]] bool degenerate(const Corners& corners, const TriangleShape& shape) const;
   [[nodiscard]] bool intersects(const Edit& edit);
   void place(const Edit& edit);
@@ -99,6 +101,7 @@ private:
   std::vector<TriangleShape> old_shapes_, new_shapes_;
   std::vector<double> old_areas_, new_areas_, old_volumes_;
   std::vector<FlatTriangle> old_flat_, new_flat_;
+  std::vector<ThicknessSlope> slopes_; // of the old triangles
   std::vector<std::uint32_t> patch_, slots_;
   std::vector<std::byte> row_;
   std::vector<MovingVertex> moving_;
