@@ -150,14 +150,14 @@ bool EditableSheet::intersects(const Edit& edit) {
   return found;
 }
 
-bool EditableSheet::in_slot(std::uint32_t t) const {
-  return std::ranges::all_of(mesh_.corners(t), [&](std::uint32_t v) { return v < in_inlet_.size() && in_inlet_[v]; });
+bool EditableSheet::in_strip(std::uint32_t t) const {
+  return std::ranges::all_of(mesh_.corners(t), [&](std::uint32_t v) { return v < at_inlet_.size() && at_inlet_[v]; });
 }
 
 bool EditableSheet::make(Edit& edit, const Limits& limits) {
   if (edit.added.empty() && edit.removed.empty())
     return false;
-  if (std::ranges::any_of(edit.removed, [&](std::uint32_t t) { return in_slot(t); }))
+  if (std::ranges::any_of(edit.removed, [&](std::uint32_t t) { return in_strip(t); }))
     return false;
   if (limits.intersections && !grid_)
     make_grid();

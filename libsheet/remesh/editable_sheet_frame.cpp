@@ -72,7 +72,7 @@ EditableSheet::EditableSheet(const Frame& frame, const Scene* scene) : mesh_(fra
     successor_.push_back(v);
   }
   for (const std::uint64_t bits : masks(frame, "inlet"))
-    in_inlet_.push_back(bits != 0);
+    at_inlet_.push_back(bits != 0);
   if (scene != nullptr)
     for (const scene::Hold& hold : scene->holds)
       hold_axes_.push_back(hold.axes);
