@@ -10,19 +10,6 @@ namespace sheet::remesh {
 
 namespace {
 
-// The rim's neighbours of a rim vertex: where the rim comes from and where it goes to (the sheet on its left).
-struct RimNeighbours {
-  std::uint32_t before, after;
-};
-RimNeighbours rim_neighbours(const Mesh& mesh, std::uint32_t v) {
-  RimNeighbours found{none, mesh.to(mesh.side_at(v))};
-  mesh.for_fan(v, [&](std::uint32_t side) {
-    if (mesh.twin(Mesh::previous(side)) == none)
-      found.before = mesh.from(Mesh::previous(side));
-  });
-  return found;
-}
-
 // Link condition: the ends have no common neighbours but the apices of the edge's triangles, and no apex would be left
 // with two triangles (inside) or none (at a rim).
 bool keeps_manifold(const Mesh& mesh, std::uint32_t side) {
@@ -122,6 +109,15 @@ void make_fans(const EditableSheet& sheet, std::uint32_t kept, std::uint32_t gon
 }
 
 } // namespace
+
+RimNeighbours rim_neighbours(const Mesh& mesh, std::uint32_t v) {
+  RimNeighbours found{none, mesh.to(mesh.side_at(v))};
+  mesh.for_fan(v, [&](std::uint32_t side) {
+    if (mesh.twin(Mesh::previous(side)) == none)
+      found.before = mesh.from(Mesh::previous(side));
+  });
+  return found;
+}
 
 bool is_corner(const EditableSheet& sheet, std::uint32_t v) {
   const Mesh& mesh = sheet.mesh();

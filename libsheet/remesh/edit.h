@@ -30,6 +30,7 @@ struct Edit {
 
   // overlap[i * removed.size() + j]: the area of added triangle i that covers removed triangle j [m²]
   std::vector<double> overlap;
+  std::vector<double> rise; // by how much the old thickness there differs from its mean [m], by EditableSheet
   // Volume between the sheet after and before, by which the enclosed volume grows [m³].
   double swept = 0;
 
@@ -41,6 +42,7 @@ struct Edit {
     former.clear();
     parents.clear();
     overlap.clear();
+    rise.clear();
     volumes.clear();
     vertex = removed_vertex = none;
     swept = 0;

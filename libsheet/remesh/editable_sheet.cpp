@@ -58,15 +58,52 @@ bool EditableSheet::check_shapes(const Edit& edit, const Limits& limits) {
   return true;
 }
 
-void EditableSheet::find_overlap(Edit& edit) {
-  const PlaneFrame plane(facing_);
+void EditableSheet::flatten_old(const Edit& edit, const PlaneFrame& plane) {
+  const auto flat = [&](const Corners& c) {
+    return FlatTriangle{plane.flat(position_[c[0]]), plane.flat(position_[c[1]]), plane.flat(position_[c[2]])};
+  };
+  old_flat_.clear();
+  slopes_.clear();
+  for (const std::uint32_t t : edit.removed) {
+    old_flat_.push_back(flat(mesh_.corners(t)));
+    std::array<ThicknessAt, 3> beside;
+    std::size_t count = 0;
+    for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side)
+      if (const std::uint32_t twin = mesh_.twin(side); twin != none) {
+        const std::uint32_t other = Mesh::triangle_of(twin);
+        if (shape_[other].area > 0)
+          beside[count++] = {middle_of(flat(mesh_.corners(other))), volume_[other] / shape_[other].area};
+      }
+    slopes_.push_back(shape_[t].area > 0
+                          ? slope_of({middle_of(old_flat_.back()), volume_[t] / shape_[t].area}, {beside.data(), count})
+                          : ThicknessSlope{});
+  }
+}
+
+// `given`: the overlaps are known, of new triangles that lie within one old one.
+void EditableSheet::find_overlap(Edit& edit, const PlaneFrame& plane, bool given) {
   new_flat_.clear();
   for (const Corners& c : edit.added)
     new_flat_.push_back({plane.flat(position_[c[0]]), plane.flat(position_[c[1]]), plane.flat(position_[c[2]])});
-  edit.overlap.clear();
-  for (const FlatTriangle& a : new_flat_)
-    for (const FlatTriangle& b : old_flat_)
-      edit.overlap.push_back(overlap_area(a, b));
+  const std::size_t old_count = edit.removed.size();
+  edit.overlap.resize(edit.added.size() * old_count);
+  edit.rise.resize(edit.overlap.size());
+  for (std::size_t j = 0; j < old_count; ++j) {
+    const auto& [slope, least, most] = slopes_[j];
+    double scale = 1;
+    for (std::size_t i = 0; i < edit.added.size(); ++i) {
+      const std::size_t k = i * old_count + j;
+      const Overlap overlap =
+          given ? Overlap{edit.overlap[k], middle_of(new_flat_[i])} : overlap_of(new_flat_[i], old_flat_[j]);
+      edit.overlap[k] = overlap.area;
+      const double rise = overlap.area > 0 ? slope.dot(overlap.middle - middle_of(old_flat_[j])) : 0;
+      if (rise > most || rise < least)
+        scale = std::min(scale, (rise > 0 ? most : least) / rise);
+      edit.rise[k] = rise;
+    }
+    for (std::size_t i = 0; i < edit.added.size(); ++i)
+      edit.rise[i * old_count + j] *= scale;
+  }
 }
 
 void EditableSheet::make_grid() {
@@ -113,14 +150,14 @@ bool EditableSheet::intersects(const Edit& edit) {
   return found;
 }
 
-bool EditableSheet::in_slot(std::uint32_t t) const {
-  return std::ranges::all_of(mesh_.corners(t), [&](std::uint32_t v) { return v < in_inlet_.size() && in_inlet_[v]; });
+bool EditableSheet::in_strip(std::uint32_t t) const {
+  return std::ranges::all_of(mesh_.corners(t), [&](std::uint32_t v) { return v < at_inlet_.size() && at_inlet_[v]; });
 }
 
 bool EditableSheet::make(Edit& edit, const Limits& limits) {
   if (edit.added.empty() && edit.removed.empty())
     return false;
-  if (std::ranges::any_of(edit.removed, [&](std::uint32_t t) { return in_slot(t); }))
+  if (std::ranges::any_of(edit.removed, [&](std::uint32_t t) { return in_strip(t); }))
     return false;
   if (limits.intersections && !grid_)
     make_grid();
@@ -135,23 +172,16 @@ bool EditableSheet::make(Edit& edit, const Limits& limits) {
     facing += old.area * old.normal;
   }
   facing_ = facing.stableNormalized();
-  const bool project = edit.overlap.empty();
-  if (project) {
-    if (facing_.isZero())
-      return false;
-    const PlaneFrame plane(facing_);
-    old_flat_.clear();
-    for (const std::uint32_t t : edit.removed) {
-      const Corners& c = mesh_.corners(t);
-      old_flat_.push_back({plane.flat(position_[c[0]]), plane.flat(position_[c[1]]), plane.flat(position_[c[2]])});
-    }
-  }
+  const bool given = !edit.overlap.empty();
+  if (facing_.isZero() && !given)
+    return false;
+  const PlaneFrame plane(facing_.isZero() ? Vector3::UnitZ() : facing_);
+  flatten_old(edit, plane);
   place(edit);
   const auto accepted = [&] {
     if (!check_shapes(edit, limits))
       return false;
-    if (project)
-      find_overlap(edit);
+    find_overlap(edit, plane, given);
     return share_volume(edit, old_areas_, old_volumes_, new_areas_, limits.thickness) &&
            !(limits.intersections && intersects(edit));
   };

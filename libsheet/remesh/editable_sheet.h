@@ -10,6 +10,7 @@
 
 #include "libsheet/remesh/edit.h"
 #include "libsheet/remesh/overlap.h"
+#include "libsheet/remesh/thickness.h"
 #include "libsheet/remesh/triangle_grid.h"
 #include "libsheet/remesh/triangle_shape.h"
 #include "libsheet/remesh/velocity.h"
@@ -53,7 +54,7 @@ public:
   [[nodiscard]] double swept(std::uint32_t v) const { return swept_[v]; }
 
   // Makes the edit, unless it breaks the limits or makes a triangle without area; then nothing changes. Where the edit
-  // has no overlap yet, it is found by projecting the patch along its mean normal. Triangles in the slot of an inlet
+  // has no overlap yet, it is found by projecting the patch along its mean normal. Triangles of an inlet's strip
   // (inlet.h) stay as they are.
   [[nodiscard]] bool make(Edit& edit, const Limits& limits);
   [[nodiscard]] std::uint64_t edits() const { return edits_; }
@@ -62,9 +63,10 @@ public:
   void put(formats::Frame& frame);
 
 private:
-  [[nodiscard]] bool in_slot(std::uint32_t t) const;
+  [[nodiscard]] bool in_strip(std::uint32_t t) const;
   [[nodiscard]] bool check_shapes(const Edit& edit, const Limits& limits);
-  void find_overlap(Edit& edit);
+  void flatten_old(const Edit& edit, const PlaneFrame& plane);
+  void find_overlap(Edit& edit, const PlaneFrame& plane, bool given);
   [[nodiscard]] bool degenerate(const Corners& corners, const TriangleShape& shape) const;
   [[nodiscard]] bool intersects(const Edit& edit);
   void place(const Edit& edit);
@@ -89,7 +91,7 @@ private:
   std::vector<std::uint32_t> grip_;                         // of vertices, indices of grips_; empty: nothing is held
   std::vector<Grip> grips_ = {{{}, {false, false, false}}}; // the first: free
   std::vector<Axes> hold_axes_;                             // of the scene's holds
-  std::vector<bool> in_inlet_;                              // vertices of the frame; empty: there is no inlet
+  std::vector<bool> at_inlet_;                              // marked vertices of the frame; empty: there is no inlet
   std::vector<formats::Array> vertex_rows_, triangle_rows_; // all other arrays, by slot
   std::vector<std::uint32_t> successor_;                    // of removed vertices; itself: still there
   std::optional<TriangleGrid> grid_;
@@ -99,6 +101,7 @@ private:
   std::vector<TriangleShape> old_shapes_, new_shapes_;
   std::vector<double> old_areas_, new_areas_, old_volumes_;
   std::vector<FlatTriangle> old_flat_, new_flat_;
+  std::vector<ThicknessSlope> slopes_; // of the old triangles
   std::vector<std::uint32_t> patch_, slots_;
   std::vector<std::byte> row_;
   std::vector<MovingVertex> moving_;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "libsheet/remesh/editable_sheet.h"
+#include "libsheet/remesh/numbering.h"
 #include "libsheet/remesh/row_storage.h"
 #include "libsheet/sheet/contact_springs.h"
 #include "libsheet/sheet/edge_rows.h"
@@ -71,7 +72,7 @@ EditableSheet::EditableSheet(const Frame& frame, const Scene* scene) : mesh_(fra
     successor_.push_back(v);
   }
   for (const std::uint64_t bits : masks(frame, "inlet"))
-    in_inlet_.push_back((bits & sheet::in_inlet) != 0);
+    at_inlet_.push_back(bits != 0);
   if (scene != nullptr)
     for (const scene::Hold& hold : scene->holds)
       hold_axes_.push_back(hold.axes);
@@ -130,15 +131,7 @@ void EditableSheet::put(Frame& frame) {
     return;
   const EdgeRows edges(frame);
   ContactSprings springs(frame);
-  std::vector<std::uint32_t> vertices, kept, number(mesh_.vertex_slots(), none);
-  for (std::uint32_t v = 0; v < mesh_.vertex_slots(); ++v)
-    if (mesh_.has_vertex(v)) {
-      number[v] = static_cast<std::uint32_t>(vertices.size());
-      vertices.push_back(v);
-    }
-  for (std::uint32_t t = 0; t < mesh_.triangle_slots(); ++t)
-    if (mesh_.has_triangle(t))
-      kept.push_back(t);
+  const auto [vertices, kept, number] = numbering(mesh_, position_);
   if (!springs.empty()) {
     std::vector<std::uint32_t> successor(frame.vertices);
     for (std::uint32_t v = 0; v < successor.size(); ++v) {

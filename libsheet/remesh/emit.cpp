@@ -16,13 +16,15 @@
 namespace sheet {
 
 using formats::Frame;
+using remesh::behind_inlet;
 using remesh::InletChain;
 
 namespace {
 
-constexpr double shortest_strip = 0.5; // rows
-constexpr double rounding = 1e-12;     // of a row: a strip that is that much too short is not
-constexpr double most_triangles = 1e7; // that may enter at once
+constexpr double shortest_strip = 0.5;  // rows
+constexpr double rounding = 1e-12;      // of a row: a strip that is that much too short is not
+constexpr double most_triangles = 1e7;  // that may enter at once
+constexpr double least_thickness = 0.2; // of a new triangle, over the strip's mean
 
 using Row = std::vector<std::uint32_t>; // a vertex for each of the border's
 
@@ -70,7 +72,7 @@ private:
   }
 
   [[nodiscard]] static const Row& lowest(const InletChain& chain) {
-    return chain.lip.empty() ? chain.border : chain.lip;
+    return chain.row.empty() ? chain.border : chain.row;
   }
 
   // From where the border belongs to the lowest row.
@@ -92,7 +94,7 @@ private:
 
   void enter(const InletChain& chain, double row) {
     const double length = gone(chain) / row;
-    const bool has_strip = !chain.lip.empty();
+    const bool has_strip = !chain.row.empty();
     if (!has_strip && length < shortest_strip - rounding)
       return;
     const double count = std::max(0.0, std::floor(length - shortest_strip + rounding));
@@ -122,14 +124,29 @@ private:
     }
   }
 
+  // What has entered through an edge of the border: the area that it has swept, thickness h.
+  [[nodiscard]] double entered(const InletChain& chain, std::size_t edge) const {
+    const std::uint32_t a = chain.border[edge], b = chain.border[chain.after(edge)];
+    const auto now = positions(old_);
+    return inflow_.thickness *
+           (TriangleArea(origins_[a], origins_[b], now[b]).area + TriangleArea(origins_[a], now[b], now[a]).area);
+  }
+
   // The strip takes up what has entered.
   void lengthen(const InletChain& chain) {
-    for (const auto& pair : chain.strip)
-      for (const std::uint32_t t : pair) {
-        const double volume = volume_of(triangles(old_)[t]);
-        grown_ += volume - volumes(old_)[t];
-        lengthened_.emplace_back(t, volume);
+    for (std::size_t i = 0; i < chain.edges(); ++i) {
+      const double enters = entered(chain, i);
+      if (!(enters > 0))
+        continue;
+      double area = 0, volume = enters;
+      for (const std::uint32_t t : chain.strip[i]) {
+        area += area_of(triangles(old_)[t]);
+        volume += volumes(old_)[t];
       }
+      for (const std::uint32_t t : chain.strip[i])
+        lengthened_.emplace_back(t, volume / area * area_of(triangles(old_)[t]));
+      grown_ += enters;
+    }
   }
 
   // `part` of the way from the border's place to the lowest row.
@@ -148,18 +165,18 @@ private:
     return row;
   }
 
-  // The last row is the border, that before it the lip, the others are free.
+  // The last row is the border, that before it the first one behind it.
   void mark(const InletChain& chain, const std::vector<Row>& rows) {
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::size_t i = 0; i < chain.border.size(); ++i) {
         const std::size_t from_border = rows.size() - 1 - r;
-        bits_[rows[r][i]] = from_border == 0 ? in_inlet | at_inlet_border : from_border == 1 ? in_inlet : 0;
+        bits_[rows[r][i]] = from_border == 0 ? in_inlet | at_inlet_border : from_border == 1 ? behind_inlet : 0;
       }
   }
 
   void fill(const InletChain& chain, const std::vector<Row>& rows) {
     // The diagonals of neighbouring cells lean to and fro, going on from those of the strip.
-    const bool other_way = !chain.strip.empty() && !has_corner(triangles(old_)[chain.strip[0][0]], chain.lip[1]);
+    const bool other_way = !chain.strip.empty() && !has_corner(triangles(old_)[chain.strip[0][0]], chain.row[1]);
     const std::size_t first = made_.size();
     for (std::size_t r = 0; r + 1 < rows.size(); ++r)
       for (std::size_t i = 0; i < chain.edges(); ++i) {
@@ -184,34 +201,59 @@ private:
   }
 
   // Volumes of the new triangles behind an edge of the border, and where the rest of what they carry comes from.
+  // Without a strip all have entered; else they share what the strip has and what has entered: thickness changes in
+  // proportion to the way from the border, where it is the inflow's.
   void give_volumes(const InletChain& chain, std::size_t edge, std::span<Made* const> made) {
     double sum = 0, left = 1;
-    for (Made* m : made)
-      sum += m->volume = volume_of(m->corners);
-    grown_ += sum;
     if (chain.strip.empty()) {
-      for (Made* m : made)
+      for (Made* m : made) {
+        sum += m->volume = inflow_.thickness * area_of(m->corners);
         m->parents = {{chain.behind[edge], 1, 0}};
+      }
+      grown_ += sum;
       return;
     }
+    const double enters = entered(chain, edge);
+    double volume = enters, area = 0, moment = 0;
+    for (const std::uint32_t t : chain.strip[edge]) {
+      volume += volumes(old_)[t];
+      stays_[t] = false;
+    }
+    std::vector<double> areas, ways;
+    for (const Made* m : made) {
+      areas.push_back(area_of(m->corners));
+      ways.push_back(way_of(chain, edge, m->corners));
+      area += areas.back();
+      moment += areas.back() * ways.back();
+    }
+    const double slope = (volume - inflow_.thickness * area) / moment;
+    for (std::size_t k = 0; k < made.size(); ++k)
+      sum += made[k]->volume =
+          areas[k] * std::max(inflow_.thickness + slope * ways[k], least_thickness * volume / area);
+    double others = 0;
     for (Made* m : made) {
-      const double share = m == made.back() ? left : m->volume / sum;
+      m->volume = m == made.back() ? volume - others : m->volume * (volume / sum);
+      others += m->volume;
+      const double share = m == made.back() ? left : m->volume / volume;
       left -= share;
       for (const std::uint32_t t : chain.strip[edge])
         m->parents.push_back({t, 0.5, share});
     }
-    for (const std::uint32_t t : chain.strip[edge]) {
-      grown_ -= volumes(old_)[t];
-      stays_[t] = false;
-    }
+    grown_ += enters;
   }
 
-  [[nodiscard]] double volume_of(const Corners& c) const {
-    const double volume = inflow_.thickness * TriangleArea(x_[c[0]], x_[c[1]], x_[c[2]]).area;
-    if (!(volume > 0))
-      fail(ExitCode::bad_input, "at the inlet, the triangle ({}, {}, {}) would get the volume {} m^3", c[0], c[1], c[2],
-           volume);
-    return volume;
+  // Of a triangle's middle from the border, across it.
+  [[nodiscard]] double way_of(const InletChain& chain, std::size_t edge, const Corners& c) const {
+    const Vector3 a = origins_[chain.border[edge]], b = origins_[chain.border[chain.after(edge)]];
+    return (b - a).cross((x_[c[0]] + x_[c[1]] + x_[c[2]]) / 3 - a).norm() / (b - a).norm();
+  }
+
+  [[nodiscard]] double area_of(const Corners& c) const {
+    const double area = TriangleArea(x_[c[0]], x_[c[1]], x_[c[2]]).area;
+    if (!(area > 0))
+      fail(ExitCode::bad_input, "at the inlet, the triangle ({}, {}, {}) would get the area {} m^2", c[0], c[1], c[2],
+           area);
+    return area;
   }
 
   static bool has_corner(const Corners& c, std::uint32_t v) { return c[0] == v || c[1] == v || c[2] == v; }
@@ -220,7 +262,7 @@ private:
   void release_others() {
     std::vector<bool> keeps(frame_.vertices, false);
     for (const InletChain& chain : chains_)
-      for (const Row* row : {&chain.border, &chain.lip})
+      for (const Row* row : {&chain.border, &chain.row})
         for (const std::uint32_t v : *row)
           keeps[v] = true;
     const auto bits = frame_.find("inlet")->values<std::uint64_t>();

@@ -2,10 +2,11 @@
 // Inflow: new liquid enters at the inlet (inlet.h) at the scene's [inflow] velocity and thickness.
 //
 // In a step the border of the inlet moves with the liquid that is there; then it is put back to where it belongs, and
-// the gap is what has entered: the strip behind it grows by area swept x thickness. The strip is between 1/2 and 3/2
-// rows long; where it is longer, a row of vertices comes in one row above the lip and becomes the lip, and the old lip
-// is free. So rows are a row's length apart, whatever the time step, and are as long as the inlet's edges are on
-// average (measured across the border). Until the border has gone half a row for the first time, nothing enters.
+// the gap is what has entered: the strip behind it takes up area swept x thickness. The strip is between 1/2 and 3/2
+// rows long; where it is longer, a row of vertices comes into it, one row above its first row, which that becomes now,
+// and thickness on both sides of it so that it is the inflow's at the border. So rows are a row's length apart when
+// they come in, whatever the time step, and are as long as the inlet's edges are on average (measured across the
+// border). Until the border has gone half a row for the first time, nothing enters.
 #pragma once
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/frame_scene.h"

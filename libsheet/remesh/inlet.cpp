@@ -22,8 +22,8 @@ Place place(const Vector3d& x) { return {x[0], x[1], x[2]}; }
 // What the marks say, gone through once.
 struct Marked {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sides; // between vertices of the border -> triangle
-  std::map<Corners, std::uint32_t> in_slot; // triangles, corners ascending, all of whose vertices are in the inlet
-  std::map<Place, std::uint32_t> lips;      // vertices in the inlet that are not on the border, by origin
+  std::map<Corners, std::uint32_t> in_strip; // triangles, corners ascending, all of whose vertices are marked
+  std::map<Place, std::uint32_t> rows;       // vertices of first rows, by origin
 };
 
 Marked marked(const Frame& frame, std::span<const std::uint64_t> bits, std::span<const Vector3d> origins) {
@@ -37,14 +37,14 @@ Marked marked(const Frame& frame, std::span<const std::uint64_t> bits, std::span
       if (on_border(a) && on_border(b) && !m.sides.emplace(std::pair(a, b), t).second)
         fail(ExitCode::bad_input, "edge ({}, {}) of the inlet: two triangles run along it in the same direction", a, b);
     }
-    if ((bits[c[0]] & bits[c[1]] & bits[c[2]] & in_inlet) != 0) {
+    if (bits[c[0]] != 0 && bits[c[1]] != 0 && bits[c[2]] != 0) {
       std::sort(c.begin(), c.end());
-      m.in_slot.emplace(c, t);
+      m.in_strip.emplace(c, t);
     }
   }
   for (std::uint32_t v = 0; v < bits.size(); ++v)
-    if (bits[v] == in_inlet)
-      m.lips.emplace(place(origins[v]), v);
+    if (bits[v] == behind_inlet)
+      m.rows.emplace(place(origins[v]), v);
   return m;
 }
 
@@ -87,34 +87,34 @@ std::vector<InletChain> chains_of(const Marked& m) {
 
 std::optional<std::uint32_t> triangle_at(const Marked& m, Corners c) {
   std::sort(c.begin(), c.end());
-  const auto at = m.in_slot.find(c);
-  return at == m.in_slot.end() ? std::nullopt : std::optional(at->second);
+  const auto at = m.in_strip.find(c);
+  return at == m.in_strip.end() ? std::nullopt : std::optional(at->second);
 }
 
-// Fills in lip and strip, if they are there.
+// Fills in row and strip, if they are there.
 void add_strip(const Marked& m, std::span<const Vector3d> origins, InletChain& chain) {
-  std::vector<std::uint32_t> lip;
+  std::vector<std::uint32_t> row;
   for (const std::uint32_t v : chain.border) {
-    const auto at = m.lips.find(place(origins[v]));
-    if (at == m.lips.end())
+    const auto at = m.rows.find(place(origins[v]));
+    if (at == m.rows.end())
       return;
-    lip.push_back(at->second);
+    row.push_back(at->second);
   }
   std::vector<std::array<std::uint32_t, 2>> strip;
   for (std::size_t i = 0; i < chain.edges(); ++i) {
     const std::size_t j = chain.after(i);
     const std::uint32_t above = chain.border[i], above_next = chain.border[j];
-    auto at_border = triangle_at(m, {above, above_next, lip[j]});
-    auto at_lip = triangle_at(m, {above, lip[i], lip[j]});
+    auto at_border = triangle_at(m, {above, above_next, row[j]});
+    auto at_row = triangle_at(m, {above, row[i], row[j]});
     if (!at_border) {
-      at_border = triangle_at(m, {above, above_next, lip[i]});
-      at_lip = triangle_at(m, {above_next, lip[i], lip[j]});
+      at_border = triangle_at(m, {above, above_next, row[i]});
+      at_row = triangle_at(m, {above_next, row[i], row[j]});
     }
-    if (!at_border || !at_lip)
+    if (!at_border || !at_row)
       return;
-    strip.push_back({*at_border, *at_lip});
+    strip.push_back({*at_border, *at_row});
   }
-  chain.lip = std::move(lip);
+  chain.row = std::move(row);
   chain.strip = std::move(strip);
 }
 

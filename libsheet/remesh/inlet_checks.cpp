@@ -64,7 +64,7 @@ void check_inlet(const Frame& frame, const Scene& scene, std::span<const InletCh
   const scene::Inflow& inflow = *scene.inflow;
   for (const InletChain& chain : chains) {
     check_velocity(frame, chain, frame.time, scene::value_at(inflow.velocity, frame.time));
-    if (chain.lip.empty())
+    if (chain.row.empty())
       for (const auto& entry : inflow.velocity.entries)
         if (entry.time > frame.time)
           check_velocity(frame, chain, entry.time, entry.value);

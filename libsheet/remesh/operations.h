@@ -9,6 +9,12 @@ namespace sheet::remesh {
 // Cosine of the angle by which a rim may turn at a vertex that may go; beyond, it is a corner.
 inline constexpr double corner_cosine = 0.70710678118654752; // 45 degrees
 
+// The rim's neighbours of a rim vertex: where the rim comes from and where it goes to (the sheet on its left).
+struct RimNeighbours {
+  std::uint32_t before, after;
+};
+[[nodiscard]] RimNeighbours rim_neighbours(const Mesh& mesh, std::uint32_t v);
+
 // True for a rim vertex at which the rim turns by more than 45 degrees.
 [[nodiscard]] bool is_corner(const EditableSheet& sheet, std::uint32_t v);
 
@@ -19,7 +25,7 @@ inline constexpr double corner_cosine = 0.70710678118654752; // 45 degrees
 // The edge of `side` gets a vertex in its middle; children keep their parent's thickness.
 void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 
-// The edge becomes the other diagonal of its two triangles, which get equal thickness. False on a rim, where the
+// The edge becomes the other diagonal of its two triangles. False on a rim, where the
 // diagonal exists elsewhere, between two vertices that are held alike.
 [[nodiscard]] bool propose_flip(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 
@@ -31,7 +37,7 @@ void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 [[nodiscard]] bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit);
 
 // A free inner vertex moves along the sheet to the middle of its triangles, weighted by `weight` of each triangle's
-// area; volume flows over the edges that it takes along. The movement sweeps no volume, but what the ledger owes, up to
+// area. The movement sweeps no volume, but what the ledger owes, up to
 // `pay`.
 [[nodiscard]] bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edit& edit);
 

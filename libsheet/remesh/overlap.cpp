@@ -19,12 +19,12 @@ PlaneFrame::PlaneFrame(const Vector3& normal) {
   second = normal.cross(first);
 }
 
-double overlap_area(const FlatTriangle& a, const FlatTriangle& b) {
+Overlap overlap_of(const FlatTriangle& a, const FlatTriangle& b) {
   for (int axis = 0; axis < 2; ++axis) {
     const auto [a_low, a_high] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
     const auto [b_low, b_high] = std::minmax({b[0][axis], b[1][axis], b[2][axis]});
     if (a_high <= b_low || b_high <= a_low)
-      return 0;
+      return {};
   }
   // a's polygon, cut by each side of b in turn; a triangle cut by three lines has at most six corners
   std::array<Eigen::Vector2d, 8> polygon, cut;
@@ -49,9 +49,15 @@ double overlap_area(const FlatTriangle& a, const FlatTriangle& b) {
     size = left;
   }
   double twice = 0;
-  for (std::size_t k = 2; k < size; ++k)
-    twice += cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
-  return std::abs(twice) / 2;
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  for (std::size_t k = 2; k < size; ++k) {
+    const double part = cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+    twice += part;
+    moment += part * (polygon[0] + polygon[k - 1] + polygon[k]) / 3;
+  }
+  if (twice == 0)
+    return {};
+  return {std::abs(twice) / 2, moment / twice};
 }
 
 } // namespace sheet::remesh

@@ -9,8 +9,14 @@ namespace sheet::remesh {
 
 using FlatTriangle = std::array<Eigen::Vector2d, 3>;
 
-// Area [m²] of the intersection of two triangles in a plane, whatever their orientation [Sutherland, Hodgman 1974].
-[[nodiscard]] double overlap_area(const FlatTriangle& a, const FlatTriangle& b);
+[[nodiscard]] inline Eigen::Vector2d middle_of(const FlatTriangle& t) { return (t[0] + t[1] + t[2]) / 3; }
+
+struct Overlap {
+  double area = 0;                                  // [m²]
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero(); // its centroid [m]
+};
+// Of two triangles in a plane, whatever their orientation [Sutherland, Hodgman 1974].
+[[nodiscard]] Overlap overlap_of(const FlatTriangle& a, const FlatTriangle& b);
 
 // Axes of the plane with this unit normal.
 struct PlaneFrame {

@@ -3,22 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 
 #include <Eigen/Eigenvalues>
 
 #include "libsheet/base/error.h"
+#include "libsheet/remesh/buckling.h"
+#include "libsheet/remesh/flow_error.h"
+#include "libsheet/remesh/operations.h"
 
 namespace sheet::remesh {
 
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double jump_tolerance = 0.2;    // τ: of strain rate and of thickness, from triangle to triangle
-constexpr double edges_in_a_wave = 8;     // of a buckle
-constexpr double growth_over_rate = 5;    // of a buckle, over the rate at which the sheet deforms
-constexpr double thicknesses_an_edge = 2; // a shell model says nothing about what is shorter
+constexpr double jump_tolerance = 0.2; // τ: of thickness, from triangle to triangle
+constexpr double even_enough = 1.5;    // of the flow's mean over the sheet's size: gradients below make no difference
+constexpr double edges_in_a_wave = 8;  // of a buckle
+constexpr double growth_over_rate = 5; // of a buckle, over the rate at which the sheet deforms
+constexpr double thicknesses_an_edge = 1; // a shell model says nothing about what is shorter
 constexpr double grading = 0.4;           // growth of length over distance
 
 void check_length(const char* option, double value) {
@@ -34,87 +37,21 @@ Bounds bounds_of(const SizeOptions& o) {
   return {o.min_edge.value_or(o.edge_length / spread), o.max_edge.value_or(o.edge_length * spread)};
 }
 
-// What the triangles do.
-struct State {
-  std::vector<TriangleShape> shape;
-  std::vector<double> thickness;
-  std::vector<Matrix3> strain_rate; // in the triangle's plane [1/s]
-  double rate_scale = 0;            // what is a large rate in this sheet [1/s]
-};
-
-// Surface gradient of the velocity: of a linear function, Σ u_i (n × e_i)ᵀ / (2 A), e_i opposite corner i.
-Matrix3 velocity_gradient(const EditableSheet& sheet, std::uint32_t t, const TriangleShape& shape) {
-  Matrix3 gradient = Matrix3::Zero();
-  const Corners& c = sheet.mesh().corners(t);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3 opposite = sheet.at(c[(i + 2) % 3]) - sheet.at(c[(i + 1) % 3]);
-    gradient += sheet.velocity(c[i]) * shape.normal.cross(opposite).transpose() / (2 * shape.area);
-  }
-  return gradient;
-}
-
-Matrix3 strain_rate_of(const Matrix3& gradient, const TriangleShape& shape) {
-  const Matrix3 plane = Matrix3::Identity() - shape.normal * shape.normal.transpose();
-  const Matrix3 in_plane = plane * gradient;
-  return 0.5 * (in_plane + in_plane.transpose());
-}
-
-// Root mean square over the sheet of the velocity gradient G, less the rotation Ω of the whole that makes it least,
-// which is that of the mean antisymmetric part where the sheet lies all around, so that a turning frame changes nothing
-// that matters: |G - Ω P|², P the projection onto the triangle's plane.
-double rate_scale(const std::vector<Matrix3>& gradients, const std::vector<TriangleShape>& shapes) {
-  Matrix3 left = Matrix3::Zero();
-  Vector3 right = Vector3::Zero();
-  double area = 0;
-  const auto plane = [](const TriangleShape& s) {
-    return Matrix3(Matrix3::Identity() - s.normal * s.normal.transpose());
-  };
-  // Ω P = Σ ω_i L_i P with (L_i)_jk = -ε_ijk
-  const auto turn = [](int i) { return skew(Vector3::Unit(i)); };
-  for (std::size_t t = 0; t < shapes.size(); ++t) {
-    area += shapes[t].area;
-    for (int i = 0; i < 3; ++i) {
-      right[i] += shapes[t].area * (turn(i) * plane(shapes[t])).cwiseProduct(gradients[t]).sum();
-      for (int k = 0; k < 3; ++k)
-        left(i, k) += shapes[t].area * (turn(i) * plane(shapes[t])).cwiseProduct(turn(k) * plane(shapes[t])).sum();
-    }
-  }
-  const Vector3 spin = left.ldlt().solve(right);
-  double sum = 0;
-  for (std::size_t t = 0; t < shapes.size(); ++t)
-    sum += shapes[t].area * (gradients[t] - skew(spin) * plane(shapes[t])).squaredNorm();
-  return area > 0 ? std::sqrt(sum / area) : 0;
-}
-
-State state_of(const EditableSheet& sheet) {
-  State state;
-  std::vector<Matrix3> gradients;
-  for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t) {
-    const TriangleShape& shape = state.shape.emplace_back(sheet.shape(t));
-    const bool flat = !(shape.area > 0);
-    gradients.push_back(flat ? Matrix3::Zero() : velocity_gradient(sheet, t, shape));
-    state.thickness.push_back(flat ? 0 : sheet.volume(t) / shape.area);
-    state.strain_rate.push_back(flat ? Matrix3::Zero() : strain_rate_of(gradients.back(), shape));
-  }
-  state.rate_scale = rate_scale(gradients, state.shape);
-  return state;
-}
-
 // Largest principal curvature at each vertex [1/m]: of Σ ½ θ |e| ē ēᵀ / A over its edges, A a third of its triangles,
 // averaged once over the neighbours, for the tensor of one vertex of an irregular mesh is noise to a factor of 2.
-std::vector<double> curvatures(const EditableSheet& sheet, const State& state) {
+std::vector<double> curvatures(const EditableSheet& sheet, const std::vector<TriangleRates>& rates) {
   const Mesh& mesh = sheet.mesh();
   const std::size_t count = mesh.vertex_slots();
   std::vector<Matrix3> tensor(count, Matrix3::Zero());
   std::vector<double> area(count, 0);
   for (std::uint32_t side = 0; side < 3 * mesh.triangle_slots(); ++side) {
     const std::uint32_t twin = mesh.twin(side), t = Mesh::triangle_of(side);
-    area[mesh.from(side)] += state.shape[t].area / 3;
+    area[mesh.from(side)] += rates[t].shape.area / 3;
     if (twin == none || twin < side)
       continue;
     const Vector3 edge = sheet.at(mesh.to(side)) - sheet.at(mesh.from(side));
     const double length = edge.norm();
-    const Vector3 &one = state.shape[t].normal, &two = state.shape[Mesh::triangle_of(twin)].normal;
+    const Vector3 &one = rates[t].shape.normal, &two = rates[Mesh::triangle_of(twin)].shape.normal;
     if (!(length > 0) || one.isZero() || two.isZero())
       continue;
     const double angle = std::atan2(one.cross(two).dot(edge) / length, one.dot(two));
@@ -141,66 +78,80 @@ std::vector<double> curvatures(const EditableSheet& sheet, const State& state) {
   return curvature;
 }
 
-double least_eigenvalue(const Matrix3& m) {
-  Eigen::SelfAdjointEigenSolver<Matrix3> solver;
-  solver.computeDirect(m, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0];
+// Of the rim as a curve in space [1/m]; 0 at corners, which stay, and inside.
+double rim_curvature(const EditableSheet& sheet, std::uint32_t v) {
+  if (!sheet.mesh().on_rim(v) || is_corner(sheet, v))
+    return 0;
+  const auto [before, after] = rim_neighbours(sheet.mesh(), v);
+  const Vector3 in = sheet.at(v) - sheet.at(before), out = sheet.at(after) - sheet.at(v);
+  const double length = 0.5 * (in.norm() + out.norm());
+  return length > 0 ? std::atan2(in.cross(out).norm(), in.dot(out)) / length : 0;
 }
 
-// Length of the wave that compression at this rate makes grow fastest [m]; infinite where none grows much faster than
-// the sheet deforms (`rate_scale`), as it must to get anywhere.
-double buckling_wavelength(const Scene& scene, double strain_rate, double h, double rate_scale) {
-  const double infinite = std::numeric_limits<double>::infinity();
-  const scene::Material& m = scene.material;
-  const double load = -4 * m.viscosity * h * strain_rate - 2 * m.surface_tension;
-  const double modulus = m.viscosity * h * h * h / 3;
-  if (!(load > 0 && modulus > 0 && scene.model.bending))
-    return infinite;
-  double wavenumber = 0;
-  const auto consider = [&](double k, double growth) {
-    if (growth > growth_over_rate * rate_scale)
-      wavenumber = std::max(wavenumber, k);
+// The lengths that make the least error with as many triangles as edges of `even` everywhere: l ∝ g^-½, for Σ l² g² A
+// is least at a given Σ A / l² where l⁴ g² is the same everywhere (flow_error.h).
+void share_out(const EditableSheet& sheet, const std::vector<TriangleRates>& rates, const FlowError& error, double even,
+               const Bounds& bounds, std::vector<double>& size) {
+  double area = 0;
+  std::vector<double> around(size.size(), 0);
+  for (std::uint32_t t = 0; t < rates.size(); ++t)
+    for (const std::uint32_t v : sheet.mesh().corners(t)) {
+      around[v] += rates[t].shape.area / 3;
+      area += rates[t].shape.area / 3;
+    }
+  const double least = even_enough * error.mean / std::sqrt(area);
+  if (!(least > 0)) {
+    for (double& length : size)
+      length = std::min(length, even);
+    return;
+  }
+  const auto length = [&](std::size_t v, double factor) {
+    return std::clamp(factor / std::sqrt(std::max(error.gradient[v], least)), bounds.low, bounds.high);
   };
-  const auto& gravity = scene.environment.gravity;
-  if (scene.environment.bath && gravity) {
-    const double weight = scene.environment.bath->density * gravity->norm();
-    consider(std::sqrt(2 * weight / load), load * load / (4 * modulus * weight));
+  double low = bounds.low * std::sqrt(least), high = low;
+  for (const double g : error.gradient)
+    high = std::max(high, bounds.high * std::sqrt(std::max(g, least)));
+  for (int i = 0; i < 40; ++i) {
+    const double middle = std::sqrt(low * high);
+    double count = 0;
+    for (std::size_t v = 0; v < size.size(); ++v)
+      count += around[v] / std::pow(length(v, middle), 2);
+    (count > area / (even * even) ? low : high) = middle;
   }
-  if (scene.model.inertia) {
-    const double k = std::pow(m.density * h * load / (2 * modulus * modulus), 1.0 / 6);
-    consider(k, load / (2 * modulus * k * k));
-  }
-  return wavenumber > 0 ? 2 * pi / wavenumber : infinite;
+  for (std::size_t v = 0; v < size.size(); ++v)
+    size[v] = std::min(size[v], length(v, high));
 }
 
-// At each vertex the length that the jumps to the neighbours of its triangles and buckling ask for.
-void limit_by_flow(const EditableSheet& sheet, const Scene* scene, const State& state, std::vector<double>& size) {
+// At each vertex the length that the jumps of thickness to the neighbours of its triangles ask for.
+void limit_by_thickness(const EditableSheet& sheet, const std::vector<TriangleRates>& rates,
+                        std::vector<double>& size) {
   const Mesh& mesh = sheet.mesh();
-  const auto limit = [&](std::uint32_t t, double length) {
-    for (const std::uint32_t v : mesh.corners(t))
-      size[v] = std::min(size[v], length);
-  };
   for (std::uint32_t side = 0; side < 3 * mesh.triangle_slots(); ++side) {
     const std::uint32_t twin = mesh.twin(side);
     if (twin == none || twin < side)
       continue;
     const std::uint32_t one = Mesh::triangle_of(side), two = Mesh::triangle_of(twin);
     const double length = (sheet.at(mesh.to(side)) - sheet.at(mesh.from(side))).norm();
-    const auto limit_both = [&](double value, double jump) {
-      if (jump > jump_tolerance * value && value > 0) {
-        limit(one, length * jump_tolerance * value / jump);
-        limit(two, length * jump_tolerance * value / jump);
-      }
-    };
-    limit_both(state.rate_scale, (state.strain_rate[one] - state.strain_rate[two]).norm());
-    limit_both(std::max(state.thickness[one], state.thickness[two]),
-               std::abs(state.thickness[one] - state.thickness[two]));
+    const double value = std::max(rates[one].thickness, rates[two].thickness);
+    const double jump = std::abs(rates[one].thickness - rates[two].thickness);
+    if (jump > jump_tolerance * value)
+      for (const std::uint32_t t : {one, two})
+        for (const std::uint32_t v : mesh.corners(t))
+          size[v] = std::min(size[v], length * jump_tolerance * value / jump);
   }
-  if (scene != nullptr)
-    for (std::uint32_t t = 0; t < mesh.triangle_slots(); ++t)
-      limit(t,
-            buckling_wavelength(*scene, least_eigenvalue(state.strain_rate[t]), state.thickness[t], state.rate_scale) /
-                edges_in_a_wave);
+}
+
+// Waves about to buckle get `edges_in_a_wave` at least, and their share as if they already took as much power as all
+// else does now: g = k times the mean.
+void look_ahead(const EditableSheet& sheet, const Scene& scene, const std::vector<TriangleRates>& rates,
+                FlowError& error, std::vector<double>& size) {
+  const std::vector<double> wavenumber = buckling_wavenumbers(scene, rates);
+  for (std::uint32_t t = 0; t < rates.size(); ++t)
+    if (const double k = wavenumber[t]; k > 0)
+      for (const std::uint32_t v : sheet.mesh().corners(t)) {
+        size[v] = std::min(size[v], 2 * pi / (edges_in_a_wave * k));
+        error.gradient[v] = std::max(error.gradient[v], k * error.mean);
+      }
 }
 
 // size[v] <= size[w] + grading |x_v - x_w| along edges, by shortest paths [Dijkstra 1959].
@@ -250,16 +201,20 @@ SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeO
   if (!options.chord_error)
     return;
   const Bounds bounds = bounds_of(options);
-  const State state = state_of(sheet);
-  const std::vector<double> curvature = curvatures(sheet, state);
+  const std::vector<TriangleRates> rates = triangle_rates(sheet);
+  const std::vector<double> curvature = curvatures(sheet, rates);
   size_.assign(sheet.mesh().vertex_slots(), bounds.high);
   for (std::uint32_t v = 0; v < size_.size(); ++v)
-    if (curvature[v] > 0)
-      size_[v] = std::min(size_[v], std::sqrt(8 * *options.chord_error / curvature[v]));
-  limit_by_flow(sheet, scene, state, size_);
+    if (const double k = std::max(curvature[v], rim_curvature(sheet, v)); k > 0)
+      size_[v] = std::min(size_[v], std::sqrt(8 * *options.chord_error / k));
+  FlowError error = flow_error(sheet, rates, scene == nullptr || scene->model.bending);
+  if (scene != nullptr)
+    look_ahead(sheet, *scene, rates, error, size_);
+  share_out(sheet, rates, error, options.edge_length, bounds, size_);
+  limit_by_thickness(sheet, rates, size_);
   for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t)
     for (const std::uint32_t v : sheet.mesh().corners(t))
-      size_[v] = std::max(size_[v], std::min(thicknesses_an_edge * state.thickness[t], bounds.high));
+      size_[v] = std::max(size_[v], std::min(thicknesses_an_edge * rates[t].thickness, bounds.high));
   for (double& size : size_)
     size = std::clamp(size, bounds.low, bounds.high);
   grade(sheet, size_);

@@ -17,17 +17,15 @@ struct SizeOptions {
   void check() const;
 };
 
-// Adaptive length at a vertex, the least of these, but not below 2 h, within the bounds, growing by at most 0.4 of the
+// Adaptive length at a vertex, the least of these, but not below h, within the bounds, growing by at most 0.4 of the
 // distance:
-// - sqrt(8 ε / |k|): chord error of the largest principal curvature k [Cohen-Steiner, Morvan 2003];
-// - l τ E / |Δe|: the jump of the strain rate e from triangle to triangle (uniform stretching is exact), l the edges
-// now, E
-//   the mean rate at which the sheet deforms, bending counted, turning as a whole not;
+// - sqrt(8 ε / |k|): chord error of the largest principal curvature k [Cohen-Steiner, Morvan 2003], at rims also of
+// theirs;
+// - proportional to g^-½, g how unevenly the sheet stretches and bends (flow_error.h), so that triangles, as many as
+//   there would be with edges of `edge_length` everywhere, stand where they make the flow's error least; at rest
+//   `edge_length`;
 // - l τ h / |Δh|: the jump of the thickness;
-// - an eighth of the wave about to buckle where compression exceeds surface tension, P = -4 μ h e - 2 γ > 0, and it
-// grows
-//   five times faster than the sheet deforms: k² = 2 ρ_b g / P on a bath (VALIDATION.md V15), k⁶ = ρ h P / (2 D²) by
-//   inertia, D = μ h³ / 3.
+// - an eighth of a wave about to buckle (buckling.h), which also gets its share beforehand.
 class SizeField {
 public:
   SizeField(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);

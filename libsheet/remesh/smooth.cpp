@@ -42,24 +42,6 @@ void find_parents(const EditableSheet& sheet, const Vector3& x, Edit& edit) {
     edit.parents = {{edit.vertex, 1, 1}};
 }
 
-// Edge k of the fan goes to the first corner of triangle k and, inside, to the last of triangle k - 1. What it sweeps
-// passes from one to the other.
-void flow_over_edges(const EditableSheet& sheet, const Vector3& normal, const Vector3& step, Edit& edit) {
-  const std::size_t count = edit.removed.size();
-  edit.overlap.assign(count * count, 0);
-  const auto overlap = [&](std::size_t to, std::size_t from) -> double& { return edit.overlap[to * count + from]; };
-  for (std::size_t k = 0; k < count; ++k)
-    overlap(k, k) = sheet.shape(edit.removed[k]).area;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Corners& c = edit.added[k]; // the vertex first
-    const std::size_t before = (k + count - 1) % count;
-    const double area = 0.5 * normal.dot((sheet.at(c[1]) - sheet.at(c[0])).cross(step)); // > 0: out of triangle k
-    const std::size_t to = area > 0 ? before : k, from = area > 0 ? k : before;
-    overlap(to, from) += std::abs(area);
-    overlap(from, from) = std::max(0.0, overlap(from, from) - std::abs(area));
-  }
-}
-
 } // namespace
 
 bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edit& edit) {
@@ -98,7 +80,6 @@ bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edi
       step[axis] = 0;
   const double rise = normal.dot(step);
   find_parents(sheet, x + step - rise * normal, edit);
-  flow_over_edges(sheet, normal, step - rise * normal, edit);
   edit.position = x + step;
   edit.swept = rise * length / 3;
   return true;

@@ -42,12 +42,6 @@ bool propose_flip(const EditableSheet& sheet, std::uint32_t side, Edit& edit) {
   edit.kind = Edit::Kind::flip;
   edit.removed = {Mesh::triangle_of(side), Mesh::triangle_of(twin)};
   edit.added = {{a, d, c}, {d, b, c}};
-  const double first = sheet.shape(edit.removed[0]).area, second = sheet.shape(edit.removed[1]).area;
-  for (const Corners& t : edit.added) {
-    const double area = TriangleShape(sheet.at(t[0]), sheet.at(t[1]), sheet.at(t[2])).area;
-    edit.overlap.push_back(area * first / (first + second));
-    edit.overlap.push_back(area * second / (first + second));
-  }
   const Vector3 o = sheet.at(a);
   edit.swept = (sheet.at(d) - o).cross(sheet.at(b) - o).dot(sheet.at(c) - o) / 6;
   return true;

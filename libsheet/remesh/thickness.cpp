@@ -4,7 +4,28 @@
 #include <algorithm>
 #include <numeric>
 
+#include <Eigen/Dense>
+
 namespace sheet::remesh {
+
+ThicknessSlope slope_of(const ThicknessAt& triangle, std::span<const ThicknessAt> beside) {
+  Eigen::Matrix2d left = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  ThicknessSlope result;
+  for (const auto& [middle, thickness] : beside) {
+    const Eigen::Vector2d to = middle - triangle.middle;
+    const double rise = thickness - triangle.thickness;
+    left += to * to.transpose();
+    right += rise * to;
+    result.least = std::min(result.least, rise);
+    result.most = std::max(result.most, rise);
+  }
+  if (result.most > result.least) {
+    left.diagonal().array() += 1e-9 * left.trace(); // one neighbour, or all in a line: no slope across
+    result.slope = left.inverse() * right;
+  }
+  return result;
+}
 
 bool share_volume(Edit& edit, std::span<const double> areas_removed, std::span<const double> volumes_removed,
                   std::span<const double> areas_added, double limit) {
@@ -19,7 +40,7 @@ bool share_volume(Edit& edit, std::span<const double> areas_removed, std::span<c
       const double overlap = edit.overlap[i * old_count + j];
       if (!(overlap > 0 && areas_removed[j] > 0)) // a triangle without area covers nothing
         continue;
-      weighted += overlap * (volumes_removed[j] / areas_removed[j]);
+      weighted += overlap * (volumes_removed[j] / areas_removed[j] + edit.rise[i * old_count + j]);
       covered += overlap;
     }
     edit.volumes[i] = (covered > 0 ? weighted / covered : mean) * areas_added[i];

@@ -1,16 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The thickness rule of every edit. Old triangles j with volume V_j, area A_j, thickness h_j = V_j / A_j; new ones i
-// with area A_i and overlaps o_ij:
-//   h*_i = Σ_j o_ij h_j / Σ_j o_ij   (a convex combination: no new extremes)
+// with area A_i and overlaps o_ij, whose middles are at x_ij:
+//   h*_i = Σ_j o_ij (h_j + s_j·(x_ij - x_j)) / Σ_j o_ij   (no new extremes)
 //   κ = Σ_j V_j / Σ_i h*_i A_i,   V_i = κ h*_i A_i,
 // the largest takes the remainder of the rounding, so that the sum stays. κ differs from 1 where the edit changes the
-// sheet's area. [Batty et al. 2012, section 3.6, has another rule for collapses, which loses volume at spikes.]
+// sheet's area. The slope s_j is the one of least squares through the triangles beside j, scaled down until no
+// s_j·(x_ij - x_j) leads out of the range of j's thickness and theirs (after [Barth, Jespersen 1989]): without it a
+// step of thickness would widen with the square root of the number of edits. [Batty et al. 2012, section 3.6, has
+// another rule for collapses, which loses volume at spikes.]
 #pragma once
 #include <span>
 
 #include "libsheet/remesh/edit.h"
+#include "libsheet/remesh/overlap.h"
 
 namespace sheet::remesh {
+
+struct ThicknessAt {
+  Eigen::Vector2d middle; // of a triangle, in the plane of an edit [m]
+  double thickness;
+};
+
+struct ThicknessSlope {
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  double least = 0, most = 0; // how far the triangles beside are below and above [m]
+};
+// s_j above, not yet scaled. `beside`: the triangles that share an edge with it, up to three.
+[[nodiscard]] ThicknessSlope slope_of(const ThicknessAt& triangle, std::span<const ThicknessAt> beside);
 
 // Fills edit.volumes. `areas_removed`, `volumes_removed`: of edit.removed [m²], [m³]; `areas_added`: of edit.added, all
 // positive. False, and the edit must not be made, if κ is outside [1/limit, limit].

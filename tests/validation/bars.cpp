@@ -123,6 +123,14 @@ TEST(Validation, FallingCurtain) {
   EXPECT_LT(std::abs(r.more.back().second), 1e-13);
 }
 
+TEST(Validation, LongFallingCurtainRemeshed) {
+  const Result r = run(find_case("V18"), settings("V18", 0.01, 350, 2));
+  EXPECT_LT(std::abs(r.error), 0.01);
+  ASSERT_EQ(r.more.front().first, "thickness");
+  EXPECT_LT(std::abs(r.more.front().second), 0.02); // of any triangle
+  EXPECT_LT(std::abs(r.more.back().second), 1e-13);
+}
+
 // Figures 6 and 7: 2,562 vertices, 100 steps, radius within 0.3 %.
 TEST(Validation, LongFiguresOfThePaper) {
   for (const char* name : {"V1", "V2", "V3"})

@@ -25,7 +25,7 @@ constexpr double duration = 1.4, from = 0.05, to = 1; // the window has become s
 // u = `inflow` at the top.
 class SteadyCurtain {
 public:
-  explicit SteadyCurtain(double top) : top_(top) {
+  SteadyCurtain() {
     double slow = inflow, fast = 10 * std::sqrt(inflow * inflow + 2 * g * depth);
     for (int k = 0; k < 60; ++k) {
       const double middle = (slow + fast) / 2;
@@ -34,7 +34,7 @@ public:
     climb(fast);
   }
   [[nodiscard]] double speed(double y) const {
-    const double at = (y - top_) / (depth / steps);
+    const double at = y / (depth / steps);
     const auto i = std::min(static_cast<std::size_t>(at), std::size_t{steps - 1});
     const double part = at - static_cast<double>(i);
     return std::exp((1 - part) * log_speed_[i] + part * log_speed_[i + 1]);
@@ -61,7 +61,6 @@ private:
     return y[0];
   }
 
-  double top_;
   std::vector<double> log_speed_;
 };
 
@@ -81,9 +80,8 @@ double larger(double a, double b) { return std::abs(a) > std::abs(b) ? a : b; }
 
 } // namespace
 
-// The sides are guides, so that the flow is planar. Liquid is held at the inflow's speed down to the lip, which is on
-// average a row below the border (libsheet/remesh/emit.h): the curve starts there. More: the same for a curve from the
-// border, for the rows' thickness, and the relative defect of the volume.
+// The sides are guides, so that the flow is planar. More: the greatest error of single triangles' thickness, and the
+// relative defect of the volume.
 Result v18(const Settings& s) {
   const double row = s.edge;
   const Scene scene = curtain(row);
@@ -106,16 +104,15 @@ Result v18(const Settings& s) {
   }
   Result result;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const SteadyCurtain steady(row), from_border(0);
+  const SteadyCurtain steady;
   const auto x = positions(static_cast<const formats::Frame&>(frame));
   const auto v = velocities(static_cast<const formats::Frame&>(frame));
-  double error = 0, border_error = 0, thickness_error = 0;
+  double error = 0, thickness_error = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double y = -x[i].y();
     if (y < from || y > to)
       continue;
     error = larger(error, -v[i].y() / steady.speed(y) - 1);
-    border_error = larger(border_error, -v[i].y() / from_border.speed(y) - 1);
   }
   const auto c = triangles(static_cast<const formats::Frame&>(frame));
   const auto volumes = sheet::volumes(static_cast<const formats::Frame&>(frame));
@@ -134,8 +131,7 @@ Result v18(const Settings& s) {
   result.vertices = frame.vertices;
   result.edge = row;
   result.steps = s.steps;
-  result.more = {
-      {"from_border", border_error}, {"thickness", thickness_error}, {"volume", sum / (volume + entered) - 1}};
+  result.more = {{"thickness", thickness_error}, {"volume", sum / (volume + entered) - 1}};
   return result;
 }
 

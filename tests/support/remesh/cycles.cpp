@@ -49,7 +49,7 @@ Account account_of(const formats::Frame& frame) {
     const double size = 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm();
     volume.add(v[t]);
     area.add(size);
-    enclosed.add(x[c[0]].cross(x[c[1]]).dot(x[c[2]]) / 6);
+    enclosed.add((x[c[0]] + x[c[1]] + x[c[2]])[2] / 6 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]])[2]);
     a.thickness_min = std::min(a.thickness_min, v[t] / size);
     a.thickness_max = std::max(a.thickness_max, v[t] / size);
     for (const std::uint32_t i : c) {
@@ -94,8 +94,8 @@ TriangleMesh torus(double radius, double tube, std::uint32_t around, std::uint32
   return mesh;
 }
 
-TriangleMesh wrinkled(double edge_length, double height) {
-  TriangleMesh mesh = make_rectangle(1, 1, edges(edge_length));
+TriangleMesh wrinkled(double edge_length, double height, double side) {
+  TriangleMesh mesh = make_rectangle(side, side, edges(edge_length));
   for (Vector3& x : mesh.positions)
     x[2] = height * std::sin(8 * pi * x[0]) * std::cos(14 * pi * x[1]);
   return mesh;

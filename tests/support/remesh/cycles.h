@@ -10,7 +10,7 @@ namespace sheet::test {
 
 // Sums over a frame, with compensated summation where they are compared to round-off.
 struct Account {
-  double volume = 0, area = 0, enclosed = 0;                              // [m³], [m²], [m³]
+  double volume = 0, area = 0, enclosed = 0; // [m³], [m²], [m³]; an open sheet encloses what is below, down to z = 0
   Vector3 momentum = Vector3::Zero(), angular_momentum = Vector3::Zero(); // per density
   double speed_sum = 0;                                                   // Σ volume |u|: the scale of the momentum
   double kinetic_energy = 0;                                              // per density
@@ -20,8 +20,8 @@ struct Account {
 
 // Meshes that the shapes of scenes do not have.
 [[nodiscard]] TriangleMesh torus(double radius, double tube_radius, std::uint32_t around, std::uint32_t across);
-// A unit square with waves of this height, four along x, seven along y.
-[[nodiscard]] TriangleMesh wrinkled(double edge_length, double height);
+// A square with waves of this height, four a unit length along x, seven along y.
+[[nodiscard]] TriangleMesh wrinkled(double edge_length, double height, double side = 1);
 // Both meshes as one, the second moved.
 [[nodiscard]] TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other, const Vector3& shift);
 // Two hemispherical caps, one this much above the other.

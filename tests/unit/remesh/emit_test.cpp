@@ -8,6 +8,7 @@
 
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/remesh/emit.h"
+#include "libsheet/remesh/inlet.h"
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/sheet/transfer.h"
 #include "tests/unit/remesh/sheets.h"
@@ -16,6 +17,7 @@ namespace sheet {
 namespace {
 
 using formats::Frame;
+using remesh::behind_inlet;
 using test::error_of;
 using test::volume_of;
 using testing::HasSubstr;
@@ -100,7 +102,7 @@ TEST(Emit, VolumeIsThicknessTimesWidthTimesWay) {
     if (frame.time > 0.5) {
       EXPECT_NEAR(volume_of(frame), start + thickness * 4 * frame.time, 1e-14 * start) << frame.time;
       EXPECT_EQ(count(frame, in_inlet | at_inlet_border), 5);
-      EXPECT_EQ(count(frame, in_inlet), 5);
+      EXPECT_EQ(count(frame, behind_inlet), 5);
       for (std::size_t v = 0; v < frame.vertices; ++v)
         if (masks(frame, "inlet")[v] == 3) {
           EXPECT_EQ(positions(frame)[v][1], 2);
@@ -395,7 +397,7 @@ TEST(Emit, GoesOnWhereSomebodyHasRemeshedTheStrip) {
   }
   EXPECT_NEAR(account(frame), thickness * 4 * 4, 1e-13);
   EXPECT_EQ(count(frame, in_inlet | at_inlet_border), 6);
-  EXPECT_EQ(count(frame, in_inlet), 6);
+  EXPECT_EQ(count(frame, behind_inlet), 6);
 }
 
 // Before there is a strip, it may remesh the border: then rows are as long as its edges.
@@ -408,15 +410,15 @@ TEST(Emit, TheRemesherLeavesTheStripAlone) {
     for (int k = 1; k <= 60; ++k) {
       move(frame, scene, 0.1);
       emit(frame, scene);
-      const bool has_strip = count(frame, in_inlet) > 0;
+      const bool has_strip = count(frame, behind_inlet) > 0;
       remesh::Options options;
       options.size.edge_length = edge;
       remesh::remesh(frame, nullptr, options);
       ASSERT_EQ(value_error(frame), "");
       EXPECT_NEAR(volume_of(frame), start + (has_strip ? thickness * 4 * frame.time : 0), 1e-12) << edge << " " << k;
       if (border == 0 && has_strip)
-        border = count(frame, in_inlet);
-      EXPECT_EQ(count(frame, in_inlet), border);
+        border = count(frame, behind_inlet);
+      EXPECT_EQ(count(frame, behind_inlet), border);
       if (has_strip) {
         EXPECT_EQ(count(frame, in_inlet | at_inlet_border), border);
       }
