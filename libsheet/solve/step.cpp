@@ -45,6 +45,19 @@ void add(NewtonReport& sum, const NewtonReport& r) {
   sum.seconds_search += r.seconds_search;
 }
 
+// What the holds must add to the other forces, inertia included, so that the sum vanishes: the potential's gradient.
+std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, std::span<const char> held,
+                               const Unknowns& u) {
+  Eigen::VectorXd gradient;
+  (void)system.assembly.derivatives(terms, u, false, {}, gradient, system.matrix);
+  std::vector<Vector3> result(system.assembly.vertices(), Vector3::Zero());
+  for (std::size_t v = 0; v < result.size() && !held.empty(); ++v)
+    for (std::size_t a = 0; a < 3; ++a)
+      if (held[3 * v + a] != 0)
+        result[v][static_cast<Eigen::Index>(a)] = gradient[static_cast<Eigen::Index>(3 * v + a)];
+  return result;
+}
+
 bool same_mesh(const Connectivity& a, const Connectivity& b) {
   return &a == &b || (a.vertices == b.vertices && a.triangles == b.triangles);
 }
@@ -199,6 +212,17 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
     error = std::max(error, (x - lower).norm() / scale[at]);
   }
   set_held_velocities(model_.holds, end.time, dt, end);
+  if (model_.reactions) {
+    // What is held does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
+    for (std::size_t i = 0; i < 3 * n && !held.empty(); ++i)
+      if (held[i] != 0) {
+        const std::size_t v = i / 3;
+        const auto a = static_cast<Eigen::Index>(i % 3);
+        stage.inertial[v][a] = end.positions[v][a] -
+                               stage.duration * stage.duration / dt * (end.velocities[v][a] - state.velocities[v][a]);
+      }
+    report.reactions = reactions(*cache_->system, cache_->terms, held, last);
+  }
   report.error = std::max(report.error, error);
   return sound(end) ? Outcome::done : Outcome::shrinks_to_nothing;
 }
@@ -256,6 +280,7 @@ void Stepper::advance_flat(State& state, double dt, StepReport& report) {
   ++report.flat_fallbacks;
   add(report.newton, flat.newton);
   report.error = std::max(report.error, flat.error);
+  report.reactions = flat.reactions;
   report.seconds_analysis += flat.seconds_analysis;
 }
 

@@ -39,14 +39,15 @@ struct TermTime {
 };
 
 struct StepReport {
-  int substeps = 0;        // 1 unless the step had to be cut
-  int failed = 0;          // attempts that did not converge
-  int rejected = 0;        // that were not accurate enough (step_within)
-  int euler_fallbacks = 0; // substeps that only backward Euler could do
-  int flat_fallbacks = 0;  // steps that converged only with straight edges instead of arcs
-  int unfinished = 0;      // substeps taken though Newton's iterations had not converged
-  NewtonReport newton;     // sums over all stages; last_step of the last one
-  double error = 0;        // difference to the first-order result, in edge lengths, greatest of the substeps
+  int substeps = 0;               // 1 unless the step had to be cut
+  int failed = 0;                 // attempts that did not converge
+  int rejected = 0;               // that were not accurate enough (step_within)
+  int euler_fallbacks = 0;        // substeps that only backward Euler could do
+  int flat_fallbacks = 0;         // steps that converged only with straight edges instead of arcs
+  int unfinished = 0;             // substeps taken though Newton's iterations had not converged
+  NewtonReport newton;            // sums over all stages; last_step of the last one
+  double error = 0;               // difference to the first-order result, in edge lengths, greatest of the substeps
+  std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex, at the end [N]
   double seconds_analysis = 0;
   std::vector<TermTime> terms; // assembled terms, their element work summed over threads; last: gathering
 };

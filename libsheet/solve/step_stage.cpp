@@ -144,6 +144,7 @@ struct StepStage::Impl {
                    "accurate; shorter steps or remeshing help",
                    frame.step + 1, report.unfinished, report.substeps);
     put_state(state, frame);
+    put_reactions(report.reactions, frame);
   }
 
   static constexpr bool use_arcs = true;

@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
       path.end = pile.end;
       path.velocity.assign(pile.start.size(), Vector3::Zero());
       path.mass.assign(pile.start.size(), 1);
-      path.fixed.assign(pile.start.size(), false);
+      path.fixed.assign(pile.start.size(), 0);
       resolve_self(path, search, reach);
       safe = path.end;
     });

@@ -16,7 +16,7 @@ namespace {
 struct Layers {
   std::vector<Vector3> start, end;
   std::vector<double> reach, thickness, area, mass;
-  std::vector<bool> fixed;
+  std::vector<Axes> fixed;
   Connectivity mesh;
   double step = 0.01;
 
@@ -35,7 +35,7 @@ struct Layers {
     thickness.assign(start.size(), 0.015);
     area.assign(start.size(), 0.04);
     mass.assign(start.size(), 2);
-    fixed.assign(start.size(), false);
+    fixed.assign(start.size(), 0);
     mesh = connect(start.size(), triangles);
   }
   [[nodiscard]] SpringSheet sheet() const { return {start, end, reach, thickness, area, fixed, step}; }
@@ -101,9 +101,9 @@ TEST(ContactSprings, StiffnessIsThatOfTheFormula) {
 
 TEST(ContactSprings, FixedVerticesAloneGetNone) {
   Layers layers;
-  layers.fixed.assign(layers.fixed.size(), true);
+  layers.fixed.assign(layers.fixed.size(), all_axes);
   EXPECT_TRUE(layers.springs(scene_with("")).empty());
-  layers.fixed[40] = false;
+  layers.fixed[40] = 0;
   EXPECT_FALSE(layers.springs(scene_with("")).empty());
 }
 
