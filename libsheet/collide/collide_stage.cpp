@@ -149,7 +149,8 @@ struct CollideStage::Impl {
     const Shares s = shares(path.triangles, volumes(frame), path.start);
     const double density = scene->material.density > 0 ? scene->material.density : 1;
     for (std::size_t i = 0; i < path.start.size(); ++i) {
-      path.thickness.push_back(s.area[i] > 0 ? s.volume[i] / s.area[i] : 0);
+      const double limit = edges_of_reach * s.edge[i]; // where triangles are crushed, volume over area is beyond sense
+      path.thickness.push_back(s.volume[i] < limit * s.area[i] ? s.volume[i] / s.area[i] : limit);
       path.mass.push_back(s.volume[i] * density);
     }
     return path;

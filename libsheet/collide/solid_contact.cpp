@@ -17,6 +17,8 @@ namespace {
 
 // Rounds of impulses before what still hits is carried.
 constexpr int kRounds = 10;
+// By how many times the way that a point of a triangle is moved an impulse may move a corner.
+constexpr double kLongestLever = 4;
 
 std::int32_t first_bit(std::uint64_t mask) { return mask == 0 ? kRidesNone : std::countr_zero(mask); }
 
@@ -197,7 +199,7 @@ private:
         if (distance < -edges[v] / 2)
           fail(ExitCode::bad_input,
                "vertex {} at ({:.6g}, {:.6g}, {:.6g}) starts {:.3g} m inside {}; move the sheet or the solid so that "
-               "they start apart",
+               "they start apart; where solids close on the sheet, leave it room",
                v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
         rides_[v] = static_cast<std::int32_t>(i);
         hold(v, views_[i].own(0, x));
@@ -225,8 +227,14 @@ private:
       share[c] = weight / path_.mass[v] * free_part(prescribed_[v]);
       compliance += weight * share[c];
     }
-    for (Vector3& s : share)
+    double most = 0;
+    for (Vector3& s : share) {
       s = (compliance.array() > 0).select(s.cwiseQuotient(compliance), 0.0);
+      most = std::max(most, s.maxCoeff());
+    }
+    if (most > kLongestLever)
+      for (Vector3& s : share)
+        s *= kLongestLever / most;
     const Near& near = hit.point.near;
     // What only must come out does so along the normal, and loses the speed at which it approaches.
     const Vector3 comes_out = std::max(0.0, kTarget * half - near.distance) * near.normal;
@@ -240,6 +248,8 @@ private:
       change = std::max(0.0, approach) * near.normal;
     }
     move += comes_out;
+    if (hit.kind != FoundHit::Kind::meeting) // another impulse of this round may have brought it out
+      move -= std::clamp((end - hit.place).dot(near.normal), 0.0, comes_out.norm()) * near.normal;
     const auto outward = [&](const Vector3& x) { return Vector3(std::max(0.0, x.dot(near.normal)) * near.normal); };
     for (std::size_t c = 0; c < 3; ++c) {
       if (share[c].isZero(0))

@@ -9,7 +9,8 @@
 namespace sheet::collide {
 namespace {
 
-// A vertex that starts a piece of its path within the offset and moves out of it touches only what it comes nearer to than it was.
+// A vertex that starts a piece of its path within the offset and moves out of it touches only what it comes nearer to
+// than it was.
 double offset_for(const SolidDistance& shape, const Vector3& start, const Vector3& next, double offset) {
   const double reach = offset * (1 + kVertexSlack);
   if (shape.distance(start, reach) >= reach)

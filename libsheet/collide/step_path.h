@@ -37,7 +37,8 @@ struct StepPath {
   std::span<const Vector3> start; // [m], free of intersections unless the report says otherwise
   std::vector<Vector3> end;       // [m]
   std::vector<Vector3> velocity;  // at the end [m/s]
-  std::vector<double> thickness;  // at each vertex [m]: volume / area of its triangles
+  std::vector<double>
+      thickness; // at each vertex [m]: volume / area of its triangles, at most twice the length of its edges
   std::vector<double>
       mass; // of each vertex [kg]; a third of its triangles' (volume / 3 where the density is not given)
   std::vector<std::uint64_t> touch; // bit i: held by solid i

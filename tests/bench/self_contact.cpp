@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
     });
     const double near = median_cpu_ms([&] {
       const std::vector<double> ones(pile.start.size(), 1);
-      const SpringSheet sheet{pile.start, safe, reach, reach, ones, std::vector<bool>(safe.size(), false), 0.01};
+      const SpringSheet sheet{pile.start, safe, reach, reach, ones, std::vector<Axes>(safe.size(), 0), 0.01};
       std::vector<ContactSpring> list;
       add_springs(list, search.near(safe, reach), scene, sheet);
       springs = list.size();
