@@ -10,6 +10,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/collide/contact_arrays.h"
+#include "libsheet/collide/loose_springs.h"
 #include "libsheet/collide/release.h"
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
@@ -269,8 +270,10 @@ struct CollideStage::Impl {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
     const SpringSheet sheet{path.start, path.end, reach, path.thickness, at_end.area, fixed, path.length()};
     std::vector<ContactSpring> springs = read_springs(frame);
+    const std::vector<ContactSpring> loose = take_loose(springs, *mesh, path.start);
     follow(springs, *scene, sheet);
     add_springs(springs, search->near(path.end, reach), *scene, sheet);
+    hand_over(loose, path.end, springs);
     level_velocities(springs, *scene, path.mass, fixed, path.velocity);
     totals.most_springs = std::max(totals.most_springs, springs.size());
     write_springs(frame, springs);

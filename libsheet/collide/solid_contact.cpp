@@ -17,8 +17,9 @@ namespace {
 
 // Rounds of impulses before what still hits is carried.
 constexpr int kRounds = 10;
-// By how many times the way that a point of a triangle is moved an impulse may move a corner.
-constexpr double kLongestLever = 4;
+// By how many times the way that a point of a triangle is moved an impulse may move a corner. Of two corners with
+// masses m and M the lighter moves by up to sqrt(M/m)/2 times that way, so lighter ones count as having a part of M.
+constexpr double kLongestLever = 4, kLeastMass = 1 / (4 * kLongestLever * kLongestLever);
 
 std::int32_t first_bit(std::uint64_t mask) { return mask == 0 ? kRidesNone : std::countr_zero(mask); }
 
@@ -218,13 +219,15 @@ private:
     // Of the point, in the solid's frame; in the world; along each axis.
     Vector3 end = Vector3::Zero(), velocity = Vector3::Zero(), compliance = Vector3::Zero();
     std::array<Vector3, 3> share; // along each axis
+    const double least_mass =
+        kLeastMass * std::max({path_.mass[corners[0]], path_.mass[corners[1]], path_.mass[corners[2]]});
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = corners[c];
       const double weight = hit.point.weights[c];
       half = std::min(half, path_.thickness[v] / 2);
       end += weight * view.own(view.pieces(), path_.end[v]);
       velocity += weight * path_.velocity[v];
-      share[c] = weight / path_.mass[v] * free_part(prescribed_[v]);
+      share[c] = weight / std::max(path_.mass[v], least_mass) * free_part(prescribed_[v]);
       compliance += weight * share[c];
     }
     double most = 0;
@@ -232,9 +235,11 @@ private:
       s = (compliance.array() > 0).select(s.cwiseQuotient(compliance), 0.0);
       most = std::max(most, s.maxCoeff());
     }
-    if (most > kLongestLever)
-      for (Vector3& s : share)
-        s *= kLongestLever / most;
+    if (most > kLongestLever) { // nearly all of the point is held: left to the other means
+      for (const std::uint32_t v : corners)
+        changed_[v] = 1;
+      return;
+    }
     const Near& near = hit.point.near;
     // What only must come out does so along the normal, and loses the speed at which it approaches.
     const Vector3 comes_out = std::max(0.0, kTarget * half - near.distance) * near.normal;

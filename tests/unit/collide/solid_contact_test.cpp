@@ -303,6 +303,31 @@ TEST(SolidContact, what_touches_nothing_is_let_go) {
   EXPECT_EQ(sheet.path.touch, std::vector<std::uint64_t>(end.size(), 0));
 }
 
+// A pin stops a triangle at a point far from its lightest corner, which is not thrown.
+TEST(SolidContact, no_lever_throws_a_light_corner) {
+  const Solids pin = solids_of({solid(scene::Capsule{1e-5, 0.1}, {0, -0.05, 0})});
+  FallingSheet sheet = falling(0.05);
+  sheet.triangles = {{0, 1, 2}};
+  sheet.path.triangles = sheet.triangles;
+  sheet.start = {{-2e-4, 1e-3, -5e-3}, {-2e-4, 1e-3, 5e-3}, {1e-2, 1e-3, 0}};
+  sheet.path.start = sheet.start;
+  sheet.path.end = sheet.start;
+  for (auto* list : {&sheet.path.thickness, &sheet.path.mass})
+    list->assign(3, kThickness);
+  sheet.path.mass[2] *= 1e-6;
+  sheet.path.touch.assign(3, 0);
+  sheet.path.fixed.assign(3, 0);
+  const double way = 2e-3;
+  sheet.path.velocity.assign(3, Vector3(0, -way / kStep, 0));
+  for (Vector3& x : sheet.path.end)
+    x.y() -= way;
+  const SolidReport report = resolve_solids(sheet.path, pin);
+  EXPECT_GT(report.pushed, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  EXPECT_LT((sheet.path.end[2] - sheet.start[2]).norm(), 4 * way);
+  EXPECT_GE(test::least_distance(sheet.path, pin, 0, 1e-5, 10), kThickness / 8 - 1e-5);
+}
+
 // What is brought out is not thrown.
 TEST(SolidContact, brought_out_without_speed) {
   const Solids rod = solids_of({lying_rod(1e-4)});
