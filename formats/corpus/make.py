@@ -209,6 +209,11 @@ passed = {
     "contacts": stream(contacts()),
     "inlet": stream(inlet()),
     "swept_volume": stream(triangle_frame(swept_volume=Array(np.array([1e-9, -2e-9, 0], "f8"), "vertex", "m^3", "conserve"))),
+    "touch_force": stream(triangle_frame(touch=Array(np.array([1, 1, 0], "u8"), "vertex", "1", "common"),
+                                         touch_force=Array(np.array([[0, 0.5, 0], [0.25, -0.125, 0], [0, 0, 0]], "f8"),
+                                                           "vertex", "N", "conserve"))),
+    "start_time": stream(triangle_frame(start_position=Array(np.zeros((3, 3)), "vertex", "m", "drop"),
+                                        start_time=Array(np.array([-0.125]), "frame", "s", "copy"))),
 }
 
 failed = {
@@ -315,6 +320,10 @@ failed = {
     "inlet_place": with_array("inlet", Array(np.zeros(1, "u8"), "triangle", "1", "common")),
     "inlet_origin_nan": with_array("inlet_origin", Array(np.full((3, 3), np.nan), "vertex", "m", "interpolate")),
     "swept_volume_nan": with_array("swept_volume", Array(np.full(3, np.nan), "vertex", "m^3", "conserve")),
+    "touch_force_nan": with_array("touch_force", Array(np.full((3, 3), np.nan), "vertex", "N", "conserve")),
+    "touch_force_rule": with_array("touch_force", Array(np.zeros((3, 3)), "vertex", "N", "interpolate")),
+    "start_time_infinite": with_array("start_time", Array(np.array([np.inf]), "frame", "s", "copy")),
+    "start_time_rows": with_array("start_time", Array(np.zeros(2), "frame", "s", "copy")),
 }
 
 

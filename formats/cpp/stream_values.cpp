@@ -35,6 +35,7 @@ constexpr std::array standards{
     Standard{"start_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"hold", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
     Standard{"touch", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
+    Standard{"touch_force", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
     Standard{"inlet", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
     Standard{"inlet_origin", Place::vertex, Type::float64, 3, "m", Transfer::interpolate, false},
     Standard{"swept_volume", Place::vertex, Type::float64, 1, "m^3", Transfer::conserve, false},

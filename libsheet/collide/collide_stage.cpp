@@ -10,9 +10,11 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/collide/contact_arrays.h"
+#include "libsheet/collide/loose_springs.h"
+#include "libsheet/collide/release.h"
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
-#include "libsheet/scene/read.h"
+#include "libsheet/scene/frame_scene.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::collide {
@@ -43,7 +45,7 @@ struct Totals {
   std::uint64_t steps = 0, with_hits = 0;
   SolidReport solids;
   SelfReport self;
-  std::size_t most_springs = 0, most_touching = 0;
+  std::size_t most_springs = 0, most_touching = 0, released = 0;
   double with_solids = 0, check = 0, response = 0, springs = 0; // processor time [s]
 
   void add(const SolidReport& r) {
@@ -94,8 +96,8 @@ Shares shares(std::span<const Corners> triangles, std::span<const double> volume
 } // namespace
 
 struct CollideStage::Impl {
-  std::string scene_text;
-  std::optional<Scene> scene;
+  FrameScene scenes;
+  const Scene* scene = nullptr; // the frame's
   std::optional<Solids> solids; // if the scene has some
   std::optional<Connectivity> mesh;
   std::optional<SelfSearch> search;
@@ -103,13 +105,9 @@ struct CollideStage::Impl {
   Totals totals;
 
   void read_scene_of(const Frame& frame) {
-    const Array* array = frame.find("scene");
-    if (array == nullptr)
-      fail(ExitCode::bad_input, "the frame has no scene, so nothing is known of its contacts: make it with sheet-init");
-    if (scene && array->text() == scene_text)
+    scene = &scenes.of(frame);
+    if (!scenes.changed())
       return;
-    scene = parse_scene(array->text(), "the frame's scene");
-    scene_text = array->text();
     solids.reset();
     if (!scene->solids.empty())
       solids.emplace(*scene);
@@ -152,26 +150,31 @@ struct CollideStage::Impl {
     const Shares s = shares(path.triangles, volumes(frame), path.start);
     const double density = scene->material.density > 0 ? scene->material.density : 1;
     for (std::size_t i = 0; i < path.start.size(); ++i) {
-      path.thickness.push_back(s.area[i] > 0 ? s.volume[i] / s.area[i] : 0);
+      const double limit = edges_of_reach * s.edge[i]; // where triangles are crushed, volume over area is beyond sense
+      path.thickness.push_back(s.volume[i] < limit * s.area[i] ? s.volume[i] / s.area[i] : limit);
       path.mass.push_back(s.volume[i] * density);
     }
     return path;
   }
 
-  // By a [[hold]] or inflow that is in force at time t. A vertex held along some axes only counts as held.
-  [[nodiscard]] std::vector<bool> held(const Frame& frame, double t) const {
-    std::uint64_t in_force = 0;
-    for (std::size_t i = 0; i < scene->holds.size(); ++i)
-      if (const auto& until = scene->holds[i].until; !until || t < *until)
-        in_force |= std::uint64_t{1} << i;
-    std::vector<bool> fixed(frame.vertices, false);
+  // By a [[hold]] or inflow that is in force at time t.
+  [[nodiscard]] std::vector<Axes> held(const Frame& frame, double t) const {
+    std::vector<Axes> fixed(frame.vertices, 0);
     const auto hold = holds(frame);
-    for (std::size_t v = 0; v < hold.size(); ++v)
-      fixed[v] = (hold[v] & in_force) != 0;
+    for (std::size_t i = 0; i < scene->holds.size(); ++i) {
+      const auto& [x, y, z] = scene->holds[i].axes;
+      const auto axes = static_cast<Axes>((x ? 1 : 0) | (y ? 2 : 0) | (z ? 4 : 0));
+      if (const auto& until = scene->holds[i].until; until && t >= *until)
+        continue;
+      for (std::size_t v = 0; v < hold.size(); ++v)
+        if ((hold[v] >> i & 1) != 0)
+          fixed[v] |= axes;
+    }
     const auto inlet = masks(frame, "inlet");
     if (scene->inflow && (!scene->inflow->until || t < *scene->inflow->until))
       for (std::size_t v = 0; v < inlet.size(); ++v)
-        fixed[v] = fixed[v] || (inlet[v] & in_inlet) != 0;
+        if ((inlet[v] & in_inlet) != 0)
+          fixed[v] = all_axes;
     return fixed;
   }
 
@@ -196,29 +199,45 @@ struct CollideStage::Impl {
   void step(Frame& frame) {
     StepPath path = path_of(frame);
     Watch watch;
+    std::vector<std::uint32_t> off;
     if (solids) {
+      off = coming_off(frame, path);
       const SolidReport report = resolve_solids(path, *solids);
       if (report.unresolved > 0)
         log::warning("step {}: {} triangles come too close to solids", frame.step, report.unresolved);
       totals.add(report);
+      totals.released += off.size();
       totals.with_solids += watch.lap();
-      std::copy(path.touch.begin(), path.touch.end(), put_masks(frame, "touch").begin());
     }
     if (self()) {
       connect_mesh(frame);
       check_start(path);
       totals.check += watch.lap();
       const std::vector<double> reach = reach_of(path, shares(path.triangles, volumes(frame), path.start));
-      const std::vector<bool> fixed = path.fixed;
+      const std::vector<Axes> fixed = path.fixed;
       resolve_self_beside_solids(path, reach, frame.step);
       totals.response += watch.lap();
       set_springs(frame, path, fixed, reach);
       totals.springs += watch.lap();
     }
+    if (solids) { // what comes off was held in this step, and is free in the next one
+      for (const std::uint32_t v : off)
+        path.touch[v] = 0;
+      std::copy(path.touch.begin(), path.touch.end(), put_masks(frame, "touch").begin());
+    }
     std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
     std::copy(path.velocity.begin(), path.velocity.end(), velocities(frame).begin());
     last_end = std::move(path.end);
     ++totals.steps;
+  }
+
+  // Vertices whose solid cannot hold them any longer.
+  [[nodiscard]] std::vector<std::uint32_t> coming_off(const Frame& frame, const StepPath& path) const {
+    const Array* force = frame.find("touch_force");
+    if (force == nullptr || !scene->contact || !scene->contact->adhesion)
+      return {};
+    return pulled_off(path, *solids, force->values<Vector3>(), *scene->contact->adhesion,
+                      shares(path.triangles, volumes(frame), path.end).area);
   }
 
   // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
@@ -229,11 +248,11 @@ struct CollideStage::Impl {
       report = resolve_self(path, *search, reach);
       if (!solids || report.hits == 0 || round == rounds_with_solids)
         break;
-      std::vector<bool> fixed = path.fixed;
+      std::vector<Axes> fixed = path.fixed;
       for (const std::uint32_t t : unsafe_triangles(path, *solids))
         for (const std::uint32_t v : path.triangles[t])
           if (path.end[v] != asked.end[v])
-            fixed[v] = true;
+            fixed[v] = all_axes;
       if (fixed == path.fixed)
         break;
       path = asked;
@@ -247,12 +266,14 @@ struct CollideStage::Impl {
                 report.by_impulses, report.in_groups, report.pulled_back);
   }
 
-  void set_springs(Frame& frame, StepPath& path, const std::vector<bool>& fixed, std::span<const double> reach) {
+  void set_springs(Frame& frame, StepPath& path, const std::vector<Axes>& fixed, std::span<const double> reach) {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
     const SpringSheet sheet{path.start, path.end, reach, path.thickness, at_end.area, fixed, path.length()};
     std::vector<ContactSpring> springs = read_springs(frame);
+    const std::vector<ContactSpring> loose = take_loose(springs, *mesh, path.start);
     follow(springs, *scene, sheet);
     add_springs(springs, search->near(path.end, reach), *scene, sheet);
+    hand_over(loose, path.end, springs);
     level_velocities(springs, *scene, path.mass, fixed, path.velocity);
     totals.most_springs = std::max(totals.most_springs, springs.size());
     write_springs(frame, springs);
@@ -274,9 +295,10 @@ void CollideStage::report() const {
     return;
   const double ms = 1e3 / static_cast<double>(t.steps);
   if (impl_->solids) {
-    log::detail("{} steps with solids: {} vertices caught, {} brought out, at most {} touching, {} impulses, {} "
-                "vertices carried",
-                t.steps, t.solids.caught, t.solids.brought_out, t.most_touching, t.solids.pushed, t.solids.carried);
+    log::detail("{} steps with solids: {} vertices caught, {} released, {} brought out, at most {} touching, {} "
+                "impulses, {} vertices carried",
+                t.steps, t.solids.caught, t.released, t.solids.brought_out, t.most_touching, t.solids.pushed,
+                t.solids.carried);
     log::detail("  processor time of a step: {:.2f} ms", ms * t.with_solids);
   }
   if (impl_->self()) {

@@ -77,22 +77,22 @@ void follow(std::vector<ContactSpring>& springs, const Scene& scene, const Sprin
 }
 
 void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
-                      const std::vector<bool>& fixed, std::span<Vector3> velocity) {
+                      const std::vector<Axes>& fixed, std::span<Vector3> velocity) {
   constexpr int sweeps = 30;
   const bool sticks = !scene.contact || scene.contact->adhesion != 0.0;
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (const ContactSpring& s : springs) {
       double rate = 0, compliance = 0;
-      std::array<double, 4> share{};
+      std::array<Vector3, 4> share;
       for (std::size_t i = 0; i < 4; ++i) {
         const std::uint32_t v = s.vertices[i];
         rate += s.weights[i] * s.normal.dot(velocity[v]);
-        share[i] = fixed[v] ? 0 : s.weights[i] / mass[v];
-        compliance += s.weights[i] * share[i];
+        share[i] = s.weights[i] / mass[v] * free_part(fixed[v]).cwiseProduct(s.normal);
+        compliance += s.weights[i] * s.normal.dot(share[i]);
       }
       if (compliance > 0 && (sticks || rate < 0))
         for (std::size_t i = 0; i < 4; ++i)
-          velocity[s.vertices[i]] -= rate / compliance * share[i] * s.normal;
+          velocity[s.vertices[i]] -= rate / compliance * share[i];
     }
 }
 
@@ -129,7 +129,7 @@ void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair
     ContactSpring s;
     s.vertices = v;
     s.weights = pair->closest.weights;
-    if (std::all_of(v.begin(), v.end(), [&](auto i) { return sheet.fixed[i]; }) || is_linked(s) ||
+    if (std::all_of(v.begin(), v.end(), [&](auto i) { return sheet.fixed[i] == all_axes; }) || is_linked(s) ||
         !normal_of(s, sheet.end))
       continue;
     s.anchor = pair->closest.offset;

@@ -18,6 +18,7 @@
 // sheet presses together does not go through either. None is stiffer than what stands in the step's matrix anyway.
 #pragma once
 #include "libsheet/collide/self_search.h"
+#include "libsheet/collide/step_path.h"
 #include "libsheet/scene/scene.h"
 
 namespace sheet::collide {
@@ -37,7 +38,7 @@ struct SpringSheet {
   std::span<const double> reach;       // contact distance [m]
   std::span<const double> thickness;   // [m]
   std::span<const double> area;        // a third of the area of its triangles [m²]
-  std::vector<bool> fixed;             // pairs of fixed vertices alone get no spring
+  std::vector<Axes> fixed;             // pairs of fixed vertices alone get no spring
   double step = 0;                     // its length [s]
 };
 
@@ -52,8 +53,8 @@ void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair
 // What touches does not bounce: takes away the velocity of each spring's features along its normal, relative to each
 // other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of
 // Gauss-Seidel: nearly all of it in small piles). Where the scene's adhesion is 0, only that of approach. `mass` [kg];
-// fixed vertices have infinite mass.
+// along fixed axes it is infinite.
 void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
-                      const std::vector<bool>& fixed, std::span<Vector3> velocity);
+                      const std::vector<Axes>& fixed, std::span<Vector3> velocity);
 
 } // namespace sheet::collide

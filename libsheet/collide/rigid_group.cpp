@@ -2,6 +2,7 @@
 #include "libsheet/collide/rigid_group.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -127,6 +128,31 @@ std::optional<RigidStep> common_motion(std::span<const std::uint32_t> members, s
   if (fits(turned))
     return turned;
   return std::nullopt;
+}
+
+std::optional<RigidStep> common_shift(std::span<const std::uint32_t> members, std::span<const Axes> fixed,
+                                      std::span<const double> mass, std::span<const Vector3> start,
+                                      std::span<const Vector3> end) {
+  double longest = 0;
+  for (const std::uint32_t v : members)
+    longest = std::max(longest, (end[v] - start[v]).norm());
+  RigidStep step;
+  for (int a = 0; a < 3; ++a) {
+    double sum = 0, masses = 0;
+    std::optional<double> prescribed;
+    for (const std::uint32_t v : members) {
+      const double way = end[v][a] - start[v][a];
+      sum += mass[v] * way;
+      masses += mass[v];
+      if (!has_axis(fixed[v], a))
+        continue;
+      if (prescribed && std::abs(*prescribed - way) > 1e-9 * longest)
+        return std::nullopt;
+      prescribed = way;
+    }
+    step.shift[a] = prescribed.value_or(sum / masses);
+  }
+  return step;
 }
 
 Momentum momentum(std::span<const std::uint32_t> members, std::span<const double> mass,

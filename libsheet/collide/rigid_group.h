@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "libsheet/geometry/types.h"
+#include "libsheet/collide/step_path.h"
 
 namespace sheet::collide {
 
@@ -40,6 +40,12 @@ struct RigidStep {
 // members' extent [Umeyama 1991].
 [[nodiscard]] std::optional<RigidStep> common_motion(std::span<const std::uint32_t> members,
                                                      std::span<const Vector3> start, std::span<const Vector3> end);
+
+// The shift of a group in which some vertices are fixed along some axes: theirs, where they agree up to 1e-9 of the
+// longest way, or else none; along the other axes the mean of the ways by mass.
+[[nodiscard]] std::optional<RigidStep> common_shift(std::span<const std::uint32_t> members, std::span<const Axes> fixed,
+                                                    std::span<const double> mass, std::span<const Vector3> start,
+                                                    std::span<const Vector3> end);
 
 // Linear [kg m/s] and angular [kg m²/s] momentum, the latter about `center` [m].
 struct Momentum {

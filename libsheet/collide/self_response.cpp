@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t impulse_rounds = 10, sweeps_of_round = 30, group_rounds = 5;
 constexpr std::array<double, 4> parts_of_way = {1, 0.5, 0.25, 0}; // pull-back
 constexpr double impulse_part = 0.5;                              // of the contact distance, that impulses want
+constexpr double longest_lever = 4; // by how many times the way wanted of a contact an impulse may move a vertex
 
 // n·Σ w_i x_i ≥ distance
 struct Inequality {
@@ -26,9 +27,9 @@ struct Inequality {
 class Response {
 public:
   Response(StepPath& path, SelfSearch& search, std::span<const double> reach)
-      : path_(path), search_(search), reach_(reach), islands_(path.start.size()), inverse_mass_(path.start.size()) {
-    for (std::size_t v = 0; v < inverse_mass_.size(); ++v)
-      inverse_mass_[v] = path.fixed[v] ? 0 : 1 / path.mass[v];
+      : path_(path), search_(search), reach_(reach), islands_(path.start.size()), mobility_(path.start.size()) {
+    for (std::size_t v = 0; v < mobility_.size(); ++v)
+      mobility_[v] = free_part(path.fixed[v]) / path.mass[v];
   }
 
   SelfReport run() {
@@ -78,7 +79,21 @@ private:
       return; // no direction: left to the other means
     inequalities_.push_back({hit.pair.vertices, closest.weights, closest.offset / length,
                              std::min(hit.distance, impulse_part * contact), 0});
-    ++report_.by_impulses;
+    if (lever(inequalities_.back()) > longest_lever)
+      inequalities_.pop_back(); // nearly all of the contact is fixed: left to the other means
+    else
+      ++report_.by_impulses;
+  }
+
+  // How far the vertex that moves farthest moves, over what that changes the distance of the features.
+  [[nodiscard]] double lever(const Inequality& q) const {
+    double farthest = 0, compliance = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vector3 way = q.weights[i] * mobility_[q.vertices[i]].cwiseProduct(q.normal);
+      farthest = std::max(farthest, way.norm());
+      compliance += q.weights[i] * q.normal.dot(way);
+    }
+    return compliance > 0 ? farthest / compliance : 0;
   }
 
   void sweep() {
@@ -86,7 +101,7 @@ private:
       double gap = -q.distance, compliance = 0;
       for (std::size_t i = 0; i < 4; ++i) {
         gap += q.weights[i] * q.normal.dot(path_.end[q.vertices[i]]);
-        compliance += q.weights[i] * q.weights[i] * inverse_mass_[q.vertices[i]];
+        compliance += q.weights[i] * q.weights[i] * q.normal.dot(mobility_[q.vertices[i]].cwiseProduct(q.normal));
       }
       if (!(compliance > 0))
         continue; // all fixed
@@ -94,7 +109,7 @@ private:
       q.impulse = impulse;
       if (change != 0)
         for (std::size_t i = 0; i < 4; ++i)
-          path_.end[q.vertices[i]] += change * q.weights[i] * inverse_mass_[q.vertices[i]] * q.normal;
+          path_.end[q.vertices[i]] += change * q.weights[i] * mobility_[q.vertices[i]].cwiseProduct(q.normal);
     }
   }
 
@@ -132,8 +147,8 @@ private:
       for (const auto& group : groups.all())
         if (const auto motion = motion_of(group, wanted))
           for (const std::uint32_t v : group)
-            if (!path_.fixed[v]) {
-              path_.end[v] = (*motion)(path_.start[v]);
+            if (path_.fixed[v] != all_axes) {
+              path_.end[v] = with_fixed(path_.fixed[v], wanted[v], (*motion)(path_.start[v]));
               grouped[v] = 1;
             }
       hits = remaining(std::move(hits), before);
@@ -145,23 +160,31 @@ private:
   std::optional<RigidStep> motion_of(const std::vector<std::uint32_t>& group,
                                      const std::vector<Vector3>& wanted) const {
     std::vector<std::uint32_t> fixed;
-    std::copy_if(group.begin(), group.end(), std::back_inserter(fixed), [&](auto v) { return path_.fixed[v]; });
+    bool partly = false;
+    for (const std::uint32_t v : group) {
+      if (path_.fixed[v] == all_axes)
+        fixed.push_back(v);
+      partly = partly || (path_.fixed[v] != 0 && path_.fixed[v] != all_axes);
+    }
+    if (partly)
+      return common_shift(group, path_.fixed, path_.mass, path_.start, wanted);
     return fixed.empty() ? momentum_motion(group, path_.mass, path_.start, wanted)
                          : common_motion(fixed, path_.start, wanted);
   }
 
   void pull_back(std::vector<Hit> hits) {
     const std::vector<Vector3> wanted = path_.end;
-    std::vector<std::uint8_t> level(wanted.size(), 0);
+    std::vector<std::uint8_t> level(wanted.size(), 0), driven(wanted.size(), 0);
+    for (std::size_t v = 0; v < driven.size(); ++v) // moved along an axis that is prescribed
+      driven[v] = with_fixed(path_.fixed[v], wanted[v], path_.start[v]) != path_.start[v];
     constexpr std::uint8_t last = parts_of_way.size() - 1;
     while (!hits.empty()) {
       std::vector<std::uint8_t> next = level;
       for (const Hit& hit : hits) {
         const auto& v = hit.pair.vertices;
-        const bool some_free =
-            std::any_of(v.begin(), v.end(), [&](auto i) { return !path_.fixed[i] && level[i] < last; });
+        const bool some_free = std::any_of(v.begin(), v.end(), [&](auto i) { return !driven[i] && level[i] < last; });
         for (const std::uint32_t i : v)
-          if (level[i] < last && (!some_free || !path_.fixed[i]))
+          if (level[i] < last && (!some_free || !driven[i]))
             next[i] = static_cast<std::uint8_t>(level[i] + 1);
       }
       const std::vector<Vector3> before = path_.end;
@@ -176,7 +199,7 @@ private:
     for (std::size_t v = 0; v < level.size(); ++v)
       if (level[v] > 0) {
         ++report_.pulled_back;
-        report_.held_back += path_.fixed[v];
+        report_.held_back += driven[v];
       }
   }
 
@@ -185,13 +208,23 @@ private:
       if (path_.end[v] != asked[v])
         path_.velocity[v] = before[v] + (path_.end[v] - asked[v]) / path_.length();
     for (const auto& island : islands_.all()) {
-      if (std::any_of(island.begin(), island.end(), [&](auto v) { return path_.fixed[v]; }))
+      Axes fixed = 0;
+      double mass = 0;
+      for (const std::uint32_t v : island) {
+        fixed |= path_.fixed[v];
+        mass += path_.mass[v];
+      }
+      if (fixed == all_axes)
         continue;
       const Vector3& center = asked[island.front()];
       const Momentum was = momentum(island, path_.mass, asked, before, center);
       const Momentum is = momentum(island, path_.mass, path_.end, path_.velocity, center);
-      add_momentum(island, path_.mass, path_.end, path_.velocity, {was.linear - is.linear, was.angular - is.angular},
-                   center);
+      const Momentum lost{was.linear - is.linear, was.angular - is.angular};
+      if (fixed == 0)
+        add_momentum(island, path_.mass, path_.end, path_.velocity, lost, center);
+      else
+        for (const std::uint32_t v : island)
+          path_.velocity[v] += free_part(fixed).cwiseProduct(lost.linear) / mass;
     }
   }
 
@@ -199,7 +232,7 @@ private:
   SelfSearch& search_;
   std::span<const double> reach_;
   Sets islands_;
-  std::vector<double> inverse_mass_; // [1/kg]
+  std::vector<Vector3> mobility_; // inverse mass along each axis [1/kg]
   std::vector<Inequality> inequalities_;
   SelfReport report_;
 };

@@ -5,13 +5,16 @@
 // 1. Impulses [Bridson et al. 2002]. Each pair that was found adds an inequality n·Σ w_i x_i ≥ g, with normal n and
 //    weights w from the moment of the hit; the ends move as little as possible, measured by their masses, for all
 //    inequalities to hold (projected Gauss-Seidel). g is the distance at the start or half the contact distance, the
-//    less of them. Vertices that are held or touch a solid have infinite mass.
+//    less of them. Vertices that are held or touch a solid have infinite mass, those held along some axes along these.
+//    A pair that the one vertex that is free would have to leave by more than 4 times the way wanted, because only a
+//    small weight is its own, is left to the other means.
 // 2. Rigid groups [Provot 1997; Bridson et al. 2002]. Vertices of pairs that still hit are joined to groups, which move
 //    as rigid bodies with the momentum and angular momentum of their vertices, or with those of their vertices that are
-//    fixed, if these move as a rigid body does. (A straight path between two places of a rigid body is an affine map
+//    fixed, if these move as a rigid body does; where some are fixed along some axes only, as what shifts but does not
+//    turn. (A straight path between two places of a rigid body is an affine map
 //    that keeps what is apart apart, for turns by less than half a circle.)
-// 3. Pull-back. What still hits ends at 1/2, 1/4, then none of its way; free vertices first, then, because nothing else
-//    is left, fixed ones too.
+// 3. Pull-back. What still hits ends at 1/2, 1/4, then none of its way; free vertices and those at rest first, then,
+//    because nothing else is left, those whose motion is prescribed.
 //
 // It ends: the first two have a number of rounds; each round of the third shortens the way of at least one vertex of
 // each hit, three times at most, and four vertices without any way do not hit.
@@ -21,8 +24,8 @@
 // next step pushes it out.
 //
 // Velocities change by the displacement over the step's length. Then each island (vertices joined by hits) without
-// fixed vertices gets the rigid motion that gives its momentum and angular momentum back; of nearly collinear islands
-// the part about their line is left out.
+// fixed vertices gets the rigid motion that gives its momentum and angular momentum back (of nearly collinear islands
+// the part about their line is left out), others the momentum along the axes along which none is fixed.
 #pragma once
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/step_path.h"
@@ -34,8 +37,8 @@ struct SelfReport {
   std::size_t rounds = 0;      // of any of the three means
   std::size_t by_impulses = 0; // inequalities
   std::size_t in_groups = 0;   // vertices that moved in rigid groups
-  std::size_t pulled_back = 0; // vertices, fixed ones included
-  std::size_t held_back = 0;   // fixed ones among them
+  std::size_t pulled_back = 0; // vertices, all kinds
+  std::size_t held_back = 0;   // those whose motion is prescribed, among them
 };
 
 // Corrects end and velocity of the path. `reach`: contact distance at each vertex [m].

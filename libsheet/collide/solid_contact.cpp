@@ -17,6 +17,9 @@ namespace {
 
 // Rounds of impulses before what still hits is carried.
 constexpr int kRounds = 10;
+// By how many times the way that a point of a triangle is moved an impulse may move a corner. Of two corners with
+// masses m and M the lighter moves by up to sqrt(M/m)/2 times that way, so lighter ones count as having a part of M.
+constexpr double kLongestLever = 4, kLeastMass = 1 / (4 * kLongestLever * kLongestLever);
 
 std::int32_t first_bit(std::uint64_t mask) { return mask == 0 ? kRidesNone : std::countr_zero(mask); }
 
@@ -65,14 +68,14 @@ std::vector<SolidView> views_of(const Solids& solids, const StepPath& path) {
 class Resolution {
 public:
   Resolution(StepPath& path, const Solids& solids)
-      : path_(path), solids_(solids), held_(path.fixed), views_(views_of(solids, path)) {
+      : path_(path), solids_(solids), prescribed_(path.fixed), views_(views_of(solids, path)) {
     // Vertices of no triangle have no thickness of their own.
     const double least = thinnest(path);
     for (double& thickness : path.thickness)
       thickness = std::max(thickness, least);
     rides_.resize(path.start.size());
     for (std::size_t v = 0; v < rides_.size(); ++v)
-      rides_[v] = held_[v] ? kRidesNone : first_bit(path.touch[v]);
+      rides_[v] = held(v) ? kRidesNone : first_bit(path.touch[v]);
     changed_.assign(path.start.size(), 0);
     carried_.assign(path.start.size(), 0);
     active_.resize(path.triangles.size());
@@ -99,6 +102,9 @@ public:
   }
 
 private:
+  // By a [[hold]], along all axes.
+  [[nodiscard]] bool held(std::size_t v) const { return prescribed_[v] == all_axes; }
+
   // Vertices that touch, or come to.
   void hold_vertices() {
     const std::size_t n = path_.start.size();
@@ -106,8 +112,12 @@ private:
     std::vector<std::uint8_t> caught(n, 0); // vector<bool> is not safe to write from several threads
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 256), [&](const auto& range) {
       for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v) {
-        if (held_[v])
+        if (held(v))
           continue;
+        if (rides_[v] != kRidesNone && is_off(v)) {
+          rides_[v] = kRidesNone;
+          path_.touch[v] = 0;
+        }
         if (rides_[v] != kRidesNone) {
           const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
           hold(v, view.own(view.pieces(), path_.end[v]));
@@ -121,6 +131,14 @@ private:
     bring_out(depth);
     for (const std::uint8_t c : caught)
       report_.caught += c;
+  }
+
+  // Whether a vertex that touches starts farther from its solid than the sheet is thick: a change of the mesh over a
+  // hollow may have put it there.
+  [[nodiscard]] bool is_off(std::uint32_t v) const {
+    const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
+    const double thickness = path_.thickness[v];
+    return view.shape().distance(view.own(0, path_.start[v]), thickness) >= thickness;
   }
 
   // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, out of the others.
@@ -143,7 +161,24 @@ private:
         break;
       end = view.world_at_end(settle(view.shape(), view.own(view.pieces(), end), offset));
     }
-    path_.end[v] = end;
+    path_.end[v] = prescribed_[v] == 0 ? end : beside_hold(v, end);
+  }
+
+  // As near to `end` as the axes allow that a [[hold]] prescribes: along the others back to half the thickness from the
+  // own solid, unless that is nearly along the prescribed ones.
+  [[nodiscard]] Vector3 beside_hold(std::uint32_t v, const Vector3& end) const {
+    const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
+    const Vector3 free = free_part(prescribed_[v]);
+    Vector3 x = with_fixed(prescribed_[v], path_.end[v], end);
+    for (int turn = 0; turn < 10; ++turn) {
+      const Near near = view.shape().nearest(view.own(view.pieces(), x));
+      const Vector3 along = free.cwiseProduct(view.turned_at_end(near.normal));
+      const double error = path_.thickness[v] / 2 - near.distance;
+      if (std::abs(error) <= 1e-9 * path_.thickness[v] || along.squaredNorm() < 0.01)
+        break;
+      x += error / along.squaredNorm() * along;
+    }
+    return x;
   }
 
   // Vertices that start deeper than half the thickness. A change of the mesh on a curved solid may have put one there,
@@ -165,7 +200,7 @@ private:
         if (distance < -edges[v] / 2)
           fail(ExitCode::bad_input,
                "vertex {} at ({:.6g}, {:.6g}, {:.6g}) starts {:.3g} m inside {}; move the sheet or the solid so that "
-               "they start apart",
+               "they start apart; where solids close on the sheet, leave it room",
                v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
         rides_[v] = static_cast<std::int32_t>(i);
         hold(v, views_[i].own(0, x));
@@ -180,35 +215,55 @@ private:
   void push(const FoundHit& hit) {
     const SolidView& view = views_[hit.solid];
     const Corners& corners = path_.triangles[hit.triangle];
-    double half = std::numeric_limits<double>::infinity(), compliance = 0;
-    Vector3 end = Vector3::Zero(); // of the point, in the solid's frame
-    std::array<double, 3> share{};
+    double half = std::numeric_limits<double>::infinity();
+    // Of the point, in the solid's frame; in the world; along each axis.
+    Vector3 end = Vector3::Zero(), velocity = Vector3::Zero(), compliance = Vector3::Zero();
+    std::array<Vector3, 3> share; // along each axis
+    const double least_mass =
+        kLeastMass * std::max({path_.mass[corners[0]], path_.mass[corners[1]], path_.mass[corners[2]]});
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = corners[c];
       const double weight = hit.point.weights[c];
       half = std::min(half, path_.thickness[v] / 2);
       end += weight * view.own(view.pieces(), path_.end[v]);
-      if (held_[v])
-        continue;
-      share[c] = weight / path_.mass[v];
+      velocity += weight * path_.velocity[v];
+      share[c] = weight / std::max(path_.mass[v], least_mass) * free_part(prescribed_[v]);
       compliance += weight * share[c];
     }
-    if (compliance == 0)
+    double most = 0;
+    for (Vector3& s : share) {
+      s = (compliance.array() > 0).select(s.cwiseQuotient(compliance), 0.0);
+      most = std::max(most, s.maxCoeff());
+    }
+    if (most > kLongestLever) { // nearly all of the point is held: left to the other means
+      for (const std::uint32_t v : corners)
+        changed_[v] = 1;
       return;
+    }
     const Near& near = hit.point.near;
-    const Vector3 wanted =
-        hit.place + std::max(0.0, kTarget * half - near.distance) * near.normal + view.belt(1 - hit.s);
-    // What only must come out does so along the normal.
-    const Vector3 move = hit.kind == FoundHit::Kind::meeting ? Vector3(wanted - end) : Vector3(wanted - hit.place);
-    const Vector3 out = std::max(0.0, move.dot(near.normal)) * near.normal;
+    // What only must come out does so along the normal, and loses the speed at which it approaches.
+    const Vector3 comes_out = std::max(0.0, kTarget * half - near.distance) * near.normal;
+    Vector3 move = view.belt(1 - hit.s), change = Vector3::Zero(); // in the solid's frame
+    if (hit.kind == FoundHit::Kind::meeting) {
+      move += hit.place - end;
+      change = move / path_.length();
+    } else {
+      const Vector3 solid = solids_.surface_velocity(hit.solid, view.world_at_end(end), path_.end_time);
+      const double approach = view.turned_at_end(near.normal).dot(solid - velocity);
+      change = std::max(0.0, approach) * near.normal;
+    }
+    move += comes_out;
+    if (hit.kind != FoundHit::Kind::meeting) // another impulse of this round may have brought it out
+      move -= std::clamp((end - hit.place).dot(near.normal), 0.0, comes_out.norm()) * near.normal;
+    const auto outward = [&](const Vector3& x) { return Vector3(std::max(0.0, x.dot(near.normal)) * near.normal); };
     for (std::size_t c = 0; c < 3; ++c) {
-      if (share[c] == 0)
+      if (share[c].isZero(0))
         continue;
       const std::uint32_t v = corners[c];
       // A vertex that touches does not slide.
-      const Vector3 by = share[c] / compliance * view.turned_at_end(rides_[v] == kRidesNone ? move : out);
-      path_.end[v] += by;
-      path_.velocity[v] += by / path_.length();
+      const bool free = rides_[v] == kRidesNone;
+      path_.end[v] += share[c].cwiseProduct(view.turned_at_end(free ? move : outward(move)));
+      path_.velocity[v] += share[c].cwiseProduct(view.turned_at_end(free ? change : outward(change)));
       changed_[v] = 1;
     }
   }
@@ -220,10 +275,12 @@ private:
     }
     bool any = false; // moved in this round, by this hit or another
     for (const std::uint32_t v : path_.triangles[hit.triangle]) {
-      if (!held_[v] && carried_[v] == 0) {
+      if (!held(v) && carried_[v] == 0) {
         rides_[v] = static_cast<std::int32_t>(hit.solid);
-        path_.end[v] = views_[hit.solid].carried(path_.start[v]);
-        path_.velocity[v] = scene::velocity_at(solids_.scene(hit.solid).motion, path_.end_time, path_.end[v]);
+        path_.end[v] = with_fixed(prescribed_[v], path_.end[v], views_[hit.solid].carried(path_.start[v]));
+        path_.velocity[v] =
+            with_fixed(prescribed_[v], path_.velocity[v],
+                       scene::velocity_at(solids_.scene(hit.solid).motion, path_.end_time, path_.end[v]));
         carried_[v] = changed_[v] = 1;
         ++report_.carried;
       }
@@ -254,21 +311,22 @@ private:
 
   void finish() {
     for (std::size_t v = 0; v < rides_.size(); ++v) {
-      if (held_[v] || rides_[v] == kRidesNone)
+      if (held(v) || rides_[v] == kRidesNone)
         continue;
-      path_.fixed[v] = true;
+      path_.fixed[v] = all_axes;
       if (carried_[v] != 0 && path_.touch[v] == 0)
         continue;
       const auto solid = static_cast<std::size_t>(rides_[v]);
       path_.touch[v] = std::uint64_t{1} << solid;
-      path_.velocity[v] = solids_.surface_velocity(solid, path_.end[v], path_.end_time);
+      path_.velocity[v] =
+          with_fixed(prescribed_[v], path_.velocity[v], solids_.surface_velocity(solid, path_.end[v], path_.end_time));
       ++report_.touching;
     }
   }
 
   StepPath& path_;
   const Solids& solids_;
-  const std::vector<bool> held_; // by [[hold]]s
+  const std::vector<Axes> prescribed_; // by [[hold]]s
   std::vector<SolidView> views_;
   std::vector<std::int32_t> rides_;             // the solid that each vertex moves with, or none
   std::vector<std::uint8_t> changed_, carried_; // per vertex

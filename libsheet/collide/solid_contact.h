@@ -3,9 +3,10 @@
 //
 // Vertices [Batty et al. 2012, section 3.5]. A vertex whose path comes within half the sheet's thickness of a solid's
 // surface sticks to it from then on: it moves with the surface, belts included, and ends at half the thickness from it.
-// It keeps its touch bit from then on: the reaction of a solid is not known here, so tension that overcomes adhesion
-// must be found where forces are, and the bit taken away there. A vertex without a bit that starts within half the
-// thickness and moves out is left alone, so what has been released gets away.
+// It keeps its touch bit until it is pulled off (release.h). A vertex without a bit that starts within half the
+// thickness and moves out is left alone, so what has been released gets away. A vertex that a [[hold]] fixes along some
+// axes is put and moved along the others only. A touch bit of a vertex that starts farther from its solid than the
+// sheet is thick, as remeshing over a hollow makes, counts for nothing.
 //
 // Triangles. Where a triangle's path comes within an eighth of its thickness of a solid while its corners stay clear
 // (a rod or a tip through its middle, a corner of a box), the point that hits first sticks: the corners' ends are moved
@@ -41,10 +42,10 @@ struct SolidReport {
 };
 
 // Corrects end, velocity, touch and fixed of the path; `touch` has a bit or none for each vertex at the start, `fixed`
-// is set there for the vertices of [[hold]]s, which are left alone. Vertices of no triangle, whose thickness is 0, are
-// given the least thickness. Does nothing without solids. A vertex that starts in a solid, by at most half of its
-// longest edge, is caught there and ends outside. Throws Error (bad_input) where one starts deeper, unless a [[hold]]
-// put it there.
+// is set there for the vertices of [[hold]]s; those fixed along all axes are left alone. Vertices of no triangle, whose
+// thickness is 0, are given the least thickness. Does nothing without solids. A vertex that starts in a solid, by at
+// most half of its longest edge, is caught there and ends outside. Throws Error (bad_input) where one starts deeper,
+// unless a [[hold]] put it there.
 SolidReport resolve_solids(StepPath& path, const Solids& solids);
 
 // The triangles that the path takes too close to a solid (as above, less a fifth so that round-off raises no alarm),

@@ -9,7 +9,8 @@
 namespace sheet::collide {
 namespace {
 
-// A vertex that starts within the offset and moves out of it touches only what it comes nearer to than it was.
+// A vertex that starts a piece of its path within the offset and moves out of it touches only what it comes nearer to
+// than it was.
 double offset_for(const SolidDistance& shape, const Vector3& start, const Vector3& next, double offset) {
   const double reach = offset * (1 + kVertexSlack);
   if (shape.distance(start, reach) >= reach)
@@ -56,8 +57,7 @@ std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidVi
     deepest = std::min(deepest, view.shape().distance(a, offset));
     for (std::size_t k = 0; k < view.pieces(); ++k) {
       const Vector3 b = view.on_path(k + 1, start, end, false);
-      const double own_offset = k == 0 ? offset_for(view.shape(), a, b, offset) : offset;
-      if (const auto s = first_contact(view.shape(), a, b, own_offset)) {
+      if (const auto s = first_contact(view.shape(), a, b, offset_for(view.shape(), a, b, offset))) {
         const double whole = (static_cast<double>(k) + *s) / static_cast<double>(view.pieces());
         if (!first || whole < first->s)
           first = VertexHit{i, whole, (1 - *s) * a + *s * b};

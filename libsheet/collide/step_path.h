@@ -10,6 +10,25 @@
 
 namespace sheet::collide {
 
+// Axes along which a vertex's motion is prescribed: bit a for axis a.
+using Axes = std::uint8_t;
+inline constexpr Axes all_axes = 7;
+[[nodiscard]] constexpr bool has_axis(Axes axes, int a) { return (axes >> a & 1) != 0; }
+
+// 1 along the axes that are free, 0 along the others.
+[[nodiscard]] inline Vector3 free_part(Axes fixed) {
+  return {has_axis(fixed, 0) ? 0.0 : 1.0, has_axis(fixed, 1) ? 0.0 : 1.0, has_axis(fixed, 2) ? 0.0 : 1.0};
+}
+
+// `x` where free, `prescribed` along the fixed axes.
+[[nodiscard]] inline Vector3 with_fixed(Axes fixed, const Vector3& prescribed, const Vector3& x) {
+  Vector3 result = x;
+  for (int a = 0; a < 3; ++a)
+    if (has_axis(fixed, a))
+      result[a] = prescribed[a];
+  return result;
+}
+
 // Vertex i goes from start[i] to end[i] between start_time and end_time. Corrections change `end`; the velocity of a
 // vertex is changed by the same displacement divided by the step's length.
 struct StepPath {
@@ -18,11 +37,12 @@ struct StepPath {
   std::span<const Vector3> start; // [m], free of intersections unless the report says otherwise
   std::vector<Vector3> end;       // [m]
   std::vector<Vector3> velocity;  // at the end [m/s]
-  std::vector<double> thickness;  // at each vertex [m]: volume / area of its triangles
+  std::vector<double>
+      thickness; // at each vertex [m]: volume / area of its triangles, at most twice the length of its edges
   std::vector<double>
       mass; // of each vertex [kg]; a third of its triangles' (volume / 3 where the density is not given)
   std::vector<std::uint64_t> touch; // bit i: held by solid i
-  std::vector<bool> fixed;          // held or touching: moved by nothing else (infinite mass)
+  std::vector<Axes> fixed;          // where held or touching: moved by nothing else (infinite mass)
 
   [[nodiscard]] double length() const { return end_time - start_time; }
 };

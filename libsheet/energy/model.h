@@ -31,7 +31,8 @@ struct Model {
   Bending bending = Bending::none;
   bool arcs = false; // with mid-edge bending: edges are arcs in the membrane's strain
   Mass mass = Mass::lumped;
-  std::vector<Hold> holds;
+  std::vector<Hold> holds; // of two that hold the same unknown, the later one
+  bool reactions = false;  // whether the forces of the holds are wanted
   std::vector<ContactSpring> contacts;
 
   [[nodiscard]] bool has_inertia() const { return inertia && density > 0; }

@@ -12,7 +12,7 @@
 #include "libsheet/render/path_tracer.h"
 #include "libsheet/render/picture_file.h"
 #include "libsheet/render/scale_bar.h"
-#include "libsheet/scene/read.h"
+#include "libsheet/scene/frame_scene.h"
 
 namespace sheet::render {
 namespace {
@@ -72,8 +72,8 @@ struct RenderStage::Impl {
   std::optional<OutputFile> video;
   std::optional<Image> surroundings;
 
-  std::string scene_text;
-  std::optional<Scene> scene;
+  FrameScene scenes;
+  const Scene* scene = nullptr; // the frame's, if it has one
   std::vector<SolidMesh> meshes;
 
   Vector3 up = Vector3::UnitY(); // in the first scene
@@ -103,28 +103,19 @@ struct RenderStage::Impl {
   }
 
   void read_scene_of(const formats::Frame& frame) {
-    const formats::Array* array = frame.find("scene");
-    const std::string_view text = array == nullptr ? std::string_view() : array->text();
-    if (text == scene_text && scene.has_value() == (array != nullptr))
-      return;
-    scene.reset();
-    meshes.clear();
-    if (array != nullptr) {
-      scene = parse_scene(text, "the frame's scene");
-      meshes = make_solids(*scene);
-    }
-    scene_text = text;
+    scene = scenes.find(frame);
+    if (scenes.changed())
+      meshes = scene != nullptr ? make_solids(*scene) : std::vector<SolidMesh>{};
   }
-  [[nodiscard]] const Scene* scene_or_none() const { return scene ? &*scene : nullptr; }
 
   void look_at(const formats::Frame& frame) {
     read_scene_of(frame);
     if (!survey) {
-      up = up_of(scene_or_none());
+      up = up_of(scene);
       const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
       survey.emplace(ViewFit(options.camera, up, aspect, has_scale(options.look) ? scale_margin : margin, margin));
     }
-    survey->add(frame, scene_or_none(), meshes, options.look);
+    survey->add(frame, scene, meshes, options.look);
   }
 
   // Decides what stays the same in all pictures.

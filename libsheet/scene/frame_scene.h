@@ -9,15 +9,21 @@
 
 namespace sheet::scene {
 
-// Reads the text anew only where it differs from that of the frame before.
+// Reads the text anew only where it differs from that of the frame before. What is returned is good until the next
+// call.
 class FrameScene {
 public:
-  // Throws Error (bad_input) if the frame has no scene, or one that cannot be read.
+  // Null if the frame has no scene. Throws Error (bad_input) if it has one that cannot be read.
+  const Scene* find(const formats::Frame& frame);
+  // Throws Error (bad_input) if it has none, too.
   const Scene& of(const formats::Frame& frame);
+  // Whether the last call met another text than the one before, so that what was made from the scene is out of date.
+  [[nodiscard]] bool changed() const { return changed_; }
 
 private:
   std::string text_;
   std::optional<Scene> scene_;
+  bool changed_ = false;
 };
 
 } // namespace sheet::scene

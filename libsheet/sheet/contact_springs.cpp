@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace sheet {
 
@@ -24,11 +25,6 @@ Eigen::Vector3d offset(const Four& vertices, const Weights& weights, std::span<c
   return c;
 }
 
-bool distinct(Four v) {
-  std::sort(v.begin(), v.end());
-  return std::adjacent_find(v.begin(), v.end()) == v.end();
-}
-
 } // namespace
 
 bool ContactSprings::has(std::string_view array) { return std::find(names.begin(), names.end(), array) != names.end(); }
@@ -43,7 +39,7 @@ ContactSprings::ContactSprings(const Frame& frame) {
   const auto weights = arrays_[1].values<Weights>();
   const auto x = positions(frame);
   for (std::uint64_t i = 0; i < corners.size(); ++i)
-    springs_.push_back({i, corners[i], offset(corners[i], weights[i], x)});
+    springs_.push_back({i, corners[i], weights[i], offset(corners[i], weights[i], x)});
 }
 
 void ContactSprings::move(std::span<const std::uint32_t> successor) {
@@ -51,20 +47,76 @@ void ContactSprings::move(std::span<const std::uint32_t> successor) {
     for (std::uint32_t& v : spring.vertices)
       v = successor[v];
     return std::find(spring.vertices.begin(), spring.vertices.end(), no_vertex) != spring.vertices.end() ||
-           !distinct(spring.vertices);
+           !merge(spring);
   });
+}
+
+// False if the features share a vertex.
+bool ContactSprings::merge(Spring& spring) {
+  const std::size_t second = spring.second_feature();
+  for (std::size_t i = 1; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (spring.vertices[i] == no_vertex || spring.vertices[i] != spring.vertices[j])
+        continue;
+      if (j < second && i >= second)
+        return false;
+      spring.weights[j] += std::exchange(spring.weights[i], 0.0);
+      spring.vertices[i] = no_vertex;
+    }
+  return true;
+}
+
+// Takes the vertices that are missing from triangles at those that are there; springs for which there is none go.
+std::vector<ContactSprings::Spring> ContactSprings::completed(std::vector<Spring> springs, const Frame& frame) {
+  const auto lacks = [](const Spring& s) {
+    return std::find(s.vertices.begin(), s.vertices.end(), no_vertex) != s.vertices.end();
+  };
+  if (std::none_of(springs.begin(), springs.end(), lacks))
+    return springs;
+  const auto all = triangles(frame);
+  std::vector<std::vector<std::uint32_t>> at(frame.vertices); // the triangles of each vertex
+  for (std::uint32_t t = 0; t < all.size(); ++t)
+    for (const std::uint32_t v : all[t])
+      at[v].push_back(t);
+  const auto complete = [&](Spring& s, std::size_t begin, std::size_t end) {
+    const auto has = [](auto first, auto last, std::uint32_t v) { return std::find(first, last, v) != last; };
+    const auto first = s.vertices.begin() + static_cast<std::ptrdiff_t>(begin),
+               last = s.vertices.begin() + static_cast<std::ptrdiff_t>(end);
+    if (!has(first, last, no_vertex))
+      return true;
+    for (const std::uint32_t t : at[*first]) { // the first of equal vertices has kept its place
+      const Corners& c = all[t];
+      if (!std::all_of(first, last, [&](std::uint32_t v) { return v == no_vertex || has(c.begin(), c.end(), v); }))
+        continue;
+      Four made = s.vertices;
+      for (std::size_t i = begin; i < end; ++i)
+        if (made[i] == no_vertex)
+          if (const auto other =
+                  std::find_if(c.begin(), c.end(), [&](std::uint32_t v) { return !has(made.begin(), made.end(), v); });
+              other != c.end())
+            made[i] = *other;
+      s.vertices = made;
+      if (!has(first, last, no_vertex))
+        return true;
+    }
+    return false;
+  };
+  std::erase_if(springs,
+                [&](Spring& s) { return !complete(s, 0, s.second_feature()) || !complete(s, s.second_feature(), 4); });
+  return springs;
 }
 
 void ContactSprings::put(Frame& frame) const {
   if (arrays_.empty())
     return;
   const auto x = positions(static_cast<const Frame&>(frame));
+  const std::vector<Spring> springs = completed(springs_, frame);
   for (const Array& old : arrays_) {
     Array made =
-        formats::make_array(old.name, old.place, old.type, old.components, old.unit, old.transfer, springs_.size());
+        formats::make_array(old.name, old.place, old.type, old.components, old.unit, old.transfer, springs.size());
     const std::size_t size = formats::size_of(old.type) * old.components;
-    for (std::size_t i = 0; i < springs_.size(); ++i)
-      std::memcpy(made.data.data() + i * size, old.data.data() + springs_[i].row * size, size);
+    for (std::size_t i = 0; i < springs.size(); ++i)
+      std::memcpy(made.data.data() + i * size, old.data.data() + springs[i].row * size, size);
     frame.put(std::move(made));
   }
   const auto corners = frame.find("contact_vertex")->values<Four>();
@@ -72,9 +124,10 @@ void ContactSprings::put(Frame& frame) const {
   const auto normals = frame.find("contact_normal")->values<Eigen::Vector3d>();
   const auto rest = frame.find("contact_rest")->values<double>();
   const auto anchors = frame.find("contact_anchor")->values<Eigen::Vector3d>();
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    corners[i] = springs_[i].vertices;
-    const Eigen::Vector3d change = offset(corners[i], weights[i], x) - springs_[i].offset;
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    corners[i] = springs[i].vertices;
+    weights[i] = springs[i].weights;
+    const Eigen::Vector3d change = offset(corners[i], weights[i], x) - springs[i].offset;
     rest[i] += normals[i].dot(change);
     anchors[i] += change;
   }

@@ -20,7 +20,9 @@ public:
   [[nodiscard]] bool empty() const { return springs_.empty(); }
 
   // successor[v]: the new vertex that takes the place of old vertex v, or no_vertex. A spring goes if one of its
-  // vertices has none, or if two of them become one.
+  // vertices has none, or if its features come to share one. Where vertices of one feature become one, that one has the
+  // sum of their weights, and `put` takes others beside it, with the weight 0, for the feature to stay a triangle or an
+  // edge.
   static constexpr std::uint32_t no_vertex = 0xffffffffU;
   void move(std::span<const std::uint32_t> successor);
 
@@ -31,9 +33,15 @@ public:
 private:
   struct Spring {
     std::uint64_t row;
-    std::array<std::uint32_t, 4> vertices;
+    std::array<std::uint32_t, 4> vertices; // no_vertex: still to be taken, by `put`
+    std::array<double, 4> weights;
     Eigen::Vector3d offset;
+
+    [[nodiscard]] std::size_t second_feature() const { return weights[0] == 1 ? 1 : 2; }
   };
+  static bool merge(Spring& spring);
+  static std::vector<Spring> completed(std::vector<Spring> springs, const formats::Frame& frame);
+
   std::vector<Spring> springs_;
   std::vector<formats::Array> arrays_; // as they were
 };

@@ -65,6 +65,11 @@ void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   }
 }
 
+bool has_touching(const Scene& scene, const Frame& frame) {
+  const auto touch = sheet::masks(frame, "touch");
+  return !scene.solids.empty() && std::any_of(touch.begin(), touch.end(), [](std::uint64_t m) { return m != 0; });
+}
+
 // No slip: what touches a solid moves with its surface [Batty et al. 2012, section 3.5].
 void add_touching(const Scene& scene, const Frame& frame, Model& model) {
   const auto masks = sheet::masks(frame, "touch");
@@ -152,6 +157,18 @@ void put_state(const State& state, Frame& frame) {
   ++frame.step;
 }
 
+void put_reactions(std::span<const Vector3> reactions, Frame& frame) {
+  frame.erase("touch_force");
+  if (reactions.empty())
+    return;
+  Array force = formats::make_array("touch_force", formats::Place::vertex, formats::Type::float64, 3, "N",
+                                    formats::Transfer::conserve, frame.vertices);
+  const auto touch = sheet::masks(frame, "touch");
+  for (std::size_t v = 0; v < reactions.size(); ++v)
+    force.values<Vector3>()[v] = touch[v] != 0 ? reactions[v] : Vector3(Vector3::Zero());
+  frame.put(std::move(force));
+}
+
 Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh, Bending bending, bool arcs) {
   Model model;
   model.viscosity = scene.material.viscosity;
@@ -166,10 +183,11 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
     model.pressure = pressure_law(*scene.environment.pressure);
   if (scene.environment.bath)
     model.bath = BathModel{scene.environment.bath->density, scene.environment.bath->level};
+  add_touching(scene, frame, model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
-  add_touching(scene, frame, model);
   add_inlet(scene, frame, mesh, model);
   add_contacts(scene, frame, model);
+  model.reactions = scene.contact && scene.contact->adhesion && has_touching(scene, frame);
   return model;
 }
 

@@ -16,10 +16,15 @@ namespace sheet {
 // Writes the end of a step into the frame: positions, velocities, time, step + 1, and where the step started.
 void put_state(const State& state, formats::Frame& frame);
 
+// Writes the forces of solids on what touches them, [N] a vertex (array "touch_force"), or takes the array away where
+// there are none.
+void put_reactions(std::span<const Vector3> reactions, formats::Frame& frame);
+
 // The terms that the scene asks for, and its holds that are in force at the frame's time: those of the scene's [[hold]]
 // tables (array "hold"), the vertices that touch a solid and move with it (array "touch"), those in the inlet (array
 // "inlet", until the inflow ends); contact springs (arrays "contact_..."). Bending is as `bending` says, unless the
-// scene wants none. Throws Error (bad_input) where the scene has too little for a model.
+// scene wants none. Reactions are wanted where the scene says at what tension the sheet parts from solids that it
+// touches. Throws Error (bad_input) where the scene has too little for a model.
 [[nodiscard]] Model model_of(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh, Bending bending,
                              bool arcs);
 

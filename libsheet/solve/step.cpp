@@ -47,6 +47,19 @@ void add(NewtonReport& sum, const NewtonReport& r) {
   sum.seconds_search += r.seconds_search;
 }
 
+// What the holds must add to the other forces, inertia included, so that the sum vanishes: the potential's gradient.
+std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, std::span<const char> held,
+                               const Unknowns& u) {
+  Eigen::VectorXd gradient;
+  (void)system.assembly.derivatives(terms, u, false, {}, gradient, system.matrix);
+  std::vector<Vector3> result(system.assembly.vertices(), Vector3::Zero());
+  for (std::size_t v = 0; v < result.size() && !held.empty(); ++v)
+    for (std::size_t a = 0; a < 3; ++a)
+      if (held[3 * v + a] != 0)
+        result[v][static_cast<Eigen::Index>(a)] = gradient[static_cast<Eigen::Index>(3 * v + a)];
+  return result;
+}
+
 bool same_mesh(const Connectivity& a, const Connectivity& b) {
   return &a == &b || (a.vertices == b.vertices && a.triangles == b.triangles);
 }
@@ -201,6 +214,17 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
     error = std::max(error, (x - lower).norm() / scale[at]);
   }
   set_held_velocities(model_.holds, end.time, dt, end);
+  if (model_.reactions) {
+    // What is held does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
+    for (std::size_t i = 0; i < 3 * n && !held.empty(); ++i)
+      if (held[i] != 0) {
+        const std::size_t v = i / 3;
+        const auto a = static_cast<Eigen::Index>(i % 3);
+        stage.inertial[v][a] = end.positions[v][a] -
+                               stage.duration * stage.duration / dt * (end.velocities[v][a] - state.velocities[v][a]);
+      }
+    report.reactions = reactions(*cache_->system, cache_->terms, held, last);
+  }
   report.error = std::max(report.error, error);
   return sound(end) ? Outcome::done : Outcome::shrinks_to_nothing;
 }
@@ -264,6 +288,7 @@ void Stepper::advance_flat(State& state, double dt, StepReport& report) {
   ++report.flat_fallbacks;
   add(report.newton, flat.newton);
   report.error = std::max(report.error, flat.error);
+  report.reactions = flat.reactions;
   report.seconds_analysis += flat.seconds_analysis;
 }
 
@@ -318,6 +343,7 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
     State end;
     double dt = 0, error = 0;
     bool flat = false;
+    std::vector<Vector3> reactions;
   };
   std::optional<Trial> best; // of those that converged
   Trial trial;
@@ -333,6 +359,7 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
       continue;
     }
     trial.error = report.error;
+    trial.reactions = report.reactions;
     report.rejected += trial.error > control.tolerance;
     if (!best || trial.error < best->error)
       best = trial;
@@ -341,7 +368,7 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
   if (!best) {
     Stepper& last = has_arcs() ? without_arcs() : *this;
     last.prepare_cache(state, report);
-    trial = {{}, first, 0, has_arcs()};
+    trial = {{}, first, 0, has_arcs(), {}};
     report.error = 0;
     while (last.attempt(state, trial.dt, Scheme::backward_euler, Demand::lower_potential, trial.end, report) !=
            Outcome::done) {
@@ -354,11 +381,13 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
            state.time, report.newton.iterations, trial.dt);
     }
     trial.error = report.error;
+    trial.reactions = report.reactions;
     ++report.unfinished;
     best = std::move(trial);
   }
   report.inaccurate = report.unfinished == 0 && best->error > control.tolerance;
   report.error = best->error;
+  report.reactions = std::move(best->reactions);
   report.flat_fallbacks = best->flat;
   ++report.substeps;
   const double factor =

@@ -49,8 +49,9 @@ struct StepReport {
   int flat_fallbacks = 0;  // steps done with straight edges instead of arcs, as they did not converge with arcs
   int unfinished = 0;      // substeps taken though Newton's iterations had not converged
   int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
-  NewtonReport newton; // sums over all stages; last_step of the last one
-  double error = 0;    // difference to the first-order result, in edge lengths, greatest of the substeps
+  NewtonReport newton;            // sums over all stages; last_step of the last one
+  double error = 0;               // difference to the first-order result, in edge lengths, greatest of the substeps
+  std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex, at the end [N]
   double seconds_analysis = 0;
   std::vector<TermTime> terms; // assembled terms, their element work summed over threads; last: gathering
 };

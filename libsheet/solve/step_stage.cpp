@@ -151,6 +151,7 @@ struct StepStage::Impl {
                    "s keeps to it; remeshing helps",
                    frame.step + 1, report.error, frame.time);
     put_state(state, frame);
+    put_reactions(report.reactions, frame);
   }
 
   static constexpr bool use_arcs = true;

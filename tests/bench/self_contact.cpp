@@ -81,13 +81,13 @@ int main(int argc, char** argv) {
       path.end = pile.end;
       path.velocity.assign(pile.start.size(), Vector3::Zero());
       path.mass.assign(pile.start.size(), 1);
-      path.fixed.assign(pile.start.size(), false);
+      path.fixed.assign(pile.start.size(), 0);
       resolve_self(path, search, reach);
       safe = path.end;
     });
     const double near = median_cpu_ms([&] {
       const std::vector<double> ones(pile.start.size(), 1);
-      const SpringSheet sheet{pile.start, safe, reach, reach, ones, std::vector<bool>(safe.size(), false), 0.01};
+      const SpringSheet sheet{pile.start, safe, reach, reach, ones, std::vector<Axes>(safe.size(), 0), 0.01};
       std::vector<ContactSpring> list;
       add_springs(list, search.near(safe, reach), scene, sheet);
       springs = list.size();

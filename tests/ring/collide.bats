@@ -54,6 +54,17 @@ contacts() {
     NR > 1 { e = $k } END { exit !(e < 1e-9) }'
 }
 
+@test "plates that close on a pleated sheet squeeze it, with remeshing and without" {
+  sheet-init "$scenes/press.toml" -o start.sheet
+  for more in '' '| sheet-remesh --edge-length 0.005'; do
+    sheet-loop -q -i start.sheet --until 0.3 --fps 100 -o run.sheet -- "sheet-step --dt 5e-3 | sheet-collide $more"
+    sheet-check run.sheet
+    (($(contacts run.sheet) > 10))
+    sheet-info --csv run.sheet | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i } # between the plates
+      { low = $column["y_min"]; high = $column["y_max"] } END { exit !(low > 0 && high < 0.0051) }'
+  done
+}
+
 @test "a sheet is wound up by a spinning cylinder, layer upon layer" {
   sheet-init "$scenes/winding.toml" --set 'sheet.edge_length="8 mm"' -o start.sheet
   sheet-loop -q -i start.sheet --until 0.8 --fps 25 -o run.sheet -- 'sheet-step --dt 5e-3 | sheet-collide'

@@ -33,7 +33,7 @@ struct FallingSheet {
       for (const std::uint32_t v : t)
         path.mass[v] += thickness / 6 * (start[t[1]] - start[t[0]]).cross(start[t[2]] - start[t[0]]).norm();
     path.touch.assign(start.size(), 0);
-    path.fixed.assign(start.size(), false);
+    path.fixed.assign(start.size(), 0);
     path.velocity.assign(start.size(), velocity);
     path.triangles = triangles;
     path.start = start;
@@ -52,7 +52,7 @@ struct FallingSheet {
     path.end_time += dt;
     for (std::size_t v = 0; v < start.size(); ++v) {
       path.end[v] = start[v] + dt * path.velocity[v];
-      path.fixed[v] = false;
+      path.fixed[v] = 0;
     }
   }
 };

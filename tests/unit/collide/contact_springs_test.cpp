@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/collide/contact_arrays.h"
+#include "libsheet/collide/loose_springs.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/sheet/sheet.h"
 #include "tests/support/meshes.h"
@@ -16,7 +17,7 @@ namespace {
 struct Layers {
   std::vector<Vector3> start, end;
   std::vector<double> reach, thickness, area, mass;
-  std::vector<bool> fixed;
+  std::vector<Axes> fixed;
   Connectivity mesh;
   double step = 0.01;
 
@@ -35,7 +36,7 @@ struct Layers {
     thickness.assign(start.size(), 0.015);
     area.assign(start.size(), 0.04);
     mass.assign(start.size(), 2);
-    fixed.assign(start.size(), false);
+    fixed.assign(start.size(), 0);
     mesh = connect(start.size(), triangles);
   }
   [[nodiscard]] SpringSheet sheet() const { return {start, end, reach, thickness, area, fixed, step}; }
@@ -101,9 +102,9 @@ TEST(ContactSprings, StiffnessIsThatOfTheFormula) {
 
 TEST(ContactSprings, FixedVerticesAloneGetNone) {
   Layers layers;
-  layers.fixed.assign(layers.fixed.size(), true);
+  layers.fixed.assign(layers.fixed.size(), all_axes);
   EXPECT_TRUE(layers.springs(scene_with("")).empty());
-  layers.fixed[40] = false;
+  layers.fixed[40] = 0;
   EXPECT_FALSE(layers.springs(scene_with("")).empty());
 }
 
@@ -169,6 +170,71 @@ TEST(ContactSprings, DoNotBounceAndKeepMomentum) {
   const std::vector<Vector3> apart = velocity;
   level_velocities(springs, scene_with("adhesion = 0"), layers.mass, layers.fixed, velocity);
   EXPECT_EQ(velocity, apart);
+}
+
+// A triangle's diagonal is flipped under a vertex that presses on it: the spring that takes the place of the old one
+// carries the same force, normal and tangential.
+TEST(LooseSprings, ForcesAreHandedOver) {
+  const std::vector<Vector3> x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0.4, 0.01}, {0.5, 2, 1}, {1, 2, 1}};
+  const auto mesh_with = [](Triangle a, Triangle b) {
+    return connect(7, std::vector<Triangle>{a, b, Triangle{4, 6, 5}});
+  };
+  const Connectivity before = mesh_with({0, 1, 2}, {0, 2, 3}), after = mesh_with({0, 1, 3}, {1, 2, 3});
+  ContactSpring old;
+  old.vertices = {4, 0, 2, 3};
+  old.weights = {1, -0.6, -0.3, -0.1};
+  old.normal = Vector3::UnitZ();
+  old.rest = 0.013;
+  old.anchor = Vector3(-0.001, 0.002, 0.013);
+  old.stiffness = {5, 3};
+  std::vector<ContactSpring> springs = {old};
+  EXPECT_TRUE(take_loose(springs, before, x).empty());
+  const std::vector<ContactSpring> loose = take_loose(springs, after, x);
+  ASSERT_EQ(loose.size(), 1u);
+  EXPECT_TRUE(springs.empty());
+  ContactSpring made;
+  made.vertices = {4, 0, 1, 3};
+  made.weights = {1, -0.3, -0.3, -0.4};
+  made.normal = Vector3::UnitZ();
+  made.rest = 0.01;
+  made.anchor = Vector3(0, 0, 0.01);
+  made.stiffness = {10, 10};
+  ContactSpring other = made; // as stiff, so it takes half; from the other side
+  other.vertices = {4, 1, 0, 3};
+  other.weights = {-1, 0.3, 0.3, 0.4};
+  other.normal = -made.normal;
+  other.anchor = -made.anchor;
+  ContactSpring far = made;
+  far.vertices = {4, 5, 6, 1};
+  springs = {made, other, far};
+  hand_over(loose, x, springs);
+  const auto force = [&](const ContactSpring& s) { // on vertex 4
+    Vector3 c = Vector3::Zero();
+    for (std::size_t i = 0; i < 4; ++i)
+      c += s.weights[i] * x[s.vertices[i]];
+    const Vector3 slide = c - s.anchor;
+    return Vector3(-s.weights[0] * (s.stiffness[0] * (s.normal.dot(c) - s.rest) * s.normal +
+                                    s.stiffness[1] * (slide - s.normal.dot(slide) * s.normal)));
+  };
+  EXPECT_GT(force(old).norm(), 0.01);
+  EXPECT_LT((force(springs[0]) + force(springs[1]) - force(old)).norm(), 1e-15);
+  EXPECT_LT((force(springs[0]) - force(springs[1])).norm(), 1e-15);
+  EXPECT_EQ(springs[2].rest, far.rest);
+}
+
+// What has slid off by more than 60 degrees is loose, too.
+TEST(LooseSprings, FeaturesNoLongerOverEachOther) {
+  std::vector<Vector3> x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.01}, {5, 5, 5}, {5, 6, 5}};
+  const Connectivity mesh = connect(6, std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}});
+  ContactSpring s;
+  s.vertices = {3, 0, 1, 2};
+  s.weights = {1, -0.4, -0.3, -0.3};
+  s.normal = Vector3::UnitZ();
+  for (const auto& [slid, loose] : std::vector<std::pair<double, std::size_t>>{{0.017, 0}, {0.018, 1}}) {
+    x[3].x() = 0.3 + slid;
+    std::vector<ContactSpring> springs = {s};
+    EXPECT_EQ(take_loose(springs, mesh, x).size(), loose);
+  }
 }
 
 TEST(ContactArrays, RoundTrip) {

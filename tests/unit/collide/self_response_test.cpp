@@ -39,7 +39,7 @@ struct Case {
     for (std::size_t v = 0; v < start.size(); ++v)
       path.mass[v] = 1 + 0.5 * static_cast<double>(v % 3);
     path.touch.assign(start.size(), 0);
-    path.fixed.assign(start.size(), false);
+    path.fixed.assign(start.size(), 0);
     reach = path.thickness;
   }
 
@@ -130,14 +130,14 @@ TEST(SelfResponse, HeldVerticesSentThroughOthers) {
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (std::uint32_t v = 0; v < c.start.size(); ++v) {
       c.displace(v, 0.2 * Vector3(uniform(random), uniform(random), uniform(random)));
-      c.path.fixed[v] = uniform(random) < (seed % 2 == 0 ? -0.5 : 0.8);
+      c.path.fixed[v] = uniform(random) < (seed % 2 == 0 ? -0.5 : 0.8) ? all_axes : 0;
     }
     const std::vector<Vector3> end = c.path.end;
     const SelfReport report = c.resolve();
     c.expect_safe();
     std::size_t behind = 0;
     for (std::size_t v = 0; v < end.size(); ++v)
-      behind += c.path.fixed[v] && c.path.end[v] != end[v];
+      behind += c.path.fixed[v] == all_axes && c.path.end[v] != end[v];
     EXPECT_EQ(behind, report.held_back);
   }
 }
@@ -149,7 +149,7 @@ TEST(SelfResponse, CarriedByAHeldSheetThatTurns) {
   const Matrix3 turn = Eigen::AngleAxisd(0.5, Vector3(1, 0.3, 0).normalized()).toRotationMatrix();
   for (std::uint32_t v = 0; v < c.start.size() / 2; ++v) {
     c.displace(v, turn * c.start[v] - c.start[v]);
-    c.path.fixed[v] = true;
+    c.path.fixed[v] = all_axes;
   }
   const SelfReport report = c.resolve();
   EXPECT_EQ(report.held_back, 0u);
@@ -173,6 +173,85 @@ TEST(SelfResponse, TheSameForAnyNumberOfThreads) {
       first = c.path.end;
     EXPECT_EQ(c.path.end, first) << threads;
   }
+}
+
+// Two layers approach each other between symmetry planes: what is held along x only goes as if it were free.
+TEST(SelfResponse, WhatIsHeldAlongSomeAxesRespondsAlongTheOthers) {
+  const auto approach = [](Axes rim) {
+    Case c(2, 4, 0.03);
+    for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+      c.displace(v, Vector3(0, 0, v < c.start.size() / 2 ? 0.02 : -0.05));
+      if (c.start[v].x() < 0.02 || c.start[v].x() > 0.99)
+        c.path.fixed[v] = rim;
+    }
+    const std::vector<Vector3> end = c.path.end, velocity = c.path.velocity;
+    EXPECT_GT(c.resolve().hits, 0u);
+    c.expect_safe();
+    Vector3 change = Vector3::Zero();
+    double size = 0;
+    for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+      for (int a = 0; a < 3; ++a)
+        if (has_axis(c.path.fixed[v], a)) {
+          EXPECT_EQ(c.path.end[v][a], end[v][a]);
+        }
+      change += c.path.mass[v] * (c.path.velocity[v] - velocity[v]);
+      size += c.path.mass[v] * velocity[v].norm();
+    }
+    for (int a = 0; a < 3; ++a)
+      if (!has_axis(rim, a)) {
+        EXPECT_LT(std::abs(change[a]), 1e-11 * size);
+      }
+    return c.path.end;
+  };
+  const std::vector<Vector3> free = approach(0), along_x = approach(1);
+  double difference = 0, moved = 0;
+  for (std::size_t v = 0; v < free.size(); ++v) {
+    difference = std::max(difference, std::abs(free[v].z() - along_x[v].z()));
+    moved = std::max(moved, std::abs(free[v].z() - (v < free.size() / 2 ? 0.02 : -0.02)));
+  }
+  EXPECT_LT(difference, 0.1 * moved);
+}
+
+// Many random steps with vertices that are sent along prescribed axes.
+TEST(SelfResponse, PrescribedAlongSomeAxes) {
+  std::size_t behind = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Case c(3, 4, 0.05);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+      c.displace(v, 0.1 * Vector3(uniform(random), uniform(random), uniform(random)));
+      c.path.fixed[v] = uniform(random) < 0 ? static_cast<Axes>(random() % 8) : 0;
+    }
+    const std::vector<Vector3> end = c.path.end;
+    const SelfReport report = c.resolve();
+    c.expect_safe();
+    std::size_t altered = 0;
+    for (std::size_t v = 0; v < end.size(); ++v)
+      altered += with_fixed(c.path.fixed[v], end[v], c.path.end[v]) != c.path.end[v];
+    EXPECT_EQ(altered, report.held_back);
+    behind += altered;
+  }
+  EXPECT_GT(behind, 0u);
+}
+
+// A held vertex comes down beside two held corners of a triangle; the third, which is free and far away, is not thrown.
+TEST(SelfResponse, NothingIsThrownByALever) {
+  Case c(0, 1, 0);
+  c.start = {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {0.02, 0.5, 0.02}, {0.02, 0.4, 0.5}, {0.02, 0.6, 0.5}};
+  c.triangles = {{0, 2, 1}, {3, 4, 5}};
+  c.path.end = c.start;
+  c.path.velocity.assign(6, Vector3::Zero());
+  c.path.thickness.assign(6, 0.02);
+  c.path.mass.assign(6, 1);
+  c.path.touch.assign(6, 0);
+  c.path.fixed = {all_axes, all_axes, 0, all_axes, 0, 0};
+  c.reach = c.path.thickness;
+  c.displace(3, {0, 0, -0.03});
+  EXPECT_GT(c.resolve().hits, 0u);
+  c.expect_safe();
+  EXPECT_LT((c.path.end[2] - c.start[2]).norm(), 4 * 0.03);
+  EXPECT_LT(c.path.velocity[2].norm(), 4 * 0.03 / c.path.length());
 }
 
 } // namespace

@@ -68,7 +68,7 @@ TEST(SolidContact, on_the_ground) {
       EXPECT_NEAR(sheet.path.end[v].x(), sheet.start[v].x(), 1e-12);
       EXPECT_EQ(sheet.path.velocity[v], Vector3(0, 0, 0));
       EXPECT_EQ(sheet.path.touch[v], 1U);
-      EXPECT_TRUE(sheet.path.fixed[v]);
+      EXPECT_EQ(sheet.path.fixed[v], all_axes);
     }
     EXPECT_TRUE(unsafe_triangles(sheet.path, ground).empty());
   }
@@ -181,7 +181,7 @@ TEST(SolidContact, what_leaves_is_let_go) {
 TEST(SolidContact, holds_are_left_alone) {
   const Solids ball = solids_of({solid(scene::Sphere{0.03}, {0, -0.03, 0})});
   FallingSheet sheet = falling(1);
-  sheet.path.fixed[0] = sheet.path.fixed[60] = true;
+  sheet.path.fixed[0] = sheet.path.fixed[60] = all_axes;
   const Vector3 corner = sheet.path.end[0], middle = sheet.path.end[60];
   const SolidReport report = resolve_solids(sheet.path, ball);
   EXPECT_EQ(sheet.path.end[0], corner);
@@ -268,6 +268,77 @@ TEST(SolidContact, many_steps) {
     ASSERT_GE(test::least_distance(sheet.path, ball, 0, 2e-4, 1), 0.999 * kThickness / 8) << step;
     sheet.go_on();
   }
+}
+
+// A symmetry plane: held along x, vertices come to lie on a slope like the others, and do not leave the plane.
+TEST(SolidContact, held_along_one_axis) {
+  const Solids slope = solids_of({solid(scene::HalfSpace{Vector3(1, 2, 0)}, {0, -0.06, 0})});
+  FallingSheet sheet = falling(3);
+  for (std::size_t v = 0; v < sheet.start.size(); ++v)
+    if (sheet.start[v].x() < -0.0499)
+      sheet.path.fixed[v] = 1;
+  const SolidReport report = resolve_solids(sheet.path, slope);
+  EXPECT_EQ(report.touching, sheet.start.size());
+  EXPECT_EQ(report.unresolved, 0U);
+  std::size_t held = 0;
+  for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+    EXPECT_NEAR(distance_at_end(sheet, slope, v), kThickness / 2, 1e-11);
+    if (sheet.start[v].x() >= -0.0499)
+      continue;
+    ++held;
+    EXPECT_EQ(sheet.path.end[v].x(), sheet.start[v].x());
+    EXPECT_EQ(sheet.path.fixed[v], all_axes);
+  }
+  EXPECT_EQ(held, 11U);
+}
+
+// A touch bit far from the solid, as remeshing over a hollow makes it, holds nothing.
+TEST(SolidContact, what_touches_nothing_is_let_go) {
+  const Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
+  FallingSheet sheet = falling(0, 3 * kThickness);
+  sheet.path.touch.assign(sheet.start.size(), 1);
+  const auto end = sheet.path.end;
+  EXPECT_EQ(resolve_solids(sheet.path, ground).touching, 0U);
+  EXPECT_EQ(sheet.path.end, end);
+  EXPECT_EQ(sheet.path.touch, std::vector<std::uint64_t>(end.size(), 0));
+}
+
+// A pin stops a triangle at a point far from its lightest corner, which is not thrown.
+TEST(SolidContact, no_lever_throws_a_light_corner) {
+  const Solids pin = solids_of({solid(scene::Capsule{1e-5, 0.1}, {0, -0.05, 0})});
+  FallingSheet sheet = falling(0.05);
+  sheet.triangles = {{0, 1, 2}};
+  sheet.path.triangles = sheet.triangles;
+  sheet.start = {{-2e-4, 1e-3, -5e-3}, {-2e-4, 1e-3, 5e-3}, {1e-2, 1e-3, 0}};
+  sheet.path.start = sheet.start;
+  sheet.path.end = sheet.start;
+  for (auto* list : {&sheet.path.thickness, &sheet.path.mass})
+    list->assign(3, kThickness);
+  sheet.path.mass[2] *= 1e-6;
+  sheet.path.touch.assign(3, 0);
+  sheet.path.fixed.assign(3, 0);
+  const double way = 2e-3;
+  sheet.path.velocity.assign(3, Vector3(0, -way / kStep, 0));
+  for (Vector3& x : sheet.path.end)
+    x.y() -= way;
+  const SolidReport report = resolve_solids(sheet.path, pin);
+  EXPECT_GT(report.pushed, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  EXPECT_LT((sheet.path.end[2] - sheet.start[2]).norm(), 4 * way);
+  EXPECT_GE(test::least_distance(sheet.path, pin, 0, 1e-5, 10), kThickness / 8 - 1e-5);
+}
+
+// What is brought out is not thrown.
+TEST(SolidContact, brought_out_without_speed) {
+  const Solids rod = solids_of({lying_rod(1e-4)});
+  FallingSheet sheet = falling(0, 1e-5);
+  EXPECT_GT(resolve_solids(sheet.path, rod).started_across, 0U);
+  double moved = 0;
+  for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+    EXPECT_LT(sheet.path.velocity[v].norm(), 1e-12);
+    moved = std::max(moved, (sheet.path.end[v] - sheet.start[v]).norm());
+  }
+  EXPECT_GT(moved, kThickness / 8);
 }
 
 } // namespace

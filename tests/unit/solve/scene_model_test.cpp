@@ -123,6 +123,60 @@ TEST(SceneModel, WhatTouchesASolidMovesWithItsSurface) {
   EXPECT_EQ(frame.step, 1u);
 }
 
+// A plate that speeds up by 4 m/s² carries the sheet upwards: what it gives each vertex is its mass times (g + 4 m/s²).
+TEST(SceneModel, TheForceOfASolidIsWrittenWhereTheSheetMayComeOff) {
+  const std::string text = std::string(scene_text) +
+                           "motion = {kind = \"translating\", velocity = [[0, 0, 0, 0], [1, 0, 4, "
+                           "0]]}\n[environment]\ngravity = [0, -9.81, 0]\n[contact]\nself = false\n";
+  for (const bool releases : {true, false})
+    for (const Scheme scheme : {Scheme::sdirk2, Scheme::backward_euler}) {
+      Frame frame = two_squares();
+      put_masks(frame, "touch", {1, 1, 1, 1, 1, 1});
+      frame.put_text("scene", text + (releases ? "adhesion = 5\n" : ""));
+      for (Vector3& v : velocities(frame))
+        v = Vector3(0, 0, 3); // the belt's
+      StepStageOptions options;
+      options.dt = 0.125;
+      options.scheme = scheme;
+      StepStage(options).step(frame);
+      const Array* force = frame.find("touch_force");
+      ASSERT_EQ(force != nullptr, releases);
+      if (!releases)
+        continue;
+      EXPECT_EQ(formats::find_value_error(frame), "");
+      std::vector<double> mass(6, 0);
+      for (const Corners& c : triangles(frame))
+        for (const auto corner : c)
+          mass[corner] += 1000 * 0.05 / 3;
+      for (std::size_t v = 0; v < 6; ++v)
+        EXPECT_LT((force->values<Vector3>()[v] - mass[v] * Vector3(0, 13.81, 0)).norm(), 1e-9 * mass[v]) << v;
+    }
+  Frame free = two_squares();
+  put_masks(free, "touch", {1, 1, 0, 1, 1, 0});
+  free.put_text("scene", text + "adhesion = 5\n");
+  StepStageOptions options;
+  options.dt = 0.125;
+  StepStage stage(options);
+  stage.step(free);
+  EXPECT_EQ(free.find("touch_force")->values<Vector3>()[2], Vector3(0, 0, 0));
+  put_masks(free, "touch", {0, 0, 0, 0, 0, 0});
+  stage.step(free);
+  EXPECT_EQ(free.find("touch_force"), nullptr); // nor is the old one left
+}
+
+// Where a [[hold]] prescribes an axis of what touches, the solid has the others.
+TEST(SceneModel, AHoldCountsBeforeASolid) {
+  Frame frame = two_squares();
+  put_masks(frame, "touch", {1, 1, 1, 1, 1, 1});
+  put_masks(frame, "hold", {4, 4, 4, 4, 4, 4});
+  frame.put_text("scene", std::string(scene_text) + "[[hold]]\nregion = \"rim\"\naxes = \"z\"\n");
+  StepStageOptions options;
+  options.dt = 0.125;
+  StepStage(options).step(frame);
+  EXPECT_EQ(positions(static_cast<const Frame&>(frame))[0].z(), 0);
+  EXPECT_EQ(velocities(static_cast<const Frame&>(frame))[0].z(), 0);
+}
+
 TEST(SceneModel, WhatIsInTheInletMovesAtTheInflowsVelocityUntilItEnds) {
   Frame frame = two_squares();
   put_masks(frame, "inlet", {3, 3, 3, 1, 1, 0});

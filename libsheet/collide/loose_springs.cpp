@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/collide/loose_springs.h"
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+namespace sheet::collide {
+
+namespace {
+
+constexpr double facing = 0.5; // cosine
+
+Vector3 offset(const ContactSpring& s, std::span<const Vector3> x) {
+  Vector3 c = Vector3::Zero();
+  for (std::size_t i = 1; i < 4; ++i)
+    c += s.weights[i] * (x[s.vertices[i]] - x[s.vertices[0]]);
+  return c;
+}
+
+// The index of the edge; kNone if there is none.
+std::uint32_t edge_of(const Connectivity& mesh, std::uint32_t a, std::uint32_t b) {
+  const Edge edge{std::min(a, b), std::max(a, b)};
+  const auto at = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
+  return at != mesh.edges.end() && *at == edge ? static_cast<std::uint32_t>(at - mesh.edges.begin()) : kNone;
+}
+
+bool has_triangle(const Connectivity& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const std::uint32_t edge = edge_of(mesh, a, b);
+  if (edge == kNone)
+    return false;
+  const auto& beside = mesh.edge_triangles[edge];
+  return std::any_of(beside.begin(), beside.end(), [&](std::uint32_t t) {
+    return t != kNone && std::find(mesh.triangles[t].begin(), mesh.triangles[t].end(), c) != mesh.triangles[t].end();
+  });
+}
+
+bool is_loose(const ContactSpring& s, const Connectivity& mesh, std::span<const Vector3> x) {
+  const auto& v = s.vertices;
+  const bool there = s.weights[0] == 1 ? has_triangle(mesh, v[1], v[2], v[3])
+                                       : edge_of(mesh, v[0], v[1]) != kNone && edge_of(mesh, v[2], v[3]) != kNone;
+  const Vector3 c = offset(s, x);
+  return !there || !(s.normal.dot(c) > facing * c.norm());
+}
+
+struct Force {
+  double normal;      // [N], negative where it pushes
+  Vector3 tangential; // [N]
+};
+
+Force force_of(const ContactSpring& s, std::span<const Vector3> x) {
+  const Vector3 c = offset(s, x), slide = c - s.anchor;
+  return {s.stiffness[0] * (s.normal.dot(c) - s.rest), s.stiffness[1] * (slide - s.normal.dot(slide) * s.normal)};
+}
+
+} // namespace
+
+std::vector<ContactSpring> take_loose(std::vector<ContactSpring>& springs, const Connectivity& mesh,
+                                      std::span<const Vector3> positions) {
+  std::vector<ContactSpring> loose;
+  std::erase_if(springs, [&](const ContactSpring& s) {
+    const bool goes = is_loose(s, mesh, positions);
+    if (goes)
+      loose.push_back(s);
+    return goes;
+  });
+  return loose;
+}
+
+void hand_over(std::span<const ContactSpring> loose, std::span<const Vector3> positions,
+               std::vector<ContactSpring>& springs) {
+  if (loose.empty())
+    return;
+  std::unordered_map<std::uint32_t, std::vector<std::size_t>> at; // the springs of each vertex
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    for (const std::uint32_t v : springs[i].vertices)
+      at[v].push_back(i);
+  for (const ContactSpring& old : loose) {
+    std::map<std::size_t, int> shared; // number of vertices
+    for (const std::uint32_t v : old.vertices)
+      if (const auto found = at.find(v); found != at.end())
+        for (const std::size_t i : found->second)
+          if (std::abs(springs[i].normal.dot(old.normal)) > facing)
+            ++shared[i];
+    int most = 0;
+    for (const auto& [i, count] : shared)
+      most = std::max(most, count);
+    double stiffness = 0;
+    for (const auto& [i, count] : shared)
+      stiffness += count == most ? springs[i].stiffness[0] : 0;
+    const Force force = force_of(old, positions);
+    for (const auto& [i, count] : shared) {
+      ContactSpring& s = springs[i];
+      if (count != most || !(s.stiffness[0] > 0))
+        continue;
+      const double part = s.stiffness[0] / stiffness, sign = s.normal.dot(old.normal) > 0 ? 1 : -1;
+      s.rest -= part * force.normal / s.stiffness[0];
+      if (s.stiffness[1] > 0)
+        s.anchor -= sign * part / s.stiffness[1] * force.tangential;
+    }
+  }
+}
+
+} // namespace sheet::collide
