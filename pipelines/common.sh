@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What the scripts pipelines/NAME/run share; each begins by sourcing it. Results go to $out.
+#   OUT=FOLDER         where results go, if not to out/NAME
+#   FILM=WIDTHxHEIGHT  size of films and pictures (default 640x360); FILM=no: none
+#   SAMPLES=N          samples a pixel (default 24)
+#   SHEET_BIN=FOLDER   the programs, if not build/bin; put one of your own there to take a stage's place
+# A run that was interrupted goes on where it was.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+export PATH=${SHEET_BIN:-$PWD/build/bin}:$PATH
+scene=$(dirname "${BASH_SOURCE[1]}")
+scene=pipelines/${scene##*/} # the folder of the script that sources this
+out=${OUT:-out/${scene##*/}}
+mkdir -p "$out"
+
+# ring NAME UNTIL FPS STAGES SCENE [OPTION...]: runs the ring from the scene (options: sheet-init's) until that time;
+# frames at the output times go to $out/NAME.sheet. What is there already is kept, and gone on with.
+ring() {
+  local stream=$out/$1.sheet until=$2 fps=$3 stages=$4
+  shift 4
+  local how="sheet-init $* | sheet-loop --fps $fps -- '$stages'"
+  if [[ ! -e $stream ]]; then
+    echo "$how" > "$stream.how"
+    sheet-init "$@" > "$stream.start"
+    mv "$stream.start" "$stream"
+  elif [[ $how != "$(cat "$stream.how")" ]]; then
+    echo "$stream was made with other options ($stream.how): remove it, or give another folder by OUT=" >&2
+    exit 2
+  fi
+  sheet-loop --resume "$stream" --until "$until" --fps "$fps" -- "$stages"
+}
+
+# measure NAME: checks every frame, exactly, and leaves what sheet-info measures of each in $out/NAME.csv.
+measure() {
+  sheet-check "$out/$1.sheet"
+  sheet-info --csv "$out/$1.sheet" > "$out/$1.csv"
+}
+
+# film NAME [OPTION...]: $out/NAME.mp4; options are sheet-render's.
+film() {
+  [[ ${FILM:-} != no ]] || return 0
+  sheet-render "$out/$1.sheet" --size "${FILM:-640x360}" --samples "${SAMPLES:-24}" "${@:2}" --y4m |
+    ffmpeg -y -loglevel error -i - -pix_fmt yuv420p "$out/$1.mp4"
+}
+
+# picture NAME FRAME PICTURE.png [OPTION...]: one frame (-1: the last), with four times the samples.
+picture() {
+  [[ ${FILM:-} != no ]] || return 0
+  sheet-render "$out/$1.sheet" --frames "$2" --size "${FILM:-640x360}" --samples $((4 * ${SAMPLES:-24})) "${@:4}" -o "$out/$3"
+}
+
+# plot NAME << END: $out/NAME.png by gnuplot, from commands that read CSV files.
+plot() {
+  {
+    echo "set terminal pngcairo size 900, 600 font 'sans,12'; set output '$out/$1.png'"
+    echo "set datafile separator ','; set grid linecolor rgb '#cccccc'"
+    echo "set linetype 1 linecolor rgb '#0060ad'; set linetype 2 linecolor rgb '#dd181f'; set linetype 3 linecolor rgb '#00a050'"
+    echo "set linetype 4 linecolor rgb '#c08000'; set linetype 5 linecolor rgb '#7030a0'; set key Left reverse"
+    cat
+  } | gnuplot
+}
