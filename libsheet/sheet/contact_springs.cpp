@@ -60,8 +60,10 @@ bool ContactSprings::merge(Spring& spring) {
         continue;
       if (j < second && i >= second)
         return false;
-      spring.weights[j] += std::exchange(spring.weights[i], 0.0);
-      spring.vertices[i] = no_vertex;
+      // The first edge keeps its second place: a weight of 1 in the first one would make it a vertex.
+      const auto [keeps, loses] = i < second ? std::pair(i, j) : std::pair(j, i);
+      spring.weights[keeps] += std::exchange(spring.weights[loses], 0.0);
+      spring.vertices[loses] = no_vertex;
     }
   return true;
 }
@@ -84,7 +86,8 @@ std::vector<ContactSprings::Spring> ContactSprings::completed(std::vector<Spring
                last = s.vertices.begin() + static_cast<std::ptrdiff_t>(end);
     if (!has(first, last, no_vertex))
       return true;
-    for (const std::uint32_t t : at[*first]) { // the first of equal vertices has kept its place
+    const auto there = std::find_if(first, last, [](std::uint32_t v) { return v != no_vertex; });
+    for (const std::uint32_t t : at[*there]) { // one of equal vertices has kept its place
       const Corners& c = all[t];
       if (!std::all_of(first, last, [&](std::uint32_t v) { return v == no_vertex || has(c.begin(), c.end(), v); }))
         continue;

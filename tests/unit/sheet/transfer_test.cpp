@@ -250,6 +250,32 @@ TEST(TransferFrame, SpringsStayWhereTheirTriangleShrinksToASide) {
   EXPECT_EQ(formats::find_value_error(frame), "");
 }
 
+// The same of the first of two edges that cross; it must not be taken for a vertex above a triangle.
+TEST(TransferFrame, SpringsStayWhereTheirEdgeShrinksToAVertex) {
+  const std::vector<Eigen::Vector3d> x{{0, 0, 0},   {1, 0, 0},    {0, 1, 0}, {1, 1, 0},
+                                       {0.5, 2, 1}, {0.5, -1, 1}, {5, 1, 1}};
+  Frame frame = make_frame(x, std::vector<Corners>{{0, 1, 2}, {1, 3, 2}, {4, 5, 6}}, std::vector<double>(3, 1));
+  const Frame spring = with_spring({0, 1, 4, 5});
+  for (const auto& array : spring.arrays)
+    if (array.name.starts_with("contact_"))
+      frame.put(array);
+  std::ranges::copy(std::array{0.5, 0.5, -0.25, -0.75}, frame.find("contact_weight")->values<double>().begin());
+  Lineage vertices, kept;
+  const std::vector<Parent> merged{{1, 1, 1}, {0, 0, 1}}; // where vertex 1 is
+  vertices.add(merged);
+  for (const std::uint32_t v : {2, 3, 4, 5, 6})
+    vertices.keep(v);
+  kept.keep(1);
+  kept.keep(2);
+  const std::vector<Corners> corners{{0, 2, 1}, {3, 4, 5}};
+  transfer_frame(frame, vertices, kept, corners);
+  EXPECT_THAT(values<std::uint32_t>(frame, "contact_vertex"), ElementsAre(2, 0, 3, 4));
+  EXPECT_THAT(values<double>(frame, "contact_weight"), ElementsAre(0, 1, -0.25, -0.75));
+  EXPECT_THAT(values<double>(frame, "contact_anchor"), ElementsAre(1, 1, 0));
+  EXPECT_THAT(values<double>(frame, "contact_rest"), ElementsAre(1));
+  EXPECT_EQ(formats::find_value_error(frame), "");
+}
+
 TEST(TransferFrame, SpringsGoWithAVertexOrWhereTheirFeaturesMeet) {
   Frame frame = with_spring({2, 0, 1, 3});
   cut(frame); // vertex 0 goes
