@@ -124,10 +124,10 @@ TEST(Validation, FallingCurtain) {
 }
 
 TEST(Validation, LongFallingCurtainRemeshed) {
-  const Result r = run(find_case("V18"), settings("V18", 0.01, 350, 2));
+  const Result r = run(find_case("V18"), settings("V18", 0.005, 700, 2));
   EXPECT_LT(std::abs(r.error), 0.01);
   ASSERT_EQ(r.more.front().first, "thickness");
-  EXPECT_LT(std::abs(r.more.front().second), 0.02); // of any triangle
+  EXPECT_LT(std::abs(r.more.front().second), 0.01); // of any triangle
   EXPECT_LT(std::abs(r.more.back().second), 1e-13);
 }
 
