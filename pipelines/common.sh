@@ -3,15 +3,16 @@
 #   OUT=FOLDER         where results go, if not to out/NAME
 #   FILM=WIDTHxHEIGHT  size of films and pictures (default 640x360); FILM=no: none
 #   SAMPLES=N          samples a pixel (default 24)
-#   SHEET_BIN=FOLDER   the programs, if not build/bin; put one of your own there to take a stage's place
+#   SHEET_BIN=FOLDER   looked into for programs before build/bin: put one of your own there to take a stage's place
 # A run that was interrupted goes on where it was.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-export PATH=${SHEET_BIN:-$PWD/build/bin}:$PATH
+export PATH=${SHEET_BIN:+$SHEET_BIN:}$PWD/build/bin:$PATH
 scene=$(dirname "${BASH_SOURCE[1]}")
 scene=pipelines/${scene##*/} # the folder of the script that sources this
 out=${OUT:-out/${scene##*/}}
 mkdir -p "$out"
+FILM=${FILM:-640x360}
 
 # ring NAME UNTIL FPS STAGES SCENE [OPTION...]: runs the ring from the scene (options: sheet-init's) until that time;
 # frames at the output times go to $out/NAME.sheet. What is there already is kept, and gone on with.
@@ -36,17 +37,17 @@ measure() {
   sheet-info --csv "$out/$1.sheet" > "$out/$1.csv"
 }
 
-# film NAME [OPTION...]: $out/NAME.mp4; options are sheet-render's.
+# film NAME FILM.mp4 [OPTION...]: options are sheet-render's.
 film() {
-  [[ ${FILM:-} != no ]] || return 0
-  sheet-render "$out/$1.sheet" --size "${FILM:-640x360}" --samples "${SAMPLES:-24}" "${@:2}" --y4m |
-    ffmpeg -y -loglevel error -i - -pix_fmt yuv420p "$out/$1.mp4"
+  [[ $FILM != no ]] || return 0
+  sheet-render "$out/$1.sheet" --size "$FILM" --samples "${SAMPLES:-24}" "${@:3}" --y4m |
+    ffmpeg -y -loglevel error -i - -pix_fmt yuv420p "$out/$2"
 }
 
 # picture NAME FRAME PICTURE.png [OPTION...]: one frame (-1: the last), with four times the samples.
 picture() {
-  [[ ${FILM:-} != no ]] || return 0
-  sheet-render "$out/$1.sheet" --frames "$2" --size "${FILM:-640x360}" --samples $((4 * ${SAMPLES:-24})) "${@:4}" -o "$out/$3"
+  [[ $FILM != no ]] || return 0
+  sheet-render "$out/$1.sheet" --frames "$2" --size "$FILM" --samples $((4 * ${SAMPLES:-24})) "${@:4}" -o "$out/$3"
 }
 
 # plot NAME << END: $out/NAME.png by gnuplot, from commands that read CSV files.

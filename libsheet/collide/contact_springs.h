@@ -3,7 +3,8 @@
 // 2012, section 3.5]. The energy of a spring is that of libsheet/energy/contact.h; the frame carries them
 // (formats/sheet.md, contact_*). SI units.
 //
-// A vertex and a triangle whose distance falls below the mean of their thicknesses get a spring, the nearest triangle
+// A vertex and a triangle whose distance falls below the mean of their thicknesses, or contact.distance where the
+// scene says one, get a spring, the nearest triangle
 // first and none that shares a corner with one that the vertex has already; so do two edges between whose vertices
 // there is no such contact. The normal part is at rest at the distance that they have, the tangential part at the
 // offset that they have. A spring goes with its features: its normal and anchor turn by the smallest rotation that

@@ -5,7 +5,7 @@
 //   hinge.
 // θ: angle between the two normals [rad], θ̄ its reference; ĥ the mean thickness, Â the sum of the areas, l̂ the length
 // of the edge, all three by the metric that raises indices (Stage::raised). No constant is right for every mesh
-// (VALIDATION.md).
+// (docs/speed-error.md, V11).
 #pragma once
 #include "libsheet/energy/element.h"
 

@@ -4,7 +4,7 @@
 // b: second fundamental form from the directors (geometry/director.h), b̄ its reference; the metric â that raises
 // indices and its area Â as in membrane.h. On edges: β_k = b(e_k, e_k) = -2 (g_i + g_j). With arcs, also the membrane,
 // edges taken for circular arcs: squared lengths |e_k|² + β_k²/12 in the first fundamental form, which takes away the
-// leading part of the locking of flat triangles (DESIGN.md section 4). The membrane term is then absent.
+// leading part of the locking of flat triangles (docs/speed-error.md). The membrane term is then absent.
 //
 // Flat caps, triangles with an angle α above 157 degrees, also have
 //   k (g - ḡ)²/2,   k = (-cos α - c)/(1 - c) (V μ ĥ²/(6 τ)) 4/H⁴,   c = -cos 157°,
@@ -34,7 +34,7 @@ private:
   struct Reference {
     Vector3 curvature; // β̄ [m]
     Vector3 lengths;   // reference squared arc lengths [m²]; with arcs only
-    double weight;     // V μ ĥ²/(6 τ) [J]: ∂²W/∂β² = weight C
+    double weight;     // V μ ĥ²/(6 τ) [J m²]: ∂²W/∂β² = weight C
     double membrane;   // V μ/(2 τ) [J]
     int longest;       // edge, of a cap only
     double stiffness;  // k of a cap, else 0 [J/m²]

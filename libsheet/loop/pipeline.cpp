@@ -49,7 +49,7 @@ std::string path_with_own_folder() {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   const char* path = std::getenv("PATH");
-  return (error ? std::string() : self.parent_path().string() + ":") + (path == nullptr ? "/usr/bin:/bin" : path);
+  return (path == nullptr ? "/usr/bin:/bin" : path) + (error ? std::string() : ":" + self.parent_path().string());
 }
 
 } // namespace

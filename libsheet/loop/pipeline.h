@@ -38,7 +38,7 @@ struct PipelineEnd {
 // pipes open.
 class Pipeline {
 public:
-  // Starts `command` under bash in a process group of its own, with this program's folder first in PATH. Throws Error
+  // Starts `command` under bash in a process group of its own, with this program's folder last in PATH. Throws Error
   // (io).
   explicit Pipeline(const std::string& command);
   // Ends whatever still runs.

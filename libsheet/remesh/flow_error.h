@@ -20,7 +20,8 @@ struct TriangleRates {
 [[nodiscard]] std::vector<TriangleRates> triangle_rates(const EditableSheet& sheet);
 
 // How much the sheet deforms and how unevenly. Triangles with edges l have constant E and K, so where these vary they
-// miss about l² g² of the power dissipated per area, 2 μ (h E:E + h³/12 K:K) [Batty et al. 2012, section 3.2]:
+// miss about l² g² of the power dissipated per area, 2 μ (h E:E + h³/12 K:K) without its traces [Batty et al. 2012,
+// section 3.2]:
 //   g² = h |∇E|² + h³/12 |∇K|²   [1/(m s²)],
 // gradients from values at vertices, the means over their triangles [Zienkiewicz, Zhu 1987].
 struct FlowError {

@@ -20,7 +20,6 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double jump_tolerance = 0.2; // τ: of thickness, from triangle to triangle
 constexpr double even_enough = 1.5;    // of the flow's mean over the sheet's size: gradients below make no difference
 constexpr double edges_in_a_wave = 8;  // of a buckle
-constexpr double growth_over_rate = 5; // of a buckle, over the rate at which the sheet deforms
 constexpr double thicknesses_an_edge = 1; // a shell model says nothing about what is shorter
 constexpr double grading = 0.4;           // growth of length over distance
 

@@ -136,8 +136,8 @@ struct InverseSquarePressure {
   bool operator==(const InverseSquarePressure&) const = default;
 };
 // Enclosed gas leaves at the rate Q = conductance * p: p = -(dV/dt) / conductance, V the enclosed volume (openings
-// closed flat). Slow flow through a round hole of radius a in a thin wall: conductance = a³ / (3 mu_gas) [Sampson
-// 1891].
+// closed by cones to the middle of where their rims started). Slow flow through a round hole of radius a in a thin
+// wall: conductance = a³ / (3 mu_gas) [Sampson 1891].
 struct DrainingPressure {
   double conductance; // [m³/(Pa s)]
   bool operator==(const DrainingPressure&) const = default;

@@ -52,7 +52,7 @@ struct Library {
     find(nested_dissection, "cholmod_nested_dissection");
     find(free_factor, "cholmod_free_factor");
     find(free_dense, "cholmod_free_dense");
-    // Neither BLAS threads nor OpenMP threads inside CHOLMOD gain anything on these sizes (DESIGN.md section 5).
+    // Neither BLAS threads nor OpenMP threads inside CHOLMOD gain anything on these sizes (docs/design.md).
     if (blas) {
       if (auto* threads = reinterpret_cast<void (*)(int)>(dlsym(blas, "openblas_set_num_threads")))
         threads(1);

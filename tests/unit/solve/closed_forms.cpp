@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Closed forms of VALIDATION.md at small sizes: V4 viscous sphere with inertia, V8 contracting disk, V12 strips in
+// Closed forms of docs/model.md at small sizes: V4 viscous sphere with inertia, V8 contracting disk, V12 strips in
 // plane strain, V17 pinned film.
 #include <cmath>
 #include <numbers>

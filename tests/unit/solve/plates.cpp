@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bending against closed forms (VALIDATION.md): V11 circular plate, clamped and simply supported; V12 strips in plane
+// Bending against closed forms (docs/model.md): V11 circular plate, clamped and simply supported; V12 strips in plane
 // strain. Start velocity under gravity, without inertia; D = μ h³/3.
 #include <cmath>
 
@@ -66,7 +66,7 @@ TEST(Plate, CircularMidEdge) {
 }
 
 // Simply supported: a hinge has no moment to clamp a rim with (hold two rows of vertices for that). The printed
-// constant is far too stiff, the one divided by six still depends on the mesh (VALIDATION.md).
+// constant is far too stiff, the one divided by six still depends on the mesh (docs/speed-error.md).
 TEST(Plate, CircularHingesDoNotConverge) {
   EXPECT_LT(disk_ratio(16, false, Bending::hinge_paper), 0.4);
   EXPECT_GT(disk_ratio(16, false, Bending::hinge), 1.5);

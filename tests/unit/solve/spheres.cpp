@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spheres with exact solutions (VALIDATION.md): V1 balloon under constant pressure, V2 under p ~ 1/r², V3 inviscid
+// Spheres with exact solutions (docs/model.md): V1 balloon under constant pressure, V2 under p ~ 1/r², V3 inviscid
 // contraction under surface tension. Time orders are measured against a fine step on the same mesh, errors against the
 // formula.
 #include <cmath>

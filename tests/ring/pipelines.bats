@@ -1,0 +1,93 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The scripts pipelines/NAME/run, small: interrupted and resumed, each gives the same streams as run straight; each stage of
+# the bunny can be replaced by one of one's own in Python.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+  cd "$BATS_TEST_DIRNAME/../.." || exit
+  export FILM=no MPLCONFIGDIR=$BATS_TEST_TMPDIR
+}
+
+# interrupted SIGNAL STREAM PIPELINE [OPTION...]: runs the pipeline straight, and again with the ring ended by the signal
+# after a quarter of its stream and the script run once more. All streams are the same, byte for byte.
+interrupted() {
+  local signal=$1 stream=$2 pipeline=$3
+  shift 3
+  OUT=$BATS_TEST_TMPDIR/straight "pipelines/$pipeline/run" "$@"
+  local size whole resumed=$BATS_TEST_TMPDIR/resumed
+  whole=$(stat -c %s "$BATS_TEST_TMPDIR/straight/$stream.sheet")
+  export OUT=$resumed
+  "pipelines/$pipeline/run" "$@" > "$BATS_TEST_TMPDIR/log" 2>&1 &
+  local script=$!
+  for _ in $(seq 10000); do
+    size=$(stat -c %s "$resumed/$stream.sheet" 2> /dev/null || echo 0)
+    if ((size > whole / 4)) && pkill "-$signal" -f "sheet-loop --resume $resumed/$stream.sheet "; then
+      break
+    fi
+    sleep 0.005
+  done
+  local code=0
+  wait "$script" || code=$?
+  [[ $code == 130 || $code == 137 ]]
+  (($(stat -c %s "$resumed/$stream.sheet") < whole))
+  "pipelines/$pipeline/run" "$@"
+  local made
+  for made in "$BATS_TEST_TMPDIR"/straight/*.sheet; do
+    cmp "$made" "$resumed/${made##*/}"
+  done
+}
+
+@test "bunny: interrupted and resumed = straight" {
+  interrupted INT run bunny 0.15 0.6
+}
+
+@test "catenary: killed and resumed = straight" {
+  interrupted KILL plain catenary 0.2 0.4
+}
+
+@test "balloon: interrupted and resumed = straight" {
+  interrupted INT thin-falling balloon 0.5 40
+}
+
+@test "contraction: killed and resumed = straight" {
+  interrupted KILL set2 contraction 0.5 40
+}
+
+@test "folding: interrupted and resumed = straight" {
+  interrupted INT run folding 0.025 0.4
+}
+
+@test "a stream that was made with other options is not gone on with" {
+  export OUT=$BATS_TEST_TMPDIR/run
+  pipelines/bunny/run 0.3 0.1
+  run -2 pipelines/bunny/run 0.25 0.1
+  [[ $output == *"run.sheet was made with other options"*"OUT="* ]]
+}
+
+# with_stage PROGRAM COMMAND: the bunny with that program replaced, and that stage alone.
+with_stage() {
+  export OUT=$BATS_TEST_TMPDIR/run SHEET_BIN=$BATS_TEST_TMPDIR/bin
+  mkdir -p "$SHEET_BIN"
+  printf '#!/bin/sh\nexec "%s"\n' "$PWD/$2" > "$SHEET_BIN/$1"
+  chmod +x "$SHEET_BIN/$1"
+  pipelines/bunny/run 0.15 0.3
+  sheet-print "$OUT/run.sheet" > "$BATS_TEST_TMPDIR/text"
+  [[ $(grep -c '^frame$' "$BATS_TEST_TMPDIR/text") == 9 ]]
+  grep -q "${2##*/} (1.0)" "$BATS_TEST_TMPDIR/text"
+  ! grep -q " $1 (" "$BATS_TEST_TMPDIR/text"
+}
+
+@test "bunny with a Python stage in place of sheet-collide: nothing stops the sheet" {
+  with_stage sheet-collide formats/python/example_stage.py
+}
+
+@test "bunny with a Python stage in place of sheet-remesh" {
+  with_stage sheet-remesh formats/python/example_stage.py
+}
+
+@test "bunny with a Python clock in place of sheet-step: nothing moves" {
+  with_stage sheet-step tests/ring/clock_stage.py
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "y_min") y = i } NR > 1 && $y != 0 { exit 1 } END { exit NR != 10 }' "$OUT/run.csv"
+}
