@@ -49,7 +49,7 @@ Depth measure(const formats::Frame& frame, const Solids& solids) {
         radius = std::max(radius, (corner - middle).norm());
       if (shape.distance(middle, 2 * (radius + thickness)) > radius + thickness)
         continue;
-      const double distance = shape.deepest(triangle, 1e-3 * thickness).near.distance;
+      const double distance = shape.deepest(triangle, 1e-2 * thickness).near.distance;
       if (distance > thickness)
         continue;
       ++result.near;
