@@ -6,6 +6,8 @@
 #   SHEET_BIN=FOLDER   looked into for programs before build/bin: put one of your own there to take a stage's place
 # A run that was interrupted goes on where it was.
 set -euo pipefail
+[[ -z ${OUT:-} ]] || OUT=$(realpath -m "$OUT")
+[[ -z ${SHEET_BIN:-} ]] || SHEET_BIN=$(realpath -m "$SHEET_BIN")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export PATH=${SHEET_BIN:+$SHEET_BIN:}$PWD/build/bin:$PATH
 scene=$(dirname "${BASH_SOURCE[1]}")
