@@ -98,7 +98,15 @@ SolidSurface read_surface(const scene::SolidMesh& mesh) {
 }
 
 std::unique_ptr<const SolidDistance> make_distance(const scene::SolidMesh& mesh, const std::string& name) {
-  SolidSurface surface = read_surface(mesh);
+  SolidSurface surface;
+  try {
+    surface = read_surface(mesh);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::io)
+      throw;
+    fail(ExitCode::io, "{} (the scene names it as seen from the folder in which sheet-init ran: go on from there)",
+         error.what());
+  }
   check_surface(surface, name, true);
   const double voxel_size = voxel_size_for(surface, mesh.voxel_size.value_or(0));
   const std::string key = cache_key(surface, voxel_size, kBand);

@@ -133,6 +133,7 @@ TEST_F(BadFiles, missing) {
     const Error error = load(name, "");
     EXPECT_EQ(error.code(), ExitCode::io) << name;
     EXPECT_THAT(error.what(), HasSubstr(name));
+    EXPECT_THAT(error.what(), HasSubstr("folder in which sheet-init ran"));
   }
 }
 
