@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the scripts pipelines/NAME/run share; each begins by sourcing it. Results go to $out.
 #   OUT=FOLDER         where results go, if not to out/NAME
@@ -10,9 +11,8 @@ set -euo pipefail
 [[ -z ${SHEET_BIN:-} ]] || SHEET_BIN=$(realpath -m "$SHEET_BIN")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export PATH=${SHEET_BIN:+$SHEET_BIN:}$PWD/build/bin:$PATH
-scene=$(dirname "${BASH_SOURCE[1]}")
-scene=pipelines/${scene##*/} # the folder of the script that sources this
-out=${OUT:-out/${scene##*/}}
+name=$(dirname "${BASH_SOURCE[1]}") # the folder of the script that sources this
+out=${OUT:-out/${name##*/}}
 mkdir -p "$out"
 FILM=${FILM:-640x360}
 

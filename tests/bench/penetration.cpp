@@ -10,13 +10,11 @@
 #include <limits>
 #include <optional>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <fmt/core.h>
 
 #include "formats/cpp/stream_reader.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/files.h"
 #include "libsheet/collide/solids.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/sheet/sheet.h"
@@ -68,13 +66,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "bench_penetration: give one stream\n");
     return 2;
   }
-  const int file = ::open(argv[1], O_RDONLY);
-  if (file < 0) {
-    fmt::print(stderr, "{}: cannot be opened\n", argv[1]);
-    return 6;
-  }
   try {
-    formats::StreamReader reader(file, argv[1]);
+    const InputFile file(argv[1]);
+    formats::StreamReader reader(file.descriptor(), file.name());
     formats::Frame frame;
     FrameScene scenes;
     std::optional<Solids> solids;
@@ -98,6 +92,5 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", error.what());
     return 4;
   }
-  ::close(file);
   return 0;
 }

@@ -7,7 +7,7 @@ bats_require_minimum_version 1.5.0
 
 setup() {
   cd "$BATS_TEST_DIRNAME/../.." || exit
-  export FILM=no MPLCONFIGDIR=$BATS_TEST_TMPDIR
+  export FILM=no
 }
 
 # interrupted SIGNAL STREAM PIPELINE [OPTION...]: runs the pipeline straight, and again with the ring ended by the signal
