@@ -151,13 +151,17 @@ void Assembly::collect(const ElementGroup& group, std::size_t first, std::size_t
   }
 }
 
-EnergySum Assembly::value(const Terms& terms, const Unknowns& u) {
-  for (const auto& term : terms)
-    term->prepare(u);
+std::size_t Assembly::chunks() const {
   std::size_t total = 0;
   for (const auto& group : groups_)
     total += (group.size() + kChunk - 1) / kChunk;
-  std::vector<EnergySum> sums(total);
+  return total;
+}
+
+EnergySum Assembly::value(const Terms& terms, const Unknowns& u) {
+  for (const auto& term : terms)
+    term->prepare(u);
+  std::vector<EnergySum> sums(chunks());
   each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
     double local[kChunk * 12];
     collect(groups_[g], first, last, u, local);
@@ -171,13 +175,41 @@ EnergySum Assembly::value(const Terms& terms, const Unknowns& u) {
   return sum;
 }
 
+void Assembly::gather_gradient(std::span<const char> held, Eigen::VectorXd& gradient) {
+  pattern_->gather_gradient(gradients_, gradient);
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (held[k])
+      gradient[static_cast<Eigen::Index>(k)] = 0;
+}
+
+EnergySum Assembly::gradient(const Terms& terms, const Unknowns& u, std::span<const char> held,
+                             Eigen::VectorXd& gradient) {
+  for (const auto& term : terms)
+    term->prepare(u);
+  std::vector<EnergySum> sums(chunks());
+  each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
+    double local[kChunk * 12];
+    collect(groups_[g], first, last, u, local);
+    double* gradients = &gradients_[(groups_[g].first + first) * static_cast<std::size_t>(stride_)];
+    bool overwrite = true;
+    for (const std::size_t t : term_order_)
+      if (group_of_term_[t] == g) {
+        sums[c].add(terms[t]->add_gradients(first, last, local, stride_, gradients, overwrite));
+        overwrite = false;
+      }
+  });
+  gather_gradient(held, gradient);
+  EnergySum sum;
+  for (const EnergySum& s : sums)
+    sum.add(s);
+  return sum;
+}
+
 EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool definite, std::span<const char> held,
                                 Eigen::VectorXd& gradient, SparseLower& matrix) {
   for (const auto& term : terms)
     term->prepare(u);
-  std::size_t total = 0;
-  for (const auto& group : groups_)
-    total += (group.size() + kChunk - 1) / kChunk;
+  const std::size_t total = chunks();
   std::vector<EnergySum> sums(total);
   std::vector<double> seconds(total * terms.size(), 0.0);
   each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
@@ -202,10 +234,7 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
                      &hessians_[groups_[g].first_hessian + i * packed]);
   });
   const double before = now();
-  pattern_->gather_gradient(gradients_, gradient);
-  for (std::size_t k = 0; k < held.size(); ++k)
-    if (held[k])
-      gradient[static_cast<Eigen::Index>(k)] = 0;
+  gather_gradient(held, gradient);
   pattern_->gather_matrix(hessians_, held, matrix);
   seconds_.back() += now() - before;
   EnergySum sum;

@@ -31,6 +31,8 @@ public:
   [[nodiscard]] const MatrixPattern& pattern() const { return *pattern_; }
 
   [[nodiscard]] EnergySum value(const Terms& terms, const Unknowns& u);
+  // Value and gradient, without the Hessian's cost.
+  EnergySum gradient(const Terms& terms, const Unknowns& u, std::span<const char> held, Eigen::VectorXd& gradient);
   // held: one flag an unknown, or empty. Their gradient is zero, their rows and columns those of the unit matrix.
   EnergySum derivatives(const Terms& terms, const Unknowns& u, bool definite, std::span<const char> held,
                         Eigen::VectorXd& gradient, SparseLower& matrix);
@@ -38,7 +40,9 @@ public:
   [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
 
 private:
+  [[nodiscard]] std::size_t chunks() const;
   template <class Visit> void each_chunk(Visit&& visit) const;
+  void gather_gradient(std::span<const char> held, Eigen::VectorXd& gradient);
   void collect(const ElementGroup& group, std::size_t first, std::size_t last, const Unknowns& u, double* out) const;
 
   std::shared_ptr<const Connectivity> mesh_;

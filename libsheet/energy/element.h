@@ -11,6 +11,8 @@
 //   double value(i, u) const;                                 [J]
 //   double derivatives(i, u, gradient, hessian, definite) const;   value, [N] and [N/m]; overwrites both. If definite,
 //     the Hessian is a positive semidefinite approximation in closed form, otherwise it is exact
+//   double gradient(i, u, gradient) const;                    optional: the same without the Hessian, where that is
+//     much cheaper
 // u holds the unknowns of the element: its vertices' coordinates, then its edges' angles.
 #pragma once
 #include <array>

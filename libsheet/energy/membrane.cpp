@@ -29,6 +29,14 @@ double Membrane::value(std::size_t i, const VectorN<9>& u) const {
   return 2 * rate_ * state_->volumes[i] * (trace * trace - form_determinant(m) / a.determinant);
 }
 
+double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
+  const EdgeSprings springs(u);
+  const Vector3 m = springs.squared_lengths() - reference_[i];
+  const Vector3 s = (2 * rate_ * state_->volumes[i]) * stage_->raised[i].dissipated(m);
+  springs.gradient(s, gradient);
+  return 0.5 * m.dot(s);
+}
+
 double Membrane::derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                              bool definite) const {
   const EdgeSprings springs(u);

@@ -17,6 +17,7 @@ public:
   [[nodiscard]] std::size_t size() const { return reference_.size(); }
   void begin(const Stage& stage);
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const;
+  double gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const;
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const;
 

@@ -96,6 +96,46 @@ double MidEdgeShell::value(std::size_t i, const VectorN<12>& u) const {
   return w;
 }
 
+double MidEdgeShell::gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const {
+  const Reference& r = reference_[i];
+  const RaisedMetric& a = stage_->raised[i];
+  Vector3 g;
+  DirectorHeight height[3];
+  for (int k = 0; k < 3; ++k) {
+    const Corner c = corner(i, k);
+    const Vector3 low = u.segment<3>(3 * c.low), high = u.segment<3>(3 * c.high), apex = u.segment<3>(3 * k);
+    height[k] = director_height<1>(stage_->frames[mesh_->triangle_edges[i][static_cast<std::size_t>(k)]], high - low,
+                                   0.5 * (low + high) - apex, u[9 + k]);
+    g[k] = height[k].value;
+  }
+  const Vector3 beta = curvature(g), strain = beta - r.curvature;
+  Vector3 s = r.weight * a.dissipated(strain); // ∂W/∂β
+  double w = 0.5 * strain.dot(s);
+  gradient.setZero();
+  if (arcs_) {
+    const EdgeSprings springs(corners(u));
+    const Vector3 m = springs.squared_lengths() + beta.cwiseProduct(beta) / 12 - r.lengths;
+    const Vector3 tension = r.membrane * a.dissipated(m);
+    w += 0.5 * m.dot(tension);
+    VectorN<9> part;
+    springs.gradient(tension, part);
+    gradient.head<9>() = part;
+    s += tension.cwiseProduct(beta) / 6;
+  }
+  Vector3 sg = curvature(s); // from β to g
+  const double turned = g[r.longest] - r.height;
+  w += 0.5 * r.stiffness * turned * turned;
+  sg[r.longest] += r.stiffness * turned;
+  for (int k = 0; k < 3; ++k) {
+    const Corner c = corner(i, k);
+    gradient.segment<3>(3 * c.low) += sg[k] * (0.5 * height[k].by_w - height[k].by_e);
+    gradient.segment<3>(3 * c.high) += sg[k] * (0.5 * height[k].by_w + height[k].by_e);
+    gradient.segment<3>(3 * k) -= sg[k] * height[k].by_w;
+    gradient[9 + k] += sg[k] * height[k].by_theta;
+  }
+  return w;
+}
+
 double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                                  bool definite) const {
   const Reference& r = reference_[i];

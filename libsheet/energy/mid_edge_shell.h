@@ -27,6 +27,7 @@ public:
   [[nodiscard]] std::size_t size() const { return reference_.size(); }
   void begin(const Stage& stage);
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const;
+  double gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const;
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const;
 

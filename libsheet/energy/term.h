@@ -29,6 +29,9 @@ public:
   virtual void prepare(const Unknowns& u) = 0;
   // Elements first to last-1; u: their unknowns, `stride` apart.
   [[nodiscard]] virtual EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const = 0;
+  // Adds to gradients (`stride` apart), or sets those of its own unknowns.
+  virtual EnergySum add_gradients(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
+                                  bool overwrite) const = 0;
   // Adds to gradients (`stride` apart) and Hessians (stride x stride, column major), or sets those of its own
   // unknowns.
   virtual EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
@@ -63,6 +66,27 @@ public:
     EnergySum sum;
     for (std::size_t i = first; i < last; ++i, u += stride)
       sum.add(element_.value(i, Eigen::Map<const VectorN<kSize>>(u)));
+    return sum;
+  }
+
+  EnergySum add_gradients(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
+                          bool overwrite) const override {
+    EnergySum sum;
+    VectorN<kSize> g;
+    for (std::size_t i = first; i < last; ++i, u += stride, gradients += stride) {
+      const Eigen::Map<const VectorN<kSize>> local(u);
+      if constexpr (requires { element_.gradient(i, local, g); }) {
+        sum.add(element_.gradient(i, local, g));
+      } else {
+        MatrixN<kSize> unused;
+        sum.add(element_.derivatives(i, local, g, unused, true));
+      }
+      Eigen::Map<VectorN<kSize>> gradient(gradients, kSize);
+      if (overwrite)
+        gradient = g;
+      else
+        gradient += g;
+    }
     return sum;
   }
 

@@ -185,7 +185,7 @@ bool Cholesky::factorize(const SparseLower& a, double shift) {
 
 double Cholesky::reciprocal_condition() const { return library().rcond(impl_->factor, &impl_->common); }
 
-Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) {
+Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const {
   cholmod_dense rhs{};
   rhs.nrow = rhs.d = rhs.nzmax = static_cast<std::size_t>(b.size());
   rhs.ncol = 1;

@@ -37,7 +37,7 @@ public:
   [[nodiscard]] bool factorize(const SparseLower& a, double shift);
   // Squared ratio of the smallest to the largest pivot.
   [[nodiscard]] double reciprocal_condition() const;
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b);
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
   [[nodiscard]] double flops() const; // of the last factorisation's structure
   [[nodiscard]] double factor_entries() const;

@@ -8,9 +8,8 @@
 
 namespace sheet {
 
-// As minimize(), with the same stopping rule for `tolerance`; options.hessian is not used.
-[[nodiscard]] NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, std::span<const char> held,
-                                           const Eigen::VectorXd& scale, double floor, const NewtonOptions& options,
-                                           Unknowns& u);
+// As minimize(), with the stopping rule for `tolerance`, by the lengths of the steps. Leaves no factor.
+[[nodiscard]] NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale,
+                                           const NewtonOptions& options, Unknowns& u);
 
 } // namespace sheet

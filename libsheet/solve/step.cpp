@@ -8,7 +8,6 @@
 #include "libsheet/base/error.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/area.h"
-#include "libsheet/solve/damped_newton.h"
 
 namespace sheet {
 
@@ -17,9 +16,8 @@ namespace {
 const double kGamma = 1 - std::sqrt(0.5);
 
 constexpr int kHalvingsBeforeEuler = 1;
-constexpr double kUnfinished = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
+constexpr double kFloor = 1e-10;     // shift of the scaled matrix where motions are free
 constexpr int kHopeless = 4;         // times the iterations allowed, with those of unfinished substeps
-constexpr double kFarBehind = 0.1;   // of an edge: held unknowns that are this far from where inertia takes them
 
 // Whether every triangle still has an area beyond round-off.
 bool sound(const State& s) {
@@ -32,27 +30,13 @@ bool sound(const State& s) {
   return true;
 }
 
-void add(NewtonReport& sum, const NewtonReport& r) {
-  sum.converged = r.converged;
-  sum.monotone = sum.monotone && r.monotone;
-  sum.iterations += r.iterations;
-  sum.factorizations += r.factorizations;
-  sum.positive += r.positive;
-  sum.shifted += r.shifted;
-  sum.halvings += r.halvings;
-  sum.last_step = r.last_step;
-  sum.seconds_assembly += r.seconds_assembly;
-  sum.seconds_factor += r.seconds_factor;
-  sum.seconds_solve += r.seconds_solve;
-  sum.seconds_search += r.seconds_search;
-}
-
 // What the holds must add to the other forces, inertia included, so that the sum vanishes: the potential's gradient.
 std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, std::span<const char> held,
                                const Unknowns& u) {
   Eigen::VectorXd gradient;
-  (void)system.assembly.derivatives(terms, u, false, {}, gradient, system.matrix);
-  std::vector<Vector3> result(system.assembly.vertices(), Vector3::Zero());
+  system.hold({}, 0);
+  (void)system.gradient(terms, u, gradient);
+  std::vector<Vector3> result(system.assembly().vertices(), Vector3::Zero());
   for (std::size_t v = 0; v < result.size() && !held.empty(); ++v)
     for (std::size_t a = 0; a < 3; ++a)
       if (held[3 * v + a] != 0)
@@ -71,7 +55,7 @@ struct Stepper::Cache {
   std::shared_ptr<const Connectivity> mesh;
   std::vector<std::uint32_t> signature;
   Terms terms;
-  std::unique_ptr<LinearSystem> system;
+  LinearSystem system;
 };
 
 Stepper::Stepper(Model model, StepOptions options) : model_(std::move(model)), options_(options) {}
@@ -99,12 +83,13 @@ void Stepper::prepare_cache(const State& state, StepReport& report) {
     cache_->terms = std::move(terms);
     return;
   }
-  cache_ = std::make_unique<Cache>();
+  if (!cache_)
+    cache_ = std::make_unique<Cache>(); // memory is kept from one mesh to the next
   cache_->mesh = state.mesh;
   cache_->signature = std::move(signature);
   cache_->terms = std::move(terms);
-  cache_->system = std::make_unique<LinearSystem>(state.mesh, cache_->terms, model_.has_angles());
-  report.seconds_analysis = cache_->system->seconds_analysis;
+  cache_->system.analyze(state.mesh, cache_->terms, model_.has_angles());
+  report.seconds_analysis = cache_->system.seconds_analysis();
 }
 
 void Stepper::set_model(Model model) {
@@ -122,73 +107,25 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
                                   StepReport& report) {
   const bool two = scheme == Scheme::sdirk2;
   const double gamma = two ? kGamma : 1;
-  const std::size_t n = state.positions.size();
   Stage stage = first_stage(state, gamma * dt, state.time + gamma * dt, model_.has_angles());
   const Eigen::VectorXd scale = step_scale(state, stage.begin.size());
   const std::vector<char> held = held_unknowns(model_.holds, stage);
   // Without inertia a sheet that is not held is free to move rigidly, and a flat membrane to leave its plane.
   const bool determined = model_.has_inertia() || (fully_held(model_.holds) >= 3 && model_.bending != Bending::none);
-  const double floor = determined ? 0 : 1e-10;
-
+  cache_->system.hold(held, determined ? 0 : kFloor);
+  StageSolve solver(cache_->system, cache_->terms, model_.holds, scale, options_.newton, demand);
   const auto solve = [&](const Unknowns& guess, const Unknowns& safe, Unknowns& u) {
     if (options_.thickness == Thickness::as_started)
       raise_as_started(stage);
-    for (const auto& term : cache_->terms)
-      term->begin(stage);
-    // The best of the extrapolated state, the last known one, the sheet moved rigidly with what is held, and, if what
-    // is held leaves the others behind, the linear response to its motion.
-    Unknowns trial = safe;
-    double best = 0;
-    double left_behind = 0;
-    for (const int k : {0, 1, 2, 3}) {
-      if (k == 0)
-        trial = guess;
-      else if (k == 1 || k == 3)
-        trial = safe;
-      else if (k == 2 && !move_with_held(model_.holds, stage, stage.end_time, trial))
-        continue;
-      const Unknowns before = trial;
-      place_held(model_.holds, stage, stage.end_time, trial);
-      if (k == 0)
-        left_behind = (trial - before).cwiseQuotient(scale).cwiseAbs().maxCoeff();
-      if (k == 3) {
-        const Unknowns target = trial;
-        trial = safe;
-        if (left_behind < kFarBehind || !spread_held_motion(*cache_->system, cache_->terms, held, target, trial))
-          continue;
-      }
-      const double w = cache_->system->assembly.value(cache_->terms, trial).value;
-      if (k == 0 || w < best || !std::isfinite(best)) {
-        best = w;
-        u = trial;
-      }
-    }
-    NewtonOptions newton = options_.newton;
-    if (demand == Demand::converged)
-      newton.iterations = std::min(newton.iterations, options_.iterations - report.newton.iterations);
-    if (newton.iterations <= 0)
-      return false;
-    NewtonReport r = minimize(*cache_->system, cache_->terms, held, scale, floor, newton, u);
-    add(report.newton, r);
-    if (r.converged || demand == Demand::converged)
-      return r.converged;
-    double gained = r.gained;
-    const auto good_enough = [&] { return gained > 0 && r.promised <= kUnfinished * gained; };
-    if (good_enough())
-      return true;
-    r = minimize_damped(*cache_->system, cache_->terms, held, scale, floor, newton, u);
-    add(report.newton, r);
-    gained += r.gained;
-    return r.converged || good_enough();
+    return solver.solve(stage, guess, safe, options_.iterations - report.newton.iterations, report.newton, u);
   };
 
   Unknowns guess = stage.begin, first, last;
-  for (std::size_t v = 0; v < n; ++v)
+  for (std::size_t v = 0; v < state.positions.size(); ++v)
     guess.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
   turn_to_normals(stage, guess);
   if (!solve(guess, stage.begin, first))
     return Outcome::not_converged;
-  double error = 0;
   if (two) {
     if (!second_stage(stage, first, gamma, dt))
       return Outcome::shrinks_to_nothing;
@@ -198,7 +135,17 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   } else {
     last = first;
   }
+  return finish_step(state, dt, stage, first, last, scale, held, end, report);
+}
 
+// first: the first stage's result; last: that of the last stage, which is the end of the step.
+Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stage, const Unknowns& first,
+                                      const Unknowns& last, const Eigen::VectorXd& scale, std::span<const char> held,
+                                      State& end, StepReport& report) {
+  const bool two = stage.previous != nullptr;
+  const double gamma = stage.duration / dt;
+  const std::size_t n = state.positions.size();
+  double error = 0;
   end = state;
   end.time = state.time + dt;
   for (std::size_t v = 0; v < n; ++v) {
@@ -223,7 +170,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
         stage.inertial[v][a] = end.positions[v][a] -
                                stage.duration * stage.duration / dt * (end.velocities[v][a] - state.velocities[v][a]);
       }
-    report.reactions = reactions(*cache_->system, cache_->terms, held, last);
+    report.reactions = reactions(cache_->system, cache_->terms, held, last);
   }
   report.error = std::max(report.error, error);
   return sound(end) ? Outcome::done : Outcome::shrinks_to_nothing;
@@ -286,14 +233,14 @@ void Stepper::advance_flat(State& state, double dt, StepReport& report) {
   report.euler_fallbacks += flat.euler_fallbacks;
   report.unfinished += flat.unfinished;
   ++report.flat_fallbacks;
-  add(report.newton, flat.newton);
+  report.newton += flat.newton;
   report.error = std::max(report.error, flat.error);
   report.reactions = flat.reactions;
   report.seconds_analysis += flat.seconds_analysis;
 }
 
 void Stepper::finish(StepReport& report, const std::vector<double>& seconds_before) const {
-  const std::vector<double>& after = cache_->system->assembly.seconds();
+  const std::vector<double>& after = cache_->system.assembly().seconds();
   for (std::size_t t = 0; t < after.size(); ++t)
     report.terms.push_back(
         {t < cache_->terms.size() ? cache_->terms[t]->name() : "gathering", after[t] - seconds_before[t]});
@@ -304,7 +251,7 @@ StepReport Stepper::step(State& state, double dt) {
     fail(ExitCode::usage, "a time step of {} s is not possible", dt);
   StepReport report;
   prepare_cache(state, report);
-  const std::vector<double> seconds = cache_->system->assembly.seconds();
+  const std::vector<double> seconds = cache_->system.assembly().seconds();
   State next = state;
   advance(next, dt, 0, report);
   next.time = state.time + dt;
@@ -335,7 +282,7 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
     fail(ExitCode::usage, "--tolerance: {} is not above 0", control.tolerance);
   StepReport report;
   prepare_cache(state, report);
-  const std::vector<double> seconds = cache_->system->assembly.seconds();
+  const std::vector<double> seconds = cache_->system.assembly().seconds();
   const double wanted = control.dt > 0 ? control.dt : remaining;
   // No sliver of a step before the output time: two equal steps instead.
   const double first = wanted >= remaining ? remaining : wanted > 0.5 * remaining ? 0.5 * remaining : wanted;

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "libsheet/energy/model.h"
-#include "libsheet/solve/newton.h"
+#include "libsheet/solve/stage_solve.h"
 
 namespace sheet {
 
@@ -81,8 +81,9 @@ public:
 private:
   struct Cache;
   enum class Outcome { done, not_converged, shrinks_to_nothing };
-  enum class Demand { converged, lower_potential };
   Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end, StepReport& report);
+  Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
+                      const Eigen::VectorXd& scale, std::span<const char> held, State& end, StepReport& report);
   Outcome attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);

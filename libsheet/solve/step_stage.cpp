@@ -54,6 +54,9 @@ struct Totals {
   }
 };
 
+// Of the error of a step, what Newton's iterations may add (docs/speed-error.md).
+constexpr double kOfStepError = 0.05;
+
 void check_mesh(const Connectivity& mesh) {
   std::vector<bool> used(mesh.vertices);
   for (const Triangle& t : mesh.triangles)
@@ -114,6 +117,7 @@ struct StepStage::Impl {
     } else {
       StepOptions step_options;
       step_options.scheme = options.scheme;
+      step_options.newton.of_step_error = kOfStepError;
       if (options.tolerance) // of a step's error Newton's iterations add a hundredth at most
         step_options.newton.tolerance = std::min(step_options.newton.tolerance, 0.01 * *options.tolerance);
       stepper.emplace(std::move(model), step_options);

@@ -131,7 +131,7 @@ void bench(int vertices, int steps, const std::vector<double>& memory) {
     for (std::size_t c = 0; c < steppers.size(); ++c) {
       const Model& m = steppers[c].model();
       const LinearSystem system(states[c].mesh, make_terms(m, states[c].mesh), m.has_angles());
-      samples[c].analysis.push_back(system.seconds_analysis);
+      samples[c].analysis.push_back(system.seconds_analysis());
     }
   for (std::size_t c = 0; c < steppers.size(); ++c) {
     const Sample& s = samples[c];

@@ -51,22 +51,22 @@ void prepare(Variant& v, const State& s, const Model& m) {
     v.u.segment<3>(static_cast<Eigen::Index>(3 * k)) = v.stage.predicted[k];
 }
 
-void iterate(Variant& v, std::size_t vertices) {
+void iterate(Variant& v) {
   Eigen::VectorXd gradient;
   LinearSystem& system = *v.system;
-  const std::vector<double> before = system.assembly.seconds();
+  const std::vector<double> before = system.assembly().seconds();
   const double start = processor_seconds();
-  system.assembly.derivatives(v.terms, v.u, true, {}, gradient, system.matrix);
-  scale_to_unit_diagonal(system.matrix, system.assembly.pattern().permutation(), {}, vertices);
+  system.hold({}, 1e-10);
+  (void)system.hessian(v.terms, v.u, true, gradient);
   const double assembled = processor_seconds();
-  if (!system.cholesky.factorize(system.matrix, 1e-10))
+  if (!system.factorize(0))
     std::printf("# not positive definite without %s\n", v.off.c_str());
-  gradient = system.cholesky.solve(gradient);
+  gradient = system.solve(system.to_rows(gradient));
   v.rest.push_back(processor_seconds() - assembled);
   v.assembly.push_back(assembled - start);
   v.by_term.resize(before.size());
   for (std::size_t t = 0; t < before.size(); ++t)
-    v.by_term[t].push_back(system.assembly.seconds()[t] - before[t]);
+    v.by_term[t].push_back(system.assembly().seconds()[t] - before[t]);
 }
 
 } // namespace
@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
   }
   for (int turn = 0; turn < turns; ++turn)
     for (Variant& v : variants)
-      iterate(v, s.positions.size());
+      iterate(v);
   const double whole = least(variants[0].assembly) + least(variants[0].rest);
   std::printf("# %zu vertices, BLAS core %s, one thread, the least of %d turns; shares of the whole iteration\n",
               s.positions.size(), blas_core_name().c_str(), turns);

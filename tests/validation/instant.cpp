@@ -28,13 +28,15 @@ Instant solve_instant(const State& s, const Model& model, double dt, const Place
   const Eigen::VectorXd scale = step_scale(s, stage.begin.size());
   NewtonOptions options;
   options.tolerance = 1e-12;
-  const NewtonReport report = minimize(system, terms, held, scale, 1e-10, options, r.end);
+  system.hold(held, 1e-10);
+  const Unknowns start = r.end;
+  const NewtonReport report = minimize(system, terms, scale, start, options, r.end);
   r.iterations = report.iterations;
   if (!report.converged && !(report.last_step < 1e-9))
     fail(ExitCode::not_converged, "an instant did not converge (last step {})", report.last_step);
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  SparseLower matrix = system.assembly.pattern().structure();
-  r.potential = system.assembly.derivatives(terms, r.end, true, {}, r.reaction, matrix).value;
+  system.hold({}, 0);
+  r.potential = system.gradient(terms, r.end, r.reaction).value;
   for (std::size_t k = 0; k < static_cast<std::size_t>(r.reaction.size()); ++k)
     if (held.empty() || !held[k])
       r.reaction[static_cast<Eigen::Index>(k)] = 0;

@@ -170,7 +170,7 @@ TEST(HardCases, FailureIsBoundedWhereStepsAreChosen) {
   s = before;
   options.newton.iterations = 50;
   control.dt = 0.1;
-  options.iterations = 20; // one attempt converges, but is not accurate
+  options.iterations = 8; // one attempt converges, but is not accurate
   r = Stepper(sagging(s), options).step_within(s, 0.1, control);
   EXPECT_EQ(r.unfinished, 0);
   EXPECT_EQ(r.inaccurate, 1);
@@ -201,22 +201,20 @@ TEST(HardCases, NoStepConvergesWhereStepsAreChosen) {
     EXPECT_LT(x.norm(), 3);
 }
 
-// A film of a millionth of an edge does not converge to 1e-6 of an edge with arcs; without them it does.
-TEST(HardCases, WithoutArcsWhereStepsAreChosen) {
+// A film of a millionth of an edge converges to 1e-6 of an edge, with arcs.
+TEST(HardCases, ThinnestSheetWhereStepsAreChosen) {
   State s = test::at_rest(test::rectangle(1, 1, 20, 20, 0.2), 5e-8);
   StepOptions options;
   options.newton.tolerance = 1e-6;
   Stepper stepper(sagging(s), options);
   StepControl control{1e-3, 0};
-  int flat = 0;
   for (int steps = 0; s.time < 0.01; ++steps) {
     ASSERT_LT(steps, 10);
     const StepReport r = stepper.step_within(s, 0.01, control);
     EXPECT_EQ(r.inaccurate + r.unfinished, 0);
     EXPECT_TRUE(r.newton.monotone);
-    flat += r.flat_fallbacks;
+    EXPECT_EQ(r.flat_fallbacks, 0);
   }
-  EXPECT_GT(flat, 0);
 }
 
 // Where a triangle would shrink to nothing in the second stage, the step is done in pieces (surface tension on a disk:

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solve/linear_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "libsheet/base/stopwatch.h"
+
+namespace sheet {
+
+namespace {
+constexpr double kSpreadShift = 1e-10; // for a starting point only
+}
+
+void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles) {
+  Stopwatch watch;
+  const std::size_t vertices = mesh->vertices;
+  assembly_ = Assembly(std::move(mesh), terms, angles);
+  assembly_.set_order(nested_dissection(vertices, assembly_.vertex_graph()));
+  matrix_ = assembly_.pattern().structure();
+  scaled_ = matrix_;
+  product_.analyze(matrix_);
+  cholesky_.analyze(matrix_);
+  has_factor_ = false;
+  seconds_analysis_ = watch.lap();
+}
+
+void LinearSystem::hold(std::span<const char> held, double floor) {
+  held_.assign(held.begin(), held.end());
+  floor_ = floor;
+  has_factor_ = false;
+}
+
+EnergySum LinearSystem::gradient(const Terms& terms, const Unknowns& u, Eigen::VectorXd& g) {
+  return assembly_.gradient(terms, u, held_, g);
+}
+
+EnergySum LinearSystem::hessian(const Terms& terms, const Unknowns& u, bool definite, Eigen::VectorXd& g) {
+  const EnergySum energy = assembly_.derivatives(terms, u, definite, held_, g, matrix_);
+  find_rank_ones(terms, u);
+  if (has_factor_)
+    rank_ones_to_rows();
+  return energy;
+}
+
+void LinearSystem::find_rank_ones(const Terms& terms, const Unknowns& u) {
+  of_hessian_.clear();
+  for (const auto& term : terms) {
+    Eigen::VectorXd g;
+    const double stiffness = term->rank_one(u, g);
+    if (stiffness == 0)
+      continue;
+    for (std::size_t k = 0; k < held_.size(); ++k)
+      if (held_[k])
+        g[static_cast<Eigen::Index>(k)] = 0;
+    of_hessian_.push_back({stiffness, std::move(g)});
+  }
+}
+
+void LinearSystem::rank_ones_to_rows() {
+  of_operator_.clear();
+  for (const RankOne& part : of_hessian_)
+    of_operator_.push_back({part.stiffness, to_rows(part.g)});
+}
+
+// The factors that bring the matrix to a diagonal of ones (of mean one over the three coordinates of a vertex). Held
+// rows keep theirs.
+void LinearSystem::scale_to_unit_diagonal() {
+  const auto& permutation = assembly_.pattern().permutation();
+  scale_.resize(matrix_.size);
+  const auto fixed = [&](int row) { return !held_.empty() && held_[permutation[static_cast<std::size_t>(row)]] != 0; };
+  for (int k = 0; k < matrix_.size;) {
+    const int width = permutation[static_cast<std::size_t>(k)] < 3 * assembly_.vertices() ? 3 : 1;
+    double sum = 0;
+    int count = 0;
+    for (int row = k; row < k + width; ++row)
+      if (!fixed(row)) {
+        sum += std::abs(matrix_.values[static_cast<std::size_t>(matrix_.starts[static_cast<std::size_t>(row)])]);
+        ++count;
+      }
+    for (int row = k; row < k + width; ++row)
+      scale_[row] = fixed(row) || sum == 0 ? 1 : std::sqrt(count / sum);
+    k += width;
+  }
+  tbb::parallel_for(tbb::blocked_range<int>(0, matrix_.size, 1024), [&](const auto& range) {
+    for (int c = range.begin(); c < range.end(); ++c)
+      for (auto p = static_cast<std::size_t>(matrix_.starts[static_cast<std::size_t>(c)]);
+           p < static_cast<std::size_t>(matrix_.starts[static_cast<std::size_t>(c) + 1]); ++p)
+        scaled_.values[p] = matrix_.values[p] * scale_[c] * scale_[matrix_.rows[p]];
+  });
+}
+
+bool LinearSystem::factorize(double shift) {
+  scale_to_unit_diagonal();
+  has_factor_ = cholesky_.factorize(scaled_, std::max(shift, floor_));
+  if (!has_factor_)
+    return false;
+  of_factor_.clear();
+  rank_ones_to_rows();
+  for (const RankOne& part : of_operator_) {
+    Eigen::VectorXd solved = solve(part.g);
+    const double factor = part.stiffness / (1 + part.stiffness * part.g.dot(solved));
+    of_factor_.push_back({part.g, std::move(solved), factor});
+  }
+  return true;
+}
+
+Eigen::VectorXd LinearSystem::multiply(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd y;
+  product_.multiply(matrix_, x.cwiseProduct(scale_), y);
+  y.array() = y.array() * scale_.array() + floor_ * x.array();
+  for (const RankOne& part : of_operator_)
+    y += (part.stiffness * part.g.dot(x)) * part.g;
+  return y;
+}
+
+Eigen::VectorXd LinearSystem::solve(const Eigen::VectorXd& b) const {
+  Eigen::VectorXd x = cholesky_.solve(b);
+  for (const SolvedRankOne& part : of_factor_)
+    x -= (part.part * part.g.dot(x)) * part.solved;
+  return x;
+}
+
+Eigen::VectorXd LinearSystem::to_rows(const Eigen::VectorXd& forces) const {
+  const auto& permutation = assembly_.pattern().permutation();
+  Eigen::VectorXd rows(forces.size());
+  for (Eigen::Index k = 0; k < forces.size(); ++k)
+    rows[k] = scale_[k] * forces[permutation[static_cast<std::size_t>(k)]];
+  return rows;
+}
+
+Eigen::VectorXd LinearSystem::to_unknowns(const Eigen::VectorXd& rows) const {
+  const auto& permutation = assembly_.pattern().permutation();
+  Eigen::VectorXd step(rows.size());
+  for (Eigen::Index k = 0; k < rows.size(); ++k)
+    step[permutation[static_cast<std::size_t>(k)]] = scale_[k] * rows[k];
+  return step;
+}
+
+void LinearSystem::balance(const Eigen::VectorXd& residual, Eigen::VectorXd& step) const {
+  if (floor_ > 0 || std::find(held_.begin(), held_.end(), char{1}) != held_.end())
+    return;
+  const auto& permutation = assembly_.pattern().permutation();
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    // A translation in rows, and the force that it takes.
+    Eigen::VectorXd translation = Eigen::VectorXd::Zero(residual.size());
+    for (Eigen::Index k = 0; k < residual.size(); ++k)
+      if (const auto unknown = permutation[static_cast<std::size_t>(k)];
+          unknown < 3 * assembly_.vertices() && unknown % 3 == axis)
+        translation[k] = 1 / scale_[k];
+    const double stiffness = translation.dot(multiply(translation));
+    if (stiffness > 0)
+      step += (translation.dot(residual) / stiffness) * translation;
+  }
+}
+
+bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target, Unknowns& u) {
+  const auto& permutation = assembly_.pattern().permutation();
+  Eigen::VectorXd gradient;
+  has_factor_ = false;
+  assembly_.derivatives(terms, u, true, {}, gradient, matrix_);
+  SparseLower& a = matrix_;
+  Eigen::VectorXd rhs(u.size()), move(u.size());
+  for (Eigen::Index k = 0; k < u.size(); ++k) {
+    const auto unknown = permutation[static_cast<std::size_t>(k)];
+    move[k] = held_[unknown] ? target[unknown] - u[unknown] : 0;
+    rhs[k] = -gradient[unknown];
+  }
+  for (int c = 0; c < a.size; ++c) {
+    const bool fixed = held_[permutation[static_cast<std::size_t>(c)]];
+    for (auto p = static_cast<std::size_t>(a.starts[static_cast<std::size_t>(c)]);
+         p < static_cast<std::size_t>(a.starts[static_cast<std::size_t>(c) + 1]); ++p) {
+      const int r = a.rows[p];
+      rhs[r] -= a.values[p] * move[c];
+      if (r != c)
+        rhs[c] -= a.values[p] * move[r];
+      if (fixed || held_[permutation[static_cast<std::size_t>(r)]])
+        a.values[p] = r == c ? 1 : 0;
+    }
+  }
+  for (Eigen::Index k = 0; k < u.size(); ++k)
+    if (held_[permutation[static_cast<std::size_t>(k)]])
+      rhs[k] = move[k];
+  scale_to_unit_diagonal();
+  if (!cholesky_.factorize(scaled_, kSpreadShift))
+    return false;
+  const Eigen::VectorXd step = cholesky_.solve(rhs.cwiseProduct(scale_));
+  for (Eigen::Index k = 0; k < u.size(); ++k) {
+    const auto unknown = permutation[static_cast<std::size_t>(k)];
+    u[unknown] += held_[unknown] ? move[k] : scale_[k] * step[k];
+  }
+  return u.allFinite();
+}
+
+} // namespace sheet

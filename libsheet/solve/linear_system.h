@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The linearised equations of one stage: the Hessian of the potential, exact and up to date, as an operator, and one
+// factor, of this Hessian or an earlier or a positive one, as preconditioner of it. Both work on *rows*: unknowns in
+// the order of elimination, scaled so that the factorised matrix has a unit diagonal; so shifts have no unit.
+// Terms that couple all unknowns (an enclosed volume) add rank-one parts to both [Sherman and Morrison 1950].
+// Memory is kept from one connectivity to the next.
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "libsheet/energy/assembly.h"
+#include "libsheet/solve/cholesky.h"
+#include "libsheet/solve/symmetric_product.h"
+
+namespace sheet {
+
+class LinearSystem {
+public:
+  LinearSystem() = default;
+  LinearSystem(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles) {
+    analyze(std::move(mesh), terms, angles);
+  }
+  // Prepares for a connectivity and the elements of these terms; what was known of another is forgotten.
+  void analyze(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles);
+  [[nodiscard]] double seconds_analysis() const { return seconds_analysis_; }
+
+  // The unknowns that have a prescribed value, one flag each, and the shift that every operator and factor has at
+  // least. Takes effect with the next Hessian and factor.
+  void hold(std::span<const char> held, double floor);
+
+  [[nodiscard]] double floor() const { return floor_; }
+
+  [[nodiscard]] EnergySum value(const Terms& terms, const Unknowns& u) { return assembly_.value(terms, u); }
+  // Value [J] and gradient [N, N m]; held unknowns have none.
+  EnergySum gradient(const Terms& terms, const Unknowns& u, Eigen::VectorXd& g);
+  // The same, and the Hessian: exact or, if definite, a positive semidefinite approximation.
+  EnergySum hessian(const Terms& terms, const Unknowns& u, bool definite, Eigen::VectorXd& g);
+
+  // Factorises the present Hessian + shift (of the scaled matrix). False if that is not positive definite; the factor
+  // is then gone.
+  [[nodiscard]] bool factorize(double shift);
+  [[nodiscard]] bool has_factor() const { return has_factor_; }
+  void forget_factor() { has_factor_ = false; }
+
+  // Of rows; the floor is a part of the operator.
+  [[nodiscard]] Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  // Forces in the order of the unknowns to rows, and steps in rows to unknowns.
+  [[nodiscard]] Eigen::VectorXd to_rows(const Eigen::VectorXd& forces) const;
+  [[nodiscard]] Eigen::VectorXd to_unknowns(const Eigen::VectorXd& rows) const;
+  // Adds to a step the translations that leave no force on the sheet as a whole, which has `residual` [rows] left: what
+  // inertia makes of a sheet that nothing holds is then exact, whatever the precision of the factor.
+  void balance(const Eigen::VectorXd& residual, Eigen::VectorXd& step) const;
+
+  // Moves u by one linearised step that takes the held unknowns to their target, so that the others make way: a
+  // starting point for motions of more than an edge. False if the matrix cannot be factorised. The factor is gone.
+  [[nodiscard]] bool spread_held_motion(const Terms& terms, const Unknowns& target, Unknowns& u);
+
+  [[nodiscard]] std::size_t unknowns() const { return assembly_.unknowns(); }
+  [[nodiscard]] const Assembly& assembly() const { return assembly_; }
+  [[nodiscard]] const SparseLower& matrix() const { return matrix_; }
+  [[nodiscard]] double flops() const { return cholesky_.flops(); }
+
+private:
+  struct RankOne {
+    double stiffness = 0;
+    Eigen::VectorXd g;
+  };
+  struct SolvedRankOne {
+    Eigen::VectorXd g, solved; // rows; solved: by the factor
+    double part = 0;
+  };
+  void find_rank_ones(const Terms& terms, const Unknowns& u);
+  void scale_to_unit_diagonal();
+  void rank_ones_to_rows();
+
+  Assembly assembly_;
+  Cholesky cholesky_;
+  SparseLower matrix_, scaled_;
+  SymmetricProduct product_;
+  Eigen::VectorXd scale_; // of rows
+  std::vector<char> held_;
+  double floor_ = 0;
+  std::vector<RankOne> of_hessian_, of_operator_; // of unknowns, of rows
+  std::vector<SolvedRankOne> of_factor_;
+  bool has_factor_ = false;
+  double seconds_analysis_ = 0;
+};
+
+} // namespace sheet

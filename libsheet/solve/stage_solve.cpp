@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solve/stage_solve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libsheet/solve/damped_newton.h"
+
+namespace sheet {
+
+namespace {
+constexpr double kUnfinished = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
+constexpr double kFarBehind = 0.1;   // of an edge: held unknowns that are this far from where inertia takes them
+} // namespace
+
+StageSolve::StageSolve(LinearSystem& system, const Terms& terms, const std::vector<Hold>& holds,
+                       const Eigen::VectorXd& scale, const NewtonOptions& options, Demand demand)
+    : system_(system), terms_(terms), holds_(holds), scale_(scale), options_(options), demand_(demand) {}
+
+// The one of lowest potential among the extrapolated state, the last known one, the sheet moved rigidly with what is
+// held, and, if what is held leaves the others behind, the linear response to its motion.
+Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, const Unknowns& safe) {
+  Unknowns best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Unknowns& u) {
+    const double potential = system_.value(terms_, u).value;
+    if (best.size() == 0 || potential < least || !std::isfinite(least)) {
+      least = potential;
+      best = u;
+    }
+  };
+  Unknowns trial = guess;
+  place_held(holds_, stage, stage.end_time, trial);
+  const double left_behind = (trial - guess).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+  consider(trial);
+  trial = safe;
+  place_held(holds_, stage, stage.end_time, trial);
+  const Unknowns target = trial;
+  consider(trial);
+  if (move_with_held(holds_, stage, stage.end_time, trial)) {
+    place_held(holds_, stage, stage.end_time, trial);
+    consider(trial);
+  }
+  if (left_behind >= kFarBehind) {
+    trial = safe;
+    if (system_.spread_held_motion(terms_, target, trial))
+      consider(trial);
+  }
+  return best;
+}
+
+bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns& safe, int iterations,
+                       NewtonReport& report, Unknowns& u) {
+  NewtonOptions newton = options_;
+  if (demand_ == Demand::converged)
+    newton.iterations = std::min(newton.iterations, iterations);
+  if (newton.iterations <= 0)
+    return false;
+  for (const auto& term : terms_)
+    term->begin(stage);
+  u = starting_guess(stage, guess, safe);
+  NewtonReport r = minimize(system_, terms_, scale_, guess, newton, u);
+  report += r;
+  if (r.converged || demand_ == Demand::converged)
+    return r.converged;
+  double gained = r.gained;
+  const auto good_enough = [&] { return gained > 0 && r.promised <= kUnfinished * gained; };
+  if (good_enough())
+    return true;
+  r = minimize_damped(system_, terms_, scale_, newton, u);
+  report += r;
+  gained += r.gained;
+  return r.converged || good_enough();
+}
+
+} // namespace sheet
