@@ -214,6 +214,7 @@ passed = {
                                                            "vertex", "N", "conserve"))),
     "start_time": stream(triangle_frame(start_position=Array(np.zeros((3, 3)), "vertex", "m", "drop"),
                                         start_time=Array(np.array([-0.125]), "frame", "s", "copy"))),
+    "director_angle": with_array("director_angle", Array(np.array([0, -0.125, 3.0]), "edge", "rad", "drop")),
 }
 
 failed = {
@@ -324,6 +325,8 @@ failed = {
     "touch_force_rule": with_array("touch_force", Array(np.zeros((3, 3)), "vertex", "N", "interpolate")),
     "start_time_infinite": with_array("start_time", Array(np.array([np.inf]), "frame", "s", "copy")),
     "start_time_rows": with_array("start_time", Array(np.zeros(2), "frame", "s", "copy")),
+    "director_angle_nan": with_array("director_angle", Array(np.full(3, np.nan), "edge", "rad", "drop")),
+    "director_angle_place": with_array("director_angle", Array(np.zeros(3), "vertex", "rad", "drop")),
 }
 
 

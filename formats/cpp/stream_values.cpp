@@ -45,6 +45,7 @@ constexpr std::array standards{
     Standard{"contact_rest", Place::frame, Type::float64, 1, "m", Transfer::drop, false},
     Standard{"contact_anchor", Place::frame, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"contact_stiffness", Place::frame, Type::float64, 2, "N/m", Transfer::drop, false},
+    Standard{"director_angle", Place::edge, Type::float64, 1, "rad", Transfer::drop, false},
     Standard{"next_output_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"step_size", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"scene", Place::frame, Type::text, 1, "1", Transfer::copy, false},
@@ -70,15 +71,29 @@ std::size_t first_not_finite(std::span<const double> values, std::size_t compone
   return static_cast<std::size_t>(at - values.begin()) / components;
 }
 
-// The distinct unordered pairs of vertices that are a side of some triangle.
-std::size_t count_edges(std::span<const std::array<std::uint32_t, 3>> triangles) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;
-  sides.reserve(3 * triangles.size());
-  for (const auto& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      sides.push_back(std::minmax({t[i], t[(i + 1) % 3]}));
-  std::sort(sides.begin(), sides.end());
-  return static_cast<std::size_t>(std::unique(sides.begin(), sides.end()) - sides.begin());
+// The distinct unordered pairs of vertices that are a side of some triangle: sorted by the lower vertex in one pass,
+// then by the higher among those of each.
+std::size_t count_edges(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint64_t vertices) {
+  const auto each_side = [&](auto&& visit) {
+    for (const auto& t : triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        visit(std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]));
+  };
+  std::vector<std::size_t> start(vertices + 1, 0);
+  each_side([&](std::uint32_t low, std::uint32_t) { ++start[low + 1]; });
+  for (std::size_t v = 0; v < vertices; ++v)
+    start[v + 1] += start[v];
+  std::vector<std::uint32_t> highs(3 * triangles.size());
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  each_side([&](std::uint32_t low, std::uint32_t high) { highs[next[low]++] = high; });
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto first = highs.begin() + static_cast<std::ptrdiff_t>(start[v]);
+    const auto last = highs.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
+    std::sort(first, last);
+    count += static_cast<std::size_t>(std::unique(first, last) - first);
+  }
+  return count;
 }
 
 std::string find_triangle_error(const Frame& frame, const Array& array) {
@@ -156,7 +171,7 @@ std::string find_value_error(const Frame& frame) {
     if (const std::string error = find_array_error(frame, array); !error.empty())
       return error;
   if (frame.edges != 0) {
-    const std::size_t edges = count_edges(frame.find("triangle")->values<std::array<std::uint32_t, 3>>());
+    const std::size_t edges = count_edges(frame.find("triangle")->values<std::array<std::uint32_t, 3>>(), frame.vertices);
     if (edges != frame.edges)
       return fmt::format("the frame counts {} edges, its triangles have {}", frame.edges, edges);
   }

@@ -53,6 +53,7 @@ _STANDARD = {
     "start_position": ("vertex", "float64", 3, "m", "drop"),
     "start_time": ("frame", "float64", 1, "s", "copy"),
     "hold": ("vertex", "uint64", 1, "1", "common"),
+    "director_angle": ("edge", "float64", 1, "rad", "drop"),
     "next_output_time": ("frame", "float64", 1, "s", "copy"),
     "step_size": ("frame", "float64", 1, "s", "copy"),
     "touch": ("vertex", "uint64", 1, "1", "common"),

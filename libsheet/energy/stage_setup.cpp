@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libsheet/geometry/area.h"
+#include "libsheet/geometry/mean_normals.h"
 
 namespace sheet {
 
@@ -36,45 +36,12 @@ RaisedMetric predicted_metric(const Vector3& start, const Vector3& change) {
   return std::isfinite(part) ? RaisedMetric(start + part * change) : a;
 }
 
-constexpr double kCancelled = 1e-8; // length of a sum of two unit vectors
-
-// position: of a vertex, by its index.
-template <class Position> std::vector<Vector3> face_normals(const Connectivity& mesh, Position position) {
-  std::vector<Vector3> normals(mesh.triangles.size());
-  for (std::size_t t = 0; t < normals.size(); ++t) {
-    const Triangle& v = mesh.triangles[t];
-    normals[t] = TriangleArea(position(v[0]), position(v[1]), position(v[2])).normal;
-  }
-  return normals;
-}
-
-// The sum of the normals at an edge along t, without its part along t.
-Vector3 sum_at_edge(const Connectivity& mesh, std::size_t edge, const std::vector<Vector3>& normals, const Vector3& t) {
-  Vector3 n = Vector3::Zero();
-  for (const auto side : mesh.edge_triangles[edge])
-    if (side != kNone)
-      n += normals[side];
-  return n - n.dot(t) * t;
-}
-
-// The mean of the face normals; where they cancel (a sheet folded flat) the direction away from the faces.
-std::vector<EdgeFrame> edge_frames(const State& state) {
-  const Connectivity& mesh = *state.mesh;
-  const auto& x = state.positions;
-  const std::vector<Vector3> normals = face_normals(mesh, [&](std::uint32_t v) { return x[v]; });
-  std::vector<EdgeFrame> frames(mesh.edges.size());
-  for (std::size_t e = 0; e < frames.size(); ++e) {
-    const Vector3 t = (x[mesh.edges[e][1]] - x[mesh.edges[e][0]]).normalized();
-    Vector3 n = sum_at_edge(mesh, e, normals, t);
-    if (n.norm() < kCancelled) {
-      const auto side = mesh.edge_triangles[e][0] != kNone ? mesh.edge_triangles[e][0] : mesh.edge_triangles[e][1];
-      n = normals[side].cross(t);
-    }
-    n -= n.dot(t) * t;
-    n.normalize();
-    frames[e] = {t, n, t.cross(n)};
-  }
-  return frames;
+std::vector<EdgeFrame> mean_normal_frames_of(const Stage& stage, const Unknowns& u) {
+  std::vector<Vector3> positions;
+  positions.reserve(stage.vertices());
+  for (std::uint32_t v = 0; v < stage.vertices(); ++v)
+    positions.push_back(stage.position(u, v));
+  return mean_normal_frames(*stage.start->mesh, positions);
 }
 
 } // namespace
@@ -94,7 +61,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
   }
   stage.inertial = stage.predicted;
   if (angles)
-    stage.frames = edge_frames(state);
+    stage.frames = director_frames(mesh, state.positions, state.director_angles);
   stage.raised.resize(mesh.triangles.size());
   const auto& x = state.positions;
   const auto& v = state.velocities;
@@ -136,18 +103,29 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
   return possible;
 }
 
-void turn_to_normals(const Stage& stage, Unknowns& u) {
+void turn_with_normals(const Stage& stage, Unknowns& u) {
   if (stage.frames.empty())
     return;
-  const Connectivity& mesh = *stage.start->mesh;
-  const std::vector<Vector3> normals = face_normals(mesh, [&](std::uint32_t v) { return stage.position(u, v); });
-  for (std::size_t e = 0; e < stage.frames.size(); ++e) {
-    const Vector3 t = (stage.position(u, mesh.edges[e][1]) - stage.position(u, mesh.edges[e][0])).normalized();
-    const Vector3 wanted = sum_at_edge(mesh, e, normals, t), brought = stage.frames[e].carried(0, t);
-    if (wanted.norm() >= kCancelled)
-      u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] =
-          std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
+  const std::vector<EdgeFrame> means = mean_normal_frames_of(stage, u);
+  const std::vector<double>& angles = stage.start->director_angles;
+  for (std::size_t e = 0; e < means.size(); ++e) {
+    const Vector3 &t = means[e].tangent, wanted = means[e].turned(angles.empty() ? 0 : angles[e]);
+    const Vector3 brought = stage.frames[e].carried(0, t);
+    u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] =
+        std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
   }
+}
+
+std::vector<double> director_angles(const Stage& stage, const Unknowns& u) {
+  std::vector<double> angles;
+  if (stage.frames.empty())
+    return angles;
+  angles.reserve(stage.frames.size());
+  const std::vector<EdgeFrame> means = mean_normal_frames_of(stage, u);
+  for (std::size_t e = 0; e < means.size(); ++e)
+    angles.push_back(means[e].angle_to(
+        stage.frames[e].carried(u[static_cast<Eigen::Index>(3 * stage.vertices() + e)], means[e].tangent)));
+  return angles;
 }
 
 void raise_as_started(Stage& stage) {

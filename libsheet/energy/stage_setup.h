@@ -14,9 +14,12 @@ namespace sheet {
 // points.
 [[nodiscard]] bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
 
-// Sets the angles of u so that each director is the mean of the normals of the triangles at its edge, as at the start:
-// a guess for positions that were extrapolated. Angles stay where the normals cancel.
-void turn_to_normals(const Stage& stage, Unknowns& u);
+// Sets the angles of u so that each director stands to the mean of the normals at its edge as it did at the start: a
+// guess for positions that were extrapolated.
+void turn_with_normals(const Stage& stage, Unknowns& u);
+
+// The angles [rad] of the directors of u from the mean of the normals at their edges; none without directors.
+[[nodiscard]] std::vector<double> director_angles(const Stage& stage, const Unknowns& u);
 
 // Raises indices with the start-of-step metric.
 void raise_as_started(Stage& stage);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a time step needs to know of a sheet: positions [m], velocities [m/s], the volume [m³] of each triangle.
+// What a time step needs to know of a sheet: positions [m], velocities [m/s], the volume [m³] of each triangle, and,
+// where it bends by directors, the angle [rad] of each edge's from the mean of the normals there.
 // Thickness is volume / area, everywhere. Connectivity is shared and constant during a step.
 #pragma once
 #include <memory>
@@ -15,6 +16,7 @@ struct State {
   std::vector<Vector3> positions;
   std::vector<Vector3> velocities;
   std::vector<double> volumes;
+  std::vector<double> director_angles; // none: all are 0
   double time = 0; // [s]
 };
 

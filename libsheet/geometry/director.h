@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mid-edge directors: unit vectors perpendicular to their edges, shared by the two triangles of an edge, and the second
 // fundamental form that they give a triangle [Grinspun et al. 2006].
-// A director is the start-of-step one (mean of the face normals), carried by the smallest rotation that takes the start
+// A director is the start-of-step one, carried by the smallest rotation that takes the start
 // direction t0 of the edge to the present one t [Bergou et al. 2010], then turned about the edge by an angle θ [rad]:
 //   n = q - (t·q)/(1 + t0·t) (t0 + t),   q = cosθ d + sinθ (t0 × d).
 // For edge i opposite vertex i, with midpoint m_i, the height g_i = n_i·(m_i - x_i) [m] gives the second form b; on the
@@ -20,6 +20,8 @@ struct EdgeFrame {
   Vector3 binormal; // t0 × d
 
   [[nodiscard]] Vector3 turned(double theta) const { return std::cos(theta) * director + std::sin(theta) * binormal; }
+  // The angle by which n, perpendicular to the edge or nearly so, is turned from the director.
+  [[nodiscard]] double angle_to(const Vector3& n) const { return std::atan2(n.dot(binormal), n.dot(director)); }
   // The director over the edge direction t (unit).
   [[nodiscard]] Vector3 carried(double theta, const Vector3& t) const {
     const Vector3 q = turned(theta);

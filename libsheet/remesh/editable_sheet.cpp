@@ -220,7 +220,9 @@ void EditableSheet::commit(const Edit& edit) {
     for (const std::uint32_t t : edit.removed)
       grid_->remove(t);
   write_vertex_rows(edit);
+  directors_.prepare(mesh_, edit, old_flat_, new_flat_, position_);
   mesh_.replace(edit.removed, edit.added, slots_);
+  directors_.commit(slots_);
   write_triangle_rows(edit);
   if (grid_)
     for (const std::uint32_t t : slots_)

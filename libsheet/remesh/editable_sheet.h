@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sheet whose mesh is being edited. Each edit is checked, then made: connectivity, volumes (thickness.h), velocities
-// (velocity.h), and every other array by its transfer rule. Sums over the sheet that no edit changes: volume, momentum
+// (velocity.h), directors (side_directors.h), and every other array by its transfer rule. Sums over the sheet that no edit changes: volume, momentum
 // of free vertices, amounts (rule conserve), and enclosed volume less what the vertices' ledgers hold (swept()).
 #pragma once
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "libsheet/remesh/edit.h"
 #include "libsheet/remesh/overlap.h"
+#include "libsheet/remesh/side_directors.h"
 #include "libsheet/remesh/thickness.h"
 #include "libsheet/remesh/triangle_grid.h"
 #include "libsheet/remesh/triangle_shape.h"
@@ -88,6 +89,7 @@ private:
   std::vector<Vector3> position_, velocity_; // velocity_: empty in a frame at rest
   std::vector<double> volume_, swept_, carried_;
   std::vector<TriangleShape> shape_;
+  SideDirectors directors_;
   std::vector<std::uint32_t> grip_;                         // of vertices, indices of grips_; empty: nothing is held
   std::vector<Grip> grips_ = {{{}, {false, false, false}}}; // the first: free
   std::vector<Axes> hold_axes_;                             // of the scene's holds

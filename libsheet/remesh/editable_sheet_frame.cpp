@@ -53,7 +53,8 @@ Array made_like(const Array& old, const std::vector<std::uint32_t>& slots, Array
 
 } // namespace
 
-EditableSheet::EditableSheet(const Frame& frame, const Scene* scene) : mesh_(frame.vertices, triangles(frame)) {
+EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
+    : mesh_(frame.vertices, triangles(frame)), directors_(frame) {
   const auto x = sheet::positions(frame);
   position_.assign(x.begin(), x.end());
   const auto u = velocities(frame);
@@ -182,6 +183,7 @@ void EditableSheet::put(Frame& frame) {
   frame.put(made_like(ledger, vertices, swept_));
   springs.put(frame);
   edges.put(frame);
+  directors_.put(kept, frame);
 }
 
 } // namespace sheet::remesh

@@ -11,6 +11,7 @@
 #include "libsheet/remesh/inlet_checks.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/contact_springs.h"
+#include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/transfer.h"
 
 namespace sheet {
@@ -273,6 +274,7 @@ private:
 
   void put() {
     const ContactSprings springs(frame_);
+    const Directors directors(frame_);
     for (const auto& [t, volume] : lengthened_)
       volumes(frame_)[t] = volume;
     if (!made_.empty())
@@ -280,6 +282,8 @@ private:
     std::copy(x_.begin(), x_.end(), positions(frame_).begin());
     frame_.erase("start_position"); // it was another border's
     springs.put(frame_);
+    if (!made_.empty())
+      directors.put(vertices_, frame_);
   }
 
   void rebuild() {

@@ -11,6 +11,7 @@
 #include "libsheet/remesh/tear_cuts.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/contact_springs.h"
+#include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/transfer.h"
 
 namespace sheet {
@@ -123,10 +124,12 @@ void put_fans(Frame& frame, const Fans& fans, const std::vector<bool>& dropped) 
   for (std::size_t v = 0; v < fans.old_vertex.size(); ++v)
     if (numbers[v] != kNone)
       apart.push_back(fans.fan_count[fans.old_vertex[v]] > 1);
+  const Directors directors(frame);
   transfer_frame(frame, vertices, kept, corners);
   const ContactSprings springs(frame);
   open_cracks(frame, apart);
   springs.put(frame);
+  directors.put(vertices, frame);
 }
 
 std::size_t count_apart(const Fans& fans) { return fans.old_vertex.size() - fans.fan_count.size(); }

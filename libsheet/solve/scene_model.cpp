@@ -6,6 +6,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/scene/overloaded.h"
+#include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -141,6 +142,10 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
     state.velocities.assign(v.begin(), v.end());
   const auto volume = volumes(frame);
   state.volumes.assign(volume.begin(), volume.end());
+  if (const Array* angles = frame.find("director_angle")) {
+    const auto angle = angles->values<double>();
+    state.director_angles.assign(angle.begin(), angle.end());
+  }
   state.time = frame.time;
   return state;
 }
@@ -153,6 +158,7 @@ void put_state(const State& state, Frame& frame) {
   put_number(frame, "start_time", "s", frame.time);
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
+  put_director_angles(state.director_angles, frame);
   frame.time = state.time;
   ++frame.step;
 }

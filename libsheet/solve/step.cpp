@@ -123,7 +123,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   Unknowns guess = stage.begin, first, last;
   for (std::size_t v = 0; v < state.positions.size(); ++v)
     guess.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
-  turn_to_normals(stage, guess);
+  turn_with_normals(stage, guess);
   if (!solve(guess, stage.begin, first))
     return Outcome::not_converged;
   if (two) {
@@ -160,6 +160,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
         two ? Vector3(x0 + (x1 - x0) / gamma) : Vector3(x0 + 0.5 * dt * (state.velocities[v] + end.velocities[v]));
     error = std::max(error, (x - lower).norm() / scale[at]);
   }
+  end.director_angles = director_angles(stage, last);
   set_held_velocities(model_.holds, end.time, dt, end);
   if (model_.reactions) {
     // What is held does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.

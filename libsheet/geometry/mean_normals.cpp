@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/geometry/mean_normals.h"
+
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr double kCancelled = 1e-8; // length of a sum of two unit vectors
+
+Vector3 across(const Vector3& n, const Vector3& t) { return n - n.dot(t) * t; }
+
+} // namespace
+
+std::vector<EdgeFrame> mean_normal_frames(const Connectivity& mesh, std::span<const Vector3> positions) {
+  std::vector<Vector3> normals(mesh.triangles.size());
+  for (std::size_t t = 0; t < normals.size(); ++t) {
+    const Triangle& v = mesh.triangles[t];
+    normals[t] = TriangleArea(positions[v[0]], positions[v[1]], positions[v[2]]).normal;
+  }
+  std::vector<EdgeFrame> frames(mesh.edges.size());
+  for (std::size_t e = 0; e < frames.size(); ++e) {
+    const Vector3 t = (positions[mesh.edges[e][1]] - positions[mesh.edges[e][0]]).normalized();
+    const auto& sides = mesh.edge_triangles[e];
+    Vector3 n = Vector3::Zero();
+    for (const auto side : sides)
+      if (side != kNone)
+        n += normals[side];
+    n = across(n, t);
+    if (n.norm() < kCancelled)
+      n = normals[sides[0] != kNone ? sides[0] : sides[1]].cross(t);
+    n = across(n, t).normalized();
+    frames[e] = {t, n, t.cross(n)};
+  }
+  return frames;
+}
+
+std::vector<EdgeFrame> director_frames(const Connectivity& mesh, std::span<const Vector3> positions,
+                                       std::span<const double> angles) {
+  std::vector<EdgeFrame> frames = mean_normal_frames(mesh, positions);
+  for (std::size_t e = 0; e < angles.size(); ++e)
+    if (angles[e] != 0) {
+      const Vector3 n = frames[e].turned(angles[e]);
+      frames[e] = {frames[e].tangent, n, frames[e].tangent.cross(n)};
+    }
+  return frames;
+}
+
+} // namespace sheet
