@@ -171,7 +171,8 @@ std::string find_value_error(const Frame& frame) {
     if (const std::string error = find_array_error(frame, array); !error.empty())
       return error;
   if (frame.edges != 0) {
-    const std::size_t edges = count_edges(frame.find("triangle")->values<std::array<std::uint32_t, 3>>(), frame.vertices);
+    const std::size_t edges =
+        count_edges(frame.find("triangle")->values<std::array<std::uint32_t, 3>>(), frame.vertices);
     if (edges != frame.edges)
       return fmt::format("the frame counts {} edges, its triangles have {}", frame.edges, edges);
   }

@@ -12,11 +12,12 @@
 //
 // Stiffness [N/m] of both parts, unless the scene says one, for a spring that stands for the area A = half of the area
 // of its vertex (the vertices of both layers get springs; edges: half of the mean of their vertices'):
-//   k = A rho h / dt²  +  200 A rho g h / d  +  mu h / (2 dt)
-// with h the mean thickness, d the contact distance, dt the length of the step that brought the features together.
-// Terms: inertia (if it is modelled): an approach is stopped within about a step; weight: ten layers compress by a
-// twentieth of d; viscosity: as stiff as the sheet itself is against stretching within a step, so that what a viscous
-// sheet presses together does not go through either. None is stiffer than what stands in the step's matrix anyway.
+//   k = A rho h / T²  +  200 A rho g h / d  +  mu h / (2 T),   T = min(sqrt(d/g), d/v)/10
+// with h the mean thickness, d the contact distance, v the speed of approach. Terms: inertia (if it is modelled): an
+// approach is stopped within a tenth of d; weight: ten layers compress by a twentieth of d; viscosity: as stiff as the
+// sheet itself is against stretching within T, so that what a viscous sheet presses together does not go through
+// either. The length of the step does not matter (where neither g nor v is, T is that), else the error of a step would
+// not fall with it.
 #pragma once
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/step_path.h"

@@ -17,7 +17,7 @@ struct State {
   std::vector<Vector3> velocities;
   std::vector<double> volumes;
   std::vector<double> director_angles; // none: all are 0
-  double time = 0; // [s]
+  double time = 0;                     // [s]
 };
 
 } // namespace sheet

@@ -46,8 +46,7 @@ struct RaisedMetric {
   // C m
   [[nodiscard]] Vector3 dissipated(const Vector3& m) const {
     const double d = 0.5 / determinant;
-    return (2 * trace.dot(m)) * trace +
-           d * Vector3(m[0] - m[1] - m[2], m[1] - m[2] - m[0], m[2] - m[0] - m[1]);
+    return (2 * trace.dot(m)) * trace + d * Vector3(m[0] - m[1] - m[2], m[1] - m[2] - m[0], m[2] - m[0] - m[1]);
   }
 
   // The positive part of a symmetric tensor S = Σ s_k (e_k ⊗ e_k), with respect to this metric, in closed form:

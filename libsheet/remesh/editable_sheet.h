@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sheet whose mesh is being edited. Each edit is checked, then made: connectivity, volumes (thickness.h), velocities
-// (velocity.h), directors (side_directors.h), and every other array by its transfer rule. Sums over the sheet that no edit changes: volume, momentum
-// of free vertices, amounts (rule conserve), and enclosed volume less what the vertices' ledgers hold (swept()).
+// (velocity.h), directors (side_directors.h), and every other array by its transfer rule. Sums over the sheet that no
+// edit changes: volume, momentum of free vertices, amounts (rule conserve), and enclosed volume less what the vertices'
+// ledgers hold (swept()).
 #pragma once
 #include <cstdint>
 #include <memory>

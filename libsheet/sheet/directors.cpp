@@ -15,9 +15,7 @@ namespace {
 
 constexpr std::string_view kName = "director_angle";
 
-std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
+std::uint64_t key_of(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 std::uint32_t heaviest(std::span<const Parent> parents) {
   return std::max_element(parents.begin(), parents.end(),
@@ -35,8 +33,8 @@ void put_director_angles(std::span<const double> angles, Frame& frame) {
       frame.edges = 0;
     return;
   }
-  Array array = formats::make_array(kName, Place::edge, formats::Type::float64, 1, "rad", formats::Transfer::drop,
-                                    angles.size());
+  Array array =
+      formats::make_array(kName, Place::edge, formats::Type::float64, 1, "rad", formats::Transfer::drop, angles.size());
   std::copy(angles.begin(), angles.end(), array.values<double>().begin());
   frame.edges = angles.size();
   frame.put(std::move(array));
@@ -77,7 +75,8 @@ void Directors::put(const Lineage& vertices, Frame& frame) const {
   const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const Frame&>(frame)));
   std::vector<Vector3> directors(mesh.edges.size(), Vector3::Zero());
   for (std::size_t e = 0; e < directors.size(); ++e) {
-    const auto known = by_ends_.find(key_of(heaviest(vertices[mesh.edges[e][0]]), heaviest(vertices[mesh.edges[e][1]])));
+    const auto known =
+        by_ends_.find(key_of(heaviest(vertices[mesh.edges[e][0]]), heaviest(vertices[mesh.edges[e][1]])));
     if (known != by_ends_.end())
       directors[e] = known->second;
   }

@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kLeastShift = 1e-14; // the first one tried when the positive form cannot be factorised, times 100 each
 constexpr double kGreatestShift = 1e2;
-constexpr double kShiftOfFree = 1e-3;   // of the positive form where motions are free that the potential does not see
-constexpr double kSufficient = 1e-4;    // of the predicted decrease [Armijo]
-constexpr double kRoundOff = 1e-14;     // of the sum of the magnitudes of the elements' energies
+constexpr double kShiftOfFree = 1e-3; // of the positive form where motions are free that the potential does not see
+constexpr double kSufficient = 1e-4;  // of the predicted decrease [Armijo]
+constexpr double kRoundOff = 1e-14;   // of the sum of the magnitudes of the elements' energies
 constexpr int kHalvings = 40;
-constexpr double kSlopeKept = 0.5;      // of the slope that may remain after a step accepted for its slope
-constexpr double kSmall = 1e-3;         // steps below this are done if the potential has no more to gain
-constexpr double kNothing = 1e-13;      // of an edge: a step that is lost in the rounding of positions
-constexpr double kFirstForcing = 0.03;  // part of the residual that conjugate gradients leave
+constexpr double kSlopeKept = 0.5;     // of the slope that may remain after a step accepted for its slope
+constexpr double kSmall = 1e-3;        // steps below this are done if the potential has no more to gain
+constexpr double kNothing = 1e-13;     // of an edge: a step that is lost in the rounding of positions
+constexpr double kFirstForcing = 0.03; // part of the residual that conjugate gradients leave
 constexpr double kLeastForcing = 1e-6;
 constexpr double kGreatestForcing = 0.1;
 constexpr int kProducts = 60;     // with the Hessian, a direction
@@ -44,8 +44,8 @@ private:
   bool evaluate_first() {
     Stopwatch watch;
     // Without a factor the Hessian is needed here anyhow.
-    energy_ = system_.has_factor() ? system_.gradient(terms_, u_, gradient_)
-                                   : system_.hessian(terms_, u_, false, gradient_);
+    energy_ =
+        system_.has_factor() ? system_.gradient(terms_, u_, gradient_) : system_.hessian(terms_, u_, false, gradient_);
     linearized_ = !system_.has_factor();
     report_.seconds_assembly += watch.lap();
     start_ = energy_.value;
@@ -156,8 +156,8 @@ private:
     const bool strict = trusted() && remains_ <= options_.tolerance;
     const bool lenient = options_.of_step_error > 0 && trusted() && norm_ <= options_.of_step_error * first_norm_ &&
                          positions_remain_ <= std::min(kLargest, options_.of_step_error * way_);
-    const bool nothing_to_gain = report_.iterations > 0 && full_ && remains_ <= kSmall &&
-                                 norm_ * norm_ <= kRoundOff * energy_.magnitude;
+    const bool nothing_to_gain =
+        report_.iterations > 0 && full_ && remains_ <= kSmall && norm_ * norm_ <= kRoundOff * energy_.magnitude;
     report_.converged = remains_ <= kNothing || strict || lenient || nothing_to_gain;
     return report_.converged;
   }
@@ -181,8 +181,7 @@ private:
     Stopwatch watch;
     const auto multiply = [&](const Eigen::VectorXd& x) { return system_.multiply(x); };
     const auto precondition = [&](const Eigen::VectorXd& b) { return system_.solve(b); };
-    ConjugateGradients cg =
-        conjugate_gradients(multiply, precondition, force_, preconditioned_, forcing(), kProducts);
+    ConjugateGradients cg = conjugate_gradients(multiply, precondition, force_, preconditioned_, forcing(), kProducts);
     if (!cg.negative)
       system_.balance(cg.residual, cg.x);
     step_ = system_.to_unknowns(cg.x);
@@ -210,8 +209,7 @@ private:
       const bool lower = energy.value <= energy_.value + kSufficient * length * slope_ + noise;
       // A small step may gain less than the potential's own round-off, which strains that nearly cancel make large;
       // then the slope decides [as in Hager and Zhang 2005].
-      const bool flatter =
-          report_.last_step <= kSmall && std::abs(trial_.dot(step_)) <= kSlopeKept * std::abs(slope_);
+      const bool flatter = report_.last_step <= kSmall && std::abs(trial_.dot(step_)) <= kSlopeKept * std::abs(slope_);
       if (finite && (lower || flatter)) {
         taken = length;
         report_.monotone = report_.monotone && (energy.value <= energy_.value + noise || !lower);

@@ -16,8 +16,9 @@ namespace {
 const double kGamma = 1 - std::sqrt(0.5);
 
 constexpr int kHalvingsBeforeEuler = 1;
-constexpr double kFloor = 1e-10;     // shift of the scaled matrix where motions are free
-constexpr int kHopeless = 4;         // times the iterations allowed, with those of unfinished substeps
+constexpr double kFloor = 1e-10;                     // shift of the scaled matrix where motions are free
+constexpr double kMuchShorter = 1e-3, kHelped = 0.3; // a step that much shorter shall have that part of the error
+constexpr int kHopeless = 4;                         // times the iterations allowed, with those of unfinished substeps
 
 // Whether every triangle still has an area beyond round-off.
 bool sound(const State& s) {
@@ -146,6 +147,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   const double gamma = stage.duration / dt;
   const std::size_t n = state.positions.size();
   double error = 0;
+  std::size_t worst = 0;
   end = state;
   end.time = state.time + dt;
   for (std::size_t v = 0; v < n; ++v) {
@@ -158,7 +160,11 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     // First-order result from the slope of the first stage, or backward Euler against the trapezoidal rule.
     const Vector3 lower =
         two ? Vector3(x0 + (x1 - x0) / gamma) : Vector3(x0 + 0.5 * dt * (state.velocities[v] + end.velocities[v]));
-    error = std::max(error, (x - lower).norm() / scale[at]);
+    const double own = (x - lower).norm() / scale[at];
+    if (own > error) {
+      error = own;
+      worst = v;
+    }
   }
   end.director_angles = director_angles(stage, last);
   set_held_velocities(model_.holds, end.time, dt, end);
@@ -173,7 +179,10 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
       }
     report.reactions = reactions(cache_->system, cache_->terms, held, last);
   }
-  report.error = std::max(report.error, error);
+  if (error > report.error) {
+    report.error = error;
+    report.worst = worst;
+  }
   return sound(end) ? Outcome::done : Outcome::shrinks_to_nothing;
 }
 
@@ -290,10 +299,12 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
   struct Trial {
     State end;
     double dt = 0, error = 0;
+    std::size_t worst = 0;
     bool flat = false;
     std::vector<Vector3> reactions;
   };
-  std::optional<Trial> best; // of those that converged
+  std::optional<Trial> best, longest; // of those that converged
+  bool jumps = false;                 // shorter steps do not help
   Trial trial;
   trial.dt = first;
   for (int tries = 0; !best || best->error > control.tolerance; ++tries) {
@@ -307,16 +318,24 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
       continue;
     }
     trial.error = report.error;
+    trial.worst = report.worst;
     trial.reactions = report.reactions;
     report.rejected += trial.error > control.tolerance;
     if (!best || trial.error < best->error)
       best = trial;
+    if (!longest)
+      longest = trial;
+    if (trial.dt <= kMuchShorter * longest->dt && trial.error > kHelped * longest->error) {
+      best = longest;
+      jumps = true;
+      break;
+    }
     trial.dt *= std::clamp(kSafety * std::sqrt(control.tolerance / trial.error), kLeast, kSafety);
   }
   if (!best) {
     Stepper& last = has_arcs() ? without_arcs() : *this;
     last.prepare_cache(state, report);
-    trial = {{}, first, 0, has_arcs(), {}};
+    trial = {{}, first, 0, 0, has_arcs(), {}};
     report.error = 0;
     while (last.attempt(state, trial.dt, Scheme::backward_euler, Demand::lower_potential, trial.end, report) !=
            Outcome::done) {
@@ -329,17 +348,20 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
            state.time, report.newton.iterations, trial.dt);
     }
     trial.error = report.error;
+    trial.worst = report.worst;
     trial.reactions = report.reactions;
     ++report.unfinished;
     best = std::move(trial);
   }
   report.inaccurate = report.unfinished == 0 && best->error > control.tolerance;
   report.error = best->error;
+  report.worst = best->worst;
   report.reactions = std::move(best->reactions);
   report.flat_fallbacks = best->flat;
   ++report.substeps;
-  const double factor =
-      report.unfinished > 0 ? 1 : std::clamp(kSafety * std::sqrt(control.tolerance / best->error), kLeast, kGreatest);
+  const double factor = report.unfinished > 0 || jumps
+                            ? 1
+                            : std::clamp(kSafety * std::sqrt(control.tolerance / best->error), kLeast, kGreatest);
   // A step that was cut to land says nothing against the longer one that was wanted.
   control.dt = std::max(best->dt * factor, factor >= 1 ? std::min(wanted, kGreatest * best->dt) : 0.0);
   state = std::move(best->end);

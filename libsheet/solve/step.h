@@ -11,7 +11,8 @@
 // what all have: a stable step of lower accuracy, in halves if need be, with up to four times the iterations. If that
 // fails too, Error(not_converged), the state untouched.
 // Steps chosen by their error are shortened instead of halved. When the iterations are spent, the most accurate step
-// that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above.
+// that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above. Where a
+// step of a thousandth is hardly more accurate, as something jumps, the long one is taken, and said to be inaccurate.
 #pragma once
 #include <memory>
 #include <string>
@@ -51,6 +52,7 @@ struct StepReport {
   int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
   NewtonReport newton;            // sums over all stages; last_step of the last one
   double error = 0;               // difference to the first-order result, in edge lengths, greatest of the substeps
+  std::size_t worst = 0;          // the vertex that has it
   std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex, at the end [N]
   double seconds_analysis = 0;
   std::vector<TermTime> terms; // assembled terms, their element work summed over threads; last: gathering

@@ -151,11 +151,18 @@ struct StepStage::Impl {
                    "accurate; shorter steps or remeshing help",
                    frame.step + 1, report.unfinished, report.substeps);
     else if (report.inaccurate > 0)
-      log::warning("step {}: its error is about {:.2g} of an edge length, above the tolerance: no step from t = {:.6g} "
-                   "s keeps to it; remeshing helps",
-                   frame.step + 1, report.error, frame.time);
+      warn_of_inaccurate(frame, state, report);
     put_state(state, frame);
     put_reactions(report.reactions, frame);
+  }
+
+  // state: at the end of the step.
+  static void warn_of_inaccurate(const Frame& frame, const State& state, const StepReport& report) {
+    const Vector3& x = state.positions[report.worst];
+    log::warning(
+        "step {}: its error is about {:.2g} of an edge length, above the tolerance, at vertex {} ({:.4g}, {:.4g}, "
+        "{:.4g}) m: no step from t = {:.6g} s keeps to it; remeshing helps",
+        frame.step + 1, report.error, report.worst, x.x(), x.y(), x.z(), frame.time);
   }
 
   static constexpr bool use_arcs = true;

@@ -62,9 +62,7 @@ int main(int argc, char** argv) {
       for (std::size_t v = 0; v < s.positions.size(); ++v)
         u.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
       Eigen::VectorXd gradient;
-      const auto derivatives = [&](bool definite) {
-        (void)system->hessian(terms, u, definite, gradient);
-      };
+      const auto derivatives = [&](bool definite) { (void)system->hessian(terms, u, definite, gradient); };
       const double exact = measure(repetitions, [&] { derivatives(false); });
       const double positive = measure(repetitions, [&] { derivatives(true); });
       bool good = system->factorize(0);

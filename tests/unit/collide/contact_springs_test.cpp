@@ -93,9 +93,20 @@ TEST(ContactSprings, NewOnesAreAtRest) {
 
 TEST(ContactSprings, StiffnessIsThatOfTheFormula) {
   const Layers layers;
-  // A = 0.02, h = 0.015, d = 0.02: inertia 0.3 / 1e-4, weight 200 * 0.3 * 10 / 0.02, viscosity 3 * 0.015 / 0.02
+  // A = 0.02, h = 0.015, d = 0.02, T = sqrt(d / 10) / 10: inertia 0.3 / T², weight 200 * 0.3 * 10 / 0.02, viscosity
+  // 3 * 0.015 / (2 T)
+  const double time = 0.1 * std::sqrt(0.02 / 10);
   for (const ContactSpring& s : layers.springs(scene_with("")))
-    EXPECT_NEAR(s.stiffness[0], 3000 + 30000 + 2.25, 1e-9);
+    EXPECT_NEAR(s.stiffness[0], 0.3 / (time * time) + 30000 + 0.5 * 3 * 0.015 / time, 1e-9);
+  // the same in a step of any length; stiffer for layers that came 0.04 m closer in 0.01 s: T = 0.02 / 4 / 10
+  Layers shorter = layers;
+  shorter.step = 1e-6;
+  EXPECT_EQ(shorter.springs(scene_with(""))[0].stiffness, layers.springs(scene_with(""))[0].stiffness);
+  Layers coming = layers;
+  for (std::size_t v = coming.start.size() / 2; v < coming.start.size(); ++v)
+    coming.start[v].z() += 0.04;
+  for (const ContactSpring& s : coming.springs(scene_with("")))
+    EXPECT_NEAR(s.stiffness[0], 0.3 / 0.25e-6 + 30000 + 0.5 * 3 * 0.015 / 5e-4, 1e-6);
   for (const ContactSpring& s : layers.springs(scene_with("stiffness = 7")))
     EXPECT_EQ(s.stiffness, (std::array<double, 2>{7, 7}));
 }
