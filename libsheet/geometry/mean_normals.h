@@ -10,7 +10,7 @@
 namespace sheet {
 
 // For each edge its direction and the mean of the normals at it, or, where these cancel (a sheet folded flat), the
-// direction away from the triangles.
+// direction into the triangles, which is the limit from a fold whose positive sides face each other.
 [[nodiscard]] std::vector<EdgeFrame> mean_normal_frames(const Connectivity& mesh, std::span<const Vector3> positions);
 
 // The same, turned about the edges by these angles [rad], one an edge; none: by nothing.

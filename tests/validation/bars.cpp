@@ -90,6 +90,34 @@ TEST(Validation, RolledPatch) {
     }
 }
 
+// With 4 and 16 times the steps a result settles: what a sheet forgets from step to step would add up.
+TEST(Validation, NothingGrowsAsStepsShrink) {
+  struct Size {
+    const char* name;
+    double edge;
+    int steps;
+  };
+  for (const Size& size : {Size{"V1", 0.5, 10},
+                           {"V3", 0.5, 10},
+                           {"V5", 0.1, 10},
+                           {"V7", 0.4, 10},
+                           {"V8", 0.3, 10},
+                           {"V9", 0.2, 10},
+                           {"V13", 0.125, 20},
+                           {"V17", 0.125, 20}})
+    for (const Shell shell : {Shell::arcs, Shell::mid_edge}) {
+      double value[3];
+      for (int k = 0; k < 3; ++k) {
+        Settings s = settings(size.name, size.edge, size.steps << (2 * k));
+        s.bending = shell;
+        value[k] = run(find_case(size.name), s).error;
+      }
+      EXPECT_LE(std::abs(value[2] - value[1]), 0.5 * std::abs(value[1] - value[0]) + 1e-6)
+          << size.name << (shell == Shell::arcs ? " with arcs: " : ": ") << value[0] << ' ' << value[1] << ' '
+          << value[2];
+    }
+}
+
 TEST(Validation, WavesOnABath) {
   for (const int set : {1, 2, 3, 4, 5})
     EXPECT_LT(error("V15", settings("V15", 1.0 / 32, 1, set)), 0.03) << "set " << set;
