@@ -39,6 +39,12 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
     bool shared;        // the update matrix lies in upper
   };
 
+  // Where a node's rows lie in the front at work, and in its panel's columns.
+  struct RowPlace {
+    std::uint32_t row, at;
+    bool one_strip;
+  };
+
   Supernodes symbolic;
   std::vector<Place> place;
   std::vector<int> tasks;               // fronts: roots of subtrees, and those above that have no children
@@ -53,6 +59,7 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
   KeptBuffer<Real> panels, upper;
   mutable KeptBuffer<Real> vectors;
   mutable std::vector<std::atomic<int>> waiting; // children of a front above that are not done
+  tbb::enumerable_thread_specific<std::vector<RowPlace>> row_places; // by node
   tbb::enumerable_thread_specific<KeptBuffer<Real>> stacks;
   mutable tbb::enumerable_thread_specific<KeptBuffer<Real>> sums;
   int widest = 0; // pivots
@@ -65,7 +72,7 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
   void plan_upper();
   void plan_fronts(const SparseLower& structure);
   void place_entries(const SparseLower& structure);
-  void place_front(const SparseLower& structure, int s, std::vector<std::uint32_t>& row_of);
+  void place_front(const SparseLower& structure, int s, std::vector<RowPlace>& place_of);
 
   Real* update_of(int s, Real* stack_base) const {
     return (place[s].shared ? upper.data() : stack_base) + place[s].update;
@@ -193,35 +200,36 @@ template <class Real> void SupernodalFactor<Real>::Impl::plan_fronts(const Spars
   entry_at.reserve(entries);
 }
 
-// Where the entries of the front's columns go, and the rows of its children. row_of: for each node, scratch.
+// Where the entries of the front's columns go, and the rows of its children. place_of: for each node, scratch.
 template <class Real>
 void SupernodalFactor<Real>::Impl::place_front(const SparseLower& structure, int s,
-                                               std::vector<std::uint32_t>& row_of) {
+                                               std::vector<RowPlace>& place_of) {
   const Supernode& f = symbolic.fronts[s];
   const Shape front = shape(s);
+  const auto at = [&](std::uint32_t r) {
+    return static_cast<std::uint32_t>(front.panel_strip(static_cast<int>(r / S)) + r % S);
+  };
   std::uint32_t row = 0;
   const auto number = [&](int node) {
-    row_of[node] = row;
-    row += static_cast<std::uint32_t>(symbolic.width(symbolic.node_at[node]));
+    const auto width = static_cast<std::uint32_t>(symbolic.width(symbolic.node_at[node]));
+    place_of[node] = {row, at(row), row % S + width <= S};
+    row += width;
   };
   for (int k = f.first_node; k < f.end_node; ++k)
     number(k);
   for (std::size_t p = f.first_touched; p < f.end_touched; ++p)
     number(symbolic.touched[p]);
-  const auto at = [&](std::uint32_t r) {
-    return static_cast<std::uint32_t>(front.panel_strip(static_cast<int>(r) / S) + r % S);
-  };
   for (int k = f.first_node; k < f.end_node; ++k) {
     const int node = symbolic.node_at[k], c = symbolic.node_first[node];
     std::uint32_t* out = entry_at.data() + entry_start[node];
+    const auto put = [&](const RowPlace& r, int width) {
+      for (int d = 0; d < width; ++d)
+        *out++ = r.one_strip ? r.at + d : at(r.row + d);
+    };
     if (structure.starts[c] < structure.starts[c + 1] && structure.rows[structure.starts[c]] == c)
-      for (int d = 0; d < symbolic.width(node); ++d)
-        *out++ = at(row_of[k] + d);
-    for (const int other : symbolic.neighbours(node)) {
-      const std::uint32_t r = row_of[symbolic.rank[other]];
-      for (int d = 0; d < symbolic.width(other); ++d)
-        *out++ = at(r + d);
-    }
+      put(place_of[k], symbolic.width(node));
+    for (const int other : symbolic.neighbours(node))
+      put(place_of[symbolic.rank[other]], symbolic.width(other));
   }
   for (int i = 0; i < f.children; ++i) {
     const int c = symbolic.children[f.first_child + i];
@@ -231,7 +239,7 @@ void SupernodalFactor<Real>::Impl::place_front(const SparseLower& structure, int
     for (std::size_t p = child.first_touched; p < child.end_touched; ++p) {
       const int node = symbolic.touched[p], width = symbolic.width(symbolic.node_at[node]);
       for (int d = 0; d < width; ++d)
-        *out++ = row_of[node] + d;
+        *out++ = place_of[node].row + d;
       in_panel += node < f.end_node ? width : 0;
     }
     place[c].in_panel = in_panel;
@@ -239,10 +247,10 @@ void SupernodalFactor<Real>::Impl::place_front(const SparseLower& structure, int
 }
 
 template <class Real> void SupernodalFactor<Real>::Impl::place_entries(const SparseLower& structure) {
-  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> row_of;
   tbb::parallel_for(tbb::blocked_range<int>(0, count(), kFrontsAtOnce), [&](const auto& range) {
-    auto& rows = row_of.local();
-    rows.resize(symbolic.node_at.size());
+    std::vector<RowPlace>& rows = row_places.local();
+    if (rows.size() < symbolic.node_at.size())
+      rows.resize(symbolic.node_at.size());
     for (int s = range.begin(); s < range.end(); ++s)
       place_front(structure, s, rows);
   });
@@ -291,15 +299,19 @@ bool SupernodalFactor<Real>::Impl::eliminate(const SparseLower& a, Real shift, i
 // Calls front(s, stack) for every front after its children.
 template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::upwards(const Front& front) const {
   const auto& fronts = symbolic.fronts;
+  const FlushToZero flush;
+  tbb::task_group_context context(tbb::task_group_context::bound,
+                                  tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
   for (int s = 0; s < count(); ++s)
     if (place[s].above)
       waiting[s].store(fronts[s].children, std::memory_order_relaxed);
-  tbb::parallel_for(0, static_cast<int>(tasks.size()), [&](int t) {
+  const auto climb = [&](int t) {
     for (int s = task_first[t]; s <= tasks[t]; ++s)
       front(s);
     for (int s = fronts[tasks[t]].parent; s != -1 && waiting[s].fetch_sub(1) == 1; s = fronts[s].parent)
       front(s);
-  });
+  };
+  tbb::parallel_for(0, static_cast<int>(tasks.size()), climb, context);
 }
 
 // Calls front(s) for every front after its parent.
@@ -312,13 +324,17 @@ template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::
   for (int s = 0; s < count(); ++s)
     if (fronts[s].parent == -1)
       roots.push_back(s);
-  tbb::parallel_for_each(roots.begin(), roots.end(), [&](int s, tbb::feeder<int>& feeder) {
+  const FlushToZero flush;
+  tbb::task_group_context context(tbb::task_group_context::bound,
+                                  tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
+  const auto descend = [&](int s, tbb::feeder<int>& feeder) {
     for (int k = s, end = first_of[s] == -1 ? s : first_of[s]; k >= end; --k)
       front(k);
     if (place[s].above)
       for (int i = 0; i < fronts[s].children; ++i)
         feeder.add(symbolic.children[fronts[s].first_child + i]);
-  });
+  };
+  tbb::parallel_for_each(roots.begin(), roots.end(), descend, context);
 }
 
 template <class Real> void SupernodalFactor<Real>::Impl::forward(int s, const Eigen::VectorXd& b) const {
@@ -352,7 +368,7 @@ template <class Real> void SupernodalFactor<Real>::Impl::backward(int s, Eigen::
       own[r] = from[*rows++];
   }
   KeptBuffer<Real>& scratch = sums.local();
-  scratch.reserve(static_cast<std::size_t>(widest) * S);
+  scratch.reserve(static_cast<std::size_t>(widest + S) * S);
   front_kernels<Real>().backward(shape(s), panels.data() + place[s].panel, own, scratch.data());
   const Real* in = own;
   for (int k = f.first_node; k < f.end_node; ++k) {

@@ -89,6 +89,7 @@ void Supernodes::build_graph(const SparseLower& a) {
   node_first.push_back(a.size);
   graph_start_.resize(nodes + 1);
   graph_.resize(std::max(graph_.size(), a.rows.size()));
+  upper_start_.assign(nodes + 1, 0);
   int end = 0;
   for (std::size_t v = 0; v < nodes; ++v) {
     graph_start_[v] = end;
@@ -96,7 +97,9 @@ void Supernodes::build_graph(const SparseLower& a) {
     for (int p = a.starts[c]; p < a.starts[c + 1];) {
       const int node = node_of_[a.rows[p]];
       graph_[end] = node;
-      end += node != static_cast<int>(v);
+      const bool other = node != static_cast<int>(v);
+      end += other;
+      upper_start_[node + 1] += other;
       p += width(node);
     }
   }
@@ -106,9 +109,6 @@ void Supernodes::build_graph(const SparseLower& a) {
 // [Liu 1990], from the rows of the lower triangle, with compressed paths.
 void Supernodes::find_tree() {
   const int nodes = static_cast<int>(graph_start_.size()) - 1;
-  upper_start_.assign(nodes + 1, 0);
-  for (int p = 0; p < graph_start_[nodes]; ++p)
-    ++upper_start_[graph_[p] + 1];
   for (int v = 0; v < nodes; ++v)
     upper_start_[v + 1] += upper_start_[v];
   next_.assign(upper_start_.begin(), upper_start_.end());

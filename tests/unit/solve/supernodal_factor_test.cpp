@@ -171,6 +171,25 @@ TYPED_TEST(SupernodalFactorTest, BigDenseAndDisconnectedBlocks) {
   expect_solves(factor, a, 0);
 }
 
+// A factor that decays below the least normal float; the caller keeps its own arithmetic.
+TYPED_TEST(SupernodalFactorTest, TinyNumbersAreZeroWithinOnly) {
+  const int size = 400;
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+  for (int k = 0; k < size; ++k) {
+    dense(k, k) = 1;
+    for (int far : {1, 20})
+      if (k + far < size)
+        dense(k + far, k) = dense(k, k + far) = 1e-5;
+  }
+  const SparseLower a = sparse(dense);
+  SupernodalFactor<TypeParam> factor;
+  factor.analyze(a);
+  expect_solves(factor, a, 0);
+  volatile double tiny = std::numeric_limits<double>::min();
+  tiny = tiny / 4;
+  EXPECT_GT(tiny, 0);
+}
+
 TYPED_TEST(SupernodalFactorTest, LongChainAndArrow) {
   SupernodalFactor<TypeParam> factor;
   for (const bool arrow : {false, true}) {
