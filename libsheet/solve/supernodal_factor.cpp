@@ -22,6 +22,22 @@ namespace {
 constexpr double kTaskPart = 1.0 / 48; // of all products: subtrees below it are one task
 constexpr double kLeastTask = 2e6;     // products of a subtree that is never divided
 constexpr int kFrontsAtOnce = 64;      // of a task that only places entries
+
+// Numbers too small for full precision count as zero while it lives: processors are slow with them, and the factors of
+// matrices with a strong diagonal are full of them in float. TBB carries this setting to the threads of a context.
+class FlushToZero {
+public:
+  FlushToZero() : saved_(__builtin_ia32_stmxcsr()) { __builtin_ia32_ldmxcsr(saved_ | kResults | kInputs); }
+  ~FlushToZero() { __builtin_ia32_ldmxcsr(saved_); }
+  FlushToZero(const FlushToZero&) = delete;
+  FlushToZero& operator=(const FlushToZero&) = delete;
+
+private:
+  static constexpr unsigned kResults = 0x8000, kInputs = 0x0040;
+  unsigned saved_;
+};
+
+constexpr auto kCarrySetting = tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings;
 } // namespace
 
 template <class Real> struct SupernodalFactor<Real>::Impl {
@@ -300,8 +316,7 @@ bool SupernodalFactor<Real>::Impl::eliminate(const SparseLower& a, Real shift, i
 template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::upwards(const Front& front) const {
   const auto& fronts = symbolic.fronts;
   const FlushToZero flush;
-  tbb::task_group_context context(tbb::task_group_context::bound,
-                                  tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
+  tbb::task_group_context context(tbb::task_group_context::bound, kCarrySetting);
   for (int s = 0; s < count(); ++s)
     if (place[s].above)
       waiting[s].store(fronts[s].children, std::memory_order_relaxed);
@@ -325,8 +340,7 @@ template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::
     if (fronts[s].parent == -1)
       roots.push_back(s);
   const FlushToZero flush;
-  tbb::task_group_context context(tbb::task_group_context::bound,
-                                  tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
+  tbb::task_group_context context(tbb::task_group_context::bound, kCarrySetting);
   const auto descend = [&](int s, tbb::feeder<int>& feeder) {
     for (int k = s, end = first_of[s] == -1 ? s : first_of[s]; k >= end; --k)
       front(k);
