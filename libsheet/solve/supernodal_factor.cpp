@@ -21,6 +21,7 @@ namespace sheet {
 namespace {
 constexpr double kTaskPart = 1.0 / 48; // of all products: subtrees below it are one task
 constexpr double kLeastTask = 2e6;     // products of a subtree that is never divided
+constexpr std::size_t kAhead = 1 << 14; // bytes of the next front that a solution asks for
 constexpr int kFrontsAtOnce = 64;      // of a task that only places entries
 
 // Numbers too small for full precision count as zero while it lives: processors are slow with them, and the factors of
@@ -98,6 +99,7 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
   }
   void scatter(const SparseLower& a, Real shift, int s) const;
   bool eliminate(const SparseLower& a, Real shift, int s, Real* stack_base) const;
+  void ask_for(int s) const;
   void forward(int s, const Eigen::VectorXd& b) const;
   void backward(int s, Eigen::VectorXd& x) const;
   template <class Front> void upwards(const Front& front) const;
@@ -351,6 +353,14 @@ template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::
   tbb::parallel_for_each(roots.begin(), roots.end(), descend, context);
 }
 
+// The beginning of a panel from memory, while another front is solved.
+template <class Real> void SupernodalFactor<Real>::Impl::ask_for(int s) const {
+  const char* const panel = reinterpret_cast<const char*>(panels.data() + place[s].panel);
+  const std::size_t bytes = std::min(kAhead, sizeof(Real) * static_cast<std::size_t>(shape(s).panel_size()));
+  for (std::size_t at = 0; at < bytes; at += 64)
+    __builtin_prefetch(panel + at);
+}
+
 template <class Real> void SupernodalFactor<Real>::Impl::forward(int s, const Eigen::VectorXd& b) const {
   const Supernode& f = symbolic.fronts[s];
   Real* const x = vectors.data() + place[s].vector;
@@ -369,6 +379,8 @@ template <class Real> void SupernodalFactor<Real>::Impl::forward(int s, const Ei
     for (int r = 0; r < child.rows - child.pivots; ++r)
       x[rows[r]] += from[r];
   }
+  if (s + 1 < count())
+    ask_for(s + 1);
   front_kernels<Real>().forward(shape(s), panels.data() + place[s].panel, x);
 }
 
@@ -383,6 +395,8 @@ template <class Real> void SupernodalFactor<Real>::Impl::backward(int s, Eigen::
   }
   KeptBuffer<Real>& scratch = sums.local();
   scratch.reserve(static_cast<std::size_t>(widest + S) * S);
+  if (s > 0)
+    ask_for(s - 1);
   front_kernels<Real>().backward(shape(s), panels.data() + place[s].panel, own, scratch.data());
   const Real* in = own;
   for (int k = f.first_node; k < f.end_node; ++k) {
