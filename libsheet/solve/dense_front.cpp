@@ -2,9 +2,8 @@
 // Blocks of a front: which strips and columns one call of a kernel works on.
 #include "libsheet/solve/dense_front.h"
 
-#include <atomic>
+#include <algorithm>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 namespace sheet {
@@ -12,20 +11,25 @@ namespace sheet {
 namespace {
 
 constexpr int kBlock = 128;       // pivots eliminated before the rest is updated by them
-constexpr int kDepth = 256;       // columns of a product at once: two strips of them fill the first cache
-constexpr int kGroup = 8;         // strips of a task
+constexpr int kDepth = 384;       // columns of a product at once
+constexpr int kRowGroup = 256;    // rows of a task
 constexpr int kColumnGroup = 256; // columns of a task
 constexpr double kParallel = 5e5; // products below which a task is not worth its start
 
-// Calls body(first, last) on groups of the strips [t0, t1), in parallel if there is enough to do.
-template <class Body> void each_group(int t0, int t1, double products, const Body& body) {
-  const int groups = (t1 - t0 + kGroup - 1) / kGroup;
-  const auto run = [&](int g) { body(t0 + g * kGroup, std::min(t1, t0 + (g + 1) * kGroup)); };
-  if (groups > 1 && products > kParallel)
-    tbb::parallel_for(0, groups, run);
+// Calls run(0) ... run(tasks - 1), in parallel if there is enough to do.
+template <class Run> void each_task(int tasks, double products, const Run& run) {
+  if (tasks > 1 && products > kParallel)
+    tbb::parallel_for(0, tasks, run);
   else
-    for (int g = 0; g < groups; ++g)
-      run(g);
+    for (int task = 0; task < tasks; ++task)
+      run(task);
+}
+
+// Calls body(first, last) on groups of the strips [t0, t1).
+template <class Real, class Body> void each_group(int t0, int t1, double products, const Body& body) {
+  constexpr int size = kRowGroup / kStrip<Real>;
+  each_task((t1 - t0 + size - 1) / size, products,
+            [&](int g) { body(t0 + g * size, std::min(t1, t0 + (g + 1) * size)); });
 }
 
 // Columns [j0, j1) of strips [t0, t1), less the products of columns [0, depth); columns right of the diagonal are left
@@ -58,7 +62,7 @@ template <class Real> bool factor_panel(const FrontShape<Real>& shape, Real* pan
     const int q = std::min(p + kBlock, shape.pivots), below = (q + S - 1) / S;
     const double entries = static_cast<double>(shape.rows - p) * (q - p);
     if (p > 0)
-      each_group(p / S, strips, entries * p, [&](int t0, int t1) {
+      each_group<Real>(p / S, strips, entries * p, [&](int t0, int t1) {
         subtract_block(
             shape, panel, t0, t1, p, q, p, false, [&](int t) { return S * (t + 1); },
             [&](int t) { return panel + shape.panel_strip(t); });
@@ -66,7 +70,7 @@ template <class Real> bool factor_panel(const FrontShape<Real>& shape, Real* pan
     for (int t = p / S; t < below; ++t)
       if (!kernels.eliminate(shape, panel, p, q, t, 1))
         return false;
-    each_group(below, strips, entries * (q - p), [&](int t0, int t1) {
+    each_group<Real>(below, strips, entries * (q - p), [&](int t0, int t1) {
       for (int t = t0; t < t1; t += 2)
         kernels.eliminate(shape, panel, p, q, t, std::min(2, t1 - t));
     });
@@ -75,28 +79,33 @@ template <class Real> bool factor_panel(const FrontShape<Real>& shape, Real* pan
 }
 
 template <class Real> void form_update(const FrontShape<Real>& shape, const Real* panel, Real* update) {
-  const int first = shape.first_update_column(), strips = shape.strips();
-  const double products = 0.5 * shape.pivots * (shape.rows - first) * (shape.rows - first);
+  constexpr int size = kRowGroup / kStrip<Real>;
+  const int first = shape.first_update_column(), first_strip = shape.first_update_strip(), strips = shape.strips();
+  const int rows = (strips - first_strip + size - 1) / size;
+  const int columns = (shape.rows - first + kColumnGroup - 1) / kColumnGroup;
   const auto end = [&](int t) { return shape.update_columns_end(t); };
   const auto start = [&](int t) { return update + shape.update_strip(t); };
-  each_group(shape.first_update_strip(), strips, products, [&](int t0, int t1) {
-    for (int j = first; j < end(t1 - 1); j += kColumnGroup)
+  const auto run = [&](int tile) {
+    const int t0 = first_strip + tile / columns * size, t1 = std::min(strips, t0 + size);
+    const int j = first + tile % columns * kColumnGroup;
+    if (j < end(t1 - 1))
       subtract_block(shape, panel, t0, t1, j, j + kColumnGroup, shape.pivots, true, end, start);
-  });
+  };
+  each_task(rows * columns, 0.5 * shape.pivots * (shape.rows - first) * (shape.rows - first), run);
 }
 
 template <class Real>
 void add_child_to_panel(const ChildUpdate<Real>& child, const FrontShape<Real>& shape, Real* panel) {
   const int first = child.shape.first_update_strip(), rows = child.shape.rows - child.shape.pivots;
-  each_group(first, child.shape.strips(), static_cast<double>(rows) * child.in_panel,
-             [&](int t0, int t1) { front_kernels<Real>().add_to_panel(child, shape, panel, t0, t1); });
+  each_group<Real>(first, child.shape.strips(), static_cast<double>(rows) * child.in_panel,
+                   [&](int t0, int t1) { front_kernels<Real>().add_to_panel(child, shape, panel, t0, t1); });
 }
 
 template <class Real>
 void add_child_to_update(const ChildUpdate<Real>& child, const FrontShape<Real>& shape, Real* update) {
   const double rows = child.shape.rows - child.shape.pivots - child.in_panel;
-  each_group(child.shape.first_update_strip(), child.shape.strips(), rows * rows,
-             [&](int t0, int t1) { front_kernels<Real>().add_to_update(child, shape, update, t0, t1); });
+  each_group<Real>(child.shape.first_update_strip(), child.shape.strips(), rows * rows,
+                   [&](int t0, int t1) { front_kernels<Real>().add_to_update(child, shape, update, t0, t1); });
 }
 
 template bool factor_panel(const FrontShape<float>&, float*);

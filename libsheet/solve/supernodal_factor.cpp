@@ -19,10 +19,10 @@
 namespace sheet {
 
 namespace {
-constexpr double kTaskPart = 1.0 / 48; // of all products: subtrees below it are one task
-constexpr double kLeastTask = 2e6;     // products of a subtree that is never divided
+constexpr double kTaskPart = 1.0 / 48;  // of all products: subtrees below it are one task
+constexpr double kLeastTask = 2e6;      // products of a subtree that is never divided
 constexpr std::size_t kAhead = 1 << 14; // bytes of the next front that a solution asks for
-constexpr int kFrontsAtOnce = 64;      // of a task that only places entries
+constexpr int kFrontsAtOnce = 64;       // of a task that only places entries
 
 // Numbers too small for full precision count as zero while it lives: processors are slow with them, and the factors of
 // matrices with a strong diagonal are full of them in float. TBB carries this setting to the threads of a context.
@@ -59,7 +59,7 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
   // Where a node's rows lie in the front at work, and in its panel's columns.
   struct RowPlace {
     std::uint32_t row, at;
-    bool one_strip;
+    std::int32_t width; // negative if a strip ends within them
   };
 
   Supernodes symbolic;
@@ -75,7 +75,7 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
   KeptBuffer<std::uint32_t> places;   // rows of the parent's front
   KeptBuffer<Real> panels, upper;
   mutable KeptBuffer<Real> vectors;
-  mutable std::vector<std::atomic<int>> waiting; // children of a front above that are not done
+  mutable std::vector<std::atomic<int>> waiting;                     // children of a front above that are not done
   tbb::enumerable_thread_specific<std::vector<RowPlace>> row_places; // by node
   tbb::enumerable_thread_specific<KeptBuffer<Real>> stacks;
   mutable tbb::enumerable_thread_specific<KeptBuffer<Real>> sums;
@@ -88,8 +88,8 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
   void plan_stacks();
   void plan_upper();
   void plan_fronts(const SparseLower& structure);
-  void place_entries(const SparseLower& structure);
-  void place_front(const SparseLower& structure, int s, std::vector<RowPlace>& place_of);
+  void place_entries();
+  void place_front(int s, std::vector<RowPlace>& place_of);
 
   Real* update_of(int s, Real* stack_base) const {
     return (place[s].shared ? upper.data() : stack_base) + place[s].update;
@@ -219,9 +219,7 @@ template <class Real> void SupernodalFactor<Real>::Impl::plan_fronts(const Spars
 }
 
 // Where the entries of the front's columns go, and the rows of its children. place_of: for each node, scratch.
-template <class Real>
-void SupernodalFactor<Real>::Impl::place_front(const SparseLower& structure, int s,
-                                               std::vector<RowPlace>& place_of) {
+template <class Real> void SupernodalFactor<Real>::Impl::place_front(int s, std::vector<RowPlace>& place_of) {
   const Supernode& f = symbolic.fronts[s];
   const Shape front = shape(s);
   const auto at = [&](std::uint32_t r) {
@@ -229,8 +227,9 @@ void SupernodalFactor<Real>::Impl::place_front(const SparseLower& structure, int
   };
   std::uint32_t row = 0;
   const auto number = [&](int node) {
-    const auto width = static_cast<std::uint32_t>(symbolic.width(symbolic.node_at[node]));
-    place_of[node] = {row, at(row), row % S + width <= S};
+    const auto width = static_cast<std::uint32_t>(symbolic.width_at[node]);
+    const auto rows = static_cast<std::int32_t>(width);
+    place_of[node] = {row, at(row), row % S + width <= S ? rows : -rows};
     row += width;
   };
   for (int k = f.first_node; k < f.end_node; ++k)
@@ -238,16 +237,18 @@ void SupernodalFactor<Real>::Impl::place_front(const SparseLower& structure, int
   for (std::size_t p = f.first_touched; p < f.end_touched; ++p)
     number(symbolic.touched[p]);
   for (int k = f.first_node; k < f.end_node; ++k) {
-    const int node = symbolic.node_at[k], c = symbolic.node_first[node];
+    const int node = symbolic.node_at[k];
     std::uint32_t* out = entry_at.data() + entry_start[node];
-    const auto put = [&](const RowPlace& r, int width) {
-      for (int d = 0; d < width; ++d)
-        *out++ = r.one_strip ? r.at + d : at(r.row + d);
+    const auto put = [&](const RowPlace& r) {
+      for (int d = 0; d < r.width; ++d)
+        *out++ = r.at + d;
+      for (int d = 0; d < -r.width; ++d)
+        *out++ = at(r.row + d);
     };
-    if (structure.starts[c] < structure.starts[c + 1] && structure.rows[structure.starts[c]] == c)
-      put(place_of[k], symbolic.width(node));
-    for (const int other : symbolic.neighbours(node))
-      put(place_of[symbolic.rank[other]], symbolic.width(other));
+    if (symbolic.diagonal[node])
+      put(place_of[k]);
+    for (const int other : symbolic.neighbours(k))
+      put(place_of[other]);
   }
   for (int i = 0; i < f.children; ++i) {
     const int c = symbolic.children[f.first_child + i];
@@ -255,7 +256,7 @@ void SupernodalFactor<Real>::Impl::place_front(const SparseLower& structure, int
     std::uint32_t* out = places.data() + place[c].places;
     int in_panel = 0;
     for (std::size_t p = child.first_touched; p < child.end_touched; ++p) {
-      const int node = symbolic.touched[p], width = symbolic.width(symbolic.node_at[node]);
+      const int node = symbolic.touched[p], width = symbolic.width_at[node];
       for (int d = 0; d < width; ++d)
         *out++ = place_of[node].row + d;
       in_panel += node < f.end_node ? width : 0;
@@ -264,13 +265,13 @@ void SupernodalFactor<Real>::Impl::place_front(const SparseLower& structure, int
   }
 }
 
-template <class Real> void SupernodalFactor<Real>::Impl::place_entries(const SparseLower& structure) {
+template <class Real> void SupernodalFactor<Real>::Impl::place_entries() {
   tbb::parallel_for(tbb::blocked_range<int>(0, count(), kFrontsAtOnce), [&](const auto& range) {
     std::vector<RowPlace>& rows = row_places.local();
     if (rows.size() < symbolic.node_at.size())
       rows.resize(symbolic.node_at.size());
     for (int s = range.begin(); s < range.end(); ++s)
-      place_front(structure, s, rows);
+      place_front(s, rows);
   });
 }
 
@@ -418,7 +419,7 @@ template <class Real> void SupernodalFactor<Real>::analyze(const SparseLower& st
   impl_->plan_stacks();
   impl_->plan_upper();
   impl_->plan_fronts(structure);
-  impl_->place_entries(structure);
+  impl_->place_entries();
 }
 
 template <class Real> bool SupernodalFactor<Real>::factorize(const SparseLower& a, double shift) {

@@ -90,10 +90,12 @@ void Supernodes::build_graph(const SparseLower& a) {
   graph_start_.resize(nodes + 1);
   graph_.resize(std::max(graph_.size(), a.rows.size()));
   upper_start_.assign(nodes + 1, 0);
+  diagonal.resize(nodes);
   int end = 0;
   for (std::size_t v = 0; v < nodes; ++v) {
     graph_start_[v] = end;
     const int c = node_first[v];
+    diagonal[v] = a.starts[c] < a.starts[c + 1] && a.rows[a.starts[c]] == c;
     for (int p = a.starts[c]; p < a.starts[c + 1];) {
       const int node = node_of_[a.rows[p]];
       graph_[end] = node;
@@ -176,7 +178,7 @@ void Supernodes::count_columns() {
     const int v = post_[k];
     if (parent_[v] != -1)
       count_[parent_[v]] -= width(v);
-    for (const int row : neighbours(v)) {
+    for (const int row : of_graph(v)) {
       if (first_[v] <= highest_[row])
         continue; // not a leaf of the row's subtree
       highest_[row] = first_[v];
@@ -263,11 +265,13 @@ void Supernodes::number_fronts() {
       ++fronts[f.parent].children;
   }
   node_at.resize(nodes);
-  rank.resize(nodes);
+  rank_.resize(nodes);
+  width_at.resize(nodes);
   for (int k = 0; k < nodes; ++k) {
     const int v = post_[k];
-    rank[v] = fronts[front_of[v]].end_node++;
-    node_at[rank[v]] = v;
+    rank_[v] = fronts[front_of[v]].end_node++;
+    node_at[rank_[v]] = v;
+    width_at[rank_[v]] = width(v);
   }
   for (Supernode& f : fronts) {
     f.first_child = child;
@@ -280,6 +284,7 @@ void Supernodes::number_fronts() {
       children[fronts[up].first_child + fronts[up].children++] = s;
 }
 
+// The rows of the children and the neighbours of the pivots; from here on the graph names nodes by their rank.
 void Supernodes::find_rows() {
   mark_.assign(node_at.size(), -1);
   touched.clear();
@@ -308,15 +313,17 @@ void Supernodes::find_rows() {
       if (const int c = children[f.first_child + i]; c != greatest)
         add_child(c);
     for (int k = f.first_node; k < f.end_node; ++k)
-      for (const int v : neighbours(node_at[k]))
-        add(rank[v]);
+      for (int p = graph_start_[node_at[k]]; p < graph_start_[node_at[k] + 1]; ++p) {
+        graph_[p] = rank_[graph_[p]]; // for neighbours()
+        add(graph_[p]);
+      }
     f.end_touched = touched.size();
     const auto begin = touched.begin() + static_cast<std::ptrdiff_t>(f.first_touched);
     std::sort(touched.begin() + sorted, touched.end());
     std::inplace_merge(begin, touched.begin() + sorted, touched.end());
     f.rows = f.pivots;
     for (auto p = begin; p != touched.end(); ++p)
-      f.rows += width(node_at[*p]);
+      f.rows += width_at[*p];
   }
 }
 

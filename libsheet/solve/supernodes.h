@@ -33,15 +33,17 @@ public:
   std::vector<int> touched;    // nodes in the order of elimination, ascending in each front
   std::vector<int> node_first; // first unknown of a node as given, and the end
   std::vector<int> node_at;    // the given number of the node that is eliminated k-th
-  std::vector<int> rank;       // its inverse
+  std::vector<int> width_at;   // its unknowns
+  std::vector<char> diagonal;  // whether a node as given has entries on the diagonal
 
-  [[nodiscard]] int width(int node) const { return node_first[node + 1] - node_first[node]; }
-  // Nodes after `node`, both as given, in its column of the matrix.
-  [[nodiscard]] std::span<const int> neighbours(int node) const {
-    return {graph_.data() + graph_start_[node], static_cast<std::size_t>(graph_start_[node + 1] - graph_start_[node])};
-  }
+  // The k-th node's neighbours after it, by their order of elimination, in the order of the matrix's rows.
+  [[nodiscard]] std::span<const int> neighbours(int k) const { return of_graph(node_at[k]); }
 
 private:
+  [[nodiscard]] int width(int node) const { return node_first[node + 1] - node_first[node]; }
+  [[nodiscard]] std::span<const int> of_graph(int node) const {
+    return {graph_.data() + graph_start_[node], static_cast<std::size_t>(graph_start_[node + 1] - graph_start_[node])};
+  }
   void find_nodes(const SparseLower& a);
   void build_graph(const SparseLower& a);
   void find_tree();
@@ -59,6 +61,7 @@ private:
   std::vector<int> count_;                                 // rows of the node's first column in the factor
   std::vector<int> first_, highest_, previous_, ancestor_; // of counting
   std::vector<int> head_, sibling_;                        // lists of children
+  std::vector<int> rank_;                                  // the inverse of node_at
   std::vector<int> into_;                                  // what a node in postorder is merged into
   std::vector<int> mark_;
 };
