@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sparse Cholesky factorisation by the multifrontal method [Duff and Reid 1983; Liu 1992], in float (a preconditioner)
+// or double. Subtrees of the elimination tree are tasks, and fronts near the root are cut into blocks; children are
+// added in a fixed order, so the same bits come out for any number of threads. All memory is kept for the next
+// factorisation, also after another analysis.
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "libsheet/energy/pattern.h"
+
+namespace sheet {
+
+template <class Real> class SupernodalFactor {
+public:
+  SupernodalFactor();
+  ~SupernodalFactor();
+  SupernodalFactor(SupernodalFactor&&) noexcept;
+  SupernodalFactor& operator=(SupernodalFactor&&) noexcept;
+
+  // Symbolic analysis of a structure that already is in a fill-reducing order (nested_dissection gives one).
+  void analyze(const SparseLower& structure);
+  // Factorises A + shift I. False if that is not positive definite (to working precision).
+  [[nodiscard]] bool factorize(const SparseLower& a, double shift);
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+  [[nodiscard]] double flops() const;      // of a factorisation
+  [[nodiscard]] std::size_t bytes() const; // of memory held
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace sheet
