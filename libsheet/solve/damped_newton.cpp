@@ -34,7 +34,7 @@ NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eig
       used = std::max(floor, damping);
       ++report.factorizations;
       report.shifted += used > floor;
-      if (!system.factorize(used)) {
+      if (!system.factorize(used, Precision::full)) {
         damping = std::max(kLeast, kFactor * damping);
         continue;
       }

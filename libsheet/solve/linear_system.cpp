@@ -8,11 +8,12 @@
 #include <tbb/parallel_for.h>
 
 #include "libsheet/base/stopwatch.h"
+#include "libsheet/solve/cholesky.h"
 
 namespace sheet {
 
 namespace {
-constexpr double kSpreadShift = 1e-10; // for a starting point only
+constexpr double kSpreadShift = 1e-6; // for a starting point only
 }
 
 void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles) {
@@ -23,7 +24,8 @@ void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms
   matrix_ = assembly_.pattern().structure();
   scaled_ = matrix_;
   product_.analyze(matrix_);
-  cholesky_.analyze(matrix_);
+  single_.analyze(matrix_);
+  full_is_analyzed_ = false;
   has_factor_ = false;
   seconds_analysis_ = watch.lap();
 }
@@ -93,9 +95,19 @@ void LinearSystem::scale_to_unit_diagonal() {
   });
 }
 
-bool LinearSystem::factorize(double shift) {
+bool LinearSystem::factorize_scaled(double shift, Precision precision) {
+  precision_ = precision;
+  if (precision == Precision::single)
+    return single_.factorize(scaled_, shift);
+  if (!full_is_analyzed_)
+    full_.analyze(matrix_);
+  full_is_analyzed_ = true;
+  return full_.factorize(scaled_, shift);
+}
+
+bool LinearSystem::factorize(double shift, Precision precision) {
   scale_to_unit_diagonal();
-  has_factor_ = cholesky_.factorize(scaled_, std::max(shift, floor_));
+  has_factor_ = factorize_scaled(std::max(shift, floor_), precision);
   if (!has_factor_)
     return false;
   of_factor_.clear();
@@ -118,7 +130,7 @@ Eigen::VectorXd LinearSystem::multiply(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd LinearSystem::solve(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd x = cholesky_.solve(b);
+  Eigen::VectorXd x = precision_ == Precision::single ? single_.solve(b) : full_.solve(b);
   for (const SolvedRankOne& part : of_factor_)
     x -= (part.part * part.g.dot(x)) * part.solved;
   return x;
@@ -140,9 +152,10 @@ Eigen::VectorXd LinearSystem::to_unknowns(const Eigen::VectorXd& rows) const {
   return step;
 }
 
-void LinearSystem::balance(const Eigen::VectorXd& residual, Eigen::VectorXd& step) const {
+void LinearSystem::balance(const Eigen::VectorXd& force, Eigen::VectorXd& step) const {
   if (floor_ > 0 || std::find(held_.begin(), held_.end(), char{1}) != held_.end())
     return;
+  const Eigen::VectorXd residual = force - multiply(step);
   const auto& permutation = assembly_.pattern().permutation();
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     // A translation in rows, and the force that it takes.
@@ -185,9 +198,9 @@ bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target
     if (held_[permutation[static_cast<std::size_t>(k)]])
       rhs[k] = move[k];
   scale_to_unit_diagonal();
-  if (!cholesky_.factorize(scaled_, kSpreadShift))
+  if (!factorize_scaled(kSpreadShift, Precision::single))
     return false;
-  const Eigen::VectorXd step = cholesky_.solve(rhs.cwiseProduct(scale_));
+  const Eigen::VectorXd step = single_.solve(rhs.cwiseProduct(scale_));
   for (Eigen::Index k = 0; k < u.size(); ++k) {
     const auto unknown = permutation[static_cast<std::size_t>(k)];
     u[unknown] += held_[unknown] ? move[k] : scale_[k] * step[k];

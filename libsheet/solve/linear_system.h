@@ -10,10 +10,15 @@
 #include <vector>
 
 #include "libsheet/energy/assembly.h"
-#include "libsheet/solve/cholesky.h"
+#include "libsheet/solve/supernodal_factor.h"
 #include "libsheet/solve/symmetric_product.h"
 
 namespace sheet {
+
+enum class Precision {
+  single, // a preconditioner, at half the cost and memory
+  full
+};
 
 class LinearSystem {
 public:
@@ -37,9 +42,9 @@ public:
   // The same, and the Hessian: exact or, if definite, a positive semidefinite approximation.
   EnergySum hessian(const Terms& terms, const Unknowns& u, bool definite, Eigen::VectorXd& g);
 
-  // Factorises the present Hessian + shift (of the scaled matrix). False if that is not positive definite; the factor
-  // is then gone.
-  [[nodiscard]] bool factorize(double shift);
+  // Factorises the present Hessian + shift (of the scaled matrix). False if that is not positive definite in this
+  // precision; the factor is then gone.
+  [[nodiscard]] bool factorize(double shift, Precision precision);
   [[nodiscard]] bool has_factor() const { return has_factor_; }
   void forget_factor() { has_factor_ = false; }
 
@@ -49,9 +54,9 @@ public:
   // Forces in the order of the unknowns to rows, and steps in rows to unknowns.
   [[nodiscard]] Eigen::VectorXd to_rows(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Eigen::VectorXd to_unknowns(const Eigen::VectorXd& rows) const;
-  // Adds to a step the translations that leave no force on the sheet as a whole, which has `residual` [rows] left: what
-  // inertia makes of a sheet that nothing holds is then exact, whatever the precision of the factor.
-  void balance(const Eigen::VectorXd& residual, Eigen::VectorXd& step) const;
+  // Adds to a step [rows] the translations that leave of `force` none on the sheet as a whole: what inertia makes of a
+  // sheet that nothing holds is then exact, whatever the precision of the factor. Does nothing where something is held.
+  void balance(const Eigen::VectorXd& force, Eigen::VectorXd& step) const;
 
   // Moves u by one linearised step that takes the held unknowns to their target, so that the others make way: a
   // starting point for motions of more than an edge. False if the matrix cannot be factorised. The factor is gone.
@@ -60,7 +65,7 @@ public:
   [[nodiscard]] std::size_t unknowns() const { return assembly_.unknowns(); }
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
   [[nodiscard]] const SparseLower& matrix() const { return matrix_; }
-  [[nodiscard]] double flops() const { return cholesky_.flops(); }
+  [[nodiscard]] double flops() const { return single_.flops(); }
 
 private:
   struct RankOne {
@@ -73,10 +78,14 @@ private:
   };
   void find_rank_ones(const Terms& terms, const Unknowns& u);
   void scale_to_unit_diagonal();
+  [[nodiscard]] bool factorize_scaled(double shift, Precision precision);
   void rank_ones_to_rows();
 
   Assembly assembly_;
-  Cholesky cholesky_;
+  SupernodalFactor<float> single_;
+  SupernodalFactor<double> full_;
+  Precision precision_ = Precision::single; // of the present factor
+  bool full_is_analyzed_ = false;           // it is when first needed
   SparseLower matrix_, scaled_;
   SymmetricProduct product_;
   Eigen::VectorXd scale_; // of rows

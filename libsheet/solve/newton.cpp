@@ -60,7 +60,7 @@ private:
       if (!std::isfinite(remains_) || report_.iterations >= options_.iterations)
         return;
       if (converged()) {
-        u_ += remainder_; // known, so it costs nothing
+        take_remainder();
         return;
       }
       linearize();
@@ -88,15 +88,19 @@ private:
     }
   }
 
-  // The exact Hessian's factor, else the positive form's, else that with a shift that grows.
+  // The exact Hessian's factor, else the positive form's, in single precision; else that in full precision, with a
+  // shift that grows. Where motions are free that the potential does not see, full precision is needed to tell them
+  // apart.
   bool factorize() {
     Stopwatch watch;
     fresh_ = true;
+    const bool free = system_.floor() > 0;
+    const Precision precision = free ? Precision::full : Precision::single;
     if (!positive_) {
       linearize();
       watch.lap();
       ++report_.factorizations;
-      const bool good = system_.factorize(0);
+      const bool good = system_.factorize(0, precision);
       report_.seconds_factor += watch.lap();
       exact_ = good;
       if (good)
@@ -107,18 +111,18 @@ private:
     (void)system_.hessian(terms_, u_, true, ignored);
     linearized_ = false;
     report_.seconds_assembly += watch.lap();
-    for (double shift = system_.floor() > 0 ? kShiftOfFree : 0; shift <= kGreatestShift;
-         shift = std::max(kLeastShift, 100 * shift)) {
+    const auto attempt = [&](double shift, Precision with) {
       ++report_.factorizations;
       ++report_.positive;
       report_.shifted += shift > 0;
-      if (system_.factorize(shift)) {
-        report_.seconds_factor += watch.lap();
-        return true;
-      }
-    }
+      return system_.factorize(shift, with);
+    };
+    bool good = !free && attempt(0, Precision::single);
+    for (double shift = free ? kShiftOfFree : 0; !good && shift <= kGreatestShift;
+         shift = std::max(kLeastShift, 100 * shift))
+      good = attempt(shift, Precision::full);
     report_.seconds_factor += watch.lap();
-    return false;
+    return good;
   }
 
   // The exact Hessian at u.
@@ -162,6 +166,12 @@ private:
     return report_.converged;
   }
 
+  // What remains is known, so it costs nothing.
+  void take_remainder() {
+    system_.balance(force_, preconditioned_);
+    u_ += system_.to_unknowns(preconditioned_);
+  }
+
   // Whether the preconditioner tells what remains: it does if it is the Hessian's, or served well for the last
   // direction.
   bool trusted() const {
@@ -183,7 +193,7 @@ private:
     const auto precondition = [&](const Eigen::VectorXd& b) { return system_.solve(b); };
     ConjugateGradients cg = conjugate_gradients(multiply, precondition, force_, preconditioned_, forcing(), kProducts);
     if (!cg.negative)
-      system_.balance(cg.residual, cg.x);
+      system_.balance(force_, cg.x);
     step_ = system_.to_unknowns(cg.x);
     slope_ = gradient_.dot(step_);
     products_ = cg.products;

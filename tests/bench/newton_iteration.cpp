@@ -65,8 +65,8 @@ int main(int argc, char** argv) {
       const auto derivatives = [&](bool definite) { (void)system->hessian(terms, u, definite, gradient); };
       const double exact = measure(repetitions, [&] { derivatives(false); });
       const double positive = measure(repetitions, [&] { derivatives(true); });
-      bool good = system->factorize(0);
-      const double factor = measure(repetitions, [&] { good = system->factorize(0) && good; });
+      bool good = system->factorize(0, Precision::single);
+      const double factor = measure(repetitions, [&] { good = system->factorize(0, Precision::single) && good; });
       Eigen::VectorXd rows = system->to_rows(gradient);
       const double solve = measure(repetitions, [&] { rows = system->solve(rows); });
       const double product = measure(repetitions, [&] { rows = system->multiply(rows); });

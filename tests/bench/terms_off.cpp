@@ -59,7 +59,7 @@ void iterate(Variant& v) {
   system.hold({}, 1e-10);
   (void)system.hessian(v.terms, v.u, true, gradient);
   const double assembled = processor_seconds();
-  if (!system.factorize(0))
+  if (!system.factorize(0, Precision::single))
     std::printf("# not positive definite without %s\n", v.off.c_str());
   gradient = system.solve(system.to_rows(gradient));
   v.rest.push_back(processor_seconds() - assembled);
