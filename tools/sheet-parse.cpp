@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   tool.example("sheet-parse hand-written.txt | sheet-check", "is it a good frame?");
   return tool.run(argc, argv, [&] {
     const sheet::InputFile in(input);
-    sheet::OutputFile out(output, sheet::OutputFile::Content::binary, &in);
+    sheet::OutputFile out(output, sheet::OutputFile::Content::binary);
     TextParser parser(in.descriptor(), in.name());
     sheet::formats::StreamWriter writer(out.descriptor(), out.name());
     sheet::formats::Frame frame;

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     if (last)
       options.indices.push_back({-1, -1});
     const sheet::InputFile in(input);
-    sheet::OutputFile out(output, sheet::OutputFile::Content::binary, &in);
+    sheet::OutputFile out(output, sheet::OutputFile::Content::binary);
     sheet::formats::StreamReader reader(in.descriptor(), in.name());
     sheet::formats::StreamWriter writer(out.descriptor(), out.name());
     sheet::Selector selector(options, [&](const sheet::formats::Frame& frame) { writer.write(frame); });

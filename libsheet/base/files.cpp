@@ -10,21 +10,12 @@
 
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
 
 namespace sheet {
 
-namespace {
-
-bool same_regular_file(int a, int b) {
-  struct stat sa {
-  }, sb{};
-  return ::fstat(a, &sa) == 0 && ::fstat(b, &sb) == 0 && S_ISREG(sa.st_mode) && sa.st_dev == sb.st_dev &&
-         sa.st_ino == sb.st_ino;
-}
-
-} // namespace
-
 InputFile::InputFile(const std::string& path) : name_(path == "-" ? "standard input" : path) {
+  claim_file(path, FileRole::input);
   if (path == "-") {
     if (::isatty(STDIN_FILENO) != 0)
       fail(ExitCode::usage, "standard input is a terminal: give a file, or pipe a stream in");
@@ -47,36 +38,25 @@ InputFile::~InputFile() {
     ::close(descriptor_);
 }
 
-OutputFile::OutputFile(const std::string& path, Content content, const InputFile* input)
-    : name_(path == "-" ? "standard output" : path) {
+OutputFile::OutputFile(const std::string& path, Content content)
+    : path_(path), name_(path == "-" ? "standard output" : path) {
+  claim_file(path, FileRole::output);
   if (path == "-") {
     if (content == Content::binary && ::isatty(STDOUT_FILENO) != 0)
       fail(ExitCode::usage, "standard output is a terminal and the stream is binary: give -o FILE, or pipe it on");
     descriptor_ = STDOUT_FILENO;
-    if (input != nullptr && same_regular_file(descriptor_, input->descriptor()))
-      fail(ExitCode::usage, "{} is input and output at once: choose another output", input->name());
     widen_pipe(descriptor_);
     return;
   }
-  // Opened without truncation first, so that an input of the same name is still whole when we refuse.
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
     fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
-  if (input != nullptr && same_regular_file(descriptor_, input->descriptor())) {
-    ::close(descriptor_);
-    fail(ExitCode::usage, "{} is input and output at once: choose another output", path);
-  }
-  struct stat status {};
-  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && ::ftruncate(descriptor_, 0) != 0) {
-    const int code = errno;
-    ::close(descriptor_);
-    fail(ExitCode::io, "cannot empty {}: {}", path, std::strerror(code));
-  }
 }
 
 OutputFile::~OutputFile() {
   if (descriptor_ > STDERR_FILENO)
     ::close(descriptor_);
+  release_file(path_, FileRole::output);
 }
 
 void OutputFile::write(std::string_view text) {

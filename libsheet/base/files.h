@@ -6,7 +6,8 @@
 
 namespace sheet {
 
-// A file descriptor that is open for reading. Throws Error: usage (standard input is a terminal), io (cannot open).
+// A file descriptor that is open for reading. Throws Error: usage (standard input is a terminal; this program writes
+// the same file), io (cannot open).
 class InputFile {
 public:
   explicit InputFile(const std::string& path);
@@ -22,12 +23,12 @@ private:
   int descriptor_ = -1;
 };
 
-// A file descriptor that is open for writing. Throws Error: usage (binary data to a terminal; the file is `input`
-// itself), io (cannot open). Call close() when all is written: only then is it known to be on its way.
+// A file descriptor that is open for writing. Throws Error: usage (binary data to a terminal; this program reads the
+// same file), io (cannot open). Call close() when all is written: only then is it known to be on its way.
 class OutputFile {
 public:
   enum class Content { binary, text };
-  OutputFile(const std::string& path, Content content, const InputFile* input = nullptr);
+  OutputFile(const std::string& path, Content content);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -37,7 +38,7 @@ public:
   void close();
 
 private:
-  std::string name_;
+  std::string path_, name_;
   int descriptor_ = -1;
 };
 

@@ -45,7 +45,7 @@ void declare_filter_options(Tool& tool, FilterOptions& options) {
 
 void run_filter(const Tool& tool, const FilterOptions& options, const std::function<void(formats::Frame&)>& work) {
   const InputFile input(options.input);
-  OutputFile output(options.output, OutputFile::Content::binary, &input);
+  OutputFile output(options.output, OutputFile::Content::binary);
   formats::StreamReader reader(input.descriptor(), input.name());
   formats::StreamWriter writer(output.descriptor(), output.name());
   const std::string line = tool.command_line();

@@ -22,6 +22,7 @@
 #include "formats/cpp/stream_reader.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
@@ -137,6 +138,8 @@ public:
       if (reader.frames() == 0)
         fail(ExitCode::bad_input, "{} holds no whole frame: start the run anew", path);
     }
+    release_file(path, FileRole::input);
+    claim_file(path, FileRole::output);
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0)
       fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
@@ -145,10 +148,8 @@ public:
       fail(ExitCode::io, "cannot go on with {}: {}", path, std::strerror(errno));
     return output;
   }
-  static std::unique_ptr<Output> create(const std::string& path, const InputFile& input) {
-    auto output =
-        std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(path, OutputFile::Content::binary, &input)));
-    return output;
+  static std::unique_ptr<Output> create(const std::string& path) {
+    return std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(path, OutputFile::Content::binary)));
   }
   ~Output() {
     if (resumed_ >= 0)
@@ -299,26 +300,42 @@ private:
   // Reads the first frame, opens the output.
   void start() {
     if (!options_.resume.empty()) {
+      claim_checkpoint(); // other than the stream
       output_ = Output::resume(options_.resume, frame_);
       kept_ = true;
-      if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint)) {
-        const InputFile input(options_.checkpoint);
-        Frame newer = read_last_frame(input);
-        if (newer.step > frame_.step) {
-          frame_ = std::move(newer);
-          kept_ = false;
-        }
-      }
+      if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint))
+        take_checkpoint();
       log::detail("going on with {} at step {}, t = {} s", options_.resume, frame_.step, frame_.time);
     } else {
       const InputFile input(options_.input);
       frame_ = read_last_frame(input);
-      output_ = Output::create(options_.output, input);
+      claim_checkpoint();
+      output_ = Output::create(options_.output);
       record_once(frame_, provenance_line_);
       if (!keep_.last_only)
         write_frame();
     }
     record_once(frame_, provenance_line_);
+  }
+
+  void claim_checkpoint() const {
+    if (!options_.checkpoint.empty())
+      claim_file(options_.checkpoint, FileRole::output);
+  }
+
+  // The frame of the checkpoint, if it is newer than the stream's last one.
+  void take_checkpoint() {
+    release_file(options_.checkpoint, FileRole::output);
+    {
+      const InputFile input(options_.checkpoint);
+      Frame newer = read_last_frame(input);
+      if (newer.step > frame_.step) {
+        frame_ = std::move(newer);
+        kept_ = false;
+      }
+    }
+    release_file(options_.checkpoint, FileRole::input);
+    claim_checkpoint();
   }
 
   [[nodiscard]] bool done() const {

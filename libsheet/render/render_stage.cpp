@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/numbered_name.h"
@@ -100,6 +101,10 @@ struct RenderStage::Impl {
       name.emplace(options.output);
     if (!options.environment.empty())
       surroundings = read_picture(options.environment);
+    if (name) { // refused before anything is drawn
+      claim_file(name->of(0), FileRole::output);
+      release_file(name->of(0), FileRole::output);
+    }
   }
 
   void read_scene_of(const formats::Frame& frame) {

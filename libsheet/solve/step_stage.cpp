@@ -8,6 +8,7 @@
 
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/scene/frame_scene.h"
@@ -164,6 +165,8 @@ StepStage::StepStage(StepStageOptions options) : impl_(std::make_unique<Impl>())
     fail(ExitCode::usage, "--tolerance: {} is not a positive number", *options.tolerance);
   if (options.dt && options.tolerance)
     fail(ExitCode::usage, "--dt and --tolerance exclude each other: a step is fixed or chosen by its error");
+  if (!options.failed.empty())
+    claim_file(options.failed, FileRole::output);
   impl_->options = std::move(options);
 }
 
@@ -176,6 +179,7 @@ void StepStage::step(Frame& frame) {
     const std::string& path = impl_->options.failed;
     if (error.code() != ExitCode::not_converged || path.empty())
       throw;
+    release_file(path, FileRole::output);
     OutputFile file(path, OutputFile::Content::binary);
     formats::StreamWriter writer(file.descriptor(), file.name());
     writer.write(frame);

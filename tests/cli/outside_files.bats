@@ -1,0 +1,70 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Files that a mistake would destroy: input and output at once, two writers, a typo, a full disk.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || exit
+  cat > scene.toml << 'END'
+[sheet]
+shape = "mesh"
+file = "mesh.obj"
+thickness = 0.01
+[material]
+viscosity = 100
+density = 1000
+[environment]
+gravity = [0, -9.81, 0]
+END
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n' > mesh.obj
+  sheet-init scene.toml -o a.sheet
+}
+
+# usage: keeps FILE CODE COMMAND...: the command ends with the code and leaves the file as it is.
+keeps() {
+  cp "$1" before
+  run "-$2" timeout 20 "${@:3}"
+  cmp "$1" before
+}
+
+@test "9: no program writes a file that it reads, whatever the file is called" {
+  ln -s a.sheet symbolic.sheet
+  ln a.sheet hard.sheet
+  for name in a.sheet ./a.sheet "$PWD/a.sheet" symbolic.sheet hard.sheet; do
+    for program in info pass step emit tear collide remesh select print; do
+      keeps a.sheet 2 "sheet-$program" a.sheet -o "$name"
+      [[ $output == *"$name is input and output at once"* ]]
+    done
+    keeps a.sheet 2 sheet-info --csv a.sheet a.sheet -o "$name"
+    keeps a.sheet 2 sheet-export --format obj a.sheet -o "$name"
+    keeps a.sheet 2 sheet-loop --steps 1 -i a.sheet -o "$name" -- sheet-pass
+    keeps a.sheet 2 sheet-loop --steps 1 -i a.sheet -o b.sheet --checkpoint "$name" -- sheet-pass
+    keeps a.sheet 2 sheet-loop --steps 1 --resume a.sheet --checkpoint "$name" -- sheet-pass
+    keeps a.sheet 2 sheet-step --dt 0.01 --failed "$name" a.sheet -o b.sheet
+    keeps a.sheet 2 bash -c 'sheet-info < a.sheet 1<> "$1"' _ "$name"
+  done
+  sheet-print a.sheet > a.txt
+  keeps a.txt 2 sheet-parse a.txt -o a.txt
+}
+
+@test "9: no program writes one file twice at once" {
+  keeps a.sheet 2 sheet-loop --steps 1 -i a.sheet -o b.sheet --checkpoint ./b.sheet -- sheet-pass
+  [[ $output == *'./b.sheet is output twice at once'* || $output == *'b.sheet is output twice at once'* ]]
+  run -2 sheet-step --dt 0.01 --failed b.sheet a.sheet -o b.sheet
+}
+
+@test "9: sheet-init spares the scene and every mesh that it names" {
+  keeps scene.toml 2 sheet-init scene.toml -o scene.toml
+  keeps mesh.obj 2 sheet-init scene.toml -o mesh.obj
+  keeps scene.toml 2 sheet-init --check scene.toml -o scene.toml
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' > solid.obj
+  printf '[[solid]]\nshape = "mesh"\nfile = "solid.obj"\n[contact]\n' >> scene.toml
+  keeps solid.obj 2 sheet-init scene.toml -o solid.obj
+}
+
+@test "9: sheet-render spares the picture of the surroundings" {
+  sheet-render a.sheet -o e.png --size 32x18 --samples 2
+  keeps e.png 2 sheet-render a.sheet --environment e.png -o e.png --size 32x18 --samples 2
+  [[ $output == *'e.png is input and output at once'* ]]
+}
