@@ -10,6 +10,7 @@
 
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_lock.h"
 #include "libsheet/base/file_roles.h"
 
 namespace sheet {
@@ -45,17 +46,25 @@ OutputFile::OutputFile(const std::string& path, Content content)
     if (content == Content::binary && ::isatty(STDOUT_FILENO) != 0)
       fail(ExitCode::usage, "standard output is a terminal and the stream is binary: give -o FILE, or pipe it on");
     descriptor_ = STDOUT_FILENO;
+    if (content == Content::binary)
+      lock_for_writing(descriptor_, name_);
     widen_pipe(descriptor_);
     return;
   }
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
     fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
+  lock_for_writing(descriptor_, name_);
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && ::ftruncate(descriptor_, 0) != 0)
+    fail(ExitCode::io, "cannot empty {}: {}", path, std::strerror(errno));
 }
 
 OutputFile::~OutputFile() {
   if (descriptor_ > STDERR_FILENO)
     ::close(descriptor_);
+  else if (descriptor_ >= 0) // which whoever started this program may go on with
+    unlock(descriptor_);
   release_file(path_, FileRole::output);
 }
 

@@ -24,7 +24,8 @@ private:
 };
 
 // A file descriptor that is open for writing. Throws Error: usage (binary data to a terminal; this program reads the
-// same file), io (cannot open). Call close() when all is written: only then is it known to be on its way.
+// same file), io (cannot open; another program writes it). Call close() when all is written: only then is it known to
+// be on its way.
 class OutputFile {
 public:
   enum class Content { binary, text };

@@ -22,6 +22,7 @@
 #include "formats/cpp/stream_reader.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_lock.h"
 #include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
@@ -111,6 +112,10 @@ class Output {
 public:
   // Reads what is there, cuts off what is behind the last whole frame, and leaves that frame in `last`.
   static std::unique_ptr<Output> resume(const std::string& path, Frame& last) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0)
+      fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
+    lock_for_writing(descriptor, path); // what another run still writes must not be taken for a torn end
     std::uint64_t frames = 0, bytes = 0;
     {
       const InputFile input(path);
@@ -140,9 +145,6 @@ public:
     }
     release_file(path, FileRole::input);
     claim_file(path, FileRole::output);
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0)
-      fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
     auto output = std::unique_ptr<Output>(new Output(descriptor, path, frames));
     if (::ftruncate(descriptor, static_cast<off_t>(bytes)) != 0 || ::lseek(descriptor, 0, SEEK_END) < 0)
       fail(ExitCode::io, "cannot go on with {}: {}", path, std::strerror(errno));

@@ -68,3 +68,18 @@ keeps() {
   keeps e.png 2 sheet-render a.sheet --environment e.png -o e.png --size 32x18 --samples 2
   [[ $output == *'e.png is input and output at once'* ]]
 }
+
+@test "10: a file has one writer at a time, and the message says who" {
+  sheet-pass a.sheet -o run.sheet
+  sheet-loop --steps 5 --resume run.sheet -- 'sleep 60 | cat' 2> /dev/null 3>&- &
+  writer=$!
+  sleep 1
+  for command in "sheet-loop --steps 5 --resume run.sheet -- sheet-pass" "sheet-pass a.sheet -o run.sheet" \
+    "sheet-loop --steps 5 -i a.sheet -o run.sheet -- sheet-pass" "sheet-info a.sheet -o run.sheet" \
+    "sheet-select --last a.sheet -o run.sheet" "sheet-init scene.toml -o run.sheet"; do
+    keeps run.sheet 6 bash -c "$command"
+    [[ $output == *'run.sheet is being written by process '*' (sheet-loop): wait until it has ended'* ]]
+  done
+  kill "$writer"
+  wait "$writer" || true
+}
