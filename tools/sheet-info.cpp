@@ -37,17 +37,17 @@ int main(int argc, char** argv) {
       sheet::claim_file(input, sheet::FileRole::input); // before the output is emptied
     const auto report = json ? sheet::make_json_report() : csv ? sheet::make_csv_report() : sheet::make_text_report();
     sheet::OutputFile out(output, sheet::OutputFile::Content::text);
-    out.write(report->begin());
+    std::string head = report->begin();
     sheet::SceneDensity scene;
     sheet::formats::Frame frame;
     for (const std::string& input : inputs) {
       const sheet::InputFile in(input);
       sheet::formats::StreamReader reader(in.descriptor(), in.name());
       while (reader.read(frame))
-        out.write(report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame,
-                               sheet::measure(frame, density ? density : scene.of(frame))}));
+        out.write(std::exchange(head, {}) + report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame,
+                                                         sheet::measure(frame, density ? density : scene.of(frame))}));
     }
-    out.write(report->end());
+    out.write(head + report->end());
     out.close();
   });
 }

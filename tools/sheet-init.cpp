@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
     sheet::log::detail("{} vertices, {} triangles", frame.vertices, frame.triangles);
     sheet::OutputFile file(output, sheet::OutputFile::Content::binary);
     sheet::formats::StreamWriter writer(file.descriptor(), file.name());
+    file.start();
     writer.write(frame);
     writer.end();
     file.close();

@@ -27,12 +27,14 @@ int main(int argc, char** argv) {
     sheet::formats::Frame frame;
     for (auto item = parser.read(frame); item != TextParser::Item::nothing; item = parser.read(frame)) {
       if (item == TextParser::Item::end) {
+        out.start();
         writer.end();
         continue;
       }
       const std::string error = any_values ? std::string() : find_value_error(frame);
       if (!error.empty())
         sheet::fail(sheet::ExitCode::bad_input, "{}: frame {}: {}", in.name(), writer.frames(), error);
+      out.start();
       writer.write(frame);
     }
     out.close();

@@ -22,8 +22,11 @@ int main(int argc, char** argv) {
     sheet::formats::StreamReader reader(in.descriptor(), in.name(), sheet::formats::StreamReader::Values::any);
     sheet::formats::TextPrinter printer(out.descriptor(), out.name());
     sheet::formats::Frame frame;
-    while (reader.read(frame))
+    while (reader.read(frame)) {
+      out.start();
       printer.print(frame, reader.ends());
+    }
+    out.start();
     printer.end(reader.ends());
     out.close();
   });

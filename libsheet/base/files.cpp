@@ -51,16 +51,18 @@ OutputFile::OutputFile(const std::string& path, Content content)
     widen_pipe(descriptor_);
     return;
   }
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  created_ = descriptor_ >= 0;
+  if (!created_)
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
     fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
   lock_for_writing(descriptor_, name_);
-  struct stat status {};
-  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && ::ftruncate(descriptor_, 0) != 0)
-    fail(ExitCode::io, "cannot empty {}: {}", path, std::strerror(errno));
 }
 
 OutputFile::~OutputFile() {
+  if (created_ && !started_)
+    ::unlink(path_.c_str());
   if (descriptor_ > STDERR_FILENO)
     ::close(descriptor_);
   else if (descriptor_ >= 0) // which whoever started this program may go on with
@@ -68,11 +70,21 @@ OutputFile::~OutputFile() {
   release_file(path_, FileRole::output);
 }
 
+void OutputFile::start() {
+  if (std::exchange(started_, true) || path_ == "-")
+    return;
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && ::ftruncate(descriptor_, 0) != 0)
+    fail(ExitCode::io, "cannot empty {}: {}", path_, std::strerror(errno));
+}
+
 void OutputFile::write(std::string_view text) {
+  start();
   formats::write_all(descriptor_, std::as_bytes(std::span(text)), name_);
 }
 
 void OutputFile::close() {
+  start();
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0)

@@ -24,8 +24,9 @@ private:
 };
 
 // A file descriptor that is open for writing. Throws Error: usage (binary data to a terminal; this program reads the
-// same file), io (cannot open; another program writes it). Call close() when all is written: only then is it known to
-// be on its way.
+// same file), io (cannot open; another program writes it). Until start() an earlier content stays, and it stays for
+// good if start() is never called: so a mistake costs no result. Call close() when all is written: only then is it
+// known to be on its way.
 class OutputFile {
 public:
   enum class Content { binary, text };
@@ -35,12 +36,16 @@ public:
   OutputFile& operator=(const OutputFile&) = delete;
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  // There is something to write: empties the file. Does nothing when called again.
+  void start();
+  // Starts, if need be; close() does, too.
   void write(std::string_view text);
   void close();
 
 private:
   std::string path_, name_;
   int descriptor_ = -1;
+  bool started_ = false, created_ = false;
 };
 
 // The whole content of a file. Throws Error (io), also above `limit` bytes.

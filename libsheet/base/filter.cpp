@@ -61,9 +61,11 @@ void run_filter(const Tool& tool, const FilterOptions& options, const std::funct
     }
     if (!options.no_provenance)
       record_provenance(frame, line);
+    output.start();
     writer.write(frame);
     busy += Clock::now() - start;
   }
+  output.start();
   writer.end();
   output.close();
   report_time(tool.name(), reader.frames(), busy);

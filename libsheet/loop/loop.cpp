@@ -110,7 +110,8 @@ private:
 // The stream of kept frames: a new one, or one that a run before has left.
 class Output {
 public:
-  // Reads what is there, cuts off what is behind the last whole frame, and leaves that frame in `last`.
+  // Reads what is there, and leaves the last whole frame in `last`. What is behind it is cut off before the first frame
+  // is added.
   static std::unique_ptr<Output> resume(const std::string& path, Frame& last) {
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0)
@@ -145,10 +146,7 @@ public:
     }
     release_file(path, FileRole::input);
     claim_file(path, FileRole::output);
-    auto output = std::unique_ptr<Output>(new Output(descriptor, path, frames));
-    if (::ftruncate(descriptor, static_cast<off_t>(bytes)) != 0 || ::lseek(descriptor, 0, SEEK_END) < 0)
-      fail(ExitCode::io, "cannot go on with {}: {}", path, std::strerror(errno));
-    return output;
+    return std::unique_ptr<Output>(new Output(descriptor, path, frames, static_cast<off_t>(bytes)));
   }
   static std::unique_ptr<Output> create(const std::string& path) {
     return std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(path, OutputFile::Content::binary)));
@@ -160,8 +158,12 @@ public:
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  void write(const Frame& frame) { writer_.write(frame); }
+  void write(const Frame& frame) {
+    start();
+    writer_.write(frame);
+  }
   void end() {
+    start();
     writer_.end();
     if (created_)
       created_->close();
@@ -173,11 +175,23 @@ public:
 private:
   explicit Output(std::unique_ptr<OutputFile> file)
       : created_(std::move(file)), writer_(created_->descriptor(), created_->name()) {}
-  Output(int descriptor, const std::string& path, std::uint64_t frames)
-      : resumed_(descriptor), writer_(descriptor, path, frames) {}
+  Output(int descriptor, std::string path, std::uint64_t frames, off_t bytes)
+      : path_(std::move(path)), resumed_(descriptor), bytes_(bytes), writer_(descriptor, path_, frames) {}
+
+  void start() {
+    if (std::exchange(started_, true))
+      return;
+    if (created_)
+      created_->start();
+    else if (::ftruncate(resumed_, bytes_) != 0 || ::lseek(resumed_, 0, SEEK_END) < 0)
+      fail(ExitCode::io, "cannot go on with {}: {}", path_, std::strerror(errno));
+  }
 
   std::unique_ptr<OutputFile> created_;
+  std::string path_;
   int resumed_ = -1;
+  off_t bytes_ = 0; // of the whole frames that are there
+  bool started_ = false;
   StreamWriter writer_;
 };
 
@@ -186,6 +200,7 @@ void write_checkpoint(const std::string& path, const Frame& frame) {
   const std::string draft = path + ".new";
   OutputFile file(draft, OutputFile::Content::binary);
   StreamWriter writer(file.descriptor(), file.name());
+  file.start();
   writer.write(frame);
   writer.end();
   file.close();
@@ -280,6 +295,7 @@ public:
         return signals.take();
       }
       ++rounds;
+      write_first();
       keep_frame();
       progress.show(frame_.time, frame_.step, output_->frames());
       if (!options_.checkpoint.empty() &&
@@ -290,6 +306,7 @@ public:
     }
     progress.clear();
     const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
+    write_first();
     if (!kept_)
       write_frame();
     save_state();
@@ -315,7 +332,8 @@ private:
       output_ = Output::create(options_.output);
       record_once(frame_, provenance_line_);
       if (!keep_.last_only)
-        write_frame();
+        first_ = frame_;
+      kept_ = first_.has_value();
     }
     record_once(frame_, provenance_line_);
   }
@@ -393,22 +411,37 @@ private:
     write_frame();
   }
 
+  // The first frame is written when the first round has gone well: a ring that cannot start leaves an earlier result
+  // as it is.
+  void write_first() {
+    if (!first_)
+      return;
+    write(*first_);
+    first_.reset();
+  }
+
   void write_frame() {
+    write(frame_);
+    kept_ = true;
+  }
+
+  void write(const Frame& frame) {
     try {
-      output_->write(frame_);
+      output_->write(frame);
     } catch (const StreamError& error) {
       if (error.kind() == StreamError::Kind::closed)
         throw;
       save_state();
       fail(ExitCode::io, "{}; at {}", error.what(), whereabouts());
     }
-    kept_ = true;
   }
 
   // How to go on, for messages.
   [[nodiscard]] std::string whereabouts() const {
-    std::string text =
-        fmt::format("step {}, t = {} s; {} whole frames kept", frame_.step, frame_.time, output_->frames());
+    std::string text = fmt::format("step {}, t = {} s; ", frame_.step, frame_.time);
+    if (first_)
+      return text + "nothing was written";
+    text += fmt::format("{} whole frames kept", output_->frames());
     const std::string& path = options_.resume.empty() ? options_.output : options_.resume;
     text +=
         path == "-" ? "; go on with --resume FILE if they are in one" : fmt::format("; go on with --resume {}", path);
@@ -431,6 +464,7 @@ private:
 
   void interrupted(Pipeline& pipeline) {
     pipeline.kill();
+    write_first();
     save_state();
     log::warning("interrupted in the step after {}", whereabouts());
     output_->end();
@@ -460,8 +494,9 @@ private:
   Keep keep_;
   std::string provenance_line_;
   std::unique_ptr<Output> output_;
-  Frame frame_, back_; // the newest state; the one that comes back (after a round: the one before)
-  bool kept_ = false;  // the newest state is in the output
+  std::optional<Frame> first_; // not yet written
+  Frame frame_, back_;         // the newest state; the one that comes back (after a round: the one before)
+  bool kept_ = false;          // the newest state is in the output
 };
 
 } // namespace
@@ -484,6 +519,7 @@ void check(const LoopOptions& options) {
   if (!options.resume.empty() && (options.input != "-" || options.output != "-"))
     fail(ExitCode::usage, "--resume FILE is input and output at once: give neither INPUT nor -o with it");
   [[maybe_unused]] const Keep keep = parse_keep(options);
+  [[maybe_unused]] const std::vector<std::string> stages = split_pipeline(options.pipeline);
 }
 
 double next_output_time(double time, double fps) {

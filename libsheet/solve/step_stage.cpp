@@ -182,6 +182,7 @@ void StepStage::step(Frame& frame) {
     release_file(path, FileRole::output);
     OutputFile file(path, OutputFile::Content::binary);
     formats::StreamWriter writer(file.descriptor(), file.name());
+    file.start();
     writer.write(frame);
     writer.end();
     file.close();

@@ -83,3 +83,28 @@ keeps() {
   kill "$writer"
   wait "$writer" || true
 }
+
+@test "11: a mistake leaves an earlier result as it is, and no empty file" {
+  head -c 300 a.sheet > bad.sheet
+  sheet-loop -q --steps 3 -i a.sheet -o run.sheet -- sheet-pass
+  keeps run.sheet 2 sheet-loop --steps 5 -i a.sheet -o run.sheet -- 'sheet-pass; x'
+  keeps run.sheet 2 sheet-loop --steps 5 -i a.sheet -o run.sheet -- 'sheet-pas'
+  [[ $output == *'in the step after step 0, t = 0 s; nothing was written'* ]]
+  keeps run.sheet 2 sheet-loop --steps 5 -i a.sheet -o run.sheet -- 'sheet-pass --nonsense'
+  keeps run.sheet 4 sheet-loop --steps 5 -i bad.sheet -o run.sheet -- sheet-pass
+  keeps run.sheet 2 sheet-loop --steps 5 --resume run.sheet -- 'sheet-pass | sheet-pas'
+  keeps run.sheet 3 sheet-init bad.sheet -o run.sheet
+  keeps run.sheet 3 sheet-parse scene.toml -o run.sheet
+  for program in info 'info --csv' 'info --json' pass step emit tear collide remesh select 'select --last' print; do
+    options=
+    [[ $program != step ]] || options='--dt 0.1'
+    # shellcheck disable=SC2086 # words
+    keeps run.sheet 4 sheet-$program $options bad.sheet -o run.sheet
+    # shellcheck disable=SC2086
+    run -4 sheet-$program $options bad.sheet -o new.sheet
+    [[ ! -e new.sheet ]]
+  done
+  keeps run.sheet 0 sheet-loop -q --steps 3 --resume run.sheet -- sheet-pass
+  sheet-loop -q --steps 5 -i a.sheet -o run.sheet -- sheet-pass
+  [[ $(sheet-print run.sheet | grep -c '^frame$') == 6 ]]
+}
