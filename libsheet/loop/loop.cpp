@@ -29,6 +29,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/loop/pipeline.h"
 #include "libsheet/loop/progress.h"
+#include "libsheet/loop/same_run.h"
 
 namespace sheet {
 
@@ -349,7 +350,12 @@ private:
     {
       const InputFile input(options_.checkpoint);
       Frame newer = read_last_frame(input);
-      if (newer.step > frame_.step) {
+      const bool is_newer = newer.step > frame_.step;
+      if (!same_run(is_newer ? frame_ : newer, is_newer ? newer : frame_))
+        fail(ExitCode::usage,
+             "--checkpoint {} holds a frame of another run than {}: name another file, or remove it if nobody needs it",
+             options_.checkpoint, options_.resume);
+      if (is_newer) {
         frame_ = std::move(newer);
         kept_ = false;
       }

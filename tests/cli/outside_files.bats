@@ -108,3 +108,22 @@ keeps() {
   sheet-loop -q --steps 5 -i a.sheet -o run.sheet -- sheet-pass
   [[ $(sheet-print run.sheet | grep -c '^frame$') == 6 ]]
 }
+
+@test "12: --resume does not go on from the checkpoint of another run" {
+  sheet-init scene.toml --set material.viscosity=7 -o b.sheet
+  sheet-loop -q --steps 3 -i a.sheet -o run.sheet -- sheet-pass
+  sheet-loop -q --steps 9 -i b.sheet --checkpoint newer.sheet -o other.sheet -- sheet-pass
+  sheet-loop -q --steps 1 -i b.sheet --checkpoint older.sheet -o other.sheet -- sheet-pass
+  sheet-init scene.toml --set sheet.thickness=0.02 -o c.sheet
+  sheet-loop -q --steps 9 -i c.sheet --checkpoint same_scene.sheet -o other.sheet -- 'sheet-remesh --edge-length 3'
+  for checkpoint in newer older same_scene; do
+    cp $checkpoint.sheet checkpoint.sheet
+    keeps run.sheet 2 sheet-loop --steps 20 --resume run.sheet --checkpoint checkpoint.sheet -- sheet-pass
+    [[ $output == *'--checkpoint checkpoint.sheet holds a frame of another run than run.sheet'* ]]
+    cmp checkpoint.sheet $checkpoint.sheet
+  done
+  cp run.sheet newest.sheet
+  sheet-loop -q --steps 6 --resume newest.sheet --checkpoint own.sheet -- sheet-pass
+  sheet-loop -q --steps 9 --resume run.sheet --checkpoint own.sheet -- sheet-pass
+  sheet-print run.sheet | grep -q '^step 9$'
+}
