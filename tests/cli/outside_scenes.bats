@@ -35,3 +35,19 @@ END
     run -3 sheet-step --dt 0.01 many.sheet -o out.sheet
   done
 }
+
+@test "3: what a hold has let go is remeshed like what nothing ever held" {
+  remeshed() { # SCENE: a second after its start, with edges twice as long
+    sheet-init "$1" --set sheet.edge_length=0.1 | sheet-print | sed 's/^time 0$/time 1/' | sheet-parse |
+      sheet-remesh --edge-length 0.2
+  }
+  remeshed disk.toml > free.sheet
+  { cat disk.toml; printf '[[hold]]\nregion = "rim"\naxes = "z"\nuntil = 0.5\n[[hold]]\nregion = "rim"\nuntil = 2\n'; } > holds.toml
+  remeshed holds.toml > held.sheet
+  sed '/^until = 2/s/2/1/' holds.toml > released.toml
+  remeshed released.toml > released.sheet
+  sheet-diff --ignore hold --ignore scene --ignore provenance free.sheet released.sheet
+  run -1 sheet-diff --ignore hold --ignore scene --ignore provenance free.sheet held.sheet
+  sheet-print held.sheet | sed -n '/^array hold /,/^array /p' | grep '^[0-9]*$' | sort -u | tr '\n' ' ' > bits
+  [[ $(cat bits) == '0 2 ' ]]
+}
