@@ -51,3 +51,28 @@ END
   sheet-print held.sheet | sed -n '/^array hold /,/^array /p' | grep '^[0-9]*$' | sort -u | tr '\n' ' ' > bits
   [[ $(cat bits) == '0 2 ' ]]
 }
+
+@test "4: a bath carries what is under its surface and does not pull what is above it" {
+  { cat disk.toml; printf '[environment]\ngravity = [0, 0, -9.81]\nbath = {density = 2000, level = -0.05}\n'; } > raft.toml
+  after() { # SECONDS KEY=VALUE...: the mean height
+    sheet-init raft.toml "${@:2}" | sheet-loop -q --until "$1" --keep last -- sheet-step | sheet-print |
+      awk '/^array position /{n = 1; next} /^array /{n = 0} n{sum += $3; ++m} END{printf "%.5f\n", sum / m}'
+  }
+  [[ $(after 0.01) == -0.00049 ]] # it falls
+  [[ $(after 0.01 --set environment.bath.clings=true) < -0.01 ]]
+  # below the level it is pushed up; 5 mm of it are under the surface at rest, its weight is that of the displaced bath
+  up=$(after 0.01 --set environment.bath.level=0.05)
+  [[ $up > 0.001 ]]
+  sheet-init --check raft.toml | grep -q 'bath .* which carries what is under its surface'
+}
+
+@test "4: pictures show the bath" {
+  { cat disk.toml; printf '[environment]\ngravity = [0, 0, -9.81]\nbath = {density = 2000, level = -0.2}\n'; } > raft.toml
+  sheet-init raft.toml | sheet-render --size 64x36 --samples 8 --ppm > bath.ppm
+  grep -v bath raft.toml > ground.toml
+  sheet-init ground.toml | sheet-render --size 64x36 --samples 8 --ppm > ground.ppm
+  colour() { # of the lower left corner: blue less red
+    /usr/bin/python3 -c 'import sys; b = open(sys.argv[1], "rb").read()[-64 * 3:]; print(b[2] - b[0] > 20)' "$1"
+  }
+  [[ $(colour bath.ppm) == True && $(colour ground.ppm) == False ]]
+}
