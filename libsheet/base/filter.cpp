@@ -55,6 +55,11 @@ void run_filter(const Tool& tool, const FilterOptions& options, const std::funct
     const auto start = Clock::now();
     try {
       work(frame);
+      if (const std::string error = find_value_error(frame); !error.empty())
+        fail(ExitCode::bad_input,
+             "the result is no valid frame: {}; its numbers are too large or too small to compute "
+             "with (sheet-check tells more)",
+             error);
     } catch (const Error& error) {
       fail(error.code(), "frame {} (step {}, time {} s): {}", reader.frames() - 1, frame.step, frame.time,
            error.what());

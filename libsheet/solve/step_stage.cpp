@@ -11,6 +11,7 @@
 #include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/magnitudes.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/scene_model.h"
@@ -103,6 +104,7 @@ struct StepStage::Impl {
   }
 
   void step(Frame& frame) {
+    check_magnitudes(frame);
     const Scene& scene = scenes.of(frame);
     connect_mesh(frame);
     const double until = end_of_step(scene, frame);
