@@ -67,6 +67,17 @@ void check_mesh(const Connectivity& mesh) {
          lonely - used.begin());
 }
 
+// An edge without length has no direction, and one that is too short for its square to be a number is no better.
+void check_edges(const Frame& frame, const Connectivity& mesh) {
+  constexpr double shortest = 1e-30; // [m]
+  const auto x = positions(frame);
+  for (const auto& [a, b] : mesh.edges)
+    if (const double length = (x[b] - x[a]).norm(); !(length > shortest))
+      fail(ExitCode::bad_input,
+           "vertices {} and {} share an edge and lie in one place ({:g} m apart): let sheet-remesh collapse it", a, b,
+           length);
+}
+
 // The end of a fixed step from t: dt, or a little less so that equal steps land exactly on `until`.
 double fixed_step(double t, double until, double dt) {
   if (std::isinf(until))
@@ -107,6 +118,7 @@ struct StepStage::Impl {
     check_magnitudes(frame);
     const Scene& scene = scenes.of(frame);
     connect_mesh(frame);
+    check_edges(frame, *mesh);
     const double until = end_of_step(scene, frame);
     if (mesh->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");

@@ -26,7 +26,7 @@ shape = "plane"
 center = [0, 0, -1]
 normal = [0, 0, 1]
 END
-  sheet-init disk.toml -o disk.sheet
+  sheet-init disk.toml | sheet-step --dt 0.01 -o disk.sheet
 }
 
 # usage: scaled ARRAY FACTOR: the disk with all values of an array multiplied
@@ -45,6 +45,29 @@ stages=("sheet-step --dt 0.01" sheet-collide "sheet-remesh --edge-length 0.4" sh
       for stage in "${stages[@]}"; do
         run -3 timeout 20 bash -c "$stage large.sheet -o out.sheet"
         [[ $output == *"array \"$array\", row "*" is too large to compute with"* ]]
+      done
+    done
+  done
+}
+
+@test "15: sheet-step refuses a sheet whose vertices coincide, with its place" {
+  for factor in 0 1e-60 1e-200; do
+    scaled position $factor > tiny.sheet
+    run -3 timeout 20 sheet-step --dt 0.01 tiny.sheet -o out.sheet
+    [[ $output == *'vertices '*' and '*' share an edge and lie in one place'* ]]
+  done
+}
+
+@test "15: no stage writes a frame that the next one would refuse" {
+  for array in position velocity volume; do
+    for factor in 1e-300 1e-154 1e-60 1e-9 1e9 1e29 1e60 1e154 1e300; do
+      scaled $array $factor > odd.sheet 2> /dev/null || continue
+      for stage in "${stages[@]}"; do
+        rm -f out.sheet
+        code=0
+        timeout 60 bash -c "$stage odd.sheet -o out.sheet" 2> /dev/null || code=$?
+        [[ $code == [02356] ]]
+        [[ $code != 0 ]] || sheet-pass out.sheet > /dev/null
       done
     done
   done
