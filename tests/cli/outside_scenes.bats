@@ -76,3 +76,18 @@ END
   }
   [[ $(colour bath.ppm) == True && $(colour ground.ppm) == False ]]
 }
+
+box_mesh() { # SIZE: a cube as OBJ
+  awk -v s="$1" 'BEGIN{for (i = 0; i < 8; ++i) print "v", s * (i % 2), s * (int(i / 2) % 2), s * int(i / 4)
+    print "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6"}'
+}
+
+@test "16: a field of too many voxels is refused with their number" {
+  box_mesh 0.1 > box.obj
+  { cat disk.toml; printf '[contact]\n[[solid]]\nshape = "mesh"\nfile = "box.obj"\ncenter = [0, 0, -1]\nvoxel_size = "5 um"\n'; } > box.toml
+  sheet-init disk.toml | sheet-step --dt 1e-3 | sheet-print | grep -v '^| ' |
+    sed '/^array scene /r '<(sed 's/^/| /' box.toml) | sheet-parse > box.sheet
+  run -3 timeout 20 sheet-collide box.sheet -o out.sheet
+  [[ $output == *'solid 0 (box.obj): voxel_size = 5e-06 m makes a field of 2.9e+10 voxels, more than 1e+07'* ]]
+  sheet-print box.sheet | sed 's/5 um/5 mm/' | sheet-parse | sheet-collide -o out.sheet
+}
