@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-info: what is in a stream, and what it measures.
 #include "formats/cpp/stream_reader.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/tool.h"
 #include "libsheet/measure/report.h"
@@ -32,19 +33,21 @@ int main(int argc, char** argv) {
       sheet::fail(sheet::ExitCode::usage, "--density: {} is not positive", *density);
     if (inputs.empty())
       inputs.emplace_back("-");
+    for (const std::string& input : inputs)
+      sheet::claim_file(input, sheet::FileRole::input); // before the output is emptied
     const auto report = json ? sheet::make_json_report() : csv ? sheet::make_csv_report() : sheet::make_text_report();
     sheet::OutputFile out(output, sheet::OutputFile::Content::text);
-    out.write(report->begin());
+    std::string head = report->begin();
     sheet::SceneDensity scene;
     sheet::formats::Frame frame;
     for (const std::string& input : inputs) {
       const sheet::InputFile in(input);
       sheet::formats::StreamReader reader(in.descriptor(), in.name());
       while (reader.read(frame))
-        out.write(report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame,
-                               sheet::measure(frame, density ? density : scene.of(frame))}));
+        out.write(std::exchange(head, {}) + report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame,
+                                                         sheet::measure(frame, density ? density : scene.of(frame))}));
     }
-    out.write(report->end());
+    out.write(head + report->end());
     out.close();
   });
 }

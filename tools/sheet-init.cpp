@@ -50,10 +50,11 @@ int main(int argc, char** argv) {
                "the first frame, with a change");
   return tool.run(argc, argv, [&] {
     if (example || check) {
-      sheet::OutputFile text(output, sheet::OutputFile::Content::text);
-      text.write(example ? std::string(sheet::scene::example())
-                         : sheet::scene::to_text(sheet::scene::explain(read(scene_file, sets))));
-      text.close();
+      const std::string text = example ? std::string(sheet::scene::example())
+                                       : sheet::scene::to_text(sheet::scene::explain(read(scene_file, sets)));
+      sheet::OutputFile file(output, sheet::OutputFile::Content::text);
+      file.write(text);
+      file.close();
       return;
     }
     sheet::formats::Frame frame = sheet::build_frame(read(scene_file, sets));
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
     sheet::log::detail("{} vertices, {} triangles", frame.vertices, frame.triangles);
     sheet::OutputFile file(output, sheet::OutputFile::Content::binary);
     sheet::formats::StreamWriter writer(file.descriptor(), file.name());
+    file.start();
     writer.write(frame);
     writer.end();
     file.close();

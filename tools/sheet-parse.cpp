@@ -21,18 +21,20 @@ int main(int argc, char** argv) {
   tool.example("sheet-parse hand-written.txt | sheet-check", "is it a good frame?");
   return tool.run(argc, argv, [&] {
     const sheet::InputFile in(input);
-    sheet::OutputFile out(output, sheet::OutputFile::Content::binary, &in);
+    sheet::OutputFile out(output, sheet::OutputFile::Content::binary);
     TextParser parser(in.descriptor(), in.name());
     sheet::formats::StreamWriter writer(out.descriptor(), out.name());
     sheet::formats::Frame frame;
     for (auto item = parser.read(frame); item != TextParser::Item::nothing; item = parser.read(frame)) {
       if (item == TextParser::Item::end) {
+        out.start();
         writer.end();
         continue;
       }
       const std::string error = any_values ? std::string() : find_value_error(frame);
       if (!error.empty())
         sheet::fail(sheet::ExitCode::bad_input, "{}: frame {}: {}", in.name(), writer.frames(), error);
+      out.start();
       writer.write(frame);
     }
     out.close();

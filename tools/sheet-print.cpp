@@ -18,12 +18,15 @@ int main(int argc, char** argv) {
   tool.example("sheet-print a.sheet | sed 's/^time .*/time 0/' | sheet-parse > b.sheet", "edit it");
   return tool.run(argc, argv, [&] {
     const sheet::InputFile in(input);
-    sheet::OutputFile out(output, sheet::OutputFile::Content::text, &in);
+    sheet::OutputFile out(output, sheet::OutputFile::Content::text);
     sheet::formats::StreamReader reader(in.descriptor(), in.name(), sheet::formats::StreamReader::Values::any);
     sheet::formats::TextPrinter printer(out.descriptor(), out.name());
     sheet::formats::Frame frame;
-    while (reader.read(frame))
+    while (reader.read(frame)) {
+      out.start();
       printer.print(frame, reader.ends());
+    }
+    out.start();
     printer.end(reader.ends());
     out.close();
   });

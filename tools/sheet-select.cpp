@@ -41,14 +41,18 @@ int main(int argc, char** argv) {
     if (last)
       options.indices.push_back({-1, -1});
     const sheet::InputFile in(input);
-    sheet::OutputFile out(output, sheet::OutputFile::Content::binary, &in);
+    sheet::OutputFile out(output, sheet::OutputFile::Content::binary);
     sheet::formats::StreamReader reader(in.descriptor(), in.name());
     sheet::formats::StreamWriter writer(out.descriptor(), out.name());
-    sheet::Selector selector(options, [&](const sheet::formats::Frame& frame) { writer.write(frame); });
+    sheet::Selector selector(options, [&](const sheet::formats::Frame& frame) {
+      out.start();
+      writer.write(frame);
+    });
     sheet::formats::Frame frame;
     while (reader.read(frame) && selector.add(std::move(frame)))
       continue;
     selector.end();
+    out.start();
     writer.end();
     out.close();
   });

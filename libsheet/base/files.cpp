@@ -10,21 +10,13 @@
 
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_lock.h"
+#include "libsheet/base/file_roles.h"
 
 namespace sheet {
 
-namespace {
-
-bool same_regular_file(int a, int b) {
-  struct stat sa {
-  }, sb{};
-  return ::fstat(a, &sa) == 0 && ::fstat(b, &sb) == 0 && S_ISREG(sa.st_mode) && sa.st_dev == sb.st_dev &&
-         sa.st_ino == sb.st_ino;
-}
-
-} // namespace
-
 InputFile::InputFile(const std::string& path) : name_(path == "-" ? "standard input" : path) {
+  claim_file(path, FileRole::input);
   if (path == "-") {
     if (::isatty(STDIN_FILENO) != 0)
       fail(ExitCode::usage, "standard input is a terminal: give a file, or pipe a stream in");
@@ -47,43 +39,52 @@ InputFile::~InputFile() {
     ::close(descriptor_);
 }
 
-OutputFile::OutputFile(const std::string& path, Content content, const InputFile* input)
-    : name_(path == "-" ? "standard output" : path) {
+OutputFile::OutputFile(const std::string& path, Content content)
+    : path_(path), name_(path == "-" ? "standard output" : path) {
+  claim_file(path, FileRole::output);
   if (path == "-") {
     if (content == Content::binary && ::isatty(STDOUT_FILENO) != 0)
       fail(ExitCode::usage, "standard output is a terminal and the stream is binary: give -o FILE, or pipe it on");
     descriptor_ = STDOUT_FILENO;
-    if (input != nullptr && same_regular_file(descriptor_, input->descriptor()))
-      fail(ExitCode::usage, "{} is input and output at once: choose another output", input->name());
+    if (content == Content::binary)
+      lock_for_writing(descriptor_, name_);
     widen_pipe(descriptor_);
     return;
   }
-  // Opened without truncation first, so that an input of the same name is still whole when we refuse.
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  created_ = descriptor_ >= 0;
+  if (!created_)
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
     fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
-  if (input != nullptr && same_regular_file(descriptor_, input->descriptor())) {
-    ::close(descriptor_);
-    fail(ExitCode::usage, "{} is input and output at once: choose another output", path);
-  }
-  struct stat status {};
-  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && ::ftruncate(descriptor_, 0) != 0) {
-    const int code = errno;
-    ::close(descriptor_);
-    fail(ExitCode::io, "cannot empty {}: {}", path, std::strerror(code));
-  }
+  lock_for_writing(descriptor_, name_);
 }
 
 OutputFile::~OutputFile() {
+  if (created_ && !started_)
+    ::unlink(path_.c_str());
   if (descriptor_ > STDERR_FILENO)
     ::close(descriptor_);
+  else if (descriptor_ >= 0) // which whoever started this program may go on with
+    unlock(descriptor_);
+  release_file(path_, FileRole::output);
+}
+
+void OutputFile::start() {
+  if (std::exchange(started_, true) || path_ == "-")
+    return;
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && ::ftruncate(descriptor_, 0) != 0)
+    fail(ExitCode::io, "cannot empty {}: {}", path_, std::strerror(errno));
 }
 
 void OutputFile::write(std::string_view text) {
+  start();
   formats::write_all(descriptor_, std::as_bytes(std::span(text)), name_);
 }
 
 void OutputFile::close() {
+  start();
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0)

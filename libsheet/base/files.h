@@ -6,7 +6,8 @@
 
 namespace sheet {
 
-// A file descriptor that is open for reading. Throws Error: usage (standard input is a terminal), io (cannot open).
+// A file descriptor that is open for reading. Throws Error: usage (standard input is a terminal; this program writes
+// the same file), io (cannot open).
 class InputFile {
 public:
   explicit InputFile(const std::string& path);
@@ -22,23 +23,29 @@ private:
   int descriptor_ = -1;
 };
 
-// A file descriptor that is open for writing. Throws Error: usage (binary data to a terminal; the file is `input`
-// itself), io (cannot open). Call close() when all is written: only then is it known to be on its way.
+// A file descriptor that is open for writing. Throws Error: usage (binary data to a terminal; this program reads the
+// same file), io (cannot open; another program writes it). Until start() an earlier content stays, and it stays for
+// good if start() is never called: so a mistake costs no result. Call close() when all is written: only then is it
+// known to be on its way.
 class OutputFile {
 public:
   enum class Content { binary, text };
-  OutputFile(const std::string& path, Content content, const InputFile* input = nullptr);
+  OutputFile(const std::string& path, Content content);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  // There is something to write: empties the file. Does nothing when called again.
+  void start();
+  // Starts, if need be; close() does, too.
   void write(std::string_view text);
   void close();
 
 private:
-  std::string name_;
+  std::string path_, name_;
   int descriptor_ = -1;
+  bool started_ = false, created_ = false;
 };
 
 // The whole content of a file. Throws Error (io), also above `limit` bytes.

@@ -45,7 +45,7 @@ void declare_filter_options(Tool& tool, FilterOptions& options) {
 
 void run_filter(const Tool& tool, const FilterOptions& options, const std::function<void(formats::Frame&)>& work) {
   const InputFile input(options.input);
-  OutputFile output(options.output, OutputFile::Content::binary, &input);
+  OutputFile output(options.output, OutputFile::Content::binary);
   formats::StreamReader reader(input.descriptor(), input.name());
   formats::StreamWriter writer(output.descriptor(), output.name());
   const std::string line = tool.command_line();
@@ -55,15 +55,22 @@ void run_filter(const Tool& tool, const FilterOptions& options, const std::funct
     const auto start = Clock::now();
     try {
       work(frame);
+      if (const std::string error = find_value_error(frame); !error.empty())
+        fail(ExitCode::bad_input,
+             "the result is no valid frame: {}; its numbers are too large or too small to compute "
+             "with (sheet-check tells more)",
+             error);
     } catch (const Error& error) {
       fail(error.code(), "frame {} (step {}, time {} s): {}", reader.frames() - 1, frame.step, frame.time,
            error.what());
     }
     if (!options.no_provenance)
       record_provenance(frame, line);
+    output.start();
     writer.write(frame);
     busy += Clock::now() - start;
   }
+  output.start();
   writer.end();
   output.close();
   report_time(tool.name(), reader.frames(), busy);

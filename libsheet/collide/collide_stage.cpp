@@ -9,6 +9,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/magnitudes.h"
 #include "libsheet/collide/contact_arrays.h"
 #include "libsheet/collide/loose_springs.h"
 #include "libsheet/collide/release.h"
@@ -284,6 +285,7 @@ CollideStage::CollideStage() : impl_(std::make_unique<Impl>()) {}
 CollideStage::~CollideStage() = default;
 
 void CollideStage::step(Frame& frame) {
+  check_magnitudes(frame);
   impl_->read_scene_of(frame);
   if (frame.triangles > 0 && (impl_->solids || impl_->self()))
     impl_->step(frame);

@@ -20,15 +20,28 @@ namespace {
 constexpr double kBand = 6;
 // Voxels along the longest side, where the scene does not say.
 constexpr double kVoxels = 128;
-// No field is larger than this, whatever the scene says: the time would be lost, not gained.
-constexpr double kVoxelsMax = 1024;
+// No field has more voxels than this, some 100 MB: the time would be lost, not gained.
+constexpr double kVoxelsMax = 1e7;
 
 double voxel_size_for(const SolidSurface& surface, double wanted) {
   Box3 box;
   for (const Vector3& x : surface.points)
     box.extend(x);
   const double side = box.sizes().maxCoeff();
-  return wanted > 0 ? std::max(wanted, side / kVoxelsMax) : side / kVoxels;
+  return wanted > 0 ? wanted : side / kVoxels;
+}
+
+// A field's voxels lie within the band on both sides of the surface.
+void check_voxels(const SolidSurface& surface, const std::string& name, double voxel_size) {
+  double area = 0;
+  for (const auto& [a, b, c] : surface.triangles)
+    area += 0.5 * (surface.points[b] - surface.points[a]).cross(surface.points[c] - surface.points[a]).norm();
+  const double voxels = 2 * kBand * area / (voxel_size * voxel_size);
+  if (!(voxels <= kVoxelsMax))
+    fail(ExitCode::bad_input,
+         "{}: voxel_size = {:g} m makes a field of {:.2g} voxels, more than {:g}: leave it out, or give {:.2g} m or "
+         "more",
+         name, voxel_size, voxels, kVoxelsMax, std::sqrt(2 * kBand * area / kVoxelsMax) * 1.01);
 }
 
 class MeshDistance final : public SolidDistance {
@@ -109,6 +122,7 @@ std::unique_ptr<const SolidDistance> make_distance(const scene::SolidMesh& mesh,
   }
   check_surface(surface, name, true);
   const double voxel_size = voxel_size_for(surface, mesh.voxel_size.value_or(0));
+  check_voxels(surface, name, voxel_size);
   const std::string key = cache_key(surface, voxel_size, kBand);
   std::optional<DistanceField> field = load_field(key);
   if (!field) {

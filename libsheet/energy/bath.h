@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sheet that floats on a heavy bath: the hydrostatic pressure -ρ g d on its lower side, d the height [m] above the
 // bath's level, as the potential (ρ g/2) ∫ d² dA of the horizontally projected area [Batty et al. 2012, section 4]:
-//   W = (ρ g/12) A_z (d0² + d1² + d2² + d0 d1 + d1 d2 + d2 d0),   A_z = k·(x1-x0)×(x2-x0)/2,   k upwards.
+//   W = (ρ g/12) A_z q,   q = d0² + d1² + d2² + d0 d1 + d1 d2 + d2 d0,   A_z = k·(x1-x0)×(x2-x0)/2,   k upwards.
+// A bath acts from below only: ∫ min(d, 0)² dA takes the place of ∫ d² dA unless it clings to the sheet. In a triangle
+// of which one vertex a is under the surface q is d_a² s r with s = d_a/(d_a - d_b), r = d_a/(d_a - d_c), and the same
+// of the one vertex above it is what a triangle lacks of which two are under it.
 // The normals must point upwards. ρ in kg/m³, g in m/s².
 #pragma once
+#include <tuple>
+
 #include "libsheet/energy/element.h"
 
 namespace sheet {
@@ -11,50 +16,92 @@ namespace sheet {
 class Bath {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  // gravity [m/s²]; level: height of the rest plane along the upward direction [m].
-  Bath(double density, const Vector3& gravity, double level)
-      : weight_(density * gravity.norm() / 12), up_(-gravity.normalized()), level_(level) {}
+  // gravity [m/s²]; level: height of the rest plane along the upward direction [m]; clings: it pulls what is above it.
+  Bath(double density, const Vector3& gravity, double level, bool clings)
+      : weight_(density * gravity.norm() / 12), up_(-gravity.normalized()), level_(level), clings_(clings) {}
   [[nodiscard]] const char* name() const { return "bath"; }
   [[nodiscard]] std::size_t size() const { return count_; }
   void begin(const Stage& stage) { count_ = stage.start->mesh->triangles.size(); }
 
   [[nodiscard]] double value(std::size_t, const VectorN<9>& u) const {
     const Parts p(*this, u);
-    return weight_ * p.area * p.square;
+    return weight_ * p.area * p.depth.square;
   }
 
   double derivatives(std::size_t, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian, bool definite) const {
     const Parts p(*this, u);
-    gradient = weight_ * (p.square * p.by_area + p.area * p.by_square);
+    gradient = weight_ * (p.depth.square * p.by_area + p.area * p.by_square);
     const Matrix3 upright = (weight_ * (definite ? std::max(0.0, p.area) : p.area)) * (up_ * up_.transpose());
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
-        hessian.block<3, 3>(3 * a, 3 * b) = (a == b ? 2.0 : 1.0) * upright;
+        hessian.block<3, 3>(3 * a, 3 * b) = p.depth.second(a, b) * upright;
     if (!definite) {
-      const Matrix3 turn = (0.5 * weight_ * p.square) * skew(up_);
+      const Matrix3 turn = (0.5 * weight_ * p.depth.square) * skew(up_);
       for (int a = 0; a < 3; ++a) {
         hessian.block<3, 3>(3 * a, 3 * ((a + 2) % 3)) += turn;
         hessian.block<3, 3>(3 * a, 3 * ((a + 1) % 3)) -= turn;
       }
       hessian += weight_ * (p.by_area * p.by_square.transpose() + p.by_square * p.by_area.transpose());
     }
-    return weight_ * p.area * p.square;
+    return weight_ * p.area * p.depth.square;
   }
 
 private:
+  // q as a function of the heights of the three vertices, with its derivatives.
+  struct Depth {
+    double square = 0;
+    Vector3 first = Vector3::Zero();
+    Matrix3 second = Matrix3::Zero();
+
+    void add_whole(const Vector3& d) {
+      const double sum = d.sum();
+      square += 0.5 * (d.squaredNorm() + sum * sum);
+      first += d + Vector3::Constant(sum);
+      second += Matrix3::Identity() + Matrix3::Ones();
+    }
+    // The part on the side of vertex a, which lies alone on its side of the surface.
+    void add_corner(const Vector3& d, int a, double sign) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      const double x = d[a], s = x / (x - d[b]), r = x / (x - d[c]), w = sign * s * r;
+      square += w * x * x;
+      first += w * x * (Vector3::Unit(a) * (4 - s - r) + Vector3::Unit(b) * s + Vector3::Unit(c) * r);
+      second(a, a) += w * (12 - 8 * (s + r) + 2 * (s * s + s * r + r * r));
+      second(b, b) += 2 * w * s * s;
+      second(c, c) += 2 * w * r * r;
+      const double ab = w * s * (4 - 2 * s - r), ac = w * r * (4 - s - 2 * r), bc = w * s * r;
+      for (const auto& [i, j, value] : {std::tuple(a, b, ab), {a, c, ac}, {b, c, bc}}) {
+        second(i, j) += value;
+        second(j, i) += value;
+      }
+    }
+
+    Depth(const Vector3& d, bool clings) {
+      const auto under = (d.array() < 0).count();
+      if (clings || under == 3) {
+        add_whole(d);
+        return;
+      }
+      if (under == 2)
+        add_whole(d);
+      for (int a = 0; a < 3 && under > 0; ++a)
+        if ((d[a] < 0) == (under == 1))
+          add_corner(d, a, under == 1 ? 1 : -1);
+    }
+  };
+
   struct Parts {
-    double area, square;
+    double area;
+    Depth depth;
     VectorN<9> by_area, by_square;
-    Parts(const Bath& bath, const VectorN<9>& u) {
+    Parts(const Bath& bath, const VectorN<9>& u)
+        : depth(Eigen::Map<const Matrix3>(u.data()).transpose() * bath.up_ - Vector3::Constant(bath.level_),
+                bath.clings_) {
       const Vector3& k = bath.up_;
       const Vector3 x[3] = {u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)};
-      const double d[3] = {k.dot(x[0]) - bath.level_, k.dot(x[1]) - bath.level_, k.dot(x[2]) - bath.level_};
-      const double sum = d[0] + d[1] + d[2];
       area = 0.5 * k.dot((x[1] - x[0]).cross(x[2] - x[0]));
-      square = 0.5 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + sum * sum);
       for (int a = 0; a < 3; ++a) {
         by_area.segment<3>(3 * a) = 0.5 * k.cross(x[(a + 2) % 3] - x[(a + 1) % 3]);
-        by_square.segment<3>(3 * a) = (d[a] + sum) * k;
+        by_square.segment<3>(3 * a) = depth.first[a] * k;
       }
     }
   };
@@ -62,6 +109,7 @@ private:
   double weight_; // ρ g/12 [N/m³]
   Vector3 up_;
   double level_;
+  bool clings_;
   std::size_t count_ = 0;
 };
 

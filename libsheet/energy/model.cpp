@@ -30,7 +30,7 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
   if (model.pressure)
     terms.push_back(make_term(Pressure(*model.pressure)));
   if (model.bath && model.gravity.squaredNorm() > 0)
-    terms.push_back(make_term(Bath(model.bath->density, model.gravity, model.bath->level)));
+    terms.push_back(make_term(Bath(model.bath->density, model.gravity, model.bath->level, model.bath->clings)));
   if (!model.contacts.empty())
     terms.push_back(make_term(Contact(model.contacts)));
   return terms;

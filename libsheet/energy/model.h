@@ -14,8 +14,9 @@ namespace sheet {
 
 // A bath below the sheet.
 struct BathModel {
-  double density = 0; // [kg/m³]
-  double level = 0;   // of its surface, along the upward direction [m]
+  double density = 0;  // [kg/m³]
+  double level = 0;    // of its surface, along the upward direction [m]
+  bool clings = false; // it pulls what is above its level
 };
 
 enum class Bending { none, mid_edge, hinge, hinge_paper };

@@ -22,11 +22,14 @@
 #include "formats/cpp/stream_reader.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_lock.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
 #include "libsheet/loop/pipeline.h"
 #include "libsheet/loop/progress.h"
+#include "libsheet/loop/same_run.h"
 
 namespace sheet {
 
@@ -108,8 +111,13 @@ private:
 // The stream of kept frames: a new one, or one that a run before has left.
 class Output {
 public:
-  // Reads what is there, cuts off what is behind the last whole frame, and leaves that frame in `last`.
+  // Reads what is there, and leaves the last whole frame in `last`. What is behind it is cut off before the first frame
+  // is added.
   static std::unique_ptr<Output> resume(const std::string& path, Frame& last) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0)
+      fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
+    lock_for_writing(descriptor, path); // what another run still writes must not be taken for a torn end
     std::uint64_t frames = 0, bytes = 0;
     {
       const InputFile input(path);
@@ -137,18 +145,12 @@ public:
       if (reader.frames() == 0)
         fail(ExitCode::bad_input, "{} holds no whole frame: start the run anew", path);
     }
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0)
-      fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
-    auto output = std::unique_ptr<Output>(new Output(descriptor, path, frames));
-    if (::ftruncate(descriptor, static_cast<off_t>(bytes)) != 0 || ::lseek(descriptor, 0, SEEK_END) < 0)
-      fail(ExitCode::io, "cannot go on with {}: {}", path, std::strerror(errno));
-    return output;
+    release_file(path, FileRole::input);
+    claim_file(path, FileRole::output);
+    return std::unique_ptr<Output>(new Output(descriptor, path, frames, static_cast<off_t>(bytes)));
   }
-  static std::unique_ptr<Output> create(const std::string& path, const InputFile& input) {
-    auto output =
-        std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(path, OutputFile::Content::binary, &input)));
-    return output;
+  static std::unique_ptr<Output> create(const std::string& path) {
+    return std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(path, OutputFile::Content::binary)));
   }
   ~Output() {
     if (resumed_ >= 0)
@@ -157,8 +159,12 @@ public:
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  void write(const Frame& frame) { writer_.write(frame); }
+  void write(const Frame& frame) {
+    start();
+    writer_.write(frame);
+  }
   void end() {
+    start();
     writer_.end();
     if (created_)
       created_->close();
@@ -170,11 +176,23 @@ public:
 private:
   explicit Output(std::unique_ptr<OutputFile> file)
       : created_(std::move(file)), writer_(created_->descriptor(), created_->name()) {}
-  Output(int descriptor, const std::string& path, std::uint64_t frames)
-      : resumed_(descriptor), writer_(descriptor, path, frames) {}
+  Output(int descriptor, std::string path, std::uint64_t frames, off_t bytes)
+      : path_(std::move(path)), resumed_(descriptor), bytes_(bytes), writer_(descriptor, path_, frames) {}
+
+  void start() {
+    if (std::exchange(started_, true))
+      return;
+    if (created_)
+      created_->start();
+    else if (::ftruncate(resumed_, bytes_) != 0 || ::lseek(resumed_, 0, SEEK_END) < 0)
+      fail(ExitCode::io, "cannot go on with {}: {}", path_, std::strerror(errno));
+  }
 
   std::unique_ptr<OutputFile> created_;
+  std::string path_;
   int resumed_ = -1;
+  off_t bytes_ = 0; // of the whole frames that are there
+  bool started_ = false;
   StreamWriter writer_;
 };
 
@@ -183,6 +201,7 @@ void write_checkpoint(const std::string& path, const Frame& frame) {
   const std::string draft = path + ".new";
   OutputFile file(draft, OutputFile::Content::binary);
   StreamWriter writer(file.descriptor(), file.name());
+  file.start();
   writer.write(frame);
   writer.end();
   file.close();
@@ -277,6 +296,7 @@ public:
         return signals.take();
       }
       ++rounds;
+      write_first();
       keep_frame();
       progress.show(frame_.time, frame_.step, output_->frames());
       if (!options_.checkpoint.empty() &&
@@ -287,6 +307,7 @@ public:
     }
     progress.clear();
     const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
+    write_first();
     if (!kept_)
       write_frame();
     save_state();
@@ -299,26 +320,48 @@ private:
   // Reads the first frame, opens the output.
   void start() {
     if (!options_.resume.empty()) {
+      claim_checkpoint(); // other than the stream
       output_ = Output::resume(options_.resume, frame_);
       kept_ = true;
-      if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint)) {
-        const InputFile input(options_.checkpoint);
-        Frame newer = read_last_frame(input);
-        if (newer.step > frame_.step) {
-          frame_ = std::move(newer);
-          kept_ = false;
-        }
-      }
+      if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint))
+        take_checkpoint();
       log::detail("going on with {} at step {}, t = {} s", options_.resume, frame_.step, frame_.time);
     } else {
       const InputFile input(options_.input);
       frame_ = read_last_frame(input);
-      output_ = Output::create(options_.output, input);
+      claim_checkpoint();
+      output_ = Output::create(options_.output);
       record_once(frame_, provenance_line_);
       if (!keep_.last_only)
-        write_frame();
+        first_ = frame_;
+      kept_ = first_.has_value();
     }
     record_once(frame_, provenance_line_);
+  }
+
+  void claim_checkpoint() const {
+    if (!options_.checkpoint.empty())
+      claim_file(options_.checkpoint, FileRole::output);
+  }
+
+  // The frame of the checkpoint, if it is newer than the stream's last one.
+  void take_checkpoint() {
+    release_file(options_.checkpoint, FileRole::output);
+    {
+      const InputFile input(options_.checkpoint);
+      Frame newer = read_last_frame(input);
+      const bool is_newer = newer.step > frame_.step;
+      if (!same_run(is_newer ? frame_ : newer, is_newer ? newer : frame_))
+        fail(ExitCode::usage,
+             "--checkpoint {} holds a frame of another run than {}: name another file, or remove it if nobody needs it",
+             options_.checkpoint, options_.resume);
+      if (is_newer) {
+        frame_ = std::move(newer);
+        kept_ = false;
+      }
+    }
+    release_file(options_.checkpoint, FileRole::input);
+    claim_checkpoint();
   }
 
   [[nodiscard]] bool done() const {
@@ -374,22 +417,37 @@ private:
     write_frame();
   }
 
+  // The first frame is written when the first round has gone well: a ring that cannot start leaves an earlier result
+  // as it is.
+  void write_first() {
+    if (!first_)
+      return;
+    write(*first_);
+    first_.reset();
+  }
+
   void write_frame() {
+    write(frame_);
+    kept_ = true;
+  }
+
+  void write(const Frame& frame) {
     try {
-      output_->write(frame_);
+      output_->write(frame);
     } catch (const StreamError& error) {
       if (error.kind() == StreamError::Kind::closed)
         throw;
       save_state();
       fail(ExitCode::io, "{}; at {}", error.what(), whereabouts());
     }
-    kept_ = true;
   }
 
   // How to go on, for messages.
   [[nodiscard]] std::string whereabouts() const {
-    std::string text =
-        fmt::format("step {}, t = {} s; {} whole frames kept", frame_.step, frame_.time, output_->frames());
+    std::string text = fmt::format("step {}, t = {} s; ", frame_.step, frame_.time);
+    if (first_)
+      return text + "nothing was written";
+    text += fmt::format("{} whole frames kept", output_->frames());
     const std::string& path = options_.resume.empty() ? options_.output : options_.resume;
     text +=
         path == "-" ? "; go on with --resume FILE if they are in one" : fmt::format("; go on with --resume {}", path);
@@ -412,6 +470,7 @@ private:
 
   void interrupted(Pipeline& pipeline) {
     pipeline.kill();
+    write_first();
     save_state();
     log::warning("interrupted in the step after {}", whereabouts());
     output_->end();
@@ -441,8 +500,9 @@ private:
   Keep keep_;
   std::string provenance_line_;
   std::unique_ptr<Output> output_;
-  Frame frame_, back_; // the newest state; the one that comes back (after a round: the one before)
-  bool kept_ = false;  // the newest state is in the output
+  std::optional<Frame> first_; // not yet written
+  Frame frame_, back_;         // the newest state; the one that comes back (after a round: the one before)
+  bool kept_ = false;          // the newest state is in the output
 };
 
 } // namespace
@@ -465,6 +525,7 @@ void check(const LoopOptions& options) {
   if (!options.resume.empty() && (options.input != "-" || options.output != "-"))
     fail(ExitCode::usage, "--resume FILE is input and output at once: give neither INPUT nor -o with it");
   [[maybe_unused]] const Keep keep = parse_keep(options);
+  [[maybe_unused]] const std::vector<std::string> stages = split_pipeline(options.pipeline);
 }
 
 double next_output_time(double time, double fps) {

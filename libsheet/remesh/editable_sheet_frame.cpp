@@ -51,6 +51,18 @@ Array made_like(const Array& old, const std::vector<std::uint32_t>& slots, Array
   return made;
 }
 
+// A hold that has let go holds nobody any longer: its bit goes.
+void forget_released(const Scene& scene, double time, std::vector<Array>& vertex_rows) {
+  std::uint64_t in_force = ~std::uint64_t{0};
+  for (std::size_t i = 0; i < scene.holds.size(); ++i)
+    if (const auto& until = scene.holds[i].until; until && time >= *until)
+      in_force &= ~(std::uint64_t{1} << i);
+  for (Array& array : vertex_rows)
+    if (array.name == "hold")
+      for (std::uint64_t& bits : array.values<std::uint64_t>())
+        bits &= in_force;
+}
+
 } // namespace
 
 EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
@@ -74,9 +86,11 @@ EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
   }
   for (const std::uint64_t bits : masks(frame, "inlet"))
     at_inlet_.push_back(bits != 0);
-  if (scene != nullptr)
+  if (scene != nullptr) {
     for (const scene::Hold& hold : scene->holds)
       hold_axes_.push_back(hold.axes);
+    forget_released(*scene, frame.time, vertex_rows_);
+  }
   const bool any_grip = std::any_of(vertex_rows_.begin(), vertex_rows_.end(),
                                     [](const Array& array) { return array.transfer == Transfer::common; });
   for (std::uint32_t v = 0; any_grip && v < position_.size(); ++v)

@@ -6,6 +6,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/magnitudes.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/remesh/inlet.h"
 #include "libsheet/remesh/inlet_checks.h"
@@ -352,6 +353,7 @@ Emitted emit(Frame& frame, const Scene& scene) {
 }
 
 void EmitStage::emit(Frame& frame) {
+  check_magnitudes(frame);
   const Scene& scene = scenes_.of(frame);
   if (!scene.inflow)
     return;

@@ -5,6 +5,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/magnitudes.h"
 
 namespace sheet::remesh {
 
@@ -16,6 +17,7 @@ RemeshStage::RemeshStage(const StageOptions& options) : options_(options) {
 }
 
 void RemeshStage::remesh(formats::Frame& frame) {
+  check_magnitudes(frame);
   const Scene* scene = frame.find("scene") == nullptr ? nullptr : &scenes_.of(frame);
   if (!options_.edge_length) {
     if (scene == nullptr || !scene->sheet.edge_length)

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "libsheet/base/log.h"
+#include "libsheet/base/magnitudes.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/remesh/fans.h"
 #include "libsheet/remesh/tear_cuts.h"
@@ -210,6 +211,7 @@ Torn tear(Frame& frame, const Scene& scene) {
 }
 
 void TearStage::tear(Frame& frame) {
+  check_magnitudes(frame);
   const Scene& scene = scenes_.of(frame);
   if (!scene.tear)
     return;

@@ -50,4 +50,10 @@ Plane ground_below(const Box& subject, const Vector3& up) {
   return {ground_id, subject.center() - reach * up, up};
 }
 
+Plane bath_surface(double level, const Box& subject, const Vector3& up) {
+  Plane surface = ground_below(subject, up);
+  surface.point += std::min(0.0, level - surface.point.dot(up)) * up;
+  return surface;
+}
+
 } // namespace sheet::render

@@ -37,4 +37,8 @@ private:
 // A ground for a scene that has no plane of its own, a little below the subject.
 [[nodiscard]] Plane ground_below(const Box& subject, const Vector3& up);
 
+// The surface of a bath whose level [m] is measured along `up`; a little below the subject where that lies deeper, for
+// the sheet displaces the bath.
+[[nodiscard]] Plane bath_surface(double level, const Box& subject, const Vector3& up);
+
 } // namespace sheet::render

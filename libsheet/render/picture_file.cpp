@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/render/codecs.h"
 
@@ -43,6 +44,7 @@ void write_whole(const std::string& path, const std::string& bytes) {
   }
   if (std::filesystem::is_directory(target))
     fail(ExitCode::io, "cannot write {}: it is a folder", path);
+  claim_file(path, FileRole::output);
   const std::string part = (folder / fmt::format(".{}.part", target.filename().string())).string();
   try {
     OutputFile file(part, OutputFile::Content::binary);
@@ -54,6 +56,7 @@ void write_whole(const std::string& path, const std::string& bytes) {
     std::filesystem::remove(part, error);
     throw;
   }
+  release_file(path, FileRole::output);
 }
 
 } // namespace sheet::render

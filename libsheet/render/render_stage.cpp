@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/numbered_name.h"
@@ -64,6 +65,8 @@ Colour solid_colour(std::size_t i) {
   return colours[i % 4];
 }
 
+const Colour bath_colour{0.24F, 0.34F, 0.42F}; // reflectance
+
 } // namespace
 
 struct RenderStage::Impl {
@@ -100,6 +103,10 @@ struct RenderStage::Impl {
       name.emplace(options.output);
     if (!options.environment.empty())
       surroundings = read_picture(options.environment);
+    if (name) { // refused before anything is drawn
+      claim_file(name->of(0), FileRole::output);
+      release_file(name->of(0), FileRole::output);
+    }
   }
 
   void read_scene_of(const formats::Frame& frame) {
@@ -142,7 +149,9 @@ struct RenderStage::Impl {
     Fixed f{subject, camera,
             surroundings ? Lighting::surroundings(*surroundings, toward, upward) : Lighting::studio(toward, upward),
             options.range ? *options.range : widened(survey->scale(), options.look), std::nullopt};
-    if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
+    if (const scene::Bath* bath = bath_in_view(); bath != nullptr)
+      f.ground = bath_surface(bath->level, subject, up);
+    else if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
     fixed.emplace(std::move(f));
     const Vector3 eye = camera.eye(), axis = camera.axis().cast<double>(),
@@ -151,6 +160,11 @@ struct RenderStage::Impl {
                 target.x(), target.y(), target.z());
     if (has_scale(options.look))
       log::detail("scale: {:.9g} to {:.9g}", fixed->scale.low, fixed->scale.high);
+  }
+
+  [[nodiscard]] const scene::Bath* bath_in_view() const {
+    const bool drawn = scene != nullptr && scene->environment.bath && options.look == Look::material;
+    return drawn ? &*scene->environment.bath : nullptr;
   }
 
   void warn_if_out_of_sight(const formats::Frame& frame) {
@@ -183,6 +197,8 @@ struct RenderStage::Impl {
     for (std::size_t i = 0; scene && i < scene->solids.size(); ++i)
       around.solids.push_back(std::holds_alternative<scene::HalfSpace>(scene->solids[i].shape) ? around.ground
                                                                                                : solid_colour(i));
+    if (bath_in_view() != nullptr)
+      around.ground = bath_colour;
     const PathTracer tracer(world, fixed->lighting, liquid_of(options), std::move(around));
     return render::draw(
         world, fixed->camera,

@@ -103,8 +103,9 @@ gravity = [0, "-9.81 m/s^2", 0]
 #[environment]
 #pressure = {law = "draining", conductance = "1e-4 m^3/(Pa*s)"}
 
-# A heavy liquid below the sheet, up to the height `level` against gravity.
-#bath = {density = "1200 kg/m^3", level = "-0.5 m"}
+# A heavy liquid below the sheet, up to the height `level` against gravity. It carries what is under its surface;
+# with clings = true it pulls down what is above it, too, so that the sheet cannot leave it.
+#bath = {density = "1200 kg/m^3", level = "-0.5 m", clings = false}
 
 [model] # ---------------------------------------------------------------- what to leave out; may be absent
 

@@ -49,9 +49,11 @@ std::vector<Term> terms_of(const Scene& scene) {
   term("pressure", environment.pressure.has_value(), environment.pressure ? law(*environment.pressure) : "",
        "no pressure in [environment]");
   term("bath", environment.bath.has_value(),
-       environment.bath ? fmt::format("liquid of {} kg/m³ below level {} m", brief(environment.bath->density),
-                                      brief(environment.bath->level))
-                        : "",
+       environment.bath
+           ? fmt::format("liquid of {} kg/m³ below level {} m, which {}", brief(environment.bath->density),
+                         brief(environment.bath->level),
+                         environment.bath->clings ? "clings to the sheet" : "carries what is under its surface")
+           : "",
        "no bath in [environment]");
   term("holds", !holds.empty(), count(holds.size(), "hold"), "no [[hold]]");
   term("solids", !solids.empty(), count(solids.size(), "solid") + "; liquid that touches sticks", "no [[solid]]");

@@ -7,6 +7,9 @@
 namespace sheet::scene {
 namespace {
 
+// [[hold]]s and [[solid]]s: each has a bit of 64 in the arrays "hold" and "touch" of a frame.
+constexpr std::size_t most_of_a_kind = 64;
+
 // What only several tables together can say.
 void check_together(const Scene& scene, const Node& document, Problems& problems) {
   const auto place = [&](std::string_view table, std::string_view key) {
@@ -63,6 +66,9 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
       problems.add(node->place, fmt::format("{0}: expected tables [[{0}]], got {1}", key, describe(node->type)));
       return tables;
     }
+    if (node->items.size() > most_of_a_kind)
+      problems.add(node->items[most_of_a_kind].place, fmt::format("{0}: {1} tables [[{0}]]; a scene may have {2}", key,
+                                                                  node->items.size(), most_of_a_kind));
     for (const Node& item : node->items) {
       if (item.type == Node::Type::table)
         tables.emplace_back(item, fmt::format("[[{}]]", key), problems);

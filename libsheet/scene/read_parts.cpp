@@ -2,6 +2,7 @@
 // What several tables have in common: motions, rotations, files, borders.
 #include <algorithm>
 
+#include "libsheet/base/file_roles.h"
 #include "libsheet/scene/tables.h"
 #include "libsheet/scene/words.h"
 
@@ -73,6 +74,8 @@ std::string read_file(TableReader& table, const Files& files, std::span<const st
       table.wrong("file", fmt::format("there is no \"{}\"", path.string()));
     else if (!std::filesystem::is_regular_file(status))
       table.wrong("file", fmt::format("\"{}\" is not a file", path.string()));
+    else
+      claim_file(path.string(), FileRole::input);
   }
   return path.string();
 }

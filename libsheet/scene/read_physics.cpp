@@ -50,7 +50,8 @@ Environment read_environment(TableReader table) {
   environment.pressure = read_pressure(table);
   if (auto bath = table.table("bath")) {
     const double density = bath->required("density", quantity::density);
-    environment.bath = Bath{density, bath->quantity_or("level", quantity::length, 0)};
+    environment.bath =
+        Bath{density, bath->quantity_or("level", quantity::length, 0), bath->boolean("clings").value_or(false)};
     bath->finish();
   }
   table.finish();

@@ -144,9 +144,11 @@ struct DrainingPressure {
 };
 using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingPressure>;
 
-// Liquid below the height `level`, measured against gravity from the origin.
+// Liquid below the height `level`, measured against gravity from the origin. It carries what is under its surface, and
+// pulls down what is above it if it clings.
 struct Bath {
   double density, level;
+  bool clings = false;
   bool operator==(const Bath&) const = default;
 };
 

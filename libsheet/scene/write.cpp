@@ -157,8 +157,8 @@ void write_environment(Writer& out, const Environment& environment) {
              fmt::format("{{law = {}, {}}}", word(words::pressures, environment.pressure->index()), values));
   }
   if (environment.bath)
-    out.line("bath", fmt::format("{{density = {}, level = {}}}", number(environment.bath->density),
-                                 number(environment.bath->level)));
+    out.line("bath", fmt::format("{{density = {}, level = {}, clings = {}}}", number(environment.bath->density),
+                                 number(environment.bath->level), environment.bath->clings));
 }
 
 void write_hold(Writer& out, const Hold& hold) {

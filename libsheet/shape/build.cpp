@@ -152,9 +152,6 @@ void add_inlet(const TriangleMesh& mesh, const VertexSet& inlet, formats::Frame&
 // Bits of all holds whose region is a named border (borders of the undisturbed shape), or all others.
 void add_holds(const TriangleMesh& mesh, const std::vector<scene::Hold>& table, bool borders,
                std::vector<std::uint64_t>& bits) {
-  constexpr std::size_t most = 64; // bits of the array "hold"
-  if (table.size() > most)
-    fail(ExitCode::bad_input, "a scene may have {} [[hold]] tables, this one has {}", most, table.size());
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (std::holds_alternative<scene::Border>(table[i].region) != borders)
       continue;

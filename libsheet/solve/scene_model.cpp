@@ -188,7 +188,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (scene.environment.pressure)
     model.pressure = pressure_law(*scene.environment.pressure);
   if (scene.environment.bath)
-    model.bath = BathModel{scene.environment.bath->density, scene.environment.bath->level};
+    model.bath =
+        BathModel{scene.environment.bath->density, scene.environment.bath->level, scene.environment.bath->clings};
   add_touching(scene, frame, model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
   add_inlet(scene, frame, mesh, model);

@@ -8,8 +8,10 @@
 
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/magnitudes.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/scene_model.h"
@@ -68,6 +70,17 @@ void check_mesh(const Connectivity& mesh) {
          lonely - used.begin());
 }
 
+// An edge without length has no direction, and one that is too short for its square to be a number is no better.
+void check_edges(const Frame& frame, const Connectivity& mesh) {
+  constexpr double shortest = 1e-30; // [m]
+  const auto x = positions(frame);
+  for (const auto& [a, b] : mesh.edges)
+    if (const double length = (x[b] - x[a]).norm(); !(length > shortest))
+      fail(ExitCode::bad_input,
+           "vertices {} and {} share an edge and lie in one place ({:g} m apart): let sheet-remesh collapse it", a, b,
+           length);
+}
+
 // The end of a fixed step from t: dt, or a little less so that equal steps land exactly on `until`.
 double fixed_step(double t, double until, double dt) {
   if (std::isinf(until))
@@ -105,8 +118,10 @@ struct StepStage::Impl {
   }
 
   void step(Frame& frame) {
+    check_magnitudes(frame);
     const Scene& scene = scenes.of(frame);
     connect_mesh(frame);
+    check_edges(frame, *mesh);
     const double until = end_of_step(scene, frame);
     if (mesh->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
@@ -175,6 +190,8 @@ StepStage::StepStage(StepStageOptions options) : impl_(std::make_unique<Impl>())
     fail(ExitCode::usage, "--tolerance: {} is not a positive number", *options.tolerance);
   if (options.dt && options.tolerance)
     fail(ExitCode::usage, "--dt and --tolerance exclude each other: a step is fixed or chosen by its error");
+  if (!options.failed.empty())
+    claim_file(options.failed, FileRole::output);
   impl_->options = std::move(options);
 }
 
@@ -187,8 +204,10 @@ void StepStage::step(Frame& frame) {
     const std::string& path = impl_->options.failed;
     if (error.code() != ExitCode::not_converged || path.empty())
       throw;
+    release_file(path, FileRole::output);
     OutputFile file(path, OutputFile::Content::binary);
     formats::StreamWriter writer(file.descriptor(), file.name());
+    file.start();
     writer.write(frame);
     writer.end();
     file.close();

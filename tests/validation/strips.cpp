@@ -139,7 +139,7 @@ Result v15(const Settings& s) {
   Model m = viscous(mu, s);
   m.surface_tension = tension;
   m.gravity = {0, 0, -gravity};
-  m.bath = BathModel{bath, 0};
+  m.bath = BathModel{bath, 0, true};
   const double half = kWidth * wave / 2;
   Hold side = hold(
       start, [&](const Vector3& x) { return near(std::abs(x.y()), half); }, {false, true, false}, false);

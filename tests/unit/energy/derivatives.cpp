@@ -155,7 +155,36 @@ TEST(Derivatives, SurfaceTension) { check(SurfaceTension(0.7), {}); }
 TEST(Derivatives, InertiaLumped) { check(Inertia(3, Mass::lumped), {false, false}); }
 TEST(Derivatives, InertiaConsistent) { check(Inertia(3, Mass::consistent), {false, false}); }
 TEST(Derivatives, Gravity) { check(Gravity(3, {0.3, -9, 2}), {false, false}); }
-TEST(Derivatives, Bath) { check(Bath(3, {0.3, -9, 2}, 0.1), {false, false}); }
+TEST(Derivatives, Bath) { check(Bath(3, {0.3, -9, 2}, 0.1, true), {false, false}); }
+
+// With none, one, two and three vertices under the surface: continuous across it, and never a pull from above.
+TEST(Derivatives, BathActsFromBelowOnly) {
+  const Bath bath(3, {0, 0, -1}, 0, false), clinging(3, {0, 0, -1}, 0, true);
+  VectorN<9> u;
+  u << 0, 0, 0.3, 1, 0, 0.2, 0, 1, 0.1;
+  VectorN<9> gradient;
+  MatrixN<9> hessian;
+  EXPECT_EQ(bath.derivatives(0, u, gradient, hessian, false), 0);
+  EXPECT_EQ(gradient.norm() + hessian.norm(), 0);
+  for (const double level : {0.0, 0.15, 0.25, 0.35}) {
+    u[2] = 0.3 - level, u[5] = 0.2 - level, u[8] = 0.1 - level;
+    static_cast<void>(bath.derivatives(0, u, gradient, hessian, false));
+    for (int a = 0; a < 3; ++a)
+      EXPECT_LE(gradient[3 * a + 2], 0); // the force is upwards
+    for (int i = 0; i < 9; ++i) {
+      VectorN<9> below = u, above = u, g_below, g_above;
+      MatrixN<9> scrap;
+      below[i] -= 1e-6, above[i] += 1e-6;
+      EXPECT_NEAR(gradient[i], (bath.value(0, above) - bath.value(0, below)) / 2e-6, 1e-9);
+      static_cast<void>(bath.derivatives(0, below, g_below, scrap, false));
+      static_cast<void>(bath.derivatives(0, above, g_above, scrap, false));
+      EXPECT_LE((hessian.col(i) - (g_above - g_below) / 2e-6).norm(), 1e-7);
+    }
+    static_cast<void>(bath.derivatives(0, u, gradient, hessian, true));
+    EXPECT_GE(Eigen::SelfAdjointEigenSolver<MatrixN<9>>(hessian).eigenvalues()[0], -1e-12);
+  }
+  EXPECT_NEAR(bath.value(0, u), clinging.value(0, u), 1e-15); // all of it is under the surface
+}
 TEST(Derivatives, Pressure) { check(Pressure({PressureLaw::Kind::constant, 3, 1, 1}), {false, false}); }
 // On a free rim the force is p n A/3 at each corner, at rest exactly: the cap's part of the enclosed volume is taken
 // away.

@@ -34,7 +34,7 @@ surface_tension = 0.0728
 [environment]
 gravity = [0, -9.81, 0]
 pressure = {law = "constant", value = 10}
-bath = {density = 1200, level = 0.5}
+bath = {density = 1200, level = 0.5, clings = false}
 
 [model]
 inertia = true
@@ -148,7 +148,7 @@ public:
     if (shape > 2 && below(3) == 0)
       s.environment.pressure = DrainingPressure{positive()};
     if (s.environment.gravity && below(2))
-      s.environment.bath = Bath{positive(), number()};
+      s.environment.bath = Bath{positive(), number(), below(2) == 1};
     s.model = {below(2) == 1, below(2) == 1};
     for (int i = below(4); i > 0; --i)
       s.holds.push_back(hold(s));

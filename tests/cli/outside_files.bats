@@ -1,0 +1,129 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Files that a mistake would destroy: input and output at once, two writers, a typo, a full disk.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || exit
+  cat > scene.toml << 'END'
+[sheet]
+shape = "mesh"
+file = "mesh.obj"
+thickness = 0.01
+[material]
+viscosity = 100
+density = 1000
+[environment]
+gravity = [0, -9.81, 0]
+END
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n' > mesh.obj
+  sheet-init scene.toml -o a.sheet
+}
+
+# usage: keeps FILE CODE COMMAND...: the command ends with the code and leaves the file as it is.
+keeps() {
+  cp "$1" before
+  run "-$2" timeout 20 "${@:3}"
+  cmp "$1" before
+}
+
+@test "9: no program writes a file that it reads, whatever the file is called" {
+  ln -s a.sheet symbolic.sheet
+  ln a.sheet hard.sheet
+  for name in a.sheet ./a.sheet "$PWD/a.sheet" symbolic.sheet hard.sheet; do
+    for program in info pass step emit tear collide remesh select print; do
+      keeps a.sheet 2 "sheet-$program" a.sheet -o "$name"
+      [[ $output == *"$name is input and output at once"* ]]
+    done
+    keeps a.sheet 2 sheet-info --csv a.sheet a.sheet -o "$name"
+    keeps a.sheet 2 sheet-export --format obj a.sheet -o "$name"
+    keeps a.sheet 2 sheet-loop --steps 1 -i a.sheet -o "$name" -- sheet-pass
+    keeps a.sheet 2 sheet-loop --steps 1 -i a.sheet -o b.sheet --checkpoint "$name" -- sheet-pass
+    keeps a.sheet 2 sheet-loop --steps 1 --resume a.sheet --checkpoint "$name" -- sheet-pass
+    keeps a.sheet 2 sheet-step --dt 0.01 --failed "$name" a.sheet -o b.sheet
+    keeps a.sheet 2 bash -c 'sheet-info < a.sheet 1<> "$1"' _ "$name"
+  done
+  sheet-print a.sheet > a.txt
+  keeps a.txt 2 sheet-parse a.txt -o a.txt
+}
+
+@test "9: no program writes one file twice at once" {
+  keeps a.sheet 2 sheet-loop --steps 1 -i a.sheet -o b.sheet --checkpoint ./b.sheet -- sheet-pass
+  [[ $output == *'./b.sheet is output twice at once'* || $output == *'b.sheet is output twice at once'* ]]
+  run -2 sheet-step --dt 0.01 --failed b.sheet a.sheet -o b.sheet
+}
+
+@test "9: sheet-init spares the scene and every mesh that it names" {
+  keeps scene.toml 2 sheet-init scene.toml -o scene.toml
+  keeps mesh.obj 2 sheet-init scene.toml -o mesh.obj
+  keeps scene.toml 2 sheet-init --check scene.toml -o scene.toml
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' > solid.obj
+  printf '[[solid]]\nshape = "mesh"\nfile = "solid.obj"\n[contact]\n' >> scene.toml
+  keeps solid.obj 2 sheet-init scene.toml -o solid.obj
+}
+
+@test "9: sheet-render spares the picture of the surroundings" {
+  sheet-render a.sheet -o e.png --size 32x18 --samples 2
+  keeps e.png 2 sheet-render a.sheet --environment e.png -o e.png --size 32x18 --samples 2
+  [[ $output == *'e.png is input and output at once'* ]]
+}
+
+@test "10: a file has one writer at a time, and the message says who" {
+  sheet-pass a.sheet -o run.sheet
+  sheet-loop --steps 5 --resume run.sheet -- 'sleep 60 | cat' 2> /dev/null 3>&- &
+  writer=$!
+  sleep 1
+  for command in "sheet-loop --steps 5 --resume run.sheet -- sheet-pass" "sheet-pass a.sheet -o run.sheet" \
+    "sheet-loop --steps 5 -i a.sheet -o run.sheet -- sheet-pass" "sheet-info a.sheet -o run.sheet" \
+    "sheet-select --last a.sheet -o run.sheet" "sheet-init scene.toml -o run.sheet"; do
+    keeps run.sheet 6 bash -c "$command"
+    [[ $output == *'run.sheet is being written by process '*' (sheet-loop): wait until it has ended'* ]]
+  done
+  kill "$writer"
+  wait "$writer" || true
+}
+
+@test "11: a mistake leaves an earlier result as it is, and no empty file" {
+  head -c 300 a.sheet > bad.sheet
+  sheet-loop -q --steps 3 -i a.sheet -o run.sheet -- sheet-pass
+  keeps run.sheet 2 sheet-loop --steps 5 -i a.sheet -o run.sheet -- 'sheet-pass; x'
+  keeps run.sheet 2 sheet-loop --steps 5 -i a.sheet -o run.sheet -- 'sheet-pas'
+  [[ $output == *'in the step after step 0, t = 0 s; nothing was written'* ]]
+  keeps run.sheet 2 sheet-loop --steps 5 -i a.sheet -o run.sheet -- 'sheet-pass --nonsense'
+  keeps run.sheet 4 sheet-loop --steps 5 -i bad.sheet -o run.sheet -- sheet-pass
+  keeps run.sheet 2 sheet-loop --steps 5 --resume run.sheet -- 'sheet-pass | sheet-pas'
+  keeps run.sheet 3 sheet-init bad.sheet -o run.sheet
+  keeps run.sheet 3 sheet-parse scene.toml -o run.sheet
+  for program in info 'info --csv' 'info --json' pass step emit tear collide remesh select 'select --last' print; do
+    options=
+    [[ $program != step ]] || options='--dt 0.1'
+    # shellcheck disable=SC2086 # words
+    keeps run.sheet 4 sheet-$program $options bad.sheet -o run.sheet
+    # shellcheck disable=SC2086
+    run -4 sheet-$program $options bad.sheet -o new.sheet
+    [[ ! -e new.sheet ]]
+  done
+  keeps run.sheet 0 sheet-loop -q --steps 3 --resume run.sheet -- sheet-pass
+  sheet-loop -q --steps 5 -i a.sheet -o run.sheet -- sheet-pass
+  [[ $(sheet-print run.sheet | grep -c '^frame$') == 6 ]]
+}
+
+@test "12: --resume does not go on from the checkpoint of another run" {
+  sheet-init scene.toml --set material.viscosity=7 -o b.sheet
+  sheet-loop -q --steps 3 -i a.sheet -o run.sheet -- sheet-pass
+  sheet-loop -q --steps 9 -i b.sheet --checkpoint newer.sheet -o other.sheet -- sheet-pass
+  sheet-loop -q --steps 1 -i b.sheet --checkpoint older.sheet -o other.sheet -- sheet-pass
+  sheet-init scene.toml --set sheet.thickness=0.02 -o c.sheet
+  sheet-loop -q --steps 9 -i c.sheet --checkpoint same_scene.sheet -o other.sheet -- 'sheet-remesh --edge-length 3'
+  for checkpoint in newer older same_scene; do
+    cp $checkpoint.sheet checkpoint.sheet
+    keeps run.sheet 2 sheet-loop --steps 20 --resume run.sheet --checkpoint checkpoint.sheet -- sheet-pass
+    [[ $output == *'--checkpoint checkpoint.sheet holds a frame of another run than run.sheet'* ]]
+    cmp checkpoint.sheet $checkpoint.sheet
+  done
+  cp run.sheet newest.sheet
+  sheet-loop -q --steps 6 --resume newest.sheet --checkpoint own.sheet -- sheet-pass
+  sheet-loop -q --steps 9 --resume run.sheet --checkpoint own.sheet -- sheet-pass
+  sheet-print run.sheet | grep -q '^step 9$'
+}

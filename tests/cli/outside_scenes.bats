@@ -1,0 +1,93 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Scenes as users write them: too much of something, something left out, something that cannot be.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || exit
+  cat > disk.toml << 'END'
+[sheet]
+shape = "disk"
+radius = 1
+edge_length = 0.4
+thickness = 0.01
+[material]
+viscosity = 100
+density = 1000
+END
+}
+
+@test "1: more holds or solids than a frame has bits for are refused, by every program" {
+  for kind in hold solid; do
+    cp disk.toml many.toml
+    for i in $(seq 65); do
+      [[ $kind != hold ]] || printf '[[hold]]\nregion = "rim"\n'
+      [[ $kind != solid ]] || printf '[[solid]]\nshape = "sphere"\ncenter = [9, 0, %d]\nradius = 0.1\n' "$i"
+    done >> many.toml
+    printf '[contact]\n' >> many.toml
+    run -3 sheet-init many.toml -o many.sheet
+    [[ $output == *"$kind: 65 tables [[$kind]]; a scene may have 64"* ]]
+    run -3 sheet-init --check many.toml
+    sheet-init disk.toml | sheet-print | grep -v '^| ' | sed '/^array scene /r '<(sed 's/^/| /' many.toml) |
+      sheet-parse > many.sheet
+    run -3 sheet-collide many.sheet -o out.sheet
+    run -3 sheet-step --dt 0.01 many.sheet -o out.sheet
+  done
+}
+
+@test "3: what a hold has let go is remeshed like what nothing ever held" {
+  remeshed() { # SCENE: a second after its start, with edges twice as long
+    sheet-init "$1" --set sheet.edge_length=0.1 | sheet-print | sed 's/^time 0$/time 1/' | sheet-parse |
+      sheet-remesh --edge-length 0.2
+  }
+  remeshed disk.toml > free.sheet
+  { cat disk.toml; printf '[[hold]]\nregion = "rim"\naxes = "z"\nuntil = 0.5\n[[hold]]\nregion = "rim"\nuntil = 2\n'; } > holds.toml
+  remeshed holds.toml > held.sheet
+  sed '/^until = 2/s/2/1/' holds.toml > released.toml
+  remeshed released.toml > released.sheet
+  sheet-diff --ignore hold --ignore scene --ignore provenance free.sheet released.sheet
+  run -1 sheet-diff --ignore hold --ignore scene --ignore provenance free.sheet held.sheet
+  sheet-print held.sheet | sed -n '/^array hold /,/^array /p' | grep '^[0-9]*$' | sort -u | tr '\n' ' ' > bits
+  [[ $(cat bits) == '0 2 ' ]]
+}
+
+@test "4: a bath carries what is under its surface and does not pull what is above it" {
+  { cat disk.toml; printf '[environment]\ngravity = [0, 0, -9.81]\nbath = {density = 2000, level = -0.05}\n'; } > raft.toml
+  after() { # SECONDS KEY=VALUE...: the mean height
+    sheet-init raft.toml "${@:2}" | sheet-loop -q --until "$1" --keep last -- sheet-step | sheet-print |
+      awk '/^array position /{n = 1; next} /^array /{n = 0} n{sum += $3; ++m} END{printf "%.5f\n", sum / m}'
+  }
+  [[ $(after 0.01) == -0.00049 ]] # it falls
+  [[ $(after 0.01 --set environment.bath.clings=true) < -0.01 ]]
+  # below the level it is pushed up; 5 mm of it are under the surface at rest, its weight is that of the displaced bath
+  up=$(after 0.01 --set environment.bath.level=0.05)
+  [[ $up > 0.001 ]]
+  sheet-init --check raft.toml | grep -q 'bath .* which carries what is under its surface'
+}
+
+@test "4: pictures show the bath" {
+  { cat disk.toml; printf '[environment]\ngravity = [0, 0, -9.81]\nbath = {density = 2000, level = -0.2}\n'; } > raft.toml
+  sheet-init raft.toml | sheet-render --size 64x36 --samples 8 --ppm > bath.ppm
+  grep -v bath raft.toml > ground.toml
+  sheet-init ground.toml | sheet-render --size 64x36 --samples 8 --ppm > ground.ppm
+  colour() { # of the lower left corner: blue less red
+    /usr/bin/python3 -c 'import sys; b = open(sys.argv[1], "rb").read()[-64 * 3:]; print(b[2] - b[0] > 20)' "$1"
+  }
+  [[ $(colour bath.ppm) == True && $(colour ground.ppm) == False ]]
+}
+
+box_mesh() { # SIZE: a cube as OBJ
+  awk -v s="$1" 'BEGIN{for (i = 0; i < 8; ++i) print "v", s * (i % 2), s * (int(i / 2) % 2), s * int(i / 4)
+    print "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6"}'
+}
+
+@test "16: a field of too many voxels is refused with their number" {
+  box_mesh 0.1 > box.obj
+  { cat disk.toml; printf '[contact]\n[[solid]]\nshape = "mesh"\nfile = "box.obj"\ncenter = [0, 0, -1]\nvoxel_size = "5 um"\n'; } > box.toml
+  sheet-init disk.toml | sheet-step --dt 1e-3 | sheet-print | grep -v '^| ' |
+    sed '/^array scene /r '<(sed 's/^/| /' box.toml) | sheet-parse > box.sheet
+  run -3 timeout 20 sheet-collide box.sheet -o out.sheet
+  [[ $output == *'solid 0 (box.obj): voxel_size = 5e-06 m makes a field of 2.9e+10 voxels, more than 1e+07'* ]]
+  sheet-print box.sheet | sed 's/5 um/5 mm/' | sheet-parse | sheet-collide -o out.sheet
+}
