@@ -58,7 +58,8 @@ struct Problem {
   SparseLower matrix;
 };
 
-// A square sheet of edge length 1. Values are those of a weighted Laplacian, whose factor decays as slowly as a sheet's.
+// A square sheet of edge length 1. Values are those of a weighted Laplacian, whose factor decays as slowly as a
+// sheet's.
 Problem problem_of(int wanted, int repeat) {
   const int n = std::max(2, static_cast<int>(std::lround(std::sqrt(wanted))) - 1);
   const State s = test::at_rest(test::rectangle(1, 1, n, n, 0.2), 0.01);

@@ -11,6 +11,7 @@
 
 #include "libsheet/base/parallel.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/solve/cholesky.h"
 #include "libsheet/solve/newton.h"
 #include "libsheet/solve/step.h"
 #include "tests/support/meshes.h"
