@@ -14,6 +14,8 @@
 // director together (docs/hard-cases.md).
 #pragma once
 #include "libsheet/energy/element.h"
+#include "libsheet/energy/energy_sum.h"
+#include "libsheet/energy/mid_edge_kernels.h"
 
 namespace sheet {
 
@@ -26,8 +28,15 @@ public:
   }
   [[nodiscard]] std::size_t size() const { return reference_.size(); }
   void begin(const Stage& stage);
+  // The cosines and sines of the angles of u.
+  void prepare(const Unknowns& u);
+
+  // Elements first to last-1, their unknowns `stride` apart; see term.h. Gradients, unless null, are set or added to,
+  // of Hessians (none: null) the lower triangles.
+  EnergySum evaluate(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
+                     double* hessians, bool definite, bool overwrite) const;
+  // Of one element, for tests.
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const;
-  double gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const;
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const;
 
@@ -41,22 +50,17 @@ private:
     double stiffness;  // k of a cap, else 0 [J/m²]
     double height;     // ḡ of its longest edge [m]
   };
-  struct Corner { // of edge i: local indices of its lower and higher vertex
-    int low, high;
-  };
-  [[nodiscard]] Corner corner(std::size_t i, int k) const {
-    const Triangle& v = mesh_->triangles[i];
-    const int a = (k + 1) % 3, b = (k + 2) % 3;
-    return v[a] < v[b] ? Corner{a, b} : Corner{b, a};
-  }
-  [[nodiscard]] Vector3 heights(std::size_t i, const VectorN<12>& u) const;
+  void load(std::size_t i, const double* u, MidEdgeBatch& batch, int lane) const;
+  void load_angles(std::size_t i, MidEdgeBatch& batch, int lane) const;
   void stiffen_cap(Reference& r, const RaisedMetric& metric, const Vector3& heights) const;
+  [[nodiscard]] Vector3 heights(std::size_t t, const Unknowns& u) const;
 
   double viscosity_; // [Pa s]
   bool arcs_;
   const Stage* stage_ = nullptr;
   const Connectivity* mesh_ = nullptr;
   std::vector<Reference> reference_;
+  std::vector<double> cosine_, sine_; // of the edges' angles
 };
 
 } // namespace sheet

@@ -146,16 +146,17 @@ void MatrixPattern::pack(const ElementGroup& group, std::size_t element, const d
   for (int a = 0, bit = 0; a < vertices; ++a)
     for (int b = 0; b <= a; ++b) {
       const bool swapped = b < a && (reversed >> bit++ & 1) != 0;
-      const double* from = hessian + (swapped ? 3 * (a * stride_ + b) : 3 * (b * stride_ + a));
-      for (int c = 0; c < 3; ++c, from += stride_, packed += 3)
-        packed[0] = from[0], packed[1] = from[1], packed[2] = from[2];
+      const double* from = hessian + 3 * (b * stride_ + a);
+      const int along = swapped ? stride_ : 1, across = swapped ? 1 : stride_;
+      for (int c = 0; c < 3; ++c, from += across, packed += 3)
+        packed[0] = from[0], packed[1] = from[along], packed[2] = from[2 * along];
     }
-  for (int e = 0; e < edges; ++e) {
-    const double* from = hessian + (3 * vertices + e) * stride_;
-    packed = std::copy_n(from, 3 * vertices, packed);
-  }
   for (int e = 0; e < edges; ++e)
-    packed = std::copy_n(hessian + (3 * vertices + e) * stride_ + 3 * vertices, e + 1, packed);
+    for (int k = 0; k < 3 * vertices; ++k)
+      *packed++ = hessian[k * stride_ + 3 * vertices + e];
+  for (int e = 0; e < edges; ++e)
+    for (int f = 0; f <= e; ++f)
+      *packed++ = hessian[(3 * vertices + f) * stride_ + 3 * vertices + e];
 }
 
 void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const {

@@ -48,7 +48,8 @@ public:
   [[nodiscard]] const std::vector<std::uint32_t>& permutation() const { return permutation_; }
   [[nodiscard]] const SparseLower& structure() const { return structure_; }
 
-  // Puts the Hessian of an element (column major, stride x stride) into its place, packed_size(group.stencil) numbers.
+  // Puts the Hessian of an element (column major, stride x stride; its lower triangle counts) into its place,
+  // packed_size(group.stencil) numbers.
   void pack(const ElementGroup& group, std::size_t element, const double* hessian, double* packed) const;
   void gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const;
   // Rows and columns of held unknowns become those of the unit matrix. matrix must be a copy of structure().

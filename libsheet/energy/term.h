@@ -8,15 +8,9 @@
 #include <vector>
 
 #include "libsheet/energy/element.h"
+#include "libsheet/energy/energy_sum.h"
 
 namespace sheet {
-
-// A sum of energies and the sum of their magnitudes, which tells how much of it is round-off.
-struct EnergySum {
-  double value = 0, magnitude = 0; // [J]
-  void add(double w) { value += w, magnitude += std::abs(w); }
-  void add(const EnergySum& s) { value += s.value, magnitude += s.magnitude; }
-};
 
 class Term {
 public:
@@ -32,8 +26,8 @@ public:
   // Adds to gradients (`stride` apart), or sets those of its own unknowns.
   virtual EnergySum add_gradients(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                                   bool overwrite) const = 0;
-  // Adds to gradients (`stride` apart) and Hessians (stride x stride, column major), or sets those of its own
-  // unknowns.
+  // Adds to gradients (`stride` apart) and Hessians (stride x stride, column major; at least the lower triangles), or
+  // sets those of its own unknowns.
   virtual EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                                     double* hessians, bool definite, bool overwrite) const = 0;
   // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an
@@ -44,6 +38,10 @@ public:
 template <class E> class TermOf final : public Term {
 public:
   static constexpr int kSize = stencil_unknowns(E::stencil);
+  // Some elements are evaluated many at a time.
+  static constexpr bool kInBatches = requires(const E& e) {
+    e.evaluate(0, 0, nullptr, 0, nullptr, nullptr, false, false);
+  };
   explicit TermOf(E element) : element_(std::move(element)) {}
   [[nodiscard]] const E& element() const { return element_; }
 
@@ -63,6 +61,8 @@ public:
   }
 
   [[nodiscard]] EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const override {
+    if constexpr (kInBatches)
+      return element_.evaluate(first, last, u, stride, nullptr, nullptr, false, false);
     EnergySum sum;
     for (std::size_t i = first; i < last; ++i, u += stride)
       sum.add(element_.value(i, Eigen::Map<const VectorN<kSize>>(u)));
@@ -71,6 +71,8 @@ public:
 
   EnergySum add_gradients(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                           bool overwrite) const override {
+    if constexpr (kInBatches)
+      return element_.evaluate(first, last, u, stride, gradients, nullptr, false, overwrite);
     EnergySum sum;
     VectorN<kSize> g;
     for (std::size_t i = first; i < last; ++i, u += stride, gradients += stride) {
@@ -92,6 +94,8 @@ public:
 
   EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                             double* hessians, bool definite, bool overwrite) const override {
+    if constexpr (kInBatches)
+      return element_.evaluate(first, last, u, stride, gradients, hessians, definite, overwrite);
     EnergySum sum;
     VectorN<kSize> g;
     MatrixN<kSize> h;

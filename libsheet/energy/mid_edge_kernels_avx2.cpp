@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kernels for AVX2 with FMA.
+#include "libsheet/energy/mid_edge_kernels.inc"
+
+namespace sheet {
+
+extern const MidEdgeKernels avx2_mid_edge;
+const MidEdgeKernels avx2_mid_edge = kKernels;
+
+} // namespace sheet
