@@ -3,7 +3,7 @@
 // ordering, symbolic analysis, the first factorisation after it, a later one, and a solution, by CHOLMOD and by the
 // multifrontal factor in float and double. Medians of processor and elapsed time [ms], and the exponent by which the
 // processor time of factorising grows with the number of vertices.
-//   bench_factor [--threads 1] [--repeat 7] [VERTICES...]
+//   bench_factor [--threads 1] [--repeat 7] [--without-cholmod] [VERTICES...]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -58,7 +58,8 @@ struct Problem {
   SparseLower matrix;
 };
 
-// A square sheet of edge length 1. Values are those of a weighted Laplacian, whose factor decays as slowly as a sheet's.
+// A square sheet of edge length 1. Values are those of a weighted Laplacian, whose factor decays as slowly as a
+// sheet's.
 Problem problem_of(int wanted, int repeat) {
   const int n = std::max(2, static_cast<int>(std::lround(std::sqrt(wanted))) - 1);
   const State s = test::at_rest(test::rectangle(1, 1, n, n, 0.2), 0.01);
