@@ -36,8 +36,10 @@ public:
     const Eigen::MatrixXd top = a.topRows(pivots).llt().matrixL();
     factor.resize(rows, pivots);
     factor.topRows(pivots) = top;
-    factor.bottomRows(rows - pivots) =
-        top.triangularView<Eigen::Lower>().solve(a.bottomRows(rows - pivots).transpose()).transpose();
+    if (rows > pivots) {
+      const Eigen::MatrixXd right = a.bottomRows(rows - pivots).transpose();
+      factor.bottomRows(rows - pivots) = top.triangularView<Eigen::Lower>().solve(right).transpose();
+    }
     panel.reserve(static_cast<std::size_t>(shape.panel_size()));
     std::fill_n(panel.data(), shape.panel_size(), Real(0));
     for (int k = 0; k < pivots; ++k)
@@ -145,11 +147,15 @@ TYPED_TEST(FrontKernelsTest, SolvesForwardAndBackward) {
       const auto triangle = this->factor.topRows(pivots).template triangularView<Eigen::Lower>();
       const auto below = this->factor.bottomRows(rows - pivots);
       b.head(pivots) = triangle.solve(b.head(pivots)).eval();
-      b.tail(rows - pivots) -= below * b.head(pivots);
+      Eigen::VectorXd right = b.head(pivots);
+      if (rows > pivots) {
+        b.tail(rows - pivots) -= below * b.head(pivots);
+        right -= below.transpose() * b.tail(rows - pivots);
+      }
       for (int r = 0; r < rows; ++r)
         ASSERT_NEAR(x.data()[r], b[r], this->kBound * pivots);
       kernels->backward(this->shape, this->panel.data(), x.data(), sums.data());
-      b.head(pivots) = triangle.transpose().solve(b.head(pivots) - below.transpose() * b.tail(rows - pivots)).eval();
+      b.head(pivots) = triangle.transpose().solve(right);
       for (int r = 0; r < rows; ++r)
         ASSERT_NEAR(x.data()[r], b[r], this->kBound * pivots);
     }
