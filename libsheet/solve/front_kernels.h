@@ -3,6 +3,7 @@
 // in a fixed order, so the same machine always gives the same bits; another instruction set may give others.
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "libsheet/solve/front_shape.h"
 
@@ -33,7 +34,11 @@ template <class Real> struct FrontKernels {
   void (*backward)(const FrontShape<Real>& shape, const Real* panel, Real* x, Real* sums);
 };
 
-// The fastest kernels that this processor has.
+// The kernels that this processor can run, the fastest first.
+template <class Real> std::vector<const FrontKernels<Real>*> available_front_kernels();
+template <> std::vector<const FrontKernels<float>*> available_front_kernels<float>();
+template <> std::vector<const FrontKernels<double>*> available_front_kernels<double>();
+// The fastest ones.
 template <class Real> const FrontKernels<Real>& front_kernels();
 
 } // namespace sheet

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernels for AVX2 and FMA.
+#define VECTOR_BYTES 32
 #define TILE_STRIPS 1
 #define TILE_COLUMNS 4
 #define SHUFFLES 0

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernels for AVX-512.
+#define VECTOR_BYTES 64
 #define TILE_STRIPS 2
 #define TILE_COLUMNS 8
 #define SHUFFLES 1

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernels for every processor.
+#define VECTOR_BYTES 16
 #define TILE_STRIPS 1
 #define TILE_COLUMNS 2
 #define SHUFFLES 0

@@ -2,10 +2,10 @@
 // The multifrontal method: where everything lies, and in what order the fronts are eliminated.
 #include "libsheet/solve/supernodal_factor.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <limits>
-#include <numeric>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -122,7 +122,6 @@ template <class Real> void SupernodalFactor<Real>::Impl::divide_into_tasks() {
   const double most = std::max(kLeastTask, kTaskPart * all);
   tasks.clear();
   task_first.clear();
-  std::vector<int>& first = task_first;
   int begin = 0; // of the subtree that the next task would have
   for (int s = 0; s < count(); ++s) {
     place[s].above = work[s] > most;
@@ -130,7 +129,7 @@ template <class Real> void SupernodalFactor<Real>::Impl::divide_into_tasks() {
     place[s].shared = place[s].above || root;
     if (place[s].above ? fronts[s].children == 0 : root) {
       tasks.push_back(s);
-      first.push_back(begin);
+      task_first.push_back(begin);
     }
     if (place[s].shared)
       begin = s + 1;
@@ -315,7 +314,7 @@ bool SupernodalFactor<Real>::Impl::eliminate(const SparseLower& a, Real shift, i
   return true;
 }
 
-// Calls front(s, stack) for every front after its children.
+// Calls front(s) for every front after its children.
 template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::upwards(const Front& front) const {
   const auto& fronts = symbolic.fronts;
   const FlushToZero flush;

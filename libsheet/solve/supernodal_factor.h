@@ -27,7 +27,7 @@ public:
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
   [[nodiscard]] double flops() const;      // of a factorisation
-  [[nodiscard]] std::size_t bytes() const; // of memory held
+  [[nodiscard]] std::size_t bytes() const; // of the buffers held
 
 private:
   struct Impl;

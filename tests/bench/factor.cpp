@@ -3,7 +3,7 @@
 // ordering, symbolic analysis, the first factorisation after it, a later one, and a solution, by CHOLMOD and by the
 // multifrontal factor in float and double. Medians of processor and elapsed time [ms], and the exponent by which the
 // processor time of factorising grows with the number of vertices.
-//   bench_factor [--threads 1] [--repeat 7] [VERTICES...]
+//   bench_factor [--threads 1] [--repeat 7] [--without-cholmod] [VERTICES...]
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -246,8 +246,8 @@ TYPED_TEST(SupernodalFactorTest, RefusesWhatIsNotDefinite) {
 }
 
 TYPED_TEST(SupernodalFactorTest, SameBitsForAnyNumberOfThreads) {
-  const SparseLower a = sheet_matrix(test::rectangle(1, 1, 90, 90, 0.2), 3);
-  const SparseLower block = sparse(random_dense(900, 1e9, 4));
+  const SparseLower a = sheet_matrix(test::rectangle(1, 1, 60, 60, 0.2), 3);
+  const SparseLower block = sparse(random_dense(600, 1e9, 4));
   for (const SparseLower* m : {&a, &block}) {
     const Eigen::VectorXd b = random_vector(m->size, 1);
     Eigen::VectorXd first;
