@@ -91,3 +91,21 @@ box_mesh() { # SIZE: a cube as OBJ
   [[ $output == *'solid 0 (box.obj): voxel_size = 5e-06 m makes a field of 2.9e+10 voxels, more than 1e+07'* ]]
   sheet-print box.sheet | sed 's/5 um/5 mm/' | sheet-parse | sheet-collide -o out.sheet
 }
+
+@test "17: a solid, a mesh or a picture that is a pipe or a device is refused by every program at once" {
+  mkfifo fifo.obj fifo.vdb fifo.png
+  ln -s /dev/zero zero.obj
+  for file in fifo.obj fifo.vdb zero.obj; do
+    { cat disk.toml; printf '[contact]\n[[solid]]\nshape = "mesh"\nfile = "%s"\n' $file; } > solid.toml
+    run -3 timeout 20 sheet-init solid.toml
+    sheet-init disk.toml | sheet-step --dt 1e-3 | sheet-print | grep -v '^| ' |
+      sed '/^array scene /r '<(sed 's/^/| /' solid.toml) | sheet-parse > solid.sheet
+    run -6 timeout 20 sheet-collide solid.sheet -o out.sheet
+    [[ $output == *"$file: it is not a file but a "* ]]
+    [[ $file == *.vdb ]] || run -6 timeout 20 sheet-render solid.sheet -o out.png --size 32x18 --samples 2
+    [[ $output == *"$file: it is not a file but a "* ]]
+  done
+  run -6 timeout 20 sheet-render solid.sheet --environment fifo.png -o out.png --size 32x18 --samples 2
+  printf '[sheet]\nshape = "mesh"\nfile = "fifo.obj"\nthickness = 1\n[material]\nviscosity = 1\ndensity = 1\n' > mesh.toml
+  run -3 timeout 20 sheet-init mesh.toml
+}
