@@ -109,3 +109,33 @@ box_mesh() { # SIZE: a cube as OBJ
   printf '[sheet]\nshape = "mesh"\nfile = "fifo.obj"\nthickness = 1\n[material]\nviscosity = 1\ndensity = 1\n' > mesh.toml
   run -3 timeout 20 sheet-init mesh.toml
 }
+
+@test "6: sheet-loop says before the first step what the scene wants and no stage does" {
+  cat disk.toml - > all.toml << 'END'
+[contact]
+[tear]
+below = 0.001
+[[solid]]
+shape = "sphere"
+radius = 1
+center = [0, 0, -5]
+[inflow]
+region = "rim"
+velocity = [0, 0, -1]
+thickness = 0.01
+END
+  sheet-init all.toml -o all.sheet
+  run -0 --separate-stderr sheet-loop -i all.sheet --steps 0 -o out.sheet -- 'sheet-step --dt 0.01'
+  [[ $stderr == *'without sheet-tear [tear] parts nothing'*'without sheet-emit [inflow] lets nothing in'* ]]
+  [[ $stderr == *'without sheet-collide the sheet passes through every [[solid]] and itself'* ]]
+  ring='sheet-remesh --smooth | sheet-tear | sheet-emit | sheet-step | sheet-collide'
+  [[ $stderr == *"the ring of this scene: '$ring'"* ]]
+  mkdir mine
+  ln -s "$(command -v sheet-pass)" mine/sheet-tear
+  for pipeline in "$ring" 'sheet-emit | mine/sheet-tear | sheet-step --dt 1 | sheet-collide' cat; do
+    run -0 --separate-stderr sheet-loop -i all.sheet --steps 0 -o out.sheet -- "$pipeline"
+    [[ $stderr != *without* ]]
+  done
+  sheet-init disk.toml | sheet-loop --steps 0 -- sheet-step 2> log > out.sheet
+  [[ ! -s log ]]
+}
