@@ -6,11 +6,16 @@
 #include <cstring>
 #include <memory>
 
+#include <sys/stat.h>
+
 namespace sheet::formats {
 
 namespace {
 
 std::string read_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    throw MeshFileError(MeshFileError::Kind::io, path + ": cannot read: it is not a regular file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file)
     throw MeshFileError(MeshFileError::Kind::io, path + ": cannot open: " + std::strerror(errno));

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "formats/cpp/mesh_import.h"
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/named_files.h"
 #include "libsheet/collide/distance_cache.h"
 #include "libsheet/collide/distance_field.h"
 #include "libsheet/collide/solid_check.h"
@@ -91,19 +91,16 @@ SolidSurface read_surface(const scene::SolidMesh& mesh) {
   SolidSurface surface;
   std::string ending = std::filesystem::path(mesh.file).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".vdb")
+  if (ending == ".vdb") {
+    check_named_file(mesh.file);
     surface = read_level_set(mesh.file);
-  else {
-    try {
-      const formats::MeshImport import = formats::import_mesh(mesh.file);
-      for (const std::string& note : import.notes)
-        log::warning(note);
-      for (const auto& [x, y, z] : import.mesh.points)
-        surface.points.emplace_back(x, y, z);
-      surface.triangles = import.mesh.triangles;
-    } catch (const formats::MeshFileError& error) {
-      fail(error.kind() == formats::MeshFileError::Kind::io ? ExitCode::io : ExitCode::bad_input, "{}", error.what());
-    }
+  } else {
+    const formats::MeshImport import = import_named_mesh(mesh.file);
+    for (const std::string& note : import.notes)
+      log::warning(note);
+    for (const auto& [x, y, z] : import.mesh.points)
+      surface.points.emplace_back(x, y, z);
+    surface.triangles = import.mesh.triangles;
   }
   for (Vector3& x : surface.points)
     x *= mesh.scale;

@@ -30,6 +30,8 @@
 #include "libsheet/loop/pipeline.h"
 #include "libsheet/loop/progress.h"
 #include "libsheet/loop/same_run.h"
+#include "libsheet/scene/frame_scene.h"
+#include "libsheet/scene/ring.h"
 
 namespace sheet {
 
@@ -337,6 +339,17 @@ private:
       kept_ = first_.has_value();
     }
     record_once(frame_, provenance_line_);
+    warn_of_missing_stages();
+  }
+
+  // What the scene says and no stage does would go wrong silently.
+  void warn_of_missing_stages() const try {
+    if (frame_.find("scene") == nullptr)
+      return;
+    FrameScene scenes;
+    if (const std::string missing = scene::missing_stages(scenes.of(frame_), options_.pipeline); !missing.empty())
+      log::warning(missing);
+  } catch (const Error&) { // a scene that cannot be read is refused by the stage that needs it
   }
 
   void claim_checkpoint() const {

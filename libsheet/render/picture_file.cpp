@@ -12,6 +12,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
+#include "libsheet/base/named_files.h"
 #include "libsheet/render/codecs.h"
 
 namespace sheet::render {
@@ -26,6 +27,7 @@ Image read_picture(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".png" && ending != ".exr")
     fail(ExitCode::usage, "{}: an image of the surroundings must be a .png or .exr file", path);
+  check_named_file(path);
   const std::string bytes = read_text_file(path);
   Image image = ending == ".png" ? decode_png(bytes, path) : decode_exr(bytes, path);
   for (Colour& c : image.pixels)

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "formats/cpp/mesh_import.h"
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/named_files.h"
 #include "libsheet/scene/overloaded.h"
 
 namespace sheet::render {
@@ -68,7 +68,7 @@ void add_box(const Vector3& size, SolidMesh& mesh) {
 }
 
 void add_file(const scene::SolidMesh& shape, SolidMesh& mesh) try {
-  const formats::ForeignMesh file = formats::import_mesh(shape.file).mesh;
+  const formats::ForeignMesh file = import_named_mesh(shape.file).mesh;
   for (const auto& p : file.points)
     mesh.positions.push_back(shape.scale * Vector3(p[0], p[1], p[2]));
   mesh.triangles = file.triangles;
@@ -80,8 +80,8 @@ void add_file(const scene::SolidMesh& shape, SolidMesh& mesh) try {
   }
   for (const Vector3& n : sum)
     mesh.normals.push_back(n.stableNormalized().cast<float>());
-} catch (const formats::MeshFileError& error) {
-  fail(error.kind() == formats::MeshFileError::Kind::io ? ExitCode::io : ExitCode::bad_input,
+} catch (const Error& error) {
+  fail(error.code(),
        "[[solid]] {}: {} (the scene names it as seen from the folder in which sheet-init ran: draw from there)",
        mesh.solid, error.what());
 }

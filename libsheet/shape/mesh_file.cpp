@@ -2,8 +2,8 @@
 #include "libsheet/shape/mesh_file.h"
 
 #include "formats/cpp/mesh_export.h"
-#include "formats/cpp/mesh_import.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/named_files.h"
 
 namespace sheet {
 
@@ -34,8 +34,8 @@ void add_thickness(formats::ForeignMesh& mesh, MeshPlace place, const std::vecto
 
 } // namespace
 
-LoadedMesh load_mesh(const std::string& path) try {
-  formats::MeshImport import = formats::import_mesh(path);
+LoadedMesh load_mesh(const std::string& path) {
+  formats::MeshImport import = import_named_mesh(path);
   LoadedMesh loaded;
   loaded.notes = std::move(import.notes);
   for (const auto& p : import.mesh.points)
@@ -49,8 +49,6 @@ LoadedMesh load_mesh(const std::string& path) try {
     loaded.notes.push_back(path + ": velocity per triangle passed over; a sheet has it per vertex");
   loaded.mesh.triangles = std::move(import.mesh.triangles);
   return loaded;
-} catch (const formats::MeshFileError& error) {
-  rethrow(error);
 }
 
 formats::ForeignMesh to_foreign(const TriangleMesh& mesh) {

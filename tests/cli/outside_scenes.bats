@@ -91,3 +91,51 @@ box_mesh() { # SIZE: a cube as OBJ
   [[ $output == *'solid 0 (box.obj): voxel_size = 5e-06 m makes a field of 2.9e+10 voxels, more than 1e+07'* ]]
   sheet-print box.sheet | sed 's/5 um/5 mm/' | sheet-parse | sheet-collide -o out.sheet
 }
+
+@test "17: a solid, a mesh or a picture that is a pipe or a device is refused by every program at once" {
+  mkfifo fifo.obj fifo.vdb fifo.png
+  ln -s /dev/zero zero.obj
+  for file in fifo.obj fifo.vdb zero.obj; do
+    { cat disk.toml; printf '[contact]\n[[solid]]\nshape = "mesh"\nfile = "%s"\n' $file; } > solid.toml
+    run -3 timeout 20 sheet-init solid.toml
+    sheet-init disk.toml | sheet-step --dt 1e-3 | sheet-print | grep -v '^| ' |
+      sed '/^array scene /r '<(sed 's/^/| /' solid.toml) | sheet-parse > solid.sheet
+    run -6 timeout 20 sheet-collide solid.sheet -o out.sheet
+    [[ $output == *"$file: it is not a file but a "* ]]
+    [[ $file == *.vdb ]] || run -6 timeout 20 sheet-render solid.sheet -o out.png --size 32x18 --samples 2
+    [[ $output == *"$file: it is not a file but a "* ]]
+  done
+  run -6 timeout 20 sheet-render solid.sheet --environment fifo.png -o out.png --size 32x18 --samples 2
+  printf '[sheet]\nshape = "mesh"\nfile = "fifo.obj"\nthickness = 1\n[material]\nviscosity = 1\ndensity = 1\n' > mesh.toml
+  run -3 timeout 20 sheet-init mesh.toml
+}
+
+@test "6: sheet-loop says before the first step what the scene wants and no stage does" {
+  cat disk.toml - > all.toml << 'END'
+[contact]
+[tear]
+below = 0.001
+[[solid]]
+shape = "sphere"
+radius = 1
+center = [0, 0, -5]
+[inflow]
+region = "rim"
+velocity = [0, 0, -1]
+thickness = 0.01
+END
+  sheet-init all.toml -o all.sheet
+  run -0 --separate-stderr sheet-loop -i all.sheet --steps 0 -o out.sheet -- 'sheet-step --dt 0.01'
+  [[ $stderr == *'without sheet-tear [tear] parts nothing'*'without sheet-emit [inflow] lets nothing in'* ]]
+  [[ $stderr == *'without sheet-collide the sheet passes through every [[solid]] and itself'* ]]
+  ring='sheet-remesh --smooth | sheet-tear | sheet-emit | sheet-step | sheet-collide'
+  [[ $stderr == *"the ring of this scene: '$ring'"* ]]
+  mkdir mine
+  ln -s "$(command -v sheet-pass)" mine/sheet-tear
+  for pipeline in "$ring" 'sheet-emit | mine/sheet-tear | sheet-step --dt 1 | sheet-collide' cat; do
+    run -0 --separate-stderr sheet-loop -i all.sheet --steps 0 -o out.sheet -- "$pipeline"
+    [[ $stderr != *without* ]]
+  done
+  sheet-init disk.toml | sheet-loop --steps 0 -- sheet-step 2> log > out.sheet
+  [[ ! -s log ]]
+}
