@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-step: one implicit time step a frame.
 #include "libsheet/base/filter.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/solve/step_stage.h"
 
 int main(int argc, char** argv) {
@@ -36,6 +37,8 @@ int main(int argc, char** argv) {
     o.bending = bending == 0   ? sheet::Bending::mid_edge
                 : bending == 1 ? sheet::Bending::hinge
                                : sheet::Bending::hinge_paper;
+    if (!o.failed.empty())
+      sheet::claim_file(o.failed, sheet::FileRole::output);
     sheet::StepStage stage(o);
     sheet::run_filter(tool, filter, [&](sheet::formats::Frame& frame) { stage.step(frame); });
     stage.report();

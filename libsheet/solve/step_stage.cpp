@@ -8,7 +8,6 @@
 
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
-#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
@@ -190,8 +189,6 @@ StepStage::StepStage(StepStageOptions options) : impl_(std::make_unique<Impl>())
     fail(ExitCode::usage, "--tolerance: {} is not a positive number", *options.tolerance);
   if (options.dt && options.tolerance)
     fail(ExitCode::usage, "--dt and --tolerance exclude each other: a step is fixed or chosen by its error");
-  if (!options.failed.empty())
-    claim_file(options.failed, FileRole::output);
   impl_->options = std::move(options);
 }
 
