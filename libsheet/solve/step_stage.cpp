@@ -8,6 +8,7 @@
 
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
