@@ -22,11 +22,15 @@ public:
     return -stage_->start->volumes[i] * weight_.dot(moved);
   }
 
-  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian, bool) const {
+  double gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
     const Vector3 f = -stage_->start->volumes[i] * weight_;
     gradient << f, f, f;
-    hessian.setZero();
     return value(i, u);
+  }
+
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& g, MatrixN<9>& hessian, bool) const {
+    hessian.setZero();
+    return gradient(i, u, g);
   }
 
 private:

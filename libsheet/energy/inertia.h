@@ -22,16 +22,21 @@ public:
     return 0.5 * d.dot(force(i, d));
   }
 
-  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian, bool) const {
+  double gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
     const VectorN<9> d = offset(i, u);
     gradient = force(i, d);
+    return 0.5 * d.dot(gradient);
+  }
+
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& g, MatrixN<9>& hessian, bool) const {
+    const double energy = gradient(i, u, g);
     hessian.setZero();
     const double same = weight(i) * (mass_ == Mass::lumped ? 1.0 / 3 : 1.0 / 6);
     const double other = mass_ == Mass::lumped ? 0.0 : weight(i) / 12;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
         hessian.block<3, 3>(3 * a, 3 * b).diagonal().setConstant(a == b ? same : other);
-    return 0.5 * d.dot(gradient);
+    return energy;
   }
 
 private:

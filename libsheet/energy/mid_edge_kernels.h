@@ -10,27 +10,32 @@ inline constexpr int kLanes = 8;
 // A number of each triangle.
 using LaneNumbers = double[kLanes];
 
-struct alignas(64) MidEdgeBatch {
-  // What goes in. Edge k runs from corner k+1 to corner k+2, and so does its start direction `tangent`; `binormal` is
-  // what the director turns towards.
-  LaneNumbers x[9];               // corners [m]
-  LaneNumbers cosine[3], sine[3]; // of the edges' angles
+// What stays during a stage. Edge k runs from corner k+1 to corner k+2, and so does its start direction `tangent`;
+// `binormal` is what the director turns towards.
+struct alignas(64) MidEdgeReference {
   LaneNumbers tangent[3][3], director[3][3], binormal[3][3];
   LaneNumbers trace[3], determinant;    // of the raised metric [1/m², m⁴]
   LaneNumbers curvature[3], lengths[3]; // references [m], [m²]
   LaneNumbers weight, membrane;         // V μ ĥ²/(6 τ) and V μ/(2 τ) [J]
-  LaneNumbers stiffness[3], height[3];  // of caps, at their longest edge, else 0
-  // What comes out.
+  LaneNumbers stiffness[3], height[3];  // of caps, at their longest edge, else 0 [J/m²], [m]
+};
+
+struct alignas(64) MidEdgeState {
+  LaneNumbers x[9];               // corners [m]
+  LaneNumbers cosine[3], sine[3]; // of the edges' angles
+};
+
+struct alignas(64) MidEdgeResult {
   LaneNumbers value;        // [J]
   LaneNumbers gradient[12]; // [N], [N m]
   LaneNumbers hessian[78];  // lower triangle, row by row
 };
 
+using MidEdgeKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, bool arcs, MidEdgeResult&);
+
 struct MidEdgeKernels {
-  void (*value)(MidEdgeBatch& batch, bool arcs);
-  void (*gradient)(MidEdgeBatch& batch, bool arcs); // and value
-  void (*hessian)(MidEdgeBatch& batch, bool arcs);  // and gradient and value
-  void (*definite)(MidEdgeBatch& batch, bool arcs); // the same with the positive semidefinite approximation
+  MidEdgeKernel value, gradient, hessian; // each with those before it
+  MidEdgeKernel definite;                 // as `hessian`, with the positive semidefinite approximation
 };
 
 // Those for this processor.

@@ -36,41 +36,65 @@ Vector3 MidEdgeShell::heights(std::size_t t, const Unknowns& u) const {
 void MidEdgeShell::begin(const Stage& stage) {
   stage_ = &stage;
   mesh_ = stage.start->mesh.get();
-  reference_.resize(mesh_->triangles.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reference_.size(), kAtOnce), [&](const auto& range) {
-    for (std::size_t t = range.begin(); t < range.end(); ++t) {
-      const auto lengths = [&](const Unknowns& u) {
-        const Triangle& v = mesh_->triangles[t];
-        return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
-      };
-      Vector3 g = heights(t, stage.begin);
-      const Vector3 beta = curvature(g);
-      Reference& r = reference_[t];
-      r.curvature = beta;
-      r.lengths = arc_lengths(lengths(stage.begin), beta);
-      if (stage.previous) {
-        const Vector3 previous = heights(t, *stage.previous);
-        g += stage.ratio * (previous - g);
-        const Vector3 beta_previous = curvature(previous);
-        r.curvature += stage.ratio * (beta_previous - beta);
-        r.lengths += stage.ratio * (arc_lengths(lengths(*stage.previous), beta_previous) - r.lengths);
-      }
-      const double volume = stage.start->volumes[t], thickness = volume / stage.raised[t].area();
-      r.membrane = volume * viscosity_ / (2 * stage.duration);
-      r.weight = r.membrane * thickness * thickness / 3;
-      stiffen_cap(r, stage.raised[t], g);
-    }
+  triangles_ = mesh_->triangles.size();
+  references_.resize((triangles_ + kLanes - 1) / kLanes);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references_.size(), kAtOnce / kLanes), [&](const auto& range) {
+    for (std::size_t t = kLanes * range.begin(); t < std::min(kLanes * range.end(), triangles_); ++t)
+      refer(t, stage);
+    if (range.end() == references_.size()) // lanes beyond the last triangle must hold numbers
+      for (std::size_t t = triangles_; t < kLanes * references_.size(); ++t)
+        refer(t, stage);
   });
 }
 
-void MidEdgeShell::stiffen_cap(Reference& r, const RaisedMetric& metric, const Vector3& heights) const {
+// Fills a lane with what stays during the stage; lanes beyond the last triangle are like it.
+void MidEdgeShell::refer(std::size_t lane_of_all, const Stage& stage) {
+  const std::size_t t = std::min(lane_of_all, triangles_ - 1), lane = lane_of_all % kLanes;
+  MidEdgeReference& to = references_[lane_of_all / kLanes];
+  const Triangle& v = mesh_->triangles[t];
+  const auto lengths = [&](const Unknowns& u) {
+    return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
+  };
+  Vector3 g = heights(t, stage.begin), beta = curvature(g), squared = arc_lengths(lengths(stage.begin), beta);
+  if (stage.previous) {
+    const Vector3 previous = heights(t, *stage.previous), beta_previous = curvature(previous);
+    g += stage.ratio * (previous - g);
+    squared += stage.ratio * (arc_lengths(lengths(*stage.previous), beta_previous) - squared);
+    beta += stage.ratio * (beta_previous - beta);
+  }
+  const RaisedMetric& metric = stage.raised[t];
+  const double volume = stage.start->volumes[t], thickness = volume / metric.area();
+  to.membrane[lane] = volume * viscosity_ / (2 * stage.duration);
+  to.weight[lane] = to.membrane[lane] * thickness * thickness / 3;
+  to.determinant[lane] = metric.determinant;
+  const Cap cap = cap_of(to.weight[lane], metric, g);
+  for (int k = 0; k < 3; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const EdgeFrame& frame = stage.frames[mesh_->triangle_edges[t][at]];
+    const double sign = v[(at + 1) % 3] < v[(at + 2) % 3] ? 1 : -1;
+    for (int a = 0; a < 3; ++a) {
+      to.tangent[k][a][lane] = sign * frame.tangent[a];
+      to.director[k][a][lane] = frame.director[a];
+      to.binormal[k][a][lane] = frame.binormal[a];
+    }
+    to.trace[k][lane] = metric.trace[k];
+    to.curvature[k][lane] = beta[k];
+    to.lengths[k][lane] = squared[k];
+    to.stiffness[k][lane] = k == cap.longest ? cap.stiffness : 0;
+    to.height[k][lane] = cap.height;
+  }
+}
+
+MidEdgeShell::Cap MidEdgeShell::cap_of(double weight, const RaisedMetric& metric, const Vector3& heights) {
+  Cap cap;
   const Vector3& q = metric.lengths;
-  const double longest = q.maxCoeff(&r.longest), p = q[(r.longest + 1) % 3], s = q[(r.longest + 2) % 3];
+  const double longest = q.maxCoeff(&cap.longest), p = q[(cap.longest + 1) % 3], s = q[(cap.longest + 2) % 3];
   const double flatness = (longest - p - s) / (2 * std::sqrt(p * s)); // -cos α
   const double part = std::max(0.0, (flatness - kCap) / (1 - kCap));
   const double squared_height = metric.determinant / longest;
-  r.stiffness = 4 * part * r.weight / (squared_height * squared_height);
-  r.height = heights[r.longest];
+  cap.stiffness = 4 * part * weight / (squared_height * squared_height);
+  cap.height = heights[cap.longest];
+  return cap;
 }
 
 void MidEdgeShell::prepare(const Unknowns& u) {
@@ -86,64 +110,36 @@ void MidEdgeShell::prepare(const Unknowns& u) {
   });
 }
 
-// Element i's numbers into a lane; its edges' angles are u's or, by load_angles, those prepared.
-void MidEdgeShell::load(std::size_t i, const double* u, MidEdgeBatch& batch, int lane) const {
-  for (int k = 0; k < 9; ++k)
-    batch.x[k][lane] = u[k];
-  const Reference& r = reference_[i];
-  const RaisedMetric& metric = stage_->raised[i];
-  const Triangle& v = mesh_->triangles[i];
-  for (int k = 0; k < 3; ++k) {
-    const EdgeFrame& frame = stage_->frames[mesh_->triangle_edges[i][static_cast<std::size_t>(k)]];
-    const double sign = v[static_cast<std::size_t>((k + 1) % 3)] < v[static_cast<std::size_t>((k + 2) % 3)] ? 1 : -1;
-    for (int a = 0; a < 3; ++a) {
-      batch.tangent[k][a][lane] = sign * frame.tangent[a];
-      batch.director[k][a][lane] = frame.director[a];
-      batch.binormal[k][a][lane] = frame.binormal[a];
-    }
-    batch.trace[k][lane] = metric.trace[k];
-    batch.curvature[k][lane] = r.curvature[k];
-    batch.lengths[k][lane] = r.lengths[k];
-    batch.stiffness[k][lane] = k == r.longest ? r.stiffness : 0;
-    batch.height[k][lane] = r.height;
-  }
-  batch.determinant[lane] = metric.determinant;
-  batch.weight[lane] = r.weight;
-  batch.membrane[lane] = r.membrane;
-}
-
-void MidEdgeShell::load_angles(std::size_t i, MidEdgeBatch& batch, int lane) const {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t edge = mesh_->triangle_edges[i][k];
-    batch.cosine[k][lane] = cosine_[edge];
-    batch.sine[k][lane] = sine_[edge];
-  }
-}
-
 EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                                  double* hessians, bool definite, bool overwrite) const {
   const MidEdgeKernels& kernels = mid_edge_kernels();
   const auto kernel =
       hessians ? (definite ? kernels.definite : kernels.hessian) : (gradients ? kernels.gradient : kernels.value);
-  MidEdgeBatch batch;
+  MidEdgeState state;
+  MidEdgeResult result;
   EnergySum sum;
   for (std::size_t i = first; i < last; i += kLanes) {
     const int used = static_cast<int>(std::min<std::size_t>(kLanes, last - i));
     for (int lane = 0; lane < kLanes; ++lane) { // lanes beyond the last element repeat it
       const int at = std::min(lane, used - 1);
-      load(i + static_cast<std::size_t>(at), u + at * stride, batch, lane);
-      load_angles(i + static_cast<std::size_t>(at), batch, lane);
+      for (int k = 0; k < 9; ++k)
+        state.x[k][lane] = u[at * stride + k];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t edge = mesh_->triangle_edges[i + static_cast<std::size_t>(at)][k];
+        state.cosine[k][lane] = cosine_[edge];
+        state.sine[k][lane] = sine_[edge];
+      }
     }
-    kernel(batch, arcs_);
+    kernel(references_[i / kLanes], state, arcs_, result);
     for (int lane = 0; lane < used; ++lane) {
-      sum.add(batch.value[lane]);
+      sum.add(result.value[lane]);
       if (gradients) {
         for (int k = 0; k < 12; ++k)
-          gradients[k] = (overwrite ? 0 : gradients[k]) + batch.gradient[k][lane];
+          gradients[k] = (overwrite ? 0 : gradients[k]) + result.gradient[k][lane];
         gradients += stride;
       }
       if (hessians) {
-        const LaneNumbers* from = batch.hessian;
+        const LaneNumbers* from = result.hessian;
         for (int row = 0; row < 12; ++row)
           for (int column = 0; column <= row; ++column, ++from) {
             double& to = hessians[column * stride + row];
@@ -157,37 +153,38 @@ EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const doub
   return sum;
 }
 
-double MidEdgeShell::value(std::size_t i, const VectorN<12>& u) const {
-  MidEdgeBatch batch;
+// One triangle's state in all lanes.
+MidEdgeState MidEdgeShell::state_of(const VectorN<12>& u) {
+  MidEdgeState state;
   for (int lane = 0; lane < kLanes; ++lane) {
-    load(i, u.data(), batch, lane);
+    for (int k = 0; k < 9; ++k)
+      state.x[k][lane] = u[k];
     for (int k = 0; k < 3; ++k) {
-      batch.cosine[k][lane] = std::cos(u[9 + k]);
-      batch.sine[k][lane] = std::sin(u[9 + k]);
+      state.cosine[k][lane] = std::cos(u[9 + k]);
+      state.sine[k][lane] = std::sin(u[9 + k]);
     }
   }
-  mid_edge_kernels().value(batch, arcs_);
-  return batch.value[0];
+  return state;
+}
+
+double MidEdgeShell::value(std::size_t i, const VectorN<12>& u) const {
+  MidEdgeResult result;
+  mid_edge_kernels().value(references_[i / kLanes], state_of(u), arcs_, result);
+  return result.value[i % kLanes];
 }
 
 double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                                  bool definite) const {
-  MidEdgeBatch batch;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    load(i, u.data(), batch, lane);
-    for (int k = 0; k < 3; ++k) {
-      batch.cosine[k][lane] = std::cos(u[9 + k]);
-      batch.sine[k][lane] = std::sin(u[9 + k]);
-    }
-  }
-  (definite ? mid_edge_kernels().definite : mid_edge_kernels().hessian)(batch, arcs_);
-  const LaneNumbers* from = batch.hessian;
+  MidEdgeResult result;
+  const MidEdgeKernels& kernels = mid_edge_kernels();
+  (definite ? kernels.definite : kernels.hessian)(references_[i / kLanes], state_of(u), arcs_, result);
+  const LaneNumbers* from = result.hessian;
   for (int row = 0; row < 12; ++row) {
-    gradient[row] = batch.gradient[row][0];
+    gradient[row] = result.gradient[row][i % kLanes];
     for (int column = 0; column <= row; ++column)
-      hessian(row, column) = hessian(column, row) = (*from++)[0];
+      hessian(row, column) = hessian(column, row) = (*from++)[i % kLanes];
   }
-  return batch.value[0];
+  return result.value[i % kLanes];
 }
 
 } // namespace sheet

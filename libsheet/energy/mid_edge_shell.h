@@ -26,7 +26,7 @@ public:
   [[nodiscard]] const char* name() const {
     return arcs_ ? "membrane and bending (mid-edge, arcs)" : "bending (mid-edge)";
   }
-  [[nodiscard]] std::size_t size() const { return reference_.size(); }
+  [[nodiscard]] std::size_t size() const { return triangles_; }
   void begin(const Stage& stage);
   // The cosines and sines of the angles of u.
   void prepare(const Unknowns& u);
@@ -35,32 +35,29 @@ public:
   // of Hessians (none: null) the lower triangles.
   EnergySum evaluate(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                      double* hessians, bool definite, bool overwrite) const;
-  // Of one element, for tests.
+  // Of one element, for tests. In evaluate, `first` is a multiple of kLanes.
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const;
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const;
 
 private:
-  struct Reference {
-    Vector3 curvature; // β̄ [m]
-    Vector3 lengths;   // reference squared arc lengths [m²]; with arcs only
-    double weight;     // V μ ĥ²/(6 τ) [J m²]: ∂²W/∂β² = weight C
-    double membrane;   // V μ/(2 τ) [J]
-    int longest;       // edge, of a cap only
-    double stiffness;  // k of a cap, else 0 [J/m²]
-    double height;     // ḡ of its longest edge [m]
+  struct Cap {            // nothing where it is none
+    int longest = 0;      // edge
+    double stiffness = 0; // k [J/m²]
+    double height = 0;    // ḡ of its longest edge [m]
   };
-  void load(std::size_t i, const double* u, MidEdgeBatch& batch, int lane) const;
-  void load_angles(std::size_t i, MidEdgeBatch& batch, int lane) const;
-  void stiffen_cap(Reference& r, const RaisedMetric& metric, const Vector3& heights) const;
+  void refer(std::size_t t, const Stage& stage);
+  [[nodiscard]] static Cap cap_of(double weight, const RaisedMetric& metric, const Vector3& heights);
+  [[nodiscard]] static MidEdgeState state_of(const VectorN<12>& u);
   [[nodiscard]] Vector3 heights(std::size_t t, const Unknowns& u) const;
 
   double viscosity_; // [Pa s]
   bool arcs_;
   const Stage* stage_ = nullptr;
   const Connectivity* mesh_ = nullptr;
-  std::vector<Reference> reference_;
-  std::vector<double> cosine_, sine_; // of the edges' angles
+  std::size_t triangles_ = 0;
+  std::vector<MidEdgeReference> references_; // of kLanes triangles each
+  std::vector<double> cosine_, sine_;        // of the edges' angles
 };
 
 } // namespace sheet

@@ -96,6 +96,9 @@ public:
                             double* hessians, bool definite, bool overwrite) const override {
     if constexpr (kInBatches)
       return element_.evaluate(first, last, u, stride, gradients, hessians, definite, overwrite);
+    if constexpr (requires { E::linear; })
+      if (!overwrite)
+        return add_gradients(first, last, u, stride, gradients, overwrite);
     EnergySum sum;
     VectorN<kSize> g;
     MatrixN<kSize> h;

@@ -48,11 +48,11 @@ interrupted() {
 }
 
 @test "balloon: interrupted and resumed = straight" {
-  interrupted INT thin-falling balloon 0.5 40
+  interrupted INT thin-falling balloon 0.25 100
 }
 
 @test "contraction: killed and resumed = straight" {
-  interrupted KILL set2 contraction 0.5 40
+  interrupted KILL set2 contraction 0.25 100
 }
 
 @test "folding: interrupted and resumed = straight" {
