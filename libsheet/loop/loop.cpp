@@ -27,6 +27,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/whole_file.h"
 #include "libsheet/loop/pipeline.h"
 #include "libsheet/loop/progress.h"
 #include "libsheet/loop/same_run.h"
@@ -200,15 +201,14 @@ private:
 
 // A file that holds the newest frame, replaced as a whole.
 void write_checkpoint(const std::string& path, const Frame& frame) {
-  const std::string draft = path + ".new";
-  OutputFile file(draft, OutputFile::Content::binary);
-  StreamWriter writer(file.descriptor(), file.name());
-  file.start();
-  writer.write(frame);
-  writer.end();
-  file.close();
-  if (std::rename(draft.c_str(), path.c_str()) != 0)
-    fail(ExitCode::io, "cannot put {} in its place: {}", path, std::strerror(errno));
+  release_file(path, FileRole::output);
+  write_whole_file(path, [&](OutputFile& file) {
+    file.start();
+    StreamWriter writer(file.descriptor(), file.name());
+    writer.write(frame);
+    writer.end();
+  });
+  claim_file(path, FileRole::output);
 }
 
 Frame read_last_frame(const InputFile& input) {

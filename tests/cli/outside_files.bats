@@ -127,3 +127,26 @@ keeps() {
   sheet-loop -q --steps 9 --resume run.sheet --checkpoint own.sheet -- sheet-pass
   sheet-print run.sheet | grep -q '^step 9$'
 }
+
+# usage: full COMMAND...: runs it where files may not grow beyond 8 KiB, as on a full disk
+full() {
+  run -6 bash -c 'ulimit -f 8; trap "" XFSZ; "$@"' _ "$@"
+}
+
+@test "14: a full disk leaves no half of a file, and no draft" {
+  make_grid 40 > large.sheet
+  mkdir out
+  full sheet-export large.sheet -o out/%d.vtu
+  full sheet-render large.sheet -o out/%d.exr --size 320x180 --samples 2
+  full sheet-loop -i large.sheet --steps 2 --checkpoint out/c.sheet -o /dev/null -- sheet-pass
+  [[ -z $(ls -A out) ]]
+  echo old > out/0.vtu
+  full sheet-export large.sheet -o out/%d.vtu
+  [[ $(cat out/0.vtu) == old ]]
+  rm out/0.vtu
+  ln -s real.obj out/link.obj
+  echo > out/real.obj
+  sheet-export large.sheet -o out/link.obj
+  [[ -L out/link.obj && $(wc -c < out/real.obj) -gt 8192 ]]
+  sheet-export large.sheet --format obj -o - | cmp - out/real.obj
+}
