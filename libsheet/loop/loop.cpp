@@ -450,7 +450,7 @@ private:
     } catch (const StreamError& error) {
       if (error.kind() == StreamError::Kind::closed)
         throw;
-      save_state();
+      try_to_save_state();
       fail(ExitCode::io, "{}; at {}", error.what(), whereabouts());
     }
   }
@@ -467,6 +467,15 @@ private:
     return text;
   }
 
+  // Where something has gone wrong already, which a full disk must not hide.
+  void try_to_save_state() const {
+    try {
+      save_state();
+    } catch (const std::exception& error) {
+      log::warning("the checkpoint could not be written: {}", error.what());
+    }
+  }
+
   void save_state() const {
     if (!options_.checkpoint.empty())
       write_checkpoint(options_.checkpoint, frame_);
@@ -475,7 +484,7 @@ private:
   [[noreturn]] void fail_round(Pipeline& pipeline, const std::string& error) {
     pipeline.note_early_ends();
     const PipelineEnd end = pipeline.finish(5);
-    save_state();
+    try_to_save_state();
     if (const StageStatus* stage = first_failure(end, true))
       fail(exit_code_of(*stage), "{} in the step after {}", describe(*stage), whereabouts());
     fail(ExitCode::corrupt, "{}; in the step after {}", error, whereabouts());

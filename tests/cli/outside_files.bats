@@ -150,3 +150,30 @@ full() {
   [[ -L out/link.obj && $(wc -c < out/real.obj) -gt 8192 ]]
   sheet-export large.sheet --format obj -o - | cmp - out/real.obj
 }
+
+@test "19: a step that does not converge says so, also where nothing can be written" {
+  sheet-print a.sheet | sed '/^array volume /i array velocity vertex float64 3 m/s interpolate\n1e29 0 0\n-1e29 0 0\n0 1e29 0\n0 0 1e29' |
+    sheet-parse > wild.sheet
+  for failed in nowhere/failed.sheet /dev/full; do
+    run -5 timeout 60 sheet-step --dt 0.01 --failed "$failed" wild.sheet -o out.sheet
+    [[ $output == *'did not converge'*'could not be kept: '* ]]
+    run -5 timeout 60 sheet-loop --steps 2 -i wild.sheet --checkpoint "$failed" -o /dev/null -- \
+      "sheet-step --dt 0.01 --failed $failed"
+    [[ $output == *'the checkpoint could not be written: '*'failed with exit code 5'* ]]
+  done
+}
+
+@test "19: out of memory has one exit code" {
+  make_grid 300 > large.sheet
+  found=0
+  for kilobytes in 100000 150000 200000 250000; do
+    for command in "sheet-remesh --edge-length 0.1" "sheet-render --ppm --size 64x36 --samples 2" "sheet-export --format vtu -o -" \
+      "sheet-info" "sheet-check"; do
+      code=0
+      timeout 60 bash -c "ulimit -v $kilobytes; $command large.sheet > out 2> err" || code=$?
+      [[ $code == 0 || $code == 6 || $code == 127 ]]
+      [[ $code != 6 ]] || { grep -q 'not enough memory' err && found=1; }
+    done
+  done
+  [[ $found == 1 ]]
+}
