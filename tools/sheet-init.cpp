@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-init: from a scene file to the first frame.
+#include "formats/cpp/printable.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
@@ -27,8 +28,8 @@ std::string explained(const std::string& file, const std::vector<std::string>& s
   std::string init = "sheet-init " + sheet::shell_quoted(file == "-" ? "scene.toml" : file);
   for (const std::string& set : sets)
     init += " --set " + sheet::shell_quoted(set);
-  return sheet::scene::to_text(sheet::scene::explain(scene, sheet::measured(frame))) +
-         sheet::ring_text(scene, frame, init);
+  return sheet::formats::printable(sheet::scene::to_text(sheet::scene::explain(scene, sheet::measured(frame))) +
+                                   sheet::ring_text(scene, frame, init));
 }
 
 } // namespace
