@@ -2,6 +2,7 @@
 // sheet-check: is a stream valid, down to the last triangle?
 #include <fmt/format.h>
 
+#include "formats/cpp/printable.h"
 #include "formats/cpp/stream_reader.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/tool.h"
@@ -44,7 +45,7 @@ int main(int argc, char** argv) {
       const std::vector<sheet::Finding> findings = sheet::check(frame, options);
       bad += findings.empty() ? 0 : 1;
       out.write(json ? separator + sheet::findings_json(frame, reader.frames() - 1, findings)
-                     : sheet::findings_text(frame, reader.frames() - 1, findings));
+                     : sheet::formats::printable(sheet::findings_text(frame, reader.frames() - 1, findings)));
       separator = ",\n";
     }
     if (json)

@@ -8,6 +8,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/numbered_name.h"
 #include "libsheet/base/tool.h"
+#include "libsheet/base/whole_file.h"
 #include "libsheet/shape/export.h"
 
 namespace {
@@ -15,9 +16,7 @@ namespace {
 using sheet::formats::MeshFormat;
 
 void write_file(const std::string& path, const std::string& bytes) {
-  sheet::OutputFile out(path, sheet::OutputFile::Content::binary);
-  out.write(bytes);
-  out.close();
+  sheet::write_whole_file(path, [&](sheet::OutputFile& file) { file.write(bytes); });
 }
 
 struct Options {
@@ -46,12 +45,7 @@ void export_frames(const Options& o) {
   sheet::formats::StreamReader reader(in.descriptor(), in.name());
   sheet::formats::Frame frame;
   std::vector<sheet::formats::PvdEntry> collection;
-  if (const auto folder = std::filesystem::path(name.of(0)).parent_path(); !folder.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      sheet::fail(sheet::ExitCode::io, "cannot make the folder {}: {}", folder.string(), error.message());
-  }
+  sheet::make_folder_of(name.of(0));
   while (reader.read(frame)) {
     const std::uint64_t index = reader.frames() - 1;
     if (index > 0 && !name.has_number())

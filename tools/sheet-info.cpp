@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-info: what is in a stream, and what it measures.
+#include "formats/cpp/printable.h"
 #include "formats/cpp/stream_reader.h"
 #include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
@@ -44,8 +45,9 @@ int main(int argc, char** argv) {
       const sheet::InputFile in(input);
       sheet::formats::StreamReader reader(in.descriptor(), in.name());
       while (reader.read(frame))
-        out.write(std::exchange(head, {}) + report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame,
-                                                         sheet::measure(frame, density ? density : scene.of(frame))}));
+        out.write(sheet::formats::printable(std::exchange(head, {}) +
+                                            report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame,
+                                                         sheet::measure(frame, density ? density : scene.of(frame))})));
     }
     out.write(head + report->end());
     out.close();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-init: from a scene file to the first frame.
+#include "formats/cpp/printable.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
+#include "libsheet/plan/first_frame.h"
 #include "libsheet/scene/example.h"
 #include "libsheet/scene/explain.h"
 #include "libsheet/scene/read.h"
@@ -17,6 +19,17 @@ sheet::Scene read(const std::string& file, const std::vector<std::string>& sets)
   if (file == "-")
     return sheet::parse_scene(sheet::read_text_file("-"), "standard input", sets);
   return sheet::read_scene(file, sets);
+}
+
+// What --check prints.
+std::string explained(const std::string& file, const std::vector<std::string>& sets) {
+  const sheet::Scene scene = read(file, sets);
+  const sheet::formats::Frame frame = sheet::checked_first_frame(scene);
+  std::string init = "sheet-init " + sheet::shell_quoted(file == "-" ? "scene.toml" : file);
+  for (const std::string& set : sets)
+    init += " --set " + sheet::shell_quoted(set);
+  return sheet::formats::printable(sheet::scene::to_text(sheet::scene::explain(scene, sheet::measured(frame))) +
+                                   sheet::ring_text(scene, frame, init));
 }
 
 } // namespace
@@ -36,8 +49,8 @@ int main(int argc, char** argv) {
               "change or add a key of the scene, as in material.viscosity=50 or "
               "'hold.0.kind=pinned'; may be given again and again");
   tool.flag("--check", check,
-            "explain the scene instead: what will be modelled, what not, and the dimensionless numbers that "
-            "say why it matters",
+            "explain the scene instead: what will be modelled, what not, the dimensionless numbers that say why it "
+            "matters, and the ring to run; refuses what any stage would refuse at the first frame",
             sheet::Tool::Provenance::omit);
   tool.flag("--example", example, "print a commented scene that shows every table and key",
             sheet::Tool::Provenance::omit);
@@ -50,8 +63,7 @@ int main(int argc, char** argv) {
                "the first frame, with a change");
   return tool.run(argc, argv, [&] {
     if (example || check) {
-      const std::string text = example ? std::string(sheet::scene::example())
-                                       : sheet::scene::to_text(sheet::scene::explain(read(scene_file, sets)));
+      const std::string text = example ? std::string(sheet::scene::example()) : explained(scene_file, sets);
       sheet::OutputFile file(output, sheet::OutputFile::Content::text);
       file.write(text);
       file.close();

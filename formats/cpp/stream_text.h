@@ -32,6 +32,7 @@ private:
 
   int descriptor_;
   std::string name_;
+  bool terminal_; // text that would command it is made visible
   std::vector<char> buffer_;
   std::size_t used_ = 0;
   std::uint64_t ends_ = 0;

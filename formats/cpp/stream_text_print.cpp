@@ -7,6 +7,9 @@
 #include <limits>
 #include <type_traits>
 
+#include <unistd.h>
+
+#include "formats/cpp/printable.h"
 #include "formats/cpp/stream_text.h"
 #include "formats/cpp/stream_writer.h"
 
@@ -65,7 +68,7 @@ template <class T> char* put_floating(char* to, T x) {
 } // namespace
 
 TextPrinter::TextPrinter(int descriptor, std::string name)
-    : descriptor_(descriptor), name_(std::move(name)), buffer_(buffer_size) {}
+    : descriptor_(descriptor), name_(std::move(name)), terminal_(::isatty(descriptor) != 0), buffer_(buffer_size) {}
 
 void TextPrinter::flush() {
   write_all(descriptor_, std::as_bytes(std::span(buffer_.data(), used_)), name_);
@@ -155,7 +158,7 @@ void TextPrinter::put_array(const Array& array) {
   case Type::float64:
     return put_rows<double>(array);
   case Type::text:
-    return put_text(array.text());
+    return terminal_ ? put_text(printable(array.text())) : put_text(array.text());
   }
 }
 

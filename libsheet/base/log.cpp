@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 
+#include "formats/cpp/printable.h"
+
 namespace sheet::log {
 
 namespace {
@@ -25,7 +27,7 @@ void write_lines(std::string_view message) {
     const std::size_t end = std::min(message.find('\n', start), message.size());
     text += state().program;
     text += ": ";
-    text += message.substr(start, end - start);
+    text += formats::printable(message.substr(start, end - start));
     text += '\n';
     start = end + 1;
   }

@@ -304,6 +304,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     return error.kind() == StreamError::Kind::closed ? 0 : report(code_of(error), error.what());
   } catch (const std::bad_alloc&) {
     return report(ExitCode::io, "not enough memory");
+  } catch (const std::length_error&) {
+    return report(ExitCode::io, "not enough memory");
   } catch (const std::exception& error) {
     return report(ExitCode::internal, fmt::format("internal error: {}", error.what()).c_str());
   }

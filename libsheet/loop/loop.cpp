@@ -27,6 +27,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/whole_file.h"
 #include "libsheet/loop/pipeline.h"
 #include "libsheet/loop/progress.h"
 #include "libsheet/loop/same_run.h"
@@ -200,15 +201,14 @@ private:
 
 // A file that holds the newest frame, replaced as a whole.
 void write_checkpoint(const std::string& path, const Frame& frame) {
-  const std::string draft = path + ".new";
-  OutputFile file(draft, OutputFile::Content::binary);
-  StreamWriter writer(file.descriptor(), file.name());
-  file.start();
-  writer.write(frame);
-  writer.end();
-  file.close();
-  if (std::rename(draft.c_str(), path.c_str()) != 0)
-    fail(ExitCode::io, "cannot put {} in its place: {}", path, std::strerror(errno));
+  release_file(path, FileRole::output);
+  write_whole_file(path, [&](OutputFile& file) {
+    file.start();
+    StreamWriter writer(file.descriptor(), file.name());
+    writer.write(frame);
+    writer.end();
+  });
+  claim_file(path, FileRole::output);
 }
 
 Frame read_last_frame(const InputFile& input) {
@@ -450,7 +450,7 @@ private:
     } catch (const StreamError& error) {
       if (error.kind() == StreamError::Kind::closed)
         throw;
-      save_state();
+      try_to_save_state();
       fail(ExitCode::io, "{}; at {}", error.what(), whereabouts());
     }
   }
@@ -467,6 +467,15 @@ private:
     return text;
   }
 
+  // Where something has gone wrong already, which a full disk must not hide.
+  void try_to_save_state() const {
+    try {
+      save_state();
+    } catch (const std::exception& error) {
+      log::warning("the checkpoint could not be written: {}", error.what());
+    }
+  }
+
   void save_state() const {
     if (!options_.checkpoint.empty())
       write_checkpoint(options_.checkpoint, frame_);
@@ -475,7 +484,7 @@ private:
   [[noreturn]] void fail_round(Pipeline& pipeline, const std::string& error) {
     pipeline.note_early_ends();
     const PipelineEnd end = pipeline.finish(5);
-    save_state();
+    try_to_save_state();
     if (const StageStatus* stage = first_failure(end, true))
       fail(exit_code_of(*stage), "{} in the step after {}", describe(*stage), whereabouts());
     fail(ExitCode::corrupt, "{}; in the step after {}", error, whereabouts());

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/render/picture_file.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "libsheet/base/error.h"
-#include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/named_files.h"
+#include "libsheet/base/whole_file.h"
 #include "libsheet/render/codecs.h"
 
 namespace sheet::render {
@@ -37,28 +34,8 @@ Image read_picture(const std::string& path) {
 }
 
 void write_whole(const std::string& path, const std::string& bytes) {
-  const std::filesystem::path target(path), folder = target.parent_path();
-  std::error_code error;
-  if (!folder.empty()) {
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      fail(ExitCode::io, "cannot make the folder {}: {}", folder.string(), error.message());
-  }
-  if (std::filesystem::is_directory(target))
-    fail(ExitCode::io, "cannot write {}: it is a folder", path);
-  claim_file(path, FileRole::output);
-  const std::string part = (folder / fmt::format(".{}.part", target.filename().string())).string();
-  try {
-    OutputFile file(part, OutputFile::Content::binary);
-    file.write(bytes);
-    file.close();
-    if (std::rename(part.c_str(), path.c_str()) != 0)
-      fail(ExitCode::io, "cannot rename {} to {}: {}", part, path, std::strerror(errno));
-  } catch (...) {
-    std::filesystem::remove(part, error);
-    throw;
-  }
-  release_file(path, FileRole::output);
+  make_folder_of(path);
+  write_whole_file(path, [&](OutputFile& file) { file.write(bytes); });
 }
 
 } // namespace sheet::render

@@ -25,8 +25,7 @@ namespace sheet::render {
 // A .png (sRGB) or .exr file as linear light. Throws Error (io, bad_input), naming the file.
 [[nodiscard]] Image read_picture(const std::string& path);
 
-// Writes the file so that its name never stands for half of it: under another name in the same folder, renamed when it
-// is whole. Makes the folder. Throws Error (io).
+// Writes the file so that its name never stands for half of it (write_whole_file). Makes the folder. Throws Error (io).
 void write_whole(const std::string& path, const std::string& bytes);
 
 } // namespace sheet::render

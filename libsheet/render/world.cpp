@@ -95,8 +95,12 @@ World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
   impl_->unit = box.diagonal() > 0 ? box.diagonal() : 1;
   // One thread builds, so that the tree, and with it who wins a tie between neighbours, is always the same.
   impl_->device = rtcNewDevice("threads=1,set_affinity=0");
-  if (impl_->device == nullptr)
-    fail(ExitCode::internal, "Embree cannot start: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
+  if (impl_->device == nullptr) {
+    const RTCError error = rtcGetDeviceError(nullptr);
+    if (error == RTC_ERROR_OUT_OF_MEMORY)
+      fail(ExitCode::io, "not enough memory for the rays' data structure");
+    fail(ExitCode::internal, "Embree cannot start: error {}", static_cast<int>(error));
+  }
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   impl_->add(sheet_id, surface.positions, surface.normals, surface.triangles, [](const Vector3& x) { return x; });

@@ -153,10 +153,11 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
                                      const std::vector<DimensionlessNumber>& numbers) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
+  const bool carried = !scene.holds.empty() || scene.environment.bath || scene.inflow;
   for (const auto& number : numbers) {
     if (number.name != "Reynolds")
       continue;
-    if (scene.model.inertia && number.value < 1e-4)
+    if (scene.model.inertia && number.value < 1e-4 && (carried || !scene.environment.gravity))
       warn(fmt::format("inertia is on, but the Reynolds number is {}: inertia = false gives the same motion",
                        brief(number.value)));
     if (!scene.model.inertia && number.value > 1)
@@ -175,14 +176,30 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
   }
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
-  const bool carried = !scene.holds.empty() || scene.environment.bath || scene.inflow;
   if (scene.environment.gravity && !scene.model.inertia && !carried)
     warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
   else if (scene.environment.gravity && !carried && scene.solids.empty())
     warn("nothing holds or catches the sheet: it falls for ever");
-  if (scales.speed == 0 && !scene.environment.pressure)
+  if (scales.speed == 0 && !scene.environment.pressure && !scene.environment.gravity)
     warn("nothing drives the sheet: it stays as it is");
   return warnings;
+}
+
+// What a user may take for modelled, and is not.
+std::vector<std::string> left_out_of(const Scene& scene) {
+  std::vector<std::string> left_out;
+  if (!scene.solids.empty())
+    left_out.push_back("what sticks to a solid does not spread on it");
+  if (scene.contact && scene.contact->self)
+    left_out.push_back("layers that touch never become one liquid");
+  if (scene.environment.bath)
+    left_out.push_back("the bath has no waves and no viscosity");
+  if (scene.environment.pressure)
+    left_out.push_back("enclosed gas is not compressed");
+  if (scene.tear)
+    left_out.push_back("tearing goes by thickness alone");
+  left_out.push_back("air has neither drag nor mass");
+  return left_out;
 }
 
 } // namespace
@@ -194,6 +211,7 @@ Explanation explain(const Scene& scene, const Measured& measured) {
   result.scales = scale_list(scene, scales);
   result.numbers = numbers_of(scene, scales);
   result.warnings = warnings_of(scene, scales, result.numbers);
+  result.left_out = left_out_of(scene);
   return result;
 }
 
@@ -217,6 +235,7 @@ std::string to_text(const Explanation& explanation) {
     text += "\nWarnings\n";
   for (const std::string& warning : explanation.warnings)
     text += fmt::format("  {}\n", warning);
+  text += fmt::format("\nLeft out: {}\n", fmt::join(explanation.left_out, "; "));
   return text;
 }
 

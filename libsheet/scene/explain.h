@@ -35,6 +35,7 @@ struct Explanation {
   std::vector<Scale> scales;
   std::vector<DimensionlessNumber> numbers;
   std::vector<std::string> warnings; // a modelling choice that looks wrong
+  std::vector<std::string> left_out; // what the model never has, where this scene might make one expect it
 };
 
 // What a mesh file says about a sheet and the scene cannot know.

@@ -46,7 +46,8 @@ void offer_forces(Scales& scales, const Scene& scene) {
   };
   if (L <= 0)
     return;
-  offer(scales, least(density * scales.gravity * L * L / viscosity, std::sqrt(scales.gravity * L)), "gravity");
+  if (!scene.environment.bath) // which carries the weight
+    offer(scales, least(density * scales.gravity * L * L / viscosity, std::sqrt(scales.gravity * L)), "gravity");
   if (h <= 0)
     return;
   offer(scales, least(2 * tension * L / (viscosity * h), std::sqrt(2 * tension / (density * h))), "surface tension");

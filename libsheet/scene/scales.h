@@ -20,7 +20,7 @@ struct Scales {
 
 // V is the largest of: inflow, start, holds, solids and belts as the scene states them, and what the forces can drive,
 // a balance with viscosity and, with inertia, not more than the balance with inertia:
-//   gravity          rho g L²/mu        sqrt(g L)
+//   gravity          rho g L²/mu        sqrt(g L)          not on a bath, which carries the weight
 //   surface tension  2 gamma L/(mu h)   sqrt(2 gamma/(rho h))  [Taylor 1959, Culick 1960]
 //   pressure         p L²/(mu h)        sqrt(p L/(rho h))
 [[nodiscard]] Scales scales_of(const Scene& scene, const Measured& measured);

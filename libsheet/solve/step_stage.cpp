@@ -12,6 +12,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
+#include "libsheet/base/whole_file.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/scene_model.h"
@@ -202,14 +203,19 @@ void StepStage::step(Frame& frame) {
     const std::string& path = impl_->options.failed;
     if (error.code() != ExitCode::not_converged || path.empty())
       throw;
-    release_file(path, FileRole::output);
-    OutputFile file(path, OutputFile::Content::binary);
-    formats::StreamWriter writer(file.descriptor(), file.name());
-    file.start();
-    writer.write(frame);
-    writer.end();
-    file.close();
-    fail(error.code(), "{}; the frame before it is in {}", error.what(), path);
+    std::string place = "is in " + path;
+    try {
+      release_file(path, FileRole::output);
+      write_whole_file(path, [&](OutputFile& file) {
+        file.start();
+        formats::StreamWriter writer(file.descriptor(), file.name());
+        writer.write(frame);
+        writer.end();
+      });
+    } catch (const std::exception& failure) { // which must not hide why the step failed
+      place = fmt::format("could not be kept: {}", failure.what());
+    }
+    fail(error.code(), "{}; the frame before it {}", error.what(), place);
   }
 }
 

@@ -127,3 +127,53 @@ keeps() {
   sheet-loop -q --steps 9 --resume run.sheet --checkpoint own.sheet -- sheet-pass
   sheet-print run.sheet | grep -q '^step 9$'
 }
+
+# usage: full COMMAND...: runs it where files may not grow beyond 8 KiB, as on a full disk
+full() {
+  run -6 bash -c 'ulimit -f 8; trap "" XFSZ; "$@"' _ "$@"
+}
+
+@test "14: a full disk leaves no half of a file, and no draft" {
+  make_grid 40 > large.sheet
+  mkdir out
+  full sheet-export large.sheet -o out/%d.vtu
+  full sheet-render large.sheet -o out/%d.exr --size 320x180 --samples 2
+  full sheet-loop -i large.sheet --steps 2 --checkpoint out/c.sheet -o /dev/null -- sheet-pass
+  [[ -z $(ls -A out) ]]
+  echo old > out/0.vtu
+  full sheet-export large.sheet -o out/%d.vtu
+  [[ $(cat out/0.vtu) == old ]]
+  rm out/0.vtu
+  ln -s real.obj out/link.obj
+  echo > out/real.obj
+  sheet-export large.sheet -o out/link.obj
+  [[ -L out/link.obj && $(wc -c < out/real.obj) -gt 8192 ]]
+  sheet-export large.sheet --format obj -o - | cmp - out/real.obj
+}
+
+@test "19: a step that does not converge says so, also where nothing can be written" {
+  sheet-print a.sheet | sed '/^array volume /i array velocity vertex float64 3 m/s interpolate\n1e29 0 0\n-1e29 0 0\n0 1e29 0\n0 0 1e29' |
+    sheet-parse > wild.sheet
+  for failed in nowhere/failed.sheet /dev/full; do
+    run -5 timeout 60 sheet-step --dt 0.01 --failed "$failed" wild.sheet -o out.sheet
+    [[ $output == *'did not converge'*'could not be kept: '* ]]
+    run -5 timeout 60 sheet-loop --steps 2 -i wild.sheet --checkpoint "$failed" -o /dev/null -- \
+      "sheet-step --dt 0.01 --failed $failed"
+    [[ $output == *'the checkpoint could not be written: '*'failed with exit code 5'* ]]
+  done
+}
+
+@test "19: out of memory has one exit code" {
+  make_grid 300 > large.sheet
+  found=0
+  for kilobytes in 100000 150000 200000 250000; do
+    for command in "sheet-remesh --edge-length 0.1" "sheet-render --ppm --size 64x36 --samples 2" "sheet-export --format vtu -o -" \
+      "sheet-info" "sheet-check"; do
+      code=0
+      timeout 60 bash -c "ulimit -v $kilobytes; $command large.sheet > out 2> err" || code=$?
+      [[ $code == 0 || $code == 6 || $code == 127 ]]
+      [[ $code != 6 ]] || { grep -q 'not enough memory' err && found=1; }
+    done
+  done
+  [[ $found == 1 ]]
+}

@@ -139,3 +139,53 @@ END
   sheet-init disk.toml | sheet-loop --steps 0 -- sheet-step 2> log > out.sheet
   [[ ! -s log ]]
 }
+
+@test "7: --check refuses what sheet-init or a stage refuses" {
+  fall='[environment]
+gravity = [0, 0, -9.81]'
+  refused() { # MESSAGE TABLES
+    { cat disk.toml; printf '%s\n' "$fall" "$2"; } > scene.toml
+    run -3 timeout 60 sheet-init --check scene.toml
+    [[ $output == *"$1"* ]]
+  }
+  refused 'no vertex lies in its region' $'[[hold]]\nregion = {sphere = {center = [9, 9, 9], radius = 1}}'
+  box_mesh 0.1 | sed '$d' > open.obj
+  refused 'solid 0 (open.obj)' $'[[solid]]\nshape = "mesh"\nfile = "open.obj"\ncenter = [0, 0, -1]'
+  box_mesh 0.1 > box.obj
+  refused 'voxels' $'[[solid]]\nshape = "mesh"\nfile = "box.obj"\ncenter = [0, 0, -1]\nvoxel_size = "1 um"'
+  refused 'the sheet starts inside solid 0 (sphere)' $'[[solid]]\nshape = "sphere"\nradius = 0.5'
+  refused 'points out of the sheet' $'[inflow]\nregion = "rim"\nthickness = 0.01\nvelocity = [1, 0, 0]'
+  sed -i 's/^thickness/center = [1e300, 0, 0]\nthickness/' disk.toml
+  run -3 sheet-init disk.toml
+  run -3 sheet-init --check disk.toml
+}
+
+@test "7: --check judges sheets by what they are and by what drives them" {
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n' > mesh.obj
+  printf '[sheet]\nshape = "mesh"\nfile = "mesh.obj"\nthickness = 0.01\n[material]\nviscosity = 100\ndensity = 1000\n' > mesh.toml
+  printf '[environment]\ngravity = [0, 0, -9.81]\n' >> mesh.toml
+  sheet-init --check mesh.toml > text
+  run -1 grep 'nothing drives' text
+  grep -q 'V .* speed: the fastest drive: gravity' text
+  # glass that falls into a mould
+  { cat disk.toml; printf '[environment]\ngravity = [0, 0, -9.81]\n[[solid]]\nshape = "plane"\nnormal = [0, 0, 1]\ncenter = [0, 0, -1]\n'; } > glass.toml
+  sheet-init --check glass.toml --set material.viscosity=1e9 > text
+  run -1 grep 'inertia = false gives the same motion' text
+  grep -q '^Left out: what sticks to a solid does not spread on it; ' text
+  # what floats is not driven by its weight
+  { cat disk.toml; printf '[environment]\ngravity = [0, 0, -9.81]\nbath = {density = 2000}\n[[hold]]\nregion = "rim"\n'
+    printf 'motion = {kind = "translating", velocity = ["1 mm/s", 0, 0]}\n'; } > raft.toml
+  sheet-init --check raft.toml | grep -q 'V *0.001 m/s *speed: the fastest drive: a moving hold'
+}
+
+@test "7: --check prints a ring that runs" {
+  { cat disk.toml; printf '[environment]\ngravity = [0, 0, -9.81]\n[contact]\n[[solid]]\nshape = "plane"\nnormal = [0, 0, 1]\n'
+    printf 'center = [0, 0, -1]\n[tear]\nbelow = 1e-5\n'; } > "a b.toml"
+  sheet-init --check "a b.toml" --set 'material.viscosity=50 Pa*s' > text
+  sed -n '/^The ring to run/,$p' text | grep '^  sheet-' | head -2 | sed 's/--until [0-9.]*/--until 0.02/' > ring
+  [[ $(wc -l < ring) == 2 && $(cat ring) == *"-- 'sheet-remesh --smooth | sheet-tear | sheet-step | sheet-collide'"* ]]
+  bash -e ring 2> log
+  run -1 grep without log
+  sheet-check run.sheet
+  sheet-print run.sheet | grep -q 'viscosity = 50'
+}

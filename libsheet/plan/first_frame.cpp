@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/first_frame.h"
+
+#include <cmath>
+
+#include "libsheet/base/error.h"
+#include "libsheet/collide/collide_stage.h"
+#include "libsheet/collide/solids.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/remesh/emit.h"
+#include "libsheet/remesh/tear.h"
+#include "libsheet/scene/ring.h"
+#include "libsheet/scene/scales.h"
+#include "libsheet/shape/build.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::Frame;
+
+double area_of(const Frame& frame) {
+  const auto x = positions(frame);
+  double area = 0;
+  for (const Corners& c : triangles(frame))
+    area += TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+  return area;
+}
+
+double mean_edge_of(const Frame& frame) {
+  const auto x = positions(frame);
+  double sum = 0;
+  for (const Corners& c : triangles(frame))
+    for (std::size_t i = 0; i < 3; ++i)
+      sum += (x[c[(i + 1) % 3]] - x[c[i]]).norm();
+  return sum / (3.0 * static_cast<double>(frame.triangles));
+}
+
+// What is held, or stands in the inlet, may begin in a nozzle or a clamp.
+void check_outside_solids(const Scene& scene, const Frame& frame) {
+  const collide::Solids solids(scene);
+  const auto x = positions(frame);
+  const auto held = holds(frame), inlet = masks(frame, "inlet");
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      if ((!held.empty() && held[v] != 0) || (!inlet.empty() && inlet[v] != 0))
+        continue;
+      if (const double distance = solids.at(i, x[v], frame.time).distance; distance < -1e-9 * x[v].norm())
+        fail(ExitCode::bad_input,
+             "the sheet starts inside {}: vertex {} at ({:g}, {:g}, {:g}) m lies {:.2g} m under its surface; move one "
+             "of them",
+             solids.name(i), v, x[v].x(), x[v].y(), x[v].z(), -distance);
+    }
+}
+
+// A number that one likes to type: its first two digits.
+double rounded(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit) * unit));
+}
+
+// Some times of the flow; until whatever ends by the clock has ended.
+double until_of(const Scene& scene, const scene::Scales& scales) {
+  double until = scales.length && scales.speed > 0 ? 5 * *scales.length / scales.speed : 1;
+  for (const scene::Hold& hold : scene.holds)
+    until = std::max(until, 1.5 * hold.until.value_or(0));
+  if (scene.inflow)
+    until = std::max(until, 1.5 * scene.inflow->until.value_or(0));
+  return std::isfinite(until) && until > 0 ? rounded(until) : 1;
+}
+
+} // namespace
+
+Frame checked_first_frame(const Scene& scene) {
+  Frame frame = build_frame(scene);
+  if (scene.inflow) {
+    Frame copy = frame;
+    EmitStage().emit(copy);
+  }
+  if (scene.tear) {
+    Frame copy = frame;
+    TearStage().tear(copy);
+  }
+  if (!scene.solids.empty())
+    check_outside_solids(scene, frame);
+  if (scene.contact && scene.contact->self) {
+    Frame copy = frame; // as if a step in which nothing moved had made it
+    formats::Array start = formats::make_array("start_position", formats::Place::vertex, formats::Type::float64, 3, "m",
+                                               formats::Transfer::drop, frame.vertices);
+    std::ranges::copy(positions(std::as_const(frame)), start.values<Eigen::Vector3d>().begin());
+    copy.put(std::move(start));
+    put_number(copy, "start_time", "s", frame.time - 1);
+    collide::CollideStage().step(copy);
+  }
+  return frame;
+}
+
+scene::Measured measured(const Frame& frame) {
+  const double area = area_of(frame);
+  double volume = 0;
+  for (const double v : volumes(frame))
+    volume += v;
+  return {.length = std::sqrt(area), .thickness = volume / area, .curvature = {}};
+}
+
+std::string ring_text(const Scene& scene, const Frame& frame, const std::string& init) {
+  const double until = until_of(scene, scene::scales_of(scene, measured(frame)));
+  const double fps = until >= 1 ? 24 : rounded(50 / until);
+  return fmt::format(
+      "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:g} "
+      "--fps {:g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
+      "is below 0.001 of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
+      init, until, fps, scene::pipeline_of(scene), mean_edge_of(frame));
+}
+
+} // namespace sheet

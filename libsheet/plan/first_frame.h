@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the stages will say of a scene's first frame, before anything is run (sheet-init --check).
+#pragma once
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/explain.h"
+
+namespace sheet {
+
+// The scene's first frame. Throws Error where sheet-init or a stage would refuse it: a hold or an inlet that is not
+// there, an inlet along which or out of which liquid would flow, a solid's mesh that cannot be read or is none, a sheet
+// that starts inside a solid or passes through itself.
+[[nodiscard]] formats::Frame checked_first_frame(const Scene& scene);
+
+// Length (the root of its area) and mean thickness of the frame's sheet.
+[[nodiscard]] scene::Measured measured(const formats::Frame& frame);
+
+// How to run the scene: commands to paste, and what they compute with. `init` is the command that makes the first
+// frame.
+[[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& frame, const std::string& init);
+
+} // namespace sheet
