@@ -353,6 +353,13 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
     ++report.unfinished;
     best = std::move(trial);
   }
+  if (state.time + best->dt == state.time) {
+    const Vector3& x = state.positions[best->worst];
+    fail(ExitCode::not_converged,
+         "the steps have come down to nothing at t = {} s: the sheet changes faster and faster there, most at vertex {} "
+         "({:.4g}, {:.4g}, {:.4g}) m; the flow may have no later state (a film that bursts), else remeshing helps",
+         state.time, best->worst, x.x(), x.y(), x.z());
+  }
   report.inaccurate = report.unfinished == 0 && best->error > control.tolerance;
   report.error = best->error;
   report.worst = best->worst;

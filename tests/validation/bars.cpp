@@ -118,6 +118,16 @@ TEST(Validation, NothingGrowsAsStepsShrink) {
     }
 }
 
+// Rolled up from the plane by steps, arcs keep to it however thin the sheet and however short the steps.
+TEST(Validation, PatchRolledUpInSteps) {
+  for (const int set : {2, 3, 4})
+    for (const int steps : {10, 80}) {
+      Settings s = settings("V14", 1.0 / 12, steps, set);
+      s.bending = Shell::arcs;
+      EXPECT_LT(error("V14", s), 0.01) << "set " << set << ", " << steps << " steps";
+    }
+}
+
 TEST(Validation, WavesOnABath) {
   for (const int set : {1, 2, 3, 4, 5})
     EXPECT_LT(error("V15", settings("V15", 1.0 / 32, 1, set)), 0.03) << "set " << set;

@@ -3,7 +3,8 @@
 // half as long again as the radius, and its rim follows the exact motion (curvature k to k + dk, no stretching),
 // normals too; inside it is free. The rim's uniform stretching along the arc is chosen so that it costs least, that is,
 // no force pulls at the ends. Power over that of pure bending, D k̇² a unit of area, D = μ h³/3: what exceeds 1 is
-// locking.
+// locking. With more than one step the patch has been rolled up from the plane in so many of them, so that its inside
+// and its directors are what steps have made of them; with one it is the cylinder, its directors the mean normals.
 #include <algorithm>
 
 #include "tests/validation/instant.h"
@@ -21,6 +22,86 @@ struct Roll {
   }
 };
 
+// A patch that is held by its rim.
+class Patch {
+public:
+  Patch(const Settings& s, const Roll& roll, double h)
+      : flat_(make_rectangle(1, 1, mesh_options(s, 1))), roll_(roll), model_(viscous(1, s)), state_(film(flat_, h)) {
+    area_ = sheet_area(state_);
+    Hold rim;
+    for (std::uint32_t e = 0; e < state_.mesh->edges.size(); ++e)
+      if (state_.mesh->on_rim(e)) {
+        rim.clamped_edges.push_back(e);
+        for (const auto v : state_.mesh->edges[e])
+          if (std::find(rim.vertices.begin(), rim.vertices.end(), v) == rim.vertices.end())
+            rim.vertices.push_back(v);
+      }
+    model_.holds.push_back(rim);
+  }
+
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] double area() const { return area_; }
+
+  void put_on_cylinder() {
+    for (Vector3& x : state_.positions)
+      x = roll_.place(x, roll_.curvature, 0);
+    curvature_ = roll_.curvature;
+  }
+
+  void roll_up(int steps) {
+    for (int k = 1; k <= steps; ++k) {
+      const double curvature = k * roll_.curvature / steps;
+      state_ = bend(curvature, 0, 1.0 / steps).next;
+      curvature_ = curvature;
+    }
+  }
+
+  // To another curvature in the time dt.
+  [[nodiscard]] Instant bend(double curvature, double stretch, double dt) const {
+    // The rim's directors are the cylinder's normals, not those of the triangles beside it.
+    const auto exact_rim = [&](Stage& stage) {
+      for (const auto e : model_.holds[0].clamped_edges) {
+        if (stage.frames.empty())
+          return;
+        EdgeFrame& f = stage.frames[e];
+        const Vector3 n = turned_by(curvature_ * middle(e)) * Vector3::UnitZ();
+        f.director = (n - n.dot(f.tangent) * f.tangent).normalized();
+        f.binormal = f.tangent.cross(f.director);
+      }
+    };
+    const auto place = [&](const Stage& stage, Unknowns& u) {
+      for (std::uint32_t v = 0; v < flat_.positions.size(); ++v) // inside: the start of the iteration
+        u.segment<3>(3 * v) = roll_.place(flat_.positions[v], curvature, stretch);
+      for (const auto e : model_.holds[0].clamped_edges) {
+        if (stage.frames.empty())
+          return;
+        const Edge& ends = state_.mesh->edges[e];
+        const Matrix3 turn = turned_by((curvature - curvature_) * middle(e));
+        const Vector3 t = (u.segment<3>(3 * ends[1]) - u.segment<3>(3 * ends[0])).normalized();
+        const Vector3 brought = stage.frames[e].carried(0, t), wanted = turn * stage.frames[e].director;
+        u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] =
+            std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
+      }
+    };
+    return solve_instant(state_, model_, dt, place, exact_rim);
+  }
+
+private:
+  [[nodiscard]] double middle(std::uint32_t e) const {
+    const Edge& ends = state_.mesh->edges[e];
+    return roll_.along(0.5 * (flat_.positions[ends[0]] + flat_.positions[ends[1]]));
+  }
+  [[nodiscard]] static Matrix3 turned_by(double angle) {
+    return Eigen::AngleAxisd(-angle, Vector3::UnitY()).toRotationMatrix();
+  }
+
+  TriangleMesh flat_;
+  Roll roll_;
+  Model model_;
+  State state_;
+  double area_ = 0, curvature_ = 0;
+};
+
 } // namespace
 
 // Sets: h/edge = 1, 0.1, 0.01, 0.001 with the mesh turned by 0 (1-4), 30 (5-8), 45 degrees (9-12).
@@ -29,57 +110,14 @@ Result v14(const Settings& s) {
   const double h = ratio * s.edge, mu = 1, dt = 1;
   const Roll roll{1.5, turned[(s.set - 1) / 4]};
   const double dk = 1e-5 * roll.curvature;
-  const TriangleMesh flat = make_rectangle(1, 1, mesh_options(s, 1));
-  State start = film(flat, h);
-  const double area = sheet_area(start);
-  for (Vector3& x : start.positions)
-    x = roll.place(x, roll.curvature, 0);
-  Model m = viscous(mu, s);
-  Hold rim;
-  for (std::uint32_t e = 0; e < start.mesh->edges.size(); ++e)
-    if (start.mesh->on_rim(e)) {
-      rim.clamped_edges.push_back(e);
-      for (const auto v : start.mesh->edges[e])
-        if (std::find(rim.vertices.begin(), rim.vertices.end(), v) == rim.vertices.end())
-          rim.vertices.push_back(v);
-    }
-  m.holds.push_back(rim);
-
+  Patch patch(s, roll, h);
+  if (s.steps > 1)
+    patch.roll_up(s.steps);
+  else
+    patch.put_on_cylinder();
   Result result;
   const auto power = [&](double stretch) {
-    const auto middle = [&](std::uint32_t e) {
-      const Edge& ends = start.mesh->edges[e];
-      return roll.along(0.5 * (flat.positions[ends[0]] + flat.positions[ends[1]]));
-    };
-    const auto turned_by = [](double angle) -> Matrix3 {
-      return Eigen::AngleAxisd(-angle, Vector3::UnitY()).toRotationMatrix();
-    };
-    // The rim's directors are the cylinder's normals, not those of the triangles beside it.
-    const auto exact_rim = [&](Stage& stage) {
-      if (stage.frames.empty())
-        return;
-      for (const auto e : rim.clamped_edges) {
-        EdgeFrame& f = stage.frames[e];
-        const Vector3 n = turned_by(roll.curvature * middle(e)) * Vector3::UnitZ();
-        f.director = (n - n.dot(f.tangent) * f.tangent).normalized();
-        f.binormal = f.tangent.cross(f.director);
-      }
-    };
-    const auto place = [&](const Stage& stage, Unknowns& u) {
-      for (std::uint32_t v = 0; v < flat.positions.size(); ++v) // inside: the start of the iteration
-        u.segment<3>(3 * v) = roll.place(flat.positions[v], roll.curvature + dk, stretch);
-      if (stage.frames.empty())
-        return;
-      for (const auto e : rim.clamped_edges) {
-        const Edge& ends = start.mesh->edges[e];
-        const Matrix3 turn = turned_by(dk * middle(e));
-        const Vector3 t = (u.segment<3>(3 * ends[1]) - u.segment<3>(3 * ends[0])).normalized();
-        const Vector3 brought = stage.frames[e].carried(0, t), wanted = turn * stage.frames[e].director;
-        u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] =
-            std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
-      }
-    };
-    const Instant i = solve_instant(start, m, dt, place, exact_rim);
+    const Instant i = patch.bend(roll.curvature + dk, stretch, dt);
     result.seconds += i.seconds;
     result.iterations += i.iterations;
     return i.potential;
@@ -88,15 +126,16 @@ Result v14(const Settings& s) {
   const double none = power(0), more = power(step), less = power(-step);
   const double bend = more + less - 2 * none, slope = more - less;
   const double least = bend > 0 ? none - slope * slope / (8 * bend) : none;
-  result.value = least / (0.5 * mu * h * h * h / 3 * dk * dk / dt * area);
+  const double exact = 0.5 * mu * h * h * h / 3 * dk * dk / dt * patch.area();
+  result.value = least / exact;
   result.error = result.value - 1;
-  result.vertices = start.positions.size();
-  result.edge = mean_edge(start);
-  result.steps = 1;
+  result.vertices = patch.state().positions.size();
+  result.edge = mean_edge(patch.state());
+  result.steps = s.steps;
   result.more = {{"h_over_edge", ratio},
                  {"turned", roll.turned * 180 / pi},
                  {"k_l2_over_h", roll.curvature * s.edge / ratio},
-                 {"ends_held", none / (0.5 * mu * h * h * h / 3 * dk * dk / dt * area)}};
+                 {"ends_held", none / exact}};
   return result;
 }
 

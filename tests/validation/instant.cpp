@@ -34,6 +34,10 @@ Instant solve_instant(const State& s, const Model& model, double dt, const Place
   r.iterations = report.iterations;
   if (!report.converged && !(report.last_step < 1e-9))
     fail(ExitCode::not_converged, "an instant did not converge (last step {})", report.last_step);
+  r.next = s;
+  for (std::uint32_t v = 0; v < s.positions.size(); ++v)
+    r.next.positions[v] = stage.position(r.end, v);
+  r.next.director_angles = director_angles(stage, r.end);
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   system.hold({}, 0);
   r.potential = system.gradient(terms, r.end, r.reaction).value;

@@ -8,6 +8,7 @@ namespace sheet::validation {
 
 struct Instant {
   Unknowns begin, end;
+  State next;               // the end as a state: positions and directors
   Eigen::VectorXd reaction; // gradient of the potential [N, N m] at the end, zero where nothing is held
   double potential = 0;     // [J]; in a purely viscous stage dt/2 times the dissipated power
   double seconds = 0;
