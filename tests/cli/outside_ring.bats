@@ -1,0 +1,24 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The ring with stages as users write them.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || exit
+  make_grid 3 > grid.sheet
+}
+
+@test "21: a stage that keeps its frame to itself is named" {
+  for stage in 'sheet-select --last' 'sheet-select --index=-1'; do
+    run timeout -s INT 9 sheet-loop -i grid.sheet --steps 3 -o run.sheet -- "sheet-pass | $stage | sheet-pass"
+    [[ $output == *"stage \"$stage\" has taken its frame, gives none and does nothing"* ]]
+    [[ $(grep -c 'has taken its frame' <<< "$output") == 1 ]]
+  done
+  # a stage that needs its time is no such stage
+  run -0 timeout 30 sheet-loop -i grid.sheet --steps 1 -o run.sheet -- \
+    "sheet-pass | /usr/bin/python3 -c 'import sys, time; t = time.time()
+while time.time() - t < 7: pass
+sys.stdout.buffer.write(sys.stdin.buffer.read1(1 << 20)); sys.stdout.flush(); sys.stdout.buffer.write(sys.stdin.buffer.read())'"
+  [[ $output != *'has taken its frame'* ]]
+}
