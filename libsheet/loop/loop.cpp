@@ -273,9 +273,12 @@ void report_times(const PipelineEnd& end, std::uint64_t rounds, double elapsed) 
                         1e3 * time.seconds / static_cast<double>(std::max<std::uint64_t>(1, time.frames)),
                         100 * time.seconds / elapsed);
   }
-  text += fmt::format("\n  {:<16} {:10.3f} s {:9.3f} ms a step {:5.1f} %", "pipes and others", elapsed - known,
-                      1e3 * (elapsed - known) / static_cast<double>(std::max<std::uint64_t>(1, rounds)),
-                      100 * (elapsed - known) / elapsed);
+  // A stage writes while the next one reads, so that the sum may exceed the whole.
+  const double others = elapsed - known;
+  text += fmt::format("\n  {:<16} {:10.3f} s {:9.3f} ms a step {:5.1f} %",
+                      others >= 0 ? "pipes and others" : "at the same time", std::abs(others),
+                      1e3 * std::abs(others) / static_cast<double>(std::max<std::uint64_t>(1, rounds)),
+                      100 * std::abs(others) / elapsed);
   log::warning("{}", text);
 }
 

@@ -22,3 +22,12 @@ while time.time() - t < 7: pass
 sys.stdout.buffer.write(sys.stdin.buffer.read1(1 << 20)); sys.stdout.flush(); sys.stdout.buffer.write(sys.stdin.buffer.read())'"
   [[ $output != *'has taken its frame'* ]]
 }
+
+@test "22: no time in sheet-loop's table is negative, also where stages work side by side" {
+  make_grid 60 > large.sheet
+  sheet-loop -i large.sheet --steps 2 --keep last -o run.sheet -- \
+    'tee >(sheet-remesh --edge-length 0.4 > /dev/null) >(sheet-remesh --edge-length 0.4 > /dev/null)' 2> table
+  [[ $(grep -c 'sheet-remesh' table) == 2 ]]
+  grep 'at the same time' table
+  run -1 grep -- ' -[0-9]' table
+}
