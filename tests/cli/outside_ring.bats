@@ -31,3 +31,15 @@ sys.stdout.buffer.write(sys.stdin.buffer.read1(1 << 20)); sys.stdout.flush(); sy
   grep 'at the same time' table
   run -1 grep -- ' -[0-9]' table
 }
+
+@test "13: a run made longer is that of one go, if it had ended at an output time as the help says" {
+  printf '[sheet]\nshape = "disk"\nradius = 1\nedge_length = 0.4\nthickness = 0.01\n[material]\nviscosity = 100\ndensity = 1000\n[environment]\ngravity = [0, 0, -9.81]\n[[hold]]\nregion = "rim"\n' |
+    sheet-init - -o first.sheet
+  for options in 'sheet-step' 'sheet-step --dt 0.01'; do
+    sheet-loop -q -i first.sheet --until 0.25 --fps 24 -o once.sheet -- "$options"
+    sheet-loop -q -i first.sheet --until 0.125 --fps 24 -o twice.sheet -- "$options"
+    sheet-loop -q --resume twice.sheet --until 0.25 --fps 24 -- "$options"
+    cmp once.sheet twice.sheet
+  done
+  sheet-loop --help | tr -s '\n ' ' ' | grep -q 'if it had ended at an output time'
+}
