@@ -70,7 +70,9 @@ int main(int argc, char** argv) {
       "sheet-export", "write frames as mesh files for other programs",
       "Writes VTU (ParaView), PLY, OBJ, OFF or STL files. VTU and PLY carry the thickness, per triangle "
       "(volume divided by area) and per vertex (the mean around it, weighted by area), and every array of "
-      "numbers at vertices and triangles.\n"
+      "numbers at vertices and triangles; an array that is called thickness itself becomes thickness.array, integers "
+      "beyond 2^53 become two arrays NAME.low32 and NAME.high32. VTU files say their time. Debian's meshio cannot read "
+      "a PLY file with properties of faces: give it VTU.\n"
       "Numbered VTU files get a collection beside them, frame.pvd for frame_%04d.vtu, which holds the times.");
   Options o;
   tool.argument("INPUT", o.input, "stream to read; - for standard input");

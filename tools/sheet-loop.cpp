@@ -26,7 +26,9 @@ int main(int argc, char** argv) {
   tool.option(
       "--resume", o.resume, "FILE",
       "go on with this stream: a run that was interrupted, or one that shall become longer. New frames are added "
-      "to it; the result is the same, byte for byte, as without the interruption",
+      "to it; the result is the same, byte for byte, as without the interruption. A run that is made longer is that of "
+      "one go if it had ended at an output time (--until 0.125 with --fps 24, not 0.1): steps end at --until, and a "
+      "frame is kept there",
       Provenance::omit);
   tool.option(
       "--checkpoint", o.checkpoint, "FILE",

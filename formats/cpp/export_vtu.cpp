@@ -58,6 +58,16 @@ public:
   std::string xml, data;
 };
 
+// What ParaView takes for the time of a single file.
+std::string time_of(const ForeignMesh& mesh) {
+  if (!mesh.time)
+    return "";
+  std::string text =
+      "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
+  append_real(text, *mesh.time);
+  return text + "</DataArray>\n</FieldData>\n";
+}
+
 } // namespace
 
 std::string encode_vtu(const ForeignMesh& mesh) {
@@ -65,8 +75,9 @@ std::string encode_vtu(const ForeignMesh& mesh) {
   Writer w;
   const std::size_t cells = mesh.triangles.size();
   w.xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-          "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-          std::to_string(mesh.points.size()) + "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";
+          "header_type=\"UInt64\">\n<UnstructuredGrid>\n" +
+          time_of(mesh) + "<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) + "\" NumberOfCells=\"" +
+          std::to_string(cells) + "\">\n";
   w.arrays(mesh, MeshPlace::point, "PointData");
   w.arrays(mesh, MeshPlace::cell, "CellData");
   w.xml += "<Points>\n";

@@ -27,6 +27,7 @@ struct ForeignMesh {
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<std::uint32_t, 3>> triangles; // counter-clockwise seen from the positive side
   std::vector<MeshArray> arrays;
+  std::optional<double> time; // [s], which VTU files can say
 
   // The array of that name and place, or nullptr.
   [[nodiscard]] const MeshArray* find(std::string_view name, MeshPlace place) const {

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <new>
 
@@ -306,6 +307,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     return report(ExitCode::io, "not enough memory");
   } catch (const std::length_error&) {
     return report(ExitCode::io, "not enough memory");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return report(ExitCode::io, error.what());
   } catch (const std::exception& error) {
     return report(ExitCode::internal, fmt::format("internal error: {}", error.what()).c_str());
   }

@@ -126,7 +126,10 @@ void run_film(
       const InputFile counted(options.input);
       formats::StreamReader reader(counted.descriptor(), counted.name());
       formats::Frame frame;
-      while (reader.read(frame)) {
+      try {
+        while (reader.read(frame)) {
+        }
+      } catch (const formats::StreamError&) { // a run that failed: its whole frames count
       }
       wanted.set_total(reader.frames());
     }

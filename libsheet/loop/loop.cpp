@@ -88,12 +88,16 @@ public:
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  // Waits until `descriptor` can be read (true) or a signal has come (false).
-  [[nodiscard]] bool wait_readable(int descriptor) const {
+  // Waits until `descriptor` can be read (true) or a signal has come (false). Calls `patience_ends` every now and then.
+  template <class F> [[nodiscard]] bool wait_readable(int descriptor, F&& patience_ends) const {
+    constexpr int patience = 5000; // [ms]
     for (;;) {
       std::array<pollfd, 2> waited{pollfd{descriptor, POLLIN, 0}, pollfd{descriptor_, POLLIN, 0}};
-      if (::poll(waited.data(), waited.size(), -1) < 0)
-        continue; // EINTR
+      const int ready = ::poll(waited.data(), waited.size(), patience);
+      if (ready == 0)
+        patience_ends();
+      if (ready <= 0)
+        continue; // or EINTR
       if (waited[1].revents != 0)
         return false;
       if (waited[0].revents != 0)
@@ -269,9 +273,12 @@ void report_times(const PipelineEnd& end, std::uint64_t rounds, double elapsed) 
                         1e3 * time.seconds / static_cast<double>(std::max<std::uint64_t>(1, time.frames)),
                         100 * time.seconds / elapsed);
   }
-  text += fmt::format("\n  {:<16} {:10.3f} s {:9.3f} ms a step {:5.1f} %", "pipes and others", elapsed - known,
-                      1e3 * (elapsed - known) / static_cast<double>(std::max<std::uint64_t>(1, rounds)),
-                      100 * (elapsed - known) / elapsed);
+  // A stage writes while the next one reads, so that the sum may exceed the whole.
+  const double others = elapsed - known;
+  text += fmt::format("\n  {:<16} {:10.3f} s {:9.3f} ms a step {:5.1f} %",
+                      others >= 0 ? "pipes and others" : "at the same time", std::abs(others),
+                      1e3 * std::abs(others) / static_cast<double>(std::max<std::uint64_t>(1, rounds)),
+                      100 * std::abs(others) / elapsed);
   log::warning("{}", text);
 }
 
@@ -290,14 +297,19 @@ public:
     const auto begin = Clock::now();
     auto checkpointed = begin;
     std::uint64_t rounds = 0;
+    bool slow = true;
     while (!done()) {
       stamp_next_output_time(frame_, options_);
+      const auto round_begin = Clock::now();
+      if (slow)
+        pipeline.begin_round();
       if (!round(pipeline, signals, sent, returned)) {
         progress.clear();
         interrupted(pipeline);
         return signals.take();
       }
       ++rounds;
+      slow = Clock::now() - round_begin > std::chrono::milliseconds(100); // else it would cost too much to watch
       write_first();
       keep_frame();
       progress.show(frame_.time, frame_.step, output_->frames());
@@ -386,7 +398,7 @@ private:
   // before it has read everything, and neither end may wait for the other.
   bool round(Pipeline& pipeline, const Signals& signals, StreamWriter& sent, StreamReader& returned) {
     std::future<void> sending = std::async(std::launch::async, [&] { sent.write(frame_); });
-    const bool readable = signals.wait_readable(pipeline.output());
+    const bool readable = signals.wait_readable(pipeline.output(), [&] { tell_of_silence(pipeline); });
     std::string error;
     if (readable) {
       try {
@@ -419,6 +431,17 @@ private:
     std::swap(frame_, back_);
     kept_ = false;
     return true;
+  }
+
+  // A stage that waits for more frames before it answers would keep the ring waiting for ever.
+  void tell_of_silence(const Pipeline& pipeline) {
+    const std::string stage = told_of_silence_ ? "" : pipeline.silent_stage();
+    if (stage.empty())
+      return;
+    log::warning("stage \"{}\" has taken its frame, gives none and does nothing: a stage must answer each frame before "
+                 "the next one comes (sheet-loop goes on waiting; interrupt it to end)",
+                 stage);
+    told_of_silence_ = true;
   }
 
   void keep_frame() {
@@ -524,7 +547,8 @@ private:
   std::unique_ptr<Output> output_;
   std::optional<Frame> first_; // not yet written
   Frame frame_, back_;         // the newest state; the one that comes back (after a round: the one before)
-  bool kept_ = false;          // the newest state is in the output
+  bool told_of_silence_ = false;
+  bool kept_ = false; // the newest state is in the output
 };
 
 } // namespace

@@ -19,6 +19,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
+#include "libsheet/loop/process_state.h"
 
 namespace sheet {
 
@@ -93,7 +94,7 @@ std::vector<std::string> split_pipeline(const std::string& command) {
 
 Pipeline::Pipeline(const std::string& command) {
   for (const std::string& stage : split_pipeline(command))
-    stages_.push_back({stage, -1, false, false, 0});
+    stages_.push_back({stage, -1, false, false, 0, 0});
   auto [first_read, first_write] = make_pipe();
   auto [report_read, report_write] = make_pipe();
   input_ = first_write;
@@ -148,6 +149,18 @@ Pipeline::~Pipeline() {
   close_if_open(input_);
   close_if_open(output_);
   close_if_open(report_);
+}
+
+void Pipeline::begin_round() {
+  for (Stage& stage : stages_)
+    stage.written = bytes_written(stage.process);
+}
+
+std::string Pipeline::silent_stage() const {
+  for (const Stage& stage : stages_)
+    if (const auto now = bytes_written(stage.process); now && stage.written && *now == *stage.written)
+      return is_asleep(stage.process) ? stage.command : "";
+  return "";
 }
 
 void Pipeline::close_input() { close_if_open(input_); }

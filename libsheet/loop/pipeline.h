@@ -2,6 +2,7 @@
 // A shell pipeline as a child process, with both its ends, the exit status of each of its stages and their times.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,12 @@ public:
   [[nodiscard]] int output() const noexcept { return output_; } // read frames here
   void close_input();
 
+  // A round begins: notes what each stage has written until now.
+  void begin_round();
+  // The first stage that has written nothing in this round and does nothing either, as it stands in the pipeline; "" if
+  // there is none, or the system does not say.
+  [[nodiscard]] std::string silent_stage() const;
+
   // The output has ended: notes which stages ended early, waiting a moment for the last one to be gone.
   void note_early_ends();
 
@@ -67,6 +74,7 @@ private:
     pid_t process = -1;
     bool ended = false, early = false;
     int code = 0;
+    std::optional<std::uint64_t> written; // bytes, when the round began
   };
   std::vector<Stage> stages_;
   int input_ = -1, output_ = -1, report_ = -1;

@@ -22,6 +22,7 @@ constexpr double margin = 0.04;         // of the picture, around the subject
 constexpr double largest = 1e30;        // subject, far from where single precision ends [m]
 constexpr double scale_margin = 0.19;   // of its width, where a scale is drawn
 constexpr double unknown_growth = 0.25; // of a subject of which only the first frame is known
+constexpr double farthest = 1e9;        // eye, in sizes of the subject
 constexpr double thinnest = 1e-4;       // of the subject: a sheet below it is drawn as its mid-surface
 
 void check(const RenderOptions& o) {
@@ -141,6 +142,12 @@ struct RenderStage::Impl {
            subject.diagonal(), largest);
     if (options.camera.eye && !((options.camera.target.value_or(subject.center()) - *options.camera.eye).norm() > 0))
       fail(ExitCode::usage, "--eye is the middle of what there is to see: give --target too");
+    if (const double away = options.camera.eye ? (subject.center() - *options.camera.eye).norm() : 0;
+        !(away < farthest * subject.diagonal()))
+      fail(ExitCode::usage,
+           "--eye is {:.3g} m away from what there is to see, which measures {:.3g} m: nothing of it "
+           "would be seen",
+           away, subject.diagonal());
     const double growth = surveyed ? 0 : unknown_growth;
     const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.center();
     subject = {middle - reach, middle + reach};

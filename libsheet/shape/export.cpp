@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/export.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
 #include <Eigen/Geometry>
 
 #include "libsheet/base/error.h"
@@ -74,11 +78,46 @@ Thickness thickness(const Frame& frame) {
   return h;
 }
 
+// Integers of 64 bits that no double can tell from their neighbours.
+template <class T> bool needs_halves(const Array& array) {
+  const auto exact = [](T value) {
+    return value == static_cast<T>(0) || std::abs(static_cast<double>(value)) < 0x1p53;
+  };
+  const auto values = array.values<T>();
+  return !std::all_of(values.begin(), values.end(), exact);
+}
+
+bool needs_halves(const Array& array) {
+  return array.type == Type::uint64  ? needs_halves<std::uint64_t>(array)
+         : array.type == Type::int64 ? needs_halves<std::int64_t>(array)
+                                     : false;
+}
+
+// The lower or upper 32 bits of such integers.
+std::vector<double> half_of(const Array& array, int shift) {
+  std::vector<double> half;
+  for (std::size_t i = 0; i < array.rows * array.components; ++i) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, array.data.data() + 8 * i, sizeof bits);
+    half.push_back(static_cast<double>(bits >> shift & 0xffffffff));
+  }
+  return half;
+}
+
 void add_arrays(const Frame& frame, formats::Place from, MeshPlace to, ForeignMesh& mesh) {
-  for (const Array& array : frame.arrays)
-    if (array.place == from && array.type != Type::text && array.name != "position" && array.name != "triangle" &&
-        array.name != "thickness")
-      mesh.arrays.push_back({array.name, to, static_cast<int>(array.components), numbers(array)});
+  for (const Array& array : frame.arrays) {
+    if (array.place != from || array.type == Type::text || array.name == "position" || array.name == "triangle")
+      continue;
+    // thickness is volume divided by area, everywhere; an array that somebody has called so keeps its numbers
+    const std::string name = array.name == "thickness" ? "thickness.array" : array.name;
+    const int components = static_cast<int>(array.components);
+    if (needs_halves(array)) {
+      mesh.arrays.push_back({name + ".low32", to, components, half_of(array, 0)});
+      mesh.arrays.push_back({name + ".high32", to, components, half_of(array, 32)});
+    } else {
+      mesh.arrays.push_back({name, to, components, numbers(array)});
+    }
+  }
 }
 
 std::array<double, 3> coordinates(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
@@ -87,6 +126,7 @@ std::array<double, 3> coordinates(const Eigen::Vector3d& x) { return {x[0], x[1]
 
 ForeignMesh to_foreign_mesh(const Frame& frame) {
   ForeignMesh mesh;
+  mesh.time = frame.time;
   for (const Eigen::Vector3d& x : positions(frame))
     mesh.points.push_back(coordinates(x));
   mesh.triangles.assign(triangles(frame).begin(), triangles(frame).end());
@@ -105,6 +145,7 @@ ForeignMesh to_solid_mesh(const Frame& frame) {
   const Thickness h = thickness(frame);
   const TriangleMesh solid = solidify(middle, h.of_vertices);
   ForeignMesh mesh;
+  mesh.time = frame.time;
   for (const Eigen::Vector3d& x : solid.positions)
     mesh.points.push_back(coordinates(x));
   mesh.triangles = solid.triangles;

@@ -247,6 +247,7 @@ void Stepper::advance_flat(State& state, double dt, StepReport& report) {
   report.error = std::max(report.error, flat.error);
   report.reactions = flat.reactions;
   report.seconds_analysis += flat.seconds_analysis;
+  report.terms.insert(report.terms.end(), flat.terms.begin(), flat.terms.end());
 }
 
 void Stepper::finish(StepReport& report, const std::vector<double>& seconds_before) const {

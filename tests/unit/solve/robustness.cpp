@@ -2,6 +2,7 @@
 // The cheap ones of the hard cases (docs/hard-cases.md): each must be done without help or with the help stated here,
 // the potential never rising, nothing inverted to nothing, in a bounded number of Newton iterations.
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -215,6 +216,23 @@ TEST(HardCases, ThinnestSheetWhereStepsAreChosen) {
     EXPECT_TRUE(r.newton.monotone);
     EXPECT_EQ(r.flat_fallbacks, 0);
   }
+}
+
+// The time of steps without arcs is told with that of the others.
+TEST(HardCases, TermsOfStepsWithoutArcsAreTold) {
+  State s = test::at_rest(test::rectangle(1, 1, 20, 20, 0.2), 5e-10);
+  StepOptions options;
+  options.newton.tolerance = 1e-8;
+  Stepper stepper(sagging(s), options);
+  StepReport r;
+  for (int steps = 0; r.flat_fallbacks == 0; ++steps) {
+    ASSERT_LT(steps, 10);
+    r = stepper.step(s, 0.05);
+  }
+  std::map<std::string, int> told;
+  for (const TermTime& term : r.terms)
+    ++told[term.name];
+  EXPECT_EQ(told["gathering"], 2);
 }
 
 // Where a triangle would shrink to nothing in the second stage, the step is done in pieces (surface tension on a disk:
