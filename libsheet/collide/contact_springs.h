@@ -12,11 +12,12 @@
 //
 // Stiffness [N/m] of both parts, unless the scene says one, for a spring that stands for the area A = half of the area
 // of its vertex (the vertices of both layers get springs; edges: half of the mean of their vertices'):
-//   k = A rho h / T²  +  200 A rho g h / d  +  mu h / (2 T),   T = min(sqrt(d/g), d/v)/10
-// with h the mean thickness, d the contact distance, v the speed of approach. Terms: inertia (if it is modelled): an
-// approach is stopped within a tenth of d; weight: ten layers compress by a twentieth of d; viscosity: as stiff as the
+//   k = A rho h / T²  +  200 A rho g h / d  +  mu h / (2 T),   T = sqrt(d/g)/10, without gravity d/v/10
+// with h the mean thickness, d the contact distance, v the speed of approach. Terms: inertia (if it is modelled): what
+// falls from a height of d is stopped within a tenth of it; weight: ten layers compress by a twentieth of d; viscosity: as stiff as the
 // sheet itself is against stretching within T, so that what a viscous sheet presses together does not go through
-// either. The length of the step does not matter (where neither g nor v is, T is that), else the error of a step would
+// either. The length of the step does not matter (where neither g nor v is, T is that), nor, under gravity, how fast the
+// features came, as impulses take that speed away, else the error of a step would
 // not fall with it.
 #pragma once
 #include "libsheet/collide/self_search.h"

@@ -246,4 +246,30 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
   return sum;
 }
 
+Eigen::VectorXd Assembly::multiply(const Terms& terms, Kind kind, const Unknowns& u, const Eigen::VectorXd& x) {
+  for (const auto& term : terms)
+    term->prepare(u);
+  std::fill(gradients_.begin(), gradients_.end(), 0.0);
+  each_chunk([&](std::size_t, std::size_t, int g, std::size_t first, std::size_t last) {
+    double at[kChunk * 12], along[kChunk * 12], unused[kChunk * 12], hessians[kChunk * 144];
+    const auto stride = static_cast<std::size_t>(stride_);
+    for (std::size_t t = 0; t < terms.size(); ++t) {
+      if (group_of_term_[t] != g || terms[t]->kind() != kind)
+        continue;
+      collect(groups_[g], first, last, u, at);
+      collect(groups_[g], first, last, x, along);
+      (void)terms[t]->add_derivatives(first, last, at, stride_, unused, hessians, false, true);
+      const std::size_t size = static_cast<std::size_t>(stencil_unknowns(terms[t]->stencil()));
+      for (std::size_t i = 0; i < last - first; ++i)
+        for (std::size_t c = 0; c < size; ++c)
+          for (std::size_t r = 0; r < size; ++r)
+            gradients_[(groups_[g].first + first + i) * stride + r] +=
+                hessians[i * stride * stride + c * stride + r] * along[i * stride + c];
+    }
+  });
+  Eigen::VectorXd product;
+  gather_gradient({}, product);
+  return product;
+}
+
 } // namespace sheet

@@ -36,6 +36,8 @@ public:
   // held: one flag an unknown, or empty. Their gradient is zero, their rows and columns those of the unit matrix.
   EnergySum derivatives(const Terms& terms, const Unknowns& u, bool definite, std::span<const char> held,
                         Eigen::VectorXd& gradient, SparseLower& matrix);
+  // The Hessian at u of the terms of one kind (inertial or elastic) times a vector.
+  [[nodiscard]] Eigen::VectorXd multiply(const Terms& terms, Kind kind, const Unknowns& u, const Eigen::VectorXd& x);
   // Seconds spent in each term (summed over threads) and, last, in gathering, since construction or the last reset.
   [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
 

@@ -16,6 +16,7 @@ namespace sheet {
 class Bath {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
+  static constexpr Kind kind = Kind::elastic;
   // gravity [m/s²]; level: height of the rest plane along the upward direction [m]; clings: it pulls what is above it.
   Bath(double density, const Vector3& gravity, double level, bool clings)
       : weight_(density * gravity.norm() / 12), up_(-gravity.normalized()), level_(level), clings_(clings) {}

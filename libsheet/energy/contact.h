@@ -23,6 +23,7 @@ struct ContactSpring {
 class Contact {
 public:
   static constexpr Stencil stencil = Stencil::four;
+  static constexpr Kind kind = Kind::elastic;
   explicit Contact(std::vector<ContactSpring> springs) : springs_(std::move(springs)) {}
   [[nodiscard]] const char* name() const { return "contact"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }

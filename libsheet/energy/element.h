@@ -4,6 +4,7 @@
 //   const char* name() const;
 //   std::size_t size() const;                                 number of elements
 //   std::array<std::uint32_t, 4> nodes(i) const;              the vertices; only where the stencil is hinge or four
+//   static constexpr Kind kind = Kind::...;                   optional: inertial or elastic; else dissipative or a load
 //   static constexpr bool linear = true;                      optional: the Hessian is zero and need not be added
 //   void begin(const Stage&);                                 start-of-stage quantities; called before each solve
 //   void prepare(const Unknowns&);                            optional: what is global (an enclosed volume)
@@ -21,6 +22,13 @@
 #include "libsheet/energy/stage.h"
 
 namespace sheet {
+
+// What a term's Hessian stands for in the equations of motion M x'' + D x' + K x = f.
+enum class Kind {
+  inertial,    // M
+  dissipative, // D, or nothing
+  elastic      // K
+};
 
 enum class Stencil {
   triangle,       // its three vertices

@@ -12,6 +12,7 @@ enum class Mass { lumped, consistent };
 class Inertia {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
+  static constexpr Kind kind = Kind::inertial;
   Inertia(double density, Mass mass) : density_(density), mass_(mass) {}
   [[nodiscard]] const char* name() const { return "inertia"; }
   [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }

@@ -10,6 +10,7 @@ namespace sheet {
 class SurfaceTension {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
+  static constexpr Kind kind = Kind::elastic;
   explicit SurfaceTension(double gamma) : gamma_(gamma) {}
   [[nodiscard]] const char* name() const { return "surface tension"; }
   [[nodiscard]] std::size_t size() const { return start_area_.size(); }

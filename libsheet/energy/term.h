@@ -17,6 +17,7 @@ public:
   virtual ~Term() = default;
   [[nodiscard]] virtual const char* name() const = 0;
   [[nodiscard]] virtual Stencil stencil() const = 0;
+  [[nodiscard]] virtual Kind kind() const = 0;
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual std::array<std::uint32_t, 4> nodes(std::size_t i) const = 0; // hinge and four only
   virtual void begin(const Stage& stage) = 0;
@@ -47,6 +48,12 @@ public:
 
   [[nodiscard]] const char* name() const override { return element_.name(); }
   [[nodiscard]] Stencil stencil() const override { return E::stencil; }
+  [[nodiscard]] Kind kind() const override {
+    if constexpr (requires { E::kind; })
+      return E::kind;
+    else
+      return Kind::dissipative;
+  }
   [[nodiscard]] std::size_t size() const override { return element_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const override {
     if constexpr (E::stencil == Stencil::hinge || E::stencil == Stencil::four)

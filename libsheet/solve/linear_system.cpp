@@ -9,10 +9,13 @@
 
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/solve/cholesky.h"
+#include "libsheet/solve/conjugate_gradients.h"
 
 namespace sheet {
 
 namespace {
+constexpr double kResponse = 0.1; // what respond() leaves
+constexpr int kResponseProducts = 10;
 constexpr double kSpreadShift = 1e-6; // for a starting point only
 }
 
@@ -168,6 +171,16 @@ void LinearSystem::balance(const Eigen::VectorXd& force, Eigen::VectorXd& step) 
     if (stiffness > 0)
       step += (translation.dot(residual) / stiffness) * translation;
   }
+}
+
+Eigen::VectorXd LinearSystem::respond(Eigen::VectorXd force) const {
+  for (std::size_t k = 0; k < held_.size(); ++k)
+    if (held_[k])
+      force[static_cast<Eigen::Index>(k)] = 0;
+  const Eigen::VectorXd rows = to_rows(force);
+  const auto product = [&](const Eigen::VectorXd& x) { return multiply(x); };
+  const auto precondition = [&](const Eigen::VectorXd& b) { return solve(b); };
+  return to_unknowns(conjugate_gradients(product, precondition, rows, solve(rows), kResponse, kResponseProducts).x);
 }
 
 bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target, Unknowns& u) {

@@ -58,6 +58,13 @@ public:
   // sheet that nothing holds is then exact, whatever the precision of the factor. Does nothing where something is held.
   void balance(const Eigen::VectorXd& force, Eigen::VectorXd& step) const;
 
+  // Solves H s = force, all in the order of the unknowns, to a tenth, with the last Hessian and factor. Held unknowns
+  // feel no force.
+  [[nodiscard]] Eigen::VectorXd respond(Eigen::VectorXd force) const;
+  [[nodiscard]] Eigen::VectorXd multiply(const Terms& terms, Kind kind, const Unknowns& u, const Eigen::VectorXd& x) {
+    return assembly_.multiply(terms, kind, u, x);
+  }
+
   // Moves u by one linearised step that takes the held unknowns to their target, so that the others make way: a
   // starting point for motions of more than an edge. False if the matrix cannot be factorised. The factor is gone.
   [[nodiscard]] bool spread_held_motion(const Terms& terms, const Unknowns& target, Unknowns& u);

@@ -12,7 +12,8 @@
 // fails too, Error(not_converged), the state untouched.
 // Steps chosen by their error are shortened instead of halved. When the iterations are spent, the most accurate step
 // that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above. Where a
-// step of a thousandth is hardly more accurate, as something jumps, the long one is taken, and said to be inaccurate.
+// step of a thousandth is hardly more accurate, as something jumps, the long one is taken, and said to be inaccurate. No
+// step is shorter than the sheet takes to cross 1e-4 of an edge (and a thousandth of what is left).
 #pragma once
 #include <memory>
 #include <string>
@@ -51,7 +52,7 @@ struct StepReport {
   int unfinished = 0;      // substeps taken though Newton's iterations had not converged
   int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
   NewtonReport newton;            // sums over all stages; last_step of the last one
-  double error = 0;               // difference to the first-order result, in edge lengths, greatest of the substeps
+  double error = 0;               // filtered difference to the first-order result, in edge lengths, greatest of the substeps
   std::size_t worst = 0;          // the vertex that has it
   std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex, at the end [N]
   double seconds_analysis = 0;
@@ -86,6 +87,8 @@ private:
   Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end, StepReport& report);
   Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
                       const Eigen::VectorXd& scale, std::span<const char> held, State& end, StepReport& report);
+  void estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first, const Unknowns& last,
+                      const State& end, const Eigen::VectorXd& scale, StepReport& report) const;
   Outcome attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);

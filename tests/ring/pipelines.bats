@@ -19,17 +19,23 @@ interrupted() {
   local size whole resumed=$BATS_TEST_TMPDIR/resumed
   whole=$(stat -c %s "$BATS_TEST_TMPDIR/straight/$stream.sheet")
   export OUT=$resumed
-  "pipelines/$pipeline/run" "$@" > "$BATS_TEST_TMPDIR/log" 2>&1 &
-  local script=$!
-  for _ in $(seq 10000); do
-    size=$(stat -c %s "$resumed/$stream.sheet" 2> /dev/null || echo 0)
-    if ((size > whole / 4)) && pkill "-$signal" -f "sheet-loop --resume $resumed/$stream.sheet "; then
-      break
-    fi
-    sleep 0.005
+  # Where the machine is busy the signal may come too late: then once more.
+  local attempt script code=0
+  for attempt in 1 2 3 4 5; do
+    rm -rf "$resumed"
+    "pipelines/$pipeline/run" "$@" > "$BATS_TEST_TMPDIR/log" 2>&1 &
+    script=$!
+    while kill -0 "$script" 2> /dev/null; do
+      size=$(stat -c %s "$resumed/$stream.sheet" 2> /dev/null || echo 0)
+      if ((size > whole / 4)) && pkill "-$signal" -f "sheet-loop --resume $resumed/$stream.sheet "; then
+        break
+      fi
+      sleep 0.005
+    done
+    code=0
+    wait "$script" || code=$?
+    [[ $code == 0 ]] || break
   done
-  local code=0
-  wait "$script" || code=$?
   [[ $code == 130 || $code == 137 ]]
   (($(stat -c %s "$resumed/$stream.sheet") < whole))
   "pipelines/$pipeline/run" "$@"
