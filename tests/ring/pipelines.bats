@@ -20,8 +20,8 @@ interrupted() {
   whole=$(stat -c %s "$BATS_TEST_TMPDIR/straight/$stream.sheet")
   export OUT=$resumed
   # Where the machine is busy the signal may come too late: then once more.
-  local attempt script code=0
-  for attempt in 1 2 3 4 5; do
+  local script code=0
+  for _ in 1 2 3 4 5; do
     rm -rf "$resumed"
     "pipelines/$pipeline/run" "$@" > "$BATS_TEST_TMPDIR/log" 2>&1 &
     script=$!
