@@ -25,7 +25,7 @@ constexpr double kLeastForcing = 1e-6;
 constexpr double kGreatestForcing = 0.1;
 constexpr int kProducts = 60;     // with the Hessian, a direction
 constexpr int kFewProducts = 8;   // as many a direction takes if the factor is close to the Hessian
-constexpr int kManyProducts = 20; // then the factor is made anew
+constexpr int kManyProducts = 5;  // then the factor is made anew
 constexpr double kLargest = 1e-2; // of the step error's rule, of an edge, what may remain at most
 
 class Minimizer {
