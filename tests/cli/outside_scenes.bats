@@ -199,3 +199,26 @@ gravity = [0, 0, -9.81]'
   cmp once.sheet twice.sheet
   [[ $(sheet-select --last once.sheet | sheet-info --json | /usr/bin/python3 -c 'import json, sys; print(json.load(sys.stdin)[0]["triangles"] != 128)') == True ]]
 }
+
+@test "25: --set adds a first solid, and the next one" {
+  sheet-init disk.toml --set solid.0.shape=plane --set solid.0.center='[0, 0, -1]' --set solid.1.shape=sphere \
+    --set solid.1.radius=0.1 --set solid.1.center='[0, 0, -5]' | sheet-print > text
+  [[ $(grep -c '^| \[\[solid\]\]' text) == 2 ]]
+  run -3 sheet-init disk.toml --set solid.1.shape=plane
+  run -2 sheet-init disk.toml --set solid.0.shape=plane --set solid.2.shape=plane
+}
+
+@test "25: a pipeline's --help says what it does and does nothing" {
+  for run in "$SHEET_SOURCE"/pipelines/*/run; do
+    OUT=$PWD/out run -0 timeout 10 "$run" --help
+    [[ $output == *"pipelines/"*"/run"* && $output != *"set -"* && ! -e out ]]
+  done
+}
+
+@test "25: a run goes on with another scene as sheet-print's help says" {
+  sheet-init disk.toml -o run.sheet
+  sheet-print --help | tr -s ' \n' ' ' | grep -q "viscosity = 50/' | sheet-parse > b.sheet another scene, to go on with"
+  sheet-print run.sheet | sed 's/viscosity = 100/viscosity = 50/' | sheet-parse > on.sheet
+  sheet-step --dt 0.01 on.sheet | sheet-print | grep -q '^| viscosity = 50$'
+  sheet-step --help | tr -s ' \n' ' ' | grep -q 'better choice unless steps must be equal'
+}
