@@ -76,3 +76,16 @@ END
     done
   done
 }
+
+@test "18: a clear film stands out from the ground" {
+  sheet-init disk.toml --set sheet.thickness=0.0005 -o film.sheet
+  for material in film honey; do
+    sheet-render film.sheet --material $material --size 160x90 --samples 32 --ppm > a.ppm
+    /usr/bin/python3 - << 'END'
+data = open("a.ppm", "rb").read()[-160 * 90 * 3:]
+light = lambda x, y: sum(data[3 * (160 * y + x):3 * (160 * y + x) + 3]) / 3
+mean = lambda x, y: sum(light(x + i, y + j) for i in range(8) for j in range(8)) / 64
+assert abs(mean(76, 41) - mean(2, 80)) > 12, (mean(76, 41), mean(2, 80))
+END
+  done
+}
