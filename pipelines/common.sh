@@ -7,6 +7,10 @@
 #   SHEET_BIN=FOLDER   looked into for programs before build/bin: put one of your own there to take a stage's place
 # A run that was interrupted goes on where it was.
 set -euo pipefail
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then # the comment that heads the script
+  sed -n '3,/^[^#]/s/^# \{0,1\}//p' "${BASH_SOURCE[1]}"
+  exit 0
+fi
 [[ -z ${OUT:-} ]] || OUT=$(realpath -m "$OUT")
 [[ -z ${SHEET_BIN:-} ]] || SHEET_BIN=$(realpath -m "$SHEET_BIN")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

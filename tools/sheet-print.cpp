@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   tool.argument("INPUT", input, "stream to read; - for standard input");
   tool.option("-o,--output", output, "FILE", "text file to write; - for standard output");
   tool.example("sheet-print run.sheet | less", "look at a stream");
+  tool.example("sheet-print a.sheet | sed 's/viscosity = 100/viscosity = 50/' | sheet-parse > b.sheet",
+               "another scene, to go on with");
   tool.example("sheet-print a.sheet | sed 's/^time .*/time 0/' | sheet-parse > b.sheet", "edit it");
   return tool.run(argc, argv, [&] {
     const sheet::InputFile in(input);

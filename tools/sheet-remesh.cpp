@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);
   tool.option("--edge-length", o.edge_length, "METRES",
-              "wanted length of edges, the scene's if not given; with --adaptive the middle of their range");
+              "wanted length of edges; if not given the scene's, or else their mean in the first frame; with "
+              "--adaptive the middle of their range");
   tool.option("--adaptive", o.remeshing.size.chord_error, "METRES",
               "shorter edges where the sheet needs them, such that its edges lie nearer to the curved sheet than this");
   tool.option("--min-edge", o.remeshing.size.min_edge, "METRES",
@@ -28,8 +29,8 @@ int main(int argc, char** argv) {
               "with --adaptive: longest wanted length (four times --edge-length)");
   tool.flag("--smooth", o.remeshing.smooth, "also move vertices along the sheet where angles are below 35 degrees");
   tool.example("sheet-remesh --edge-length 0.01 < a.sheet > b.sheet", "one frame");
-  tool.example("sheet-loop --until 2 --fps 24 -- 'sheet-step | sheet-remesh --smooth' < a.sheet > run.sheet",
-               "after every step");
+  tool.example("sheet-loop --until 2 --fps 24 -- 'sheet-remesh --smooth | sheet-step' < a.sheet > run.sheet",
+               "before every step");
   return tool.run(argc, argv, [&] {
     sheet::remesh::RemeshStage stage(o);
     sheet::run_filter(tool, filter, [&](sheet::formats::Frame& frame) { stage.remesh(frame); });

@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
   sheet::declare_filter_options(tool, filter);
   tool.option("--dt", o.dt, "SECONDS",
               "fixed time step, shortened where equal steps must land on an output time; without it, "
-              "steps are chosen by --tolerance");
+              "steps are chosen by --tolerance, which is the better choice unless steps must be equal: then take the "
+              "shortest that -v shows with --tolerance, or a tenth of the time in which anything moves by an edge");
   tool.option("--tolerance", o.tolerance, "E",
               "choose steps whose estimated error is below this part of the edges' length (the default, with 0.001)");
   tool.choice("--scheme", scheme, {"sdirk2", "backward-euler"}, "second order, or the paper's first order");

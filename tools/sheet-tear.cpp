@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
       "Without [tear] in the scene, frames pass unchanged.");
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);
-  tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-step | sheet-tear' > run.sheet",
+  tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-tear | sheet-step' > run.sheet",
                "a sheet that tears as it is stretched");
   return tool.run(argc, argv, [&] {
     sheet::TearStage stage;

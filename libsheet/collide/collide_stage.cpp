@@ -205,7 +205,10 @@ struct CollideStage::Impl {
       off = coming_off(frame, path);
       const SolidReport report = resolve_solids(path, *solids);
       if (report.unresolved > 0)
-        log::warning("step {}: {} triangles come too close to solids", frame.step, report.unresolved);
+        log::warning(
+            "step {}: {} triangles come too close to solids (nothing to worry about once in a while; if it comes "
+            "back step after step, take shorter steps or shorter edges)",
+            frame.step, report.unresolved);
       totals.add(report);
       totals.released += off.size();
       totals.with_solids += watch.lap();

@@ -16,13 +16,35 @@ RemeshStage::RemeshStage(const StageOptions& options) : options_(options) {
   }
 }
 
+namespace {
+
+// Of a mesh whose scene does not say how long edges are: as long as they were in the mean when it was first remeshed,
+// which the frame keeps, so that a run that is resumed goes on with it.
+double own_edge_length(formats::Frame& frame) {
+  constexpr const char* name = "remesh.edge_length";
+  const double known = number(frame, name, 0);
+  if (known > 0)
+    return known;
+  const auto x = positions(std::as_const(frame));
+  double sum = 0;
+  for (const Corners& c : triangles(frame))
+    for (std::size_t i = 0; i < 3; ++i)
+      sum += (x[c[(i + 1) % 3]] - x[c[i]]).norm();
+  if (!(sum > 0))
+    fail(ExitCode::usage, "--edge-length is needed: neither the scene nor the mesh says how long edges are");
+  const double mean = sum / (3.0 * static_cast<double>(frame.triangles));
+  put_number(frame, name, "m", mean);
+  return mean;
+}
+
+} // namespace
+
 void RemeshStage::remesh(formats::Frame& frame) {
   check_magnitudes(frame);
   const Scene* scene = frame.find("scene") == nullptr ? nullptr : &scenes_.of(frame);
   if (!options_.edge_length) {
-    if (scene == nullptr || !scene->sheet.edge_length)
-      fail(ExitCode::usage, "--edge-length is needed: the frame's scene does not say how long edges are");
-    options_.remeshing.size.edge_length = *scene->sheet.edge_length;
+    options_.remeshing.size.edge_length =
+        scene != nullptr && scene->sheet.edge_length ? *scene->sheet.edge_length : own_edge_length(frame);
   }
   const std::uint64_t vertices = frame.vertices;
   const auto start = std::chrono::steady_clock::now();

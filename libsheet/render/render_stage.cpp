@@ -66,7 +66,21 @@ Colour solid_colour(std::size_t i) {
   return colours[i % 4];
 }
 
-const Colour bath_colour{0.24F, 0.34F, 0.42F}; // reflectance
+// Reflectances.
+const Colour bath_colour{0.24F, 0.34F, 0.42F};
+const Colour dark_ground{0.10F, 0.10F, 0.11F};
+
+// Before a pale ground one sees next to nothing of a liquid that takes away so little light.
+bool is_clear(const Liquid& liquid, const formats::Frame& frame) {
+  constexpr float visible = 0.25F; // of the light, about
+  const auto x = positions(frame);
+  double area = 0, volume = 0;
+  for (const Corners& c : triangles(frame))
+    area += 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm();
+  for (const double v : volumes(frame))
+    volume += v;
+  return area > 0 && (liquid.absorption + liquid.scattering).maxCoeff() * static_cast<float>(volume / area) < visible;
+}
 
 } // namespace
 
@@ -89,6 +103,7 @@ struct RenderStage::Impl {
     Lighting lighting;
     Scale scale;
     std::optional<Plane> ground;
+    bool dark = false; // the ground
   };
   std::optional<Fixed> fixed;
   bool told_out_of_sight = false, told_empty = false, told_noisy = false;
@@ -160,6 +175,7 @@ struct RenderStage::Impl {
       f.ground = bath_surface(bath->level, subject, up);
     else if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
+    f.dark = is_clear(liquid_of(options), frame);
     fixed.emplace(std::move(f));
     const Vector3 eye = camera.eye(), axis = camera.axis().cast<double>(),
                   target = options.camera.target.value_or(eye + (middle - eye).dot(axis) * axis);
@@ -201,6 +217,8 @@ struct RenderStage::Impl {
                                       fixed->camera.pixel_angle(height)),
                           options.draw, progress);
     Surroundings around;
+    if (fixed->dark)
+      around.ground = dark_ground;
     for (std::size_t i = 0; scene && i < scene->solids.size(); ++i)
       around.solids.push_back(std::holds_alternative<scene::HalfSpace>(scene->solids[i].shape) ? around.ground
                                                                                                : solid_colour(i));

@@ -14,6 +14,9 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 // Distance of a ray's start from the surface that it leaves, in units of the world: some roundings of its coordinates.
 constexpr float skip = 1e-6F;
+// Solids are drawn smaller by this part of the scene: where liquid lies on one, their faces would else coincide, and a
+// ray that leaves the slab would begin inside the solid.
+constexpr double inset = 3e-5;
 
 struct Corner {
   float x, y, z, padding; // Embree reads 16 bytes
@@ -109,12 +112,16 @@ World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
     std::vector<Vec> normals;
     for (const Vec& n : mesh.normals)
       normals.emplace_back(motions[i].linear().cast<float>() * n);
-    impl_->add(first_solid_id + static_cast<std::uint32_t>(mesh.solid), mesh.positions, std::move(normals),
-               mesh.triangles, [&](const Vector3& x) -> Vector3 { return motions[i] * x; });
+    std::vector<Vector3> drawn = mesh.positions;
+    for (std::size_t v = 0; v < drawn.size(); ++v)
+      drawn[v] -= inset * impl_->unit * mesh.normals[v].cast<double>();
+    impl_->add(first_solid_id + static_cast<std::uint32_t>(mesh.solid), drawn, std::move(normals), mesh.triangles,
+               [&](const Vector3& x) -> Vector3 { return motions[i] * x; });
   }
   rtcCommitScene(impl_->scene);
   for (const Plane& plane : planes)
-    impl_->planes.push_back({plane.id, impl_->to_world(plane.point), plane.normal.cast<float>()});
+    impl_->planes.push_back(
+        {plane.id, impl_->to_world(plane.point - inset * impl_->unit * plane.normal), plane.normal.cast<float>()});
 }
 
 World::~World() = default;

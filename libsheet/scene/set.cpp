@@ -74,6 +74,10 @@ void apply_set(Node& document, std::string_view set, int index) {
     if (node->type == Node::Type::list) {
       std::size_t item = 0;
       const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), item);
+      if (error == std::errc{} && item == node->items.size() && !last) { // the next one
+        node->items.emplace_back().type = Node::Type::table;
+        node->items.back().place = place;
+      }
       if (error != std::errc{} || end != key.data() + key.size() || item >= node->items.size())
         fail(ExitCode::usage, "--set {}: \"{}\" is not an item of a list of {} (the first is 0)", set, key,
              node->items.size());
@@ -84,6 +88,8 @@ void apply_set(Node& document, std::string_view set, int index) {
         node->members.push_back({std::string(key), place, {}});
         child = &node->members.back().value;
         child->place = place;
+        if (!last && path.substr(dot + 1).starts_with("0.")) // the first of a list, such as solid.0.shape
+          child->type = Node::Type::list;
       } else if (last) {
         std::find_if(node->members.begin(), node->members.end(), [&](const Member& m) { return m.key == key; })->place =
             place;

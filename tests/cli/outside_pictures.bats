@@ -51,3 +51,41 @@ END
   sheet-render run.sheet --frames 2 -o two.png "${small[@]}"
   [[ -s end.png && -s two.png ]]
 }
+
+@test "2: clear liquid that lies on a solid shows the solid, without dark blotches" {
+  awk 'BEGIN{s = 0.3; for (i = 0; i < 8; ++i) print "v", s * (i % 2 - 0.5), s * (int(i / 2) % 2 - 1), s * (int(i / 4) - 0.5)
+    print "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6"}' > box.obj
+  solids=('shape = "plane"
+normal = [0, 1, 0]' 'shape = "cylinder"
+radius = 0.13
+height = 0.05
+center = [0, -0.025, 0]' 'shape = "mesh"
+file = "box.obj"')
+  for solid in "${solids[@]}"; do
+    { sed 's/^shape = "disk"/&\nplane = "xz"/; s/^center = .*/center = [0, 0.002, 0]/; s/^gravity = .*/gravity = [0, -9.81, 0]/' disk.toml; printf '[[solid]]\n%s\n' "$solid"; } > solid.toml
+    sheet-init solid.toml -o solid.sheet
+    for material in honey glass film; do
+      sheet-render solid.sheet --material $material --eye 0,0.5,0.3 --target 0,0,0 --fov 15 --size 160x90 --samples 32 --ppm > a.ppm
+      # the middle of the disk in blocks of 8 x 8: the darkest against the median
+      /usr/bin/python3 - << 'END'
+data = open("a.ppm", "rb").read()[-160 * 90 * 3:]
+light = lambda x, y: sum(data[3 * (160 * y + x):3 * (160 * y + x) + 3])
+blocks = sorted(sum(light(x + i, y + j) for i in range(8) for j in range(8)) for x in range(48, 112, 8) for y in range(24, 64, 8))
+assert blocks[0] > 0.93 * blocks[len(blocks) // 2], blocks
+END
+    done
+  done
+}
+
+@test "18: a clear film stands out from the ground" {
+  sheet-init disk.toml --set sheet.thickness=0.0005 -o film.sheet
+  for material in film honey; do
+    sheet-render film.sheet --material $material --size 160x90 --samples 32 --ppm > a.ppm
+    /usr/bin/python3 - << 'END'
+data = open("a.ppm", "rb").read()[-160 * 90 * 3:]
+light = lambda x, y: sum(data[3 * (160 * y + x):3 * (160 * y + x) + 3]) / 3
+mean = lambda x, y: sum(light(x + i, y + j) for i in range(8) for j in range(8)) / 64
+assert abs(mean(76, 41) - mean(2, 80)) > 12, (mean(76, 41), mean(2, 80))
+END
+  done
+}

@@ -52,8 +52,8 @@ TEST(Set, ProblemsOfTheSetItself) {
   EXPECT_EQ(set("=3"), "--set =3" + keys);
   EXPECT_EQ(set("a..b=3"), "--set a..b=3" + keys);
   EXPECT_EQ(set("a.b.c.d.e.f.g.h.i=3"), "--set a.b.c.d.e.f.g.h.i=3" + keys);
-  EXPECT_EQ(set("hold.3.kind=pinned"),
-            "--set hold.3.kind=pinned: \"3\" is not an item of a list of 3 (the first is 0)");
+  EXPECT_EQ(set("hold.4.kind=pinned"),
+            "--set hold.4.kind=pinned: \"4\" is not an item of a list of 3 (the first is 0)");
   EXPECT_EQ(set("hold.kind=pinned"), "--set hold.kind=pinned: \"kind\" is not an item of a list of 3 (the first is 0)");
   EXPECT_EQ(set("sheet.shape.x=1"), "--set sheet.shape.x=1: there is nothing below a text, so no \"x\"");
   EXPECT_EQ(set("tear.crumbs=a\nb"), "--set tear.crumbs=a\nb: the value must be one line of UTF-8 text");
