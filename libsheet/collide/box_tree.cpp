@@ -2,11 +2,8 @@
 #include "libsheet/collide/box_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 namespace sheet::collide {
@@ -14,7 +11,6 @@ namespace sheet::collide {
 namespace {
 
 constexpr std::size_t boxes_of_leaf = 4;
-constexpr std::size_t places_of_chunk = 256;
 constexpr std::uint32_t boxes_worth_a_task = 4096;
 
 } // namespace
@@ -73,43 +69,6 @@ void BoxTree::refit(std::span<const Box> boxes) {
     } else {
       n.box.add(nodes_[2 * node + 1].box);
       n.box.add(nodes_[2 * node + 2].box);
-    }
-  }
-}
-
-std::size_t BoxTree::chunks() const { return (order_.size() + places_of_chunk - 1) / places_of_chunk; }
-
-void BoxTree::for_overlaps(std::span<const std::uint8_t> chosen,
-                           const std::function<void(std::size_t, std::uint32_t, std::uint32_t)>& visit) const {
-  tbb::parallel_for(std::size_t{0}, chunks(), [&](std::size_t chunk) {
-    const std::size_t end = std::min((chunk + 1) * places_of_chunk, order_.size());
-    for (std::size_t place = chunk * places_of_chunk; place < end; ++place)
-      if (chosen.empty() || chosen[order_[place]] != 0)
-        visit_from(static_cast<std::uint32_t>(place), chosen, chunk, visit);
-  });
-}
-
-void BoxTree::visit_from(std::uint32_t place, std::span<const std::uint8_t> chosen, std::size_t chunk,
-                         const std::function<void(std::size_t, std::uint32_t, std::uint32_t)>& visit) const {
-  const Box& box = boxes_[place];
-  std::array<std::size_t, 64> stack;
-  std::size_t top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const std::size_t node = stack[--top];
-    const Node& n = nodes_[node];
-    // pairs of two chosen boxes are met twice: the one that stands first reports
-    if ((chosen.empty() && n.end <= place + 1) || !n.box.overlaps(box))
-      continue;
-    if (!is_leaf(node)) {
-      stack[top++] = 2 * node + 2;
-      stack[top++] = 2 * node + 1;
-      continue;
-    }
-    for (std::uint32_t other = n.begin; other < n.end; ++other) {
-      const bool both = chosen.empty() || chosen[order_[other]] != 0;
-      if (other != place && (!both || other > place) && boxes_[other].overlaps(box))
-        visit(chunk, order_[place], order_[other]);
     }
   }
 }
