@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_invoke.h>
 
 namespace sheet::collide {
@@ -58,14 +59,19 @@ void BoxTree::split(std::span<const Box> boxes, std::size_t node) {
 
 void BoxTree::refit(std::span<const Box> boxes) {
   boxes_.resize(boxes.size());
-  for (std::size_t place = 0; place < order_.size(); ++place)
-    boxes_[place] = boxes[order_[place]];
+  quick_.resize(boxes.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order_.size(), 1024), [&](const auto& range) {
+    for (std::size_t place = range.begin(); place < range.end(); ++place) {
+      boxes_[place] = boxes[order_[place]];
+      quick_[place] = QuickBox(boxes_[place]);
+    }
+  });
   for (std::size_t node = nodes_.size(); node-- > 0;) {
     Node& n = nodes_[node];
     n.box = {};
     if (is_leaf(node)) {
       for (std::uint32_t place = n.begin; place < n.end; ++place)
-        n.box.add(boxes_[place]);
+        n.box.add(quick_[place]);
     } else {
       n.box.add(nodes_[2 * node + 1].box);
       n.box.add(nodes_[2 * node + 2].box);

@@ -80,15 +80,23 @@ template <class Found, class Work> void in_chunks(std::size_t count, std::vector
 
 } // namespace
 
-SelfSearch::SelfSearch(const Connectivity& mesh) : mesh_(mesh), owned_(mesh.triangles.size(), 0) {
+SelfSearch::SelfSearch(const Connectivity& mesh) : mesh_(mesh) {
   std::vector<std::uint8_t> vertex(mesh.vertices, false), edge(mesh.edges.size(), false);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  const auto begin = [&] {
+    own_begin_.push_back(
+        {static_cast<std::uint32_t>(own_vertices_.size()), static_cast<std::uint32_t>(own_edges_.size())});
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    begin();
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!std::exchange(vertex[mesh.triangles[t][i]], true))
-        owned_[t] |= static_cast<std::uint8_t>(1U << i);
-      if (!std::exchange(edge[mesh.triangle_edges[t][i]], true))
-        owned_[t] |= static_cast<std::uint8_t>(8U << i);
+      const std::uint32_t v = mesh.triangles[t][i], e = mesh.triangle_edges[t][i];
+      if (!std::exchange(vertex[v], true))
+        own_vertices_.push_back({{}, v, {v, v}});
+      if (!std::exchange(edge[e], true))
+        own_edges_.push_back({{}, e, mesh.edges[e]});
     }
+  }
+  begin();
 }
 
 // The boxes of features on their ways, grown by half of a part of their contact distance.
@@ -142,28 +150,34 @@ SelfSearch::Flags SelfSearch::triangles_with(std::span<const std::uint8_t> verti
   return flags;
 }
 
-SelfSearch::Candidates SelfSearch::overlapping(std::span<const std::uint8_t> chosen) const {
+SelfSearch::Candidates SelfSearch::overlapping(std::span<const std::uint8_t> chosen) {
+  std::vector<QuickBox> quick(boxes_.size());
+  in_parallel(quick.size(), [&](std::size_t t) { quick[t] = QuickBox(boxes_[t]); });
+  in_parallel(own_vertices_.size(),
+              [&](std::size_t i) { own_vertices_[i].box = QuickBox(vertex_boxes_[own_vertices_[i].index]); });
+  in_parallel(own_edges_.size(),
+              [&](std::size_t i) { own_edges_[i].box = QuickBox(edge_boxes_[own_edges_[i].index]); });
   std::vector<Candidates> found(tree_.chunks());
   const auto vertex_triangle = [&](Candidates& out, std::uint32_t s, std::uint32_t t) {
     const Triangle& c = mesh_.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i)
-      if (const std::uint32_t v = mesh_.triangles[s][i];
-          (owned_[s] >> i & 1) != 0 && v != c[0] && v != c[1] && v != c[2] && vertex_boxes_[v].overlaps(boxes_[t]))
-        out.vertex_triangle.push_back({v, t});
-  };
-  const auto edge_edge = [&](Candidates& out, std::uint32_t e, std::uint32_t f) {
-    const Edge &a = mesh_.edges[e], &b = mesh_.edges[f];
-    if (a[0] != b[0] && a[0] != b[1] && a[1] != b[0] && a[1] != b[1] && edge_boxes_[e].overlaps(edge_boxes_[f]))
-      out.edge_edge.push_back({std::min(e, f), std::max(e, f)});
+    for (std::uint32_t i = own_begin_[s][0]; i < own_begin_[s + 1][0]; ++i)
+      if (const Owned& v = own_vertices_[i];
+          v.box.may_overlap(quick[t]) && v.index != c[0] && v.index != c[1] && v.index != c[2])
+        out.vertex_triangle.push_back({v.index, t});
   };
   tree_.for_overlaps(chosen, [&](std::size_t chunk, std::uint32_t s, std::uint32_t t) {
     Candidates& out = found[chunk];
     vertex_triangle(out, s, t);
     vertex_triangle(out, t, s);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3 && (owned_[s] >> (3 + i) & 1) != 0; ++j)
-        if ((owned_[t] >> (3 + j) & 1) != 0)
-          edge_edge(out, mesh_.triangle_edges[s][i], mesh_.triangle_edges[t][j]);
+    for (std::uint32_t i = own_begin_[s][1]; i < own_begin_[s + 1][1]; ++i)
+      for (std::uint32_t j = own_begin_[t][1]; j < own_begin_[t + 1][1]; ++j) {
+        const Owned &e = own_edges_[i], &f = own_edges_[j];
+        const auto& [a, b] = e.ends;
+        const auto& [c, d] = f.ends;
+        const bool joined = static_cast<int>(a == c) + (a == d) + (b == c) + (b == d) != 0;
+        if (!joined && e.box.may_overlap(f.box))
+          out.edge_edge.push_back({std::min(e.index, f.index), std::max(e.index, f.index)});
+      }
   });
   Candidates all;
   for (const Candidates& part : found) {

@@ -77,14 +77,20 @@ private:
   void place_tree();
   [[nodiscard]] Flags outside(Positions start, Positions end, std::span<const double> reach) const;
   [[nodiscard]] Flags triangles_with(std::span<const std::uint8_t> vertices) const;
-  [[nodiscard]] Candidates overlapping(std::span<const std::uint8_t> chosen) const;
+  [[nodiscard]] Candidates overlapping(std::span<const std::uint8_t> chosen);
   template <class Found, class Test>
   std::vector<Found> collect(std::span<const std::uint8_t> moved, std::span<const std::uint8_t> outside,
                              const Test& test);
 
   const Connectivity& mesh_;
-  std::vector<std::uint8_t> owned_;                    // a triangle: bits 0 to 2 its vertices, bits 3 to 5 its edges
-  std::vector<Box> vertex_boxes_, edge_boxes_, boxes_; // of vertices, edges, triangles
+  struct Owned {
+    QuickBox box;
+    std::uint32_t index;
+    Edge ends; // of a vertex: itself, twice
+  };
+  std::vector<Owned> own_vertices_, own_edges_;         // in the order of their triangles
+  std::vector<std::array<std::uint32_t, 2>> own_begin_; // of each triangle, and where those of the last one end
+  std::vector<Box> vertex_boxes_, edge_boxes_, boxes_;  // of vertices, edges, triangles
   BoxTree tree_;
 
   Candidates candidates_;
