@@ -202,16 +202,13 @@ void SelfSearch::gather(Positions start, Positions end, std::span<const double> 
   candidates_ = overlapping({});
 }
 
-// What the test finds in pairs of features whose boxes overlap and of which a vertex moved; in pairs with a vertex
-// outside of the places of the candidates, through the tree.
+// What the test finds in pairs of features whose boxes overlap: in those with a vertex that has a flag, through the
+// tree; in the others too, among the candidates, unless only those with a flag are wanted.
 template <class Found, class Test>
-std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> moved, std::span<const std::uint8_t> outside,
-                                       const Test& test) {
-  const auto any = [](std::span<const std::uint8_t> flags, const Four& v) {
-    return (flags[v[0]] | flags[v[1]] | flags[v[2]] | flags[v[3]]) != 0;
-  };
+std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> flags, bool flagged_only, const Test& test) {
+  const auto flagged = [&](const Four& v) { return (flags[v[0]] | flags[v[1]] | flags[v[2]] | flags[v[3]]) != 0; };
   std::vector<Found> all;
-  const auto look_at = [&](const Candidates& candidates, bool are_outside) {
+  const auto look_at = [&](const Candidates& candidates, bool with_flag) {
     const std::size_t count = candidates.vertex_triangle.size();
     const auto pair_of = [&](std::size_t i) -> std::optional<FeaturePair> {
       if (i < count) {
@@ -229,14 +226,15 @@ std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> moved, std:
     };
     in_chunks(count + candidates.edge_edge.size(), all, [&](std::size_t i, std::vector<Found>& out) {
       const auto pair = pair_of(i);
-      if (pair && any(outside, pair->vertices) == are_outside && (moved.empty() || any(moved, pair->vertices)))
+      if (pair && flagged(pair->vertices) == with_flag)
         test(*pair, out);
     });
   };
-  look_at(candidates_, false);
-  if (std::find(outside.begin(), outside.end(), 1) != outside.end()) {
+  if (!flagged_only)
+    look_at(candidates_, false);
+  if (std::find(flags.begin(), flags.end(), 1) != flags.end()) {
     place_tree();
-    look_at(overlapping(triangles_with(outside)), true);
+    look_at(overlapping(triangles_with(flags)), true);
   }
   std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.pair < b.pair; });
   return all;
@@ -244,12 +242,14 @@ std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> moved, std:
 
 std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<const double> reach,
                                   std::span<const std::uint8_t> moved) {
-  gather(start, end, reach);
-  place_boxes(start, end, reach, nearest_part);
-  return collect<Hit>(moved, outside(start, end, reach), [&](const FeaturePair& pair, std::vector<Hit>& out) {
+  const auto test = [&](const FeaturePair& pair, std::vector<Hit>& out) {
     if (const auto hit = hit_of(pair, start, end, reach))
       out.push_back(*hit);
-  });
+  };
+  if (moved.empty())
+    gather(start, end, reach);
+  place_boxes(start, end, reach, nearest_part);
+  return moved.empty() ? collect<Hit>(outside(start, end, reach), false, test) : collect<Hit>(moved, true, test);
 }
 
 std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reach) {
@@ -283,7 +283,7 @@ std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reac
     const ClosestPoints closest = closest_vertex_triangle(p);
     return height > facing * closest.offset.norm() && !joins(v, 1) ? std::optional(closest) : std::nullopt;
   };
-  return collect<NearPair>({}, outside(x, x, reach), [&](const FeaturePair& pair, std::vector<NearPair>& out) {
+  return collect<NearPair>(outside(x, x, reach), false, [&](const FeaturePair& pair, std::vector<NearPair>& out) {
     const auto closest = touching(pair);
     if (!closest)
       return;

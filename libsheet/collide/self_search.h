@@ -7,7 +7,7 @@
 // The tree is gone through once a step: the pairs of features whose boxes overlap, grown by the whole contact distance
 // around the whole step, are candidates for all questions about places within these boxes. Each question compares its
 // own, tighter boxes first, so its answer does not depend on what the candidates were gathered for. Pairs with a vertex
-// that is found elsewhere are looked up in the tree.
+// that is found elsewhere, or that was moved since, are looked up in the tree.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -79,8 +79,7 @@ private:
   [[nodiscard]] Flags triangles_with(std::span<const std::uint8_t> vertices) const;
   [[nodiscard]] Candidates overlapping(std::span<const std::uint8_t> chosen);
   template <class Found, class Test>
-  std::vector<Found> collect(std::span<const std::uint8_t> moved, std::span<const std::uint8_t> outside,
-                             const Test& test);
+  std::vector<Found> collect(std::span<const std::uint8_t> flags, bool flagged_only, const Test& test);
 
   const Connectivity& mesh_;
   struct Owned {
