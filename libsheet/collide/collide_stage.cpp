@@ -11,6 +11,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/collide/contact_arrays.h"
+#include "libsheet/collide/known_triangles.h"
 #include "libsheet/collide/loose_springs.h"
 #include "libsheet/collide/release.h"
 #include "libsheet/collide/self_response.h"
@@ -102,7 +103,8 @@ struct CollideStage::Impl {
   std::optional<Solids> solids; // if the scene has some
   std::optional<Connectivity> mesh;
   std::optional<SelfSearch> search;
-  std::vector<Vector3> last_end; // safe, so a step that starts there needs no check
+  std::vector<Vector3> last_end; // safe, so a step that starts there on the same mesh needs no check
+  KnownTriangles known;          // those of the last end: of another mesh, pairs of them need no check
   Totals totals;
 
   void read_scene_of(const Frame& frame) {
@@ -190,7 +192,7 @@ struct CollideStage::Impl {
   void check_start(const StepPath& path) {
     if (std::equal(path.start.begin(), path.start.end(), last_end.begin(), last_end.end()))
       return;
-    if (const auto pair = search->crossing(path.start))
+    if (const auto pair = search->crossing(path.start, known.unknown(path.triangles, path.start)))
       fail(ExitCode::bad_input,
            "the sheet passes through itself before the step: triangles {} and {}, and perhaps more (sheet-check lists "
            "them); start from a sheet that does not, or let it: [contact] self = false",
@@ -215,14 +217,20 @@ struct CollideStage::Impl {
     }
     if (self()) {
       connect_mesh(frame);
+      const std::vector<double> reach = reach_of(path, shares(path.triangles, volumes(frame), path.start));
+      search->gather(path.start, path.end, reach);
       check_start(path);
       totals.check += watch.lap();
-      const std::vector<double> reach = reach_of(path, shares(path.triangles, volumes(frame), path.start));
       const std::vector<Axes> fixed = path.fixed;
       resolve_self_beside_solids(path, reach, frame.step);
       totals.response += watch.lap();
       set_springs(frame, path, fixed, reach);
+      known.remember(path.triangles, path.start, path.end);
+      last_end = path.end;
       totals.springs += watch.lap();
+    } else {
+      known.forget();
+      last_end.clear();
     }
     if (solids) { // what comes off was held in this step, and is free in the next one
       for (const std::uint32_t v : off)
@@ -231,7 +239,6 @@ struct CollideStage::Impl {
     }
     std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
     std::copy(path.velocity.begin(), path.velocity.end(), velocities(frame).begin());
-    last_end = std::move(path.end);
     ++totals.steps;
   }
 

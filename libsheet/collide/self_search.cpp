@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include "libsheet/geometry/triangle_pair.h"
 
 namespace sheet::collide {
@@ -55,98 +58,203 @@ std::optional<Hit> hit_of(const FeaturePair& pair, std::span<const Vector3> star
   return Hit{pair, *time, gap, distance};
 }
 
-} // namespace
-
-SelfSearch::SelfSearch(const Connectivity& mesh) : mesh_(mesh), owned_(mesh.triangles.size(), 0) {
-  std::vector<std::uint8_t> vertex(mesh.vertices, false), edge(mesh.edges.size(), false);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!std::exchange(vertex[mesh.triangles[t][i]], true))
-        owned_[t] |= static_cast<std::uint8_t>(1U << i);
-      if (!std::exchange(edge[mesh.triangle_edges[t][i]], true))
-        owned_[t] |= static_cast<std::uint8_t>(8U << i);
-    }
+// work(i) for i < count, on all threads.
+template <class Work> void in_parallel(std::size_t count, const Work& work) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 512), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      work(i);
+  });
 }
 
-template <class Found, class Test>
-std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> chosen, Test&& test) const {
-  std::vector<std::vector<Found>> found(tree_.chunks());
-  const auto vertex_triangle = [&](std::vector<Found>& out, std::uint32_t s, std::uint32_t t) {
-    const Triangle& c = mesh_.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i)
-      if (const std::uint32_t v = mesh_.triangles[s][i];
-          (owned_[s] >> i & 1) != 0 && v != c[0] && v != c[1] && v != c[2] && vertex_boxes_[v].overlaps(boxes_[t]))
-        test(FeaturePair{Features::vertex_triangle, {v, c[0], c[1], c[2]}}, out);
-  };
-  const auto edge_edge = [&](std::vector<Found>& out, std::uint32_t e, std::uint32_t f) {
-    const Edge &a = mesh_.edges[std::min(e, f)], &b = mesh_.edges[std::max(e, f)];
-    if (a[0] != b[0] && a[0] != b[1] && a[1] != b[0] && a[1] != b[1] && edge_boxes_[e].overlaps(edge_boxes_[f]))
-      test(FeaturePair{Features::edge_edge, {a[0], a[1], b[0], b[1]}}, out);
-  };
-  tree_.for_overlaps(chosen, [&](std::size_t chunk, std::uint32_t s, std::uint32_t t) {
-    std::vector<Found>& out = found[chunk];
-    vertex_triangle(out, s, t);
-    vertex_triangle(out, t, s);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        if ((owned_[s] >> (3 + i) & 1) != 0 && (owned_[t] >> (3 + j) & 1) != 0)
-          edge_edge(out, mesh_.triangle_edges[s][i], mesh_.triangle_edges[t][j]);
+// What work(i, out) appends to `out` for i < count goes to the end of `all`, in the order of i.
+template <class Found, class Work> void in_chunks(std::size_t count, std::vector<Found>& all, const Work& work) {
+  constexpr std::size_t chunk = 2048;
+  std::vector<std::vector<Found>> found((count + chunk - 1) / chunk);
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
+    for (std::size_t i = k * chunk; i < std::min((k + 1) * chunk, count); ++i)
+      work(i, found[k]);
   });
-  std::vector<Found> all;
   for (const auto& part : found)
     all.insert(all.end(), part.begin(), part.end());
-  std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.pair < b.pair; });
-  return all;
 }
 
-void SelfSearch::place_boxes(std::span<const Vector3> start, std::span<const Vector3> end,
-                             std::span<const double> reach, double part) {
-  vertex_boxes_.assign(mesh_.vertices, {});
-  edge_boxes_.assign(mesh_.edges.size(), {});
-  boxes_.assign(mesh_.triangles.size(), {});
-  const auto place = [&](Box& box, std::span<const std::uint32_t> vertices) {
+} // namespace
+
+SelfSearch::SelfSearch(const Connectivity& mesh) : mesh_(mesh) {
+  std::vector<std::uint8_t> vertex(mesh.vertices, false), edge(mesh.edges.size(), false);
+  const auto begin = [&] {
+    own_begin_.push_back(
+        {static_cast<std::uint32_t>(own_vertices_.size()), static_cast<std::uint32_t>(own_edges_.size())});
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    begin();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh.triangles[t][i], e = mesh.triangle_edges[t][i];
+      if (!std::exchange(vertex[v], true))
+        own_vertices_.push_back({{}, v, {v, v}});
+      if (!std::exchange(edge[e], true))
+        own_edges_.push_back({{}, e, mesh.edges[e]});
+    }
+  }
+  begin();
+}
+
+// The boxes of features on their ways, grown by half of a part of their contact distance.
+void SelfSearch::place_boxes(Positions start, Positions end, std::span<const double> reach, double part) {
+  vertex_boxes_.resize(mesh_.vertices);
+  edge_boxes_.resize(mesh_.edges.size());
+  boxes_.resize(mesh_.triangles.size());
+  const auto place = [&](std::span<const std::uint32_t> vertices) {
     double most = 0;
     for (const std::uint32_t v : vertices)
       most = std::max(most, reach[v]);
+    Box box;
     for (const std::uint32_t v : vertices) {
       box.add(start[v], 0.5 * part * most);
       box.add(end[v], 0.5 * part * most);
     }
+    return box;
   };
-  for (std::uint32_t v = 0; v < vertex_boxes_.size(); ++v)
-    place(vertex_boxes_[v], {&v, 1});
-  for (std::size_t e = 0; e < edge_boxes_.size(); ++e)
-    place(edge_boxes_[e], mesh_.edges[e]);
-  for (std::size_t t = 0; t < boxes_.size(); ++t)
-    place(boxes_[t], mesh_.triangles[t]);
-}
-
-std::vector<Hit> SelfSearch::hits(std::span<const Vector3> start, std::span<const Vector3> end,
-                                  std::span<const double> reach, std::span<const std::uint8_t> moved) {
-  place_boxes(start, end, reach, nearest_part);
-  std::vector<std::uint8_t> chosen;
-  if (moved.empty()) {
-    tree_.build(boxes_);
-  } else {
-    tree_.refit(boxes_);
-    for (const Triangle& c : mesh_.triangles)
-      chosen.push_back(moved[c[0]] | moved[c[1]] | moved[c[2]]);
-  }
-  return collect<Hit>(chosen, [&](const FeaturePair& pair, std::vector<Hit>& out) {
-    const Four& v = pair.vertices;
-    if (!moved.empty() && (moved[v[0]] | moved[v[1]] | moved[v[2]] | moved[v[3]]) == 0)
-      return;
-    if (const auto hit = hit_of(pair, start, end, reach))
-      out.push_back(*hit);
+  in_parallel(vertex_boxes_.size(), [&](std::size_t v) {
+    const auto vertex = static_cast<std::uint32_t>(v);
+    vertex_boxes_[v] = place({&vertex, 1});
   });
+  in_parallel(edge_boxes_.size(), [&](std::size_t e) { edge_boxes_[e] = place(mesh_.edges[e]); });
+  in_parallel(boxes_.size(), [&](std::size_t t) { boxes_[t] = place(mesh_.triangles[t]); });
 }
 
-std::vector<NearPair> SelfSearch::near(std::span<const Vector3> x, std::span<const double> reach) {
-  place_boxes(x, x, reach, 1);
+// Sorts the tree once; where it is sorted, the boxes may have moved since, which costs speed only.
+void SelfSearch::place_tree() {
   if (tree_.size() == boxes_.size())
     tree_.refit(boxes_);
   else
     tree_.build(boxes_);
+}
+
+// The vertices that are not where the candidates were gathered, or reach farther.
+SelfSearch::Flags SelfSearch::outside(Positions start, Positions end, std::span<const double> reach) const {
+  Flags flags(mesh_.vertices, 1);
+  if (!around_.empty())
+    in_parallel(flags.size(), [&](std::size_t v) {
+      flags[v] = !around_[v].holds(start[v]) || !around_[v].holds(end[v]) || !(reach[v] <= reach_[v]);
+    });
+  return flags;
+}
+
+SelfSearch::Flags SelfSearch::triangles_with(std::span<const std::uint8_t> vertices) const {
+  Flags flags(mesh_.triangles.size());
+  for (std::size_t t = 0; t < flags.size(); ++t) {
+    const Triangle& c = mesh_.triangles[t];
+    flags[t] = vertices[c[0]] | vertices[c[1]] | vertices[c[2]];
+  }
+  return flags;
+}
+
+SelfSearch::Candidates SelfSearch::overlapping(std::span<const std::uint8_t> chosen) {
+  std::vector<QuickBox> quick(boxes_.size());
+  in_parallel(quick.size(), [&](std::size_t t) { quick[t] = QuickBox(boxes_[t]); });
+  in_parallel(own_vertices_.size(),
+              [&](std::size_t i) { own_vertices_[i].box = QuickBox(vertex_boxes_[own_vertices_[i].index]); });
+  in_parallel(own_edges_.size(),
+              [&](std::size_t i) { own_edges_[i].box = QuickBox(edge_boxes_[own_edges_[i].index]); });
+  std::vector<Candidates> found(tree_.chunks());
+  const auto vertex_triangle = [&](Candidates& out, std::uint32_t s, std::uint32_t t) {
+    const Triangle& c = mesh_.triangles[t];
+    for (std::uint32_t i = own_begin_[s][0]; i < own_begin_[s + 1][0]; ++i)
+      if (const Owned& v = own_vertices_[i];
+          v.box.may_overlap(quick[t]) && v.index != c[0] && v.index != c[1] && v.index != c[2])
+        out.vertex_triangle.push_back({v.index, t});
+  };
+  tree_.for_overlaps(chosen, [&](std::size_t chunk, std::uint32_t s, std::uint32_t t) {
+    Candidates& out = found[chunk];
+    vertex_triangle(out, s, t);
+    vertex_triangle(out, t, s);
+    for (std::uint32_t i = own_begin_[s][1]; i < own_begin_[s + 1][1]; ++i)
+      for (std::uint32_t j = own_begin_[t][1]; j < own_begin_[t + 1][1]; ++j) {
+        const Owned &e = own_edges_[i], &f = own_edges_[j];
+        const auto& [a, b] = e.ends;
+        const auto& [c, d] = f.ends;
+        const bool joined = static_cast<int>(a == c) + (a == d) + (b == c) + (b == d) != 0;
+        if (!joined && e.box.may_overlap(f.box))
+          out.edge_edge.push_back({std::min(e.index, f.index), std::max(e.index, f.index)});
+      }
+  });
+  Candidates all;
+  for (const Candidates& part : found) {
+    all.vertex_triangle.insert(all.vertex_triangle.end(), part.vertex_triangle.begin(), part.vertex_triangle.end());
+    all.edge_edge.insert(all.edge_edge.end(), part.edge_edge.begin(), part.edge_edge.end());
+  }
+  return all;
+}
+
+void SelfSearch::gather(Positions start, Positions end, std::span<const double> reach) {
+  const Flags flags = outside(start, end, reach);
+  if (4 * std::count(flags.begin(), flags.end(), 1) <= static_cast<std::ptrdiff_t>(flags.size()))
+    return; // few pairs to be looked up
+  around_.assign(mesh_.vertices, {});
+  for (std::size_t v = 0; v < around_.size(); ++v) {
+    around_[v].add(start[v], 0);
+    around_[v].add(end[v], 0);
+  }
+  reach_.assign(reach.begin(), reach.end());
+  place_boxes(start, end, reach, 1);
+  place_tree();
+  candidates_ = overlapping({});
+}
+
+// What the test finds in pairs of features whose boxes overlap: in those with a vertex that has a flag, through the
+// tree; in the others too, among the candidates, unless only those with a flag are wanted.
+template <class Found, class Test>
+std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> flags, bool flagged_only, const Test& test) {
+  const auto flagged = [&](const Four& v) { return (flags[v[0]] | flags[v[1]] | flags[v[2]] | flags[v[3]]) != 0; };
+  std::vector<Found> all;
+  const auto look_at = [&](const Candidates& candidates, bool with_flag) {
+    const std::size_t count = candidates.vertex_triangle.size();
+    const auto pair_of = [&](std::size_t i) -> std::optional<FeaturePair> {
+      if (i < count) {
+        const auto& [v, t] = candidates.vertex_triangle[i];
+        const Triangle& c = mesh_.triangles[t];
+        return vertex_boxes_[v].overlaps(boxes_[t])
+                   ? std::optional(FeaturePair{Features::vertex_triangle, {v, c[0], c[1], c[2]}})
+                   : std::nullopt;
+      }
+      const auto& [e, f] = candidates.edge_edge[i - count];
+      const Edge &a = mesh_.edges[e], &b = mesh_.edges[f];
+      return edge_boxes_[e].overlaps(edge_boxes_[f])
+                 ? std::optional(FeaturePair{Features::edge_edge, {a[0], a[1], b[0], b[1]}})
+                 : std::nullopt;
+    };
+    in_chunks(count + candidates.edge_edge.size(), all, [&](std::size_t i, std::vector<Found>& out) {
+      const auto pair = pair_of(i);
+      if (pair && flagged(pair->vertices) == with_flag)
+        test(*pair, out);
+    });
+  };
+  if (!flagged_only)
+    look_at(candidates_, false);
+  if (std::find(flags.begin(), flags.end(), 1) != flags.end()) {
+    place_tree();
+    look_at(overlapping(triangles_with(flags)), true);
+  }
+  std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.pair < b.pair; });
+  return all;
+}
+
+std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<const double> reach,
+                                  std::span<const std::uint8_t> moved) {
+  const auto test = [&](const FeaturePair& pair, std::vector<Hit>& out) {
+    if (const auto hit = hit_of(pair, start, end, reach))
+      out.push_back(*hit);
+  };
+  if (moved.empty())
+    gather(start, end, reach);
+  place_boxes(start, end, reach, nearest_part);
+  return moved.empty() ? collect<Hit>(outside(start, end, reach), false, test) : collect<Hit>(moved, true, test);
+}
+
+std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reach) {
+  gather(x, x, reach);
+  place_boxes(x, x, reach, 1);
   const auto joined = [&](std::uint32_t a, std::uint32_t b) {
     return std::binary_search(mesh_.edges.begin(), mesh_.edges.end(), Edge{std::min(a, b), std::max(a, b)});
   };
@@ -175,7 +283,7 @@ std::vector<NearPair> SelfSearch::near(std::span<const Vector3> x, std::span<con
     const ClosestPoints closest = closest_vertex_triangle(p);
     return height > facing * closest.offset.norm() && !joins(v, 1) ? std::optional(closest) : std::nullopt;
   };
-  return collect<NearPair>({}, [&](const FeaturePair& pair, std::vector<NearPair>& out) {
+  return collect<NearPair>(outside(x, x, reach), false, [&](const FeaturePair& pair, std::vector<NearPair>& out) {
     const auto closest = touching(pair);
     if (!closest)
       return;
@@ -185,15 +293,18 @@ std::vector<NearPair> SelfSearch::near(std::span<const Vector3> x, std::span<con
   });
 }
 
-std::optional<std::pair<std::uint32_t, std::uint32_t>> SelfSearch::crossing(std::span<const Vector3> x) {
-  const std::vector<double> no_reach(mesh_.vertices, 0);
-  place_boxes(x, x, no_reach, 0);
-  tree_.build(boxes_);
-  std::vector<std::uint8_t> degenerate;
-  for (const Triangle& t : mesh_.triangles)
-    degenerate.push_back(corners_collinear(x, t));
+std::optional<std::pair<std::uint32_t, std::uint32_t>> SelfSearch::crossing(Positions x,
+                                                                            std::span<const std::uint8_t> chosen) {
+  boxes_.assign(mesh_.triangles.size(), {});
+  Flags degenerate(boxes_.size());
+  in_parallel(boxes_.size(), [&](std::size_t t) {
+    for (const std::uint32_t v : mesh_.triangles[t])
+      boxes_[t].add(x[v], 0);
+    degenerate[t] = corners_collinear(x, mesh_.triangles[t]);
+  });
+  place_tree();
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(tree_.chunks());
-  tree_.for_overlaps({}, [&](std::size_t chunk, std::uint32_t s, std::uint32_t t) {
+  tree_.for_overlaps(chosen, [&](std::size_t chunk, std::uint32_t s, std::uint32_t t) {
     if (degenerate[s] == 0 && degenerate[t] == 0 && triangles_intersect(x, mesh_.triangles[s], mesh_.triangles[t]))
       found[chunk].push_back(std::minmax(s, t));
   });

@@ -3,6 +3,11 @@
 // other where they stand. All pairs of a vertex and a triangle, and of two edges, that share no vertex are looked at;
 // each belongs to one triangle (its owner), so that pairs of triangles from a tree of boxes bring each pair of features
 // once [Curtis et al. 2008, representative triangles]. On all threads; results are sorted, the same for any number.
+//
+// The tree is gone through once a step: the pairs of features whose boxes overlap, grown by the whole contact distance
+// around the whole step, are candidates for all questions about places within these boxes. Each question compares its
+// own, tighter boxes first, so its answer does not depend on what the candidates were gathered for. Pairs with a vertex
+// that is found elsewhere, or that was moved since, are looked up in the tree.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -43,8 +48,7 @@ public:
   // nearer than a tenth of their contact distance, or than half the distance that they start with, if that is less. So
   // what is apart at the start and not found here is apart all the time, and two that are pressed together lose
   // distance slowly. `reach` [m], one a vertex: the contact distance of a pair is the mean of its features'.
-  // `moved` (a flag a vertex; empty: all): only pairs with such a vertex are looked at. They must lie in the boxes of
-  // the last call without `moved`, which has to come first, or the tree is refitted to them.
+  // `moved` (a flag a vertex; empty: all): only pairs with such a vertex are looked at.
   [[nodiscard]] std::vector<Hit> hits(std::span<const Vector3> start, std::span<const Vector3> end,
                                       std::span<const double> reach, std::span<const std::uint8_t> moved);
 
@@ -53,19 +57,44 @@ public:
   // edge of the mesh only vertices over triangles count, so that the sheet next to a vertex is no contact.
   [[nodiscard]] std::vector<NearPair> near(std::span<const Vector3> positions, std::span<const double> reach);
 
-  // The first pair of triangles (lower, higher) that intersect, exactly; triangles without area are passed over.
-  [[nodiscard]] std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing(std::span<const Vector3> positions);
+  // The first pair of triangles (lower, higher) that intersect, exactly; triangles without area are passed over. Only
+  // pairs of which one is in `chosen` (a flag a triangle; empty: all) are looked at.
+  [[nodiscard]] std::optional<std::pair<std::uint32_t, std::uint32_t>>
+  crossing(std::span<const Vector3> positions, std::span<const std::uint8_t> chosen = {});
+
+  // Gathers the candidates for the way from `start` to `end` and all that is within `reach` of it, unless the last ones
+  // do. The questions call it themselves; asked before, for the whole step, it spares them to.
+  void gather(std::span<const Vector3> start, std::span<const Vector3> end, std::span<const double> reach);
 
 private:
+  using Positions = std::span<const Vector3>;
+  using Flags = std::vector<std::uint8_t>;
+  struct Candidates { // by vertex and triangle, by edge and edge
+    std::vector<std::array<std::uint32_t, 2>> vertex_triangle, edge_edge;
+  };
+
+  void place_boxes(Positions start, Positions end, std::span<const double> reach, double part);
+  void place_tree();
+  [[nodiscard]] Flags outside(Positions start, Positions end, std::span<const double> reach) const;
+  [[nodiscard]] Flags triangles_with(std::span<const std::uint8_t> vertices) const;
+  [[nodiscard]] Candidates overlapping(std::span<const std::uint8_t> chosen);
   template <class Found, class Test>
-  std::vector<Found> collect(std::span<const std::uint8_t> chosen, Test&& test) const;
-  void place_boxes(std::span<const Vector3> start, std::span<const Vector3> end, std::span<const double> reach,
-                   double part);
+  std::vector<Found> collect(std::span<const std::uint8_t> flags, bool flagged_only, const Test& test);
 
   const Connectivity& mesh_;
-  std::vector<std::uint8_t> owned_;                    // a triangle: bits 0 to 2 its vertices, bits 3 to 5 its edges
-  std::vector<Box> vertex_boxes_, edge_boxes_, boxes_; // of vertices, edges, triangles
+  struct Owned {
+    QuickBox box;
+    std::uint32_t index;
+    Edge ends; // of a vertex: itself, twice
+  };
+  std::vector<Owned> own_vertices_, own_edges_;         // in the order of their triangles
+  std::vector<std::array<std::uint32_t, 2>> own_begin_; // of each triangle, and where those of the last one end
+  std::vector<Box> vertex_boxes_, edge_boxes_, boxes_;  // of vertices, edges, triangles
   BoxTree tree_;
+
+  Candidates candidates_;
+  std::vector<Box> around_;   // of each vertex: the places for which they were gathered
+  std::vector<double> reach_; // and the contact distance
 };
 
 } // namespace sheet::collide

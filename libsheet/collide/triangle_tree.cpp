@@ -18,6 +18,12 @@ Triangle3 face_of(const SolidSurface& surface, std::uint32_t t) {
   return {surface.points[c[0]], surface.points[c[1]], surface.points[c[2]]};
 }
 
+// What Eigen's squaredExteriorDistance says, bit for bit, without branches.
+double squared_gap(const Box3& box, const Vector3& x) {
+  const Vector3 gap = (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0.0);
+  return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
+}
+
 double squared_gap(const Box3& a, const Box3& b) {
   return (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0).squaredNorm();
 }
@@ -92,15 +98,15 @@ std::optional<Near> TriangleTree::nearest(const Vector3& x, double within) const
   std::uint32_t face = 0;
   std::array<Pending, 64> stack;
   std::size_t height = 0;
-  stack[height++] = {0, nodes_.front().box.squaredExteriorDistance(x)};
+  stack[height++] = {0, squared_gap(nodes_.front().box, x)};
   while (height > 0) {
     const Pending top = stack[--height];
     if (top.squared >= best)
       continue;
     const Node& node = nodes_[top.node];
     if (node.count == 0) {
-      Pending a{top.node + 1, nodes_[top.node + 1].box.squaredExteriorDistance(x)};
-      Pending b{node.first, nodes_[node.first].box.squaredExteriorDistance(x)};
+      Pending a{top.node + 1, squared_gap(nodes_[top.node + 1].box, x)};
+      Pending b{node.first, squared_gap(nodes_[node.first].box, x)};
       if (a.squared < b.squared)
         std::swap(a, b);
       stack[height++] = a; // the nearer one is looked at first

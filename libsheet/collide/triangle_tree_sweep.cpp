@@ -46,12 +46,13 @@ public:
 
   [[nodiscard]] bool apart(const Box3& box, double clearance) const {
     const Vector3 center = box.center(), half = box.sizes() / 2;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Shadow& s = shadows_[i];
-      const double at = s.direction.dot(center), reach = s.direction.cwiseAbs().dot(half) + clearance;
-      if (at - reach >= s.high || at + reach <= s.low)
+    for (int axis = 0; axis < 3; ++axis) // the first three directions
+      if (beside(shadows_[static_cast<std::size_t>(axis)], center[axis], half[axis] + clearance))
         return true;
-    }
+    for (std::size_t i = 3; i < count_; ++i)
+      if (const Shadow& s = shadows_[i];
+          beside(s, s.direction.dot(center), s.direction.cwiseAbs().dot(half) + clearance))
+        return true;
     return false;
   }
 
@@ -70,6 +71,8 @@ private:
     Vector3 direction;
     double low, high;
   };
+  static bool beside(const Shadow& s, double at, double reach) { return at - reach >= s.high || at + reach <= s.low; }
+
   std::array<Shadow, 8> shadows_;
   std::size_t count_ = 0;
 };

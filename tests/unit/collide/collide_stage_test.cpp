@@ -122,6 +122,30 @@ TEST(CollideStage, BadFrames) {
 }
 
 // A frame is complete: a new program goes on like one that has seen all of the run.
+// What the stage has made safe is checked again where someone has changed it since.
+TEST(CollideStage, ChecksWhatChangedBetweenSteps) {
+  const auto next = [](Frame frame) {
+    const auto x = positions(static_cast<const Frame&>(frame));
+    std::copy(x.begin(), x.end(), frame.find("start_position")->values<Vector3>().begin());
+    put_number(frame, "start_time", "s", 0.3);
+    frame.time = 0.4;
+    return frame;
+  };
+  CollideStage stage;
+  Frame first = two_triangles(0.5, "[contact]\n");
+  stage.step(first);
+  Frame changed = next(first);
+  changed.find("start_position")->values<Vector3>()[5].z() = -1; // through the other triangle
+  EXPECT_THROW(stage.step(changed), Error);
+  Frame turned = next(first); // the same triangles under other numbers, one of them through the other
+  auto corners = turned.find("triangle")->values<Corners>();
+  std::swap(corners[0], corners[1]);
+  turned.find("start_position")->values<Vector3>()[0].z() = 1;
+  EXPECT_THROW(stage.step(turned), Error);
+  Frame same = next(first);
+  EXPECT_NO_THROW(stage.step(same));
+}
+
 TEST(CollideStage, HasNoMemoryThatMatters) {
   CollideStage old;
   Frame first = two_triangles(-1, "[contact]\n"), again = first;

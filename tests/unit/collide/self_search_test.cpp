@@ -162,6 +162,44 @@ TEST(SelfSearch, NearAreThoseThatFaceEachOther) {
   EXPECT_TRUE(search.near(s.start, s.reach).empty());
 }
 
+// What was gathered for other places changes no answer, whether a few vertices have left them or all.
+TEST(SelfSearch, AnswersDoNotDependOnThePlacesBefore) {
+  const Sheets s(1, 0.2);
+  for (const std::size_t every : {1UL, 2UL, 10UL, 1000UL}) {
+    SelfSearch search(s.mesh);
+    search.gather(s.start, s.end, s.reach);
+    std::vector<Vector3> start = s.start, end = s.end;
+    std::vector<double> reach = s.reach;
+    for (std::size_t v = 0; v < end.size(); v += every) {
+      end[v] -= 3 * (s.end[v] - s.start[v]);
+      start[v] += Vector3(0.01, -0.02, 0.03);
+      reach[v / 2] = 0.2;
+    }
+    const auto pairs_of = [](const auto& found) {
+      std::vector<FeaturePair> pairs;
+      for (const auto& f : found)
+        pairs.push_back(f.pair);
+      return pairs;
+    };
+    const auto hits = pairs_of(SelfSearch(s.mesh).hits(start, end, reach, {}));
+    EXPECT_NE(hits, pairs_of(search.hits(s.start, s.end, s.reach, {}))); // the places matter
+    EXPECT_EQ(pairs_of(search.hits(start, end, reach, {})), hits) << every;
+    EXPECT_EQ(pairs_of(search.near(end, reach)), pairs_of(SelfSearch(s.mesh).near(end, reach))) << every;
+    EXPECT_EQ(search.crossing(end), SelfSearch(s.mesh).crossing(end)) << every;
+    EXPECT_EQ(pairs_of(search.hits(start, end, reach, {})), hits) << every;
+  }
+}
+
+TEST(SelfSearch, CrossingOfChosenTriangles) {
+  const Sheets s(1, 0.2);
+  const auto crossing = SelfSearch(s.mesh).crossing(s.end);
+  ASSERT_TRUE(crossing);
+  std::vector<std::uint8_t> chosen(s.mesh.triangles.size(), 0);
+  EXPECT_FALSE(SelfSearch(s.mesh).crossing(s.end, chosen));
+  chosen[crossing->second] = 1;
+  EXPECT_EQ(SelfSearch(s.mesh).crossing(s.end, chosen)->second, crossing->second);
+}
+
 TEST(SelfSearch, CrossingIsFound) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const Sheets s(seed, 0.06);
