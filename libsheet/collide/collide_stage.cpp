@@ -318,7 +318,8 @@ void CollideStage::report() const {
                 "groups, {} pulled back ({} of them held), {} rounds; at most {} springs",
                 t.steps, t.with_hits, t.self.hits, t.self.by_impulses, t.self.in_groups, t.self.pulled_back,
                 t.self.held_back, t.self.rounds, t.most_springs);
-    log::detail("  processor time of a step: check of the start {:.2f} ms, response {:.2f} ms, springs {:.2f} ms",
+    log::detail("  processor time of a step: candidates and check of the start {:.2f} ms, response {:.2f} ms, springs "
+                "{:.2f} ms",
                 ms * t.check, ms * t.response, ms * t.springs);
   }
 }
