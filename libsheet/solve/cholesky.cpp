@@ -179,7 +179,7 @@ bool Cholesky::factorize(const SparseLower& a, double shift) {
   double beta[2] = {shift, 0};
   library().factorize_p(&s, beta, nullptr, 0, impl_->factor, &impl_->common);
   if (impl_->common.status == CHOLMOD_OUT_OF_MEMORY)
-    fail(ExitCode::internal, "out of memory while factorising {} unknowns", a.size);
+    fail(ExitCode::io, "out of memory while factorising {} unknowns", a.size);
   return impl_->common.status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
 }
 

@@ -38,7 +38,7 @@ public:
                     ? mremap(data_, bytes_, wanted, MREMAP_MAYMOVE)
                     : mmap(nullptr, wanted, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (got == MAP_FAILED)
-      fail(ExitCode::internal, "out of memory: {} MB for the factorisation", wanted >> 20);
+      fail(ExitCode::io, "out of memory: {} MB for the factorisation", wanted >> 20);
     madvise(got, wanted, MADV_HUGEPAGE);
     data_ = static_cast<T*>(got);
     bytes_ = wanted;
