@@ -72,7 +72,7 @@ const Library& library() {
 
 // Parts of fewer vertices are not dissected further: METIS takes longer for them than the minimum degree does, and the
 // factorisation is as fast (docs/speed-error.md).
-constexpr std::size_t kLeastDissected = 4000;
+constexpr std::size_t kLeastDissected = 20000;
 constexpr int kCsymamd = 2;
 
 void quiet(int, const char*, int, const char*) {}

@@ -20,7 +20,7 @@ namespace sheet {
 [[nodiscard]] std::string blas_core_name();
 
 // A fill-reducing order of the vertices of a graph: nested dissection [George 1973] with METIS's separators, parts
-// below 4,000 vertices by minimum degree (CSYMAMD). Of the graph alone, not of positions, so that a resumed run
+// below 20,000 vertices by minimum degree (CSYMAMD). Of the graph alone, not of positions, so that a resumed run
 // has the same one.
 [[nodiscard]] std::vector<std::uint32_t> nested_dissection(std::size_t vertices, std::span<const Edge> graph);
 

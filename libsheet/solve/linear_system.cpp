@@ -17,7 +17,7 @@ namespace {
 constexpr double kResponse = 0.1; // what respond() leaves
 constexpr int kResponseProducts = 10;
 constexpr double kSpreadShift = 1e-6; // for a starting point only
-}
+} // namespace
 
 void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles) {
   Stopwatch watch;

@@ -203,7 +203,7 @@ void Stepper::estimate_error(const State& state, double dt, const Stage& stage, 
     speeds.segment<3>(at) = end.velocities[v] - (v0 + ((x1 - x0) / tau - v0) / gamma);
   }
   LinearSystem& system = cache_->system;
-  if (two && system.has_factor())
+  if (filters_errors_ && two && system.has_factor())
     e += system.respond(tau * system.multiply(cache_->terms, Kind::inertial, last, speeds) -
                         system.multiply(cache_->terms, Kind::elastic, last, e));
   for (std::size_t v = 0; v < state.positions.size(); ++v) {
@@ -291,6 +291,7 @@ StepReport Stepper::step(State& state, double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     fail(ExitCode::usage, "a time step of {} s is not possible", dt);
   StepReport report;
+  filters_errors_ = false; // it is only told
   prepare_cache(state, report);
   const std::vector<double> seconds = cache_->system.assembly().seconds();
   State next = state;
@@ -310,6 +311,7 @@ Stepper::Outcome Stepper::attempt_either(const State& state, double dt, State& e
   ++report.failed;
   flat = true;
   report.error = 0;
+  without_arcs().filters_errors_ = filters_errors_;
   without_arcs().prepare_cache(state, report);
   return without_arcs().attempt(state, dt, options_.scheme, Demand::converged, end, report);
 }
@@ -322,6 +324,7 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
   if (!(control.tolerance > 0))
     fail(ExitCode::usage, "--tolerance: {} is not above 0", control.tolerance);
   StepReport report;
+  filters_errors_ = true;
   prepare_cache(state, report);
   const std::vector<double> seconds = cache_->system.assembly().seconds();
   const double wanted = control.dt > 0 ? control.dt : remaining;

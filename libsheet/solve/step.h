@@ -12,8 +12,8 @@
 // fails too, Error(not_converged), the state untouched.
 // Steps chosen by their error are shortened instead of halved. When the iterations are spent, the most accurate step
 // that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above. Where a
-// step of a thousandth is hardly more accurate, as something jumps, the long one is taken, and said to be inaccurate. No
-// step is shorter than the sheet takes to cross 1e-4 of an edge (and a thousandth of what is left).
+// step of a thousandth is hardly more accurate, as something jumps, the long one is taken, and said to be inaccurate.
+// No step is shorter than the sheet takes to cross 1e-4 of an edge (and a thousandth of what is left).
 #pragma once
 #include <memory>
 #include <string>
@@ -51,9 +51,9 @@ struct StepReport {
   int flat_fallbacks = 0;  // steps done with straight edges instead of arcs, as they did not converge with arcs
   int unfinished = 0;      // substeps taken though Newton's iterations had not converged
   int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
-  NewtonReport newton;            // sums over all stages; last_step of the last one
-  double error = 0;               // filtered difference to the first-order result, in edge lengths, greatest of the substeps
-  std::size_t worst = 0;          // the vertex that has it
+  NewtonReport newton;   // sums over all stages; last_step of the last one
+  double error = 0;      // filtered difference to the first-order result, in edge lengths, greatest of the substeps
+  std::size_t worst = 0; // the vertex that has it
   std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex, at the end [N]
   double seconds_analysis = 0;
   std::vector<TermTime> terms; // assembled terms, their element work summed over threads; last: gathering
@@ -100,6 +100,7 @@ private:
   Model model_;
   StepOptions options_;
   std::unique_ptr<Cache> cache_;
+  bool filters_errors_ = false;   // where steps are chosen by them
   std::unique_ptr<Stepper> flat_; // the same without arcs, for steps that do not converge with them
 };
 
