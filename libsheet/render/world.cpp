@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
 
 #include "libsheet/base/error.h"
 
@@ -96,8 +97,8 @@ World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
   impl_->surface = surface;
   impl_->center = box.center();
   impl_->unit = box.diagonal() > 0 ? box.diagonal() : 1;
-  // One thread builds, so that the tree, and with it who wins a tie between neighbours, is always the same.
-  impl_->device = rtcNewDevice("threads=1,set_affinity=0");
+  // Not threads=1: that would hold the whole program to one thread as long as the device lives.
+  impl_->device = rtcNewDevice("set_affinity=0");
   if (impl_->device == nullptr) {
     const RTCError error = rtcGetDeviceError(nullptr);
     if (error == RTC_ERROR_OUT_OF_MEMORY)
@@ -118,7 +119,8 @@ World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
     impl_->add(first_solid_id + static_cast<std::uint32_t>(mesh.solid), drawn, std::move(normals), mesh.triangles,
                [&](const Vector3& x) -> Vector3 { return motions[i] * x; });
   }
-  rtcCommitScene(impl_->scene);
+  // One thread builds, so that the tree, and with it who wins a tie between neighbours, is always the same.
+  tbb::task_arena(1).execute([&] { rtcCommitScene(impl_->scene); });
   for (const Plane& plane : planes)
     impl_->planes.push_back(
         {plane.id, impl_->to_world(plane.point - inset * impl_->unit * plane.normal), plane.normal.cast<float>()});
