@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-step: one implicit time step a frame.
-#include "libsheet/base/filter.h"
 #include "libsheet/base/file_roles.h"
+#include "libsheet/base/filter.h"
 #include "libsheet/solve/step_stage.h"
 
 int main(int argc, char** argv) {

@@ -5,8 +5,8 @@
 
 namespace sheet {
 
-// Throws Error (bad_input) at a position, start, velocity or volume of 1e30 (SI) and more: areas, volumes and energies made of
-// them leave the range of double precision. Names array and row.
+// Throws Error (bad_input) at a position, start, velocity or volume of 1e30 (SI) and more: areas, volumes and energies
+// made of them leave the range of double precision. Names array and row.
 void check_magnitudes(const formats::Frame& frame);
 
 } // namespace sheet

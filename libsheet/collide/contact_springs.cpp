@@ -44,8 +44,8 @@ double mean_at(std::span<const double> values, const ContactSpring& s) {
   return 0.5 * sum;
 }
 
-// The time in which a contact acts: a tenth of that of falling by its distance d, without gravity of coming by it. Of the
-// step only where nothing falls or comes, so that a contact is the same in short steps as in long ones.
+// The time in which a contact acts: a tenth of that of falling by its distance d, without gravity of coming by it. Of
+// the step only where nothing falls or comes, so that a contact is the same in short steps as in long ones.
 double time_of(const ContactSpring& s, double g, double d, const SpringSheet& sheet) {
   const double coming = s.normal.dot(offset(s, sheet.start) - offset(s, sheet.end)) / sheet.step;
   if (g > 0)

@@ -14,11 +14,10 @@
 // of its vertex (the vertices of both layers get springs; edges: half of the mean of their vertices'):
 //   k = A rho h / T²  +  200 A rho g h / d  +  mu h / (2 T),   T = sqrt(d/g)/10, without gravity d/v/10
 // with h the mean thickness, d the contact distance, v the speed of approach. Terms: inertia (if it is modelled): what
-// falls from a height of d is stopped within a tenth of it; weight: ten layers compress by a twentieth of d; viscosity: as stiff as the
-// sheet itself is against stretching within T, so that what a viscous sheet presses together does not go through
-// either. The length of the step does not matter (where neither g nor v is, T is that), nor, under gravity, how fast the
-// features came, as impulses take that speed away, else the error of a step would
-// not fall with it.
+// falls from a height of d is stopped within a tenth of it; weight: ten layers compress by a twentieth of d; viscosity:
+// as stiff as the sheet itself is against stretching within T, so that what a viscous sheet presses together does not
+// go through either. The length of the step does not matter (where neither g nor v is, T is that), nor, under gravity,
+// how fast the features came, as impulses take that speed away, else the error of a step would not fall with it.
 #pragma once
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/step_path.h"
