@@ -40,11 +40,7 @@ struct Totals {
     flat += r.flat_fallbacks;
     unfinished += r.unfinished;
     inaccurate += r.inaccurate;
-    newton.iterations += r.newton.iterations;
-    newton.seconds_factor += r.newton.seconds_factor;
-    newton.seconds_solve += r.newton.seconds_solve;
-    newton.seconds_assembly += r.newton.seconds_assembly;
-    newton.seconds_search += r.newton.seconds_search;
+    newton += r.newton;
     analysis += r.seconds_analysis;
     seconds += elapsed;
     for (const TermTime& t : r.terms) {
