@@ -18,6 +18,8 @@ struct alignas(64) MidEdgeReference {
   LaneNumbers curvature[3], lengths[3]; // references [m], [m²]
   LaneNumbers weight, membrane;         // V μ ĥ²/(6 τ) and V μ/(2 τ) [J]
   LaneNumbers stiffness[3], height[3];  // of caps, at their longest edge, else 0 [J/m²], [m]
+  LaneNumbers folding[3], side[3];      // of directors that lean far, else 0 [J/m²], [m]
+  bool folded;                          // whether any lane has such a one
 };
 
 struct alignas(64) MidEdgeState {

@@ -2,6 +2,8 @@
 #include "libsheet/energy/mid_edge_shell.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <tbb/parallel_for.h>
 
@@ -15,22 +17,29 @@ Vector3 curvature(const Vector3& g) { return {-2 * (g[1] + g[2]), -2 * (g[2] + g
 constexpr double kCap = 0.92; // -cos 157°: triangles with a greater angle are caps
 constexpr std::size_t kAtOnce = 512;
 
+// Of half a hinge at edge k [J/m²]: 4/H⁴ of the weight.
+double hinge_stiffness(double weight, const RaisedMetric& metric, int k) {
+  const double squared_height = metric.determinant / metric.lengths[k];
+  return 4 * weight / (squared_height * squared_height);
+}
+
 Vector3 arc_lengths(const Vector3& lengths, const Vector3& beta) { return lengths + beta.cwiseProduct(beta) / 12; }
 
 } // namespace
 
-Vector3 MidEdgeShell::heights(std::size_t t, const Unknowns& u) const {
+MidEdgeShell::Heights MidEdgeShell::heights(std::size_t t, const Unknowns& u) const {
   const Triangle& v = mesh_->triangles[t];
-  Vector3 g;
+  Heights result;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t edge = mesh_->triangle_edges[t][k];
     const Vector3 low = stage_->position(u, mesh_->edges[edge][0]), high = stage_->position(u, mesh_->edges[edge][1]);
-    g[static_cast<Eigen::Index>(k)] =
-        director_height<0>(stage_->frames[edge], high - low, 0.5 * (low + high) - stage_->position(u, v[k]),
-                           u[static_cast<Eigen::Index>(3 * stage_->vertices() + edge)])
-            .value;
+    const HeightAndSide both = height_and_side(stage_->frames[edge], (high - low).normalized(),
+                                               0.5 * (low + high) - stage_->position(u, v[k]),
+                                               u[static_cast<Eigen::Index>(3 * stage_->vertices() + edge)]);
+    result.heights[static_cast<Eigen::Index>(k)] = both.height;
+    result.sides[static_cast<Eigen::Index>(k)] = both.side;
   }
-  return g;
+  return result;
 }
 
 void MidEdgeShell::begin(const Stage& stage) {
@@ -55,10 +64,13 @@ void MidEdgeShell::refer(std::size_t lane_of_all, const Stage& stage) {
   const auto lengths = [&](const Unknowns& u) {
     return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
   };
-  Vector3 g = heights(t, stage.begin), beta = curvature(g), squared = arc_lengths(lengths(stage.begin), beta);
+  const Heights start = heights(t, stage.begin);
+  Vector3 g = start.heights, c = start.sides, beta = curvature(g), squared = arc_lengths(lengths(stage.begin), beta);
   if (stage.previous) {
-    const Vector3 previous = heights(t, *stage.previous), beta_previous = curvature(previous);
-    g += stage.ratio * (previous - g);
+    const Heights previous = heights(t, *stage.previous);
+    const Vector3 beta_previous = curvature(previous.heights);
+    g += stage.ratio * (previous.heights - g);
+    c += stage.ratio * (previous.sides - c);
     squared += stage.ratio * (arc_lengths(lengths(*stage.previous), beta_previous) - squared);
     beta += stage.ratio * (beta_previous - beta);
   }
@@ -68,6 +80,7 @@ void MidEdgeShell::refer(std::size_t lane_of_all, const Stage& stage) {
   to.weight[lane] = to.membrane[lane] * thickness * thickness / 3;
   to.determinant[lane] = metric.determinant;
   const Cap cap = cap_of(to.weight[lane], metric, g);
+  to.folded = to.folded && lane != 0;
   for (int k = 0; k < 3; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const EdgeFrame& frame = stage.frames[mesh_->triangle_edges[t][at]];
@@ -82,6 +95,11 @@ void MidEdgeShell::refer(std::size_t lane_of_all, const Stage& stage) {
     to.lengths[k][lane] = squared[k];
     to.stiffness[k][lane] = k == cap.longest ? cap.stiffness : 0;
     to.height[k][lane] = cap.height;
+    const double lean = sign * start.sides[k] / std::hypot(start.heights[k], start.sides[k]); // cos ᾱ
+    const double folding = std::max(0.0, 1 - std::numbers::sqrt2 * lean);
+    to.folding[k][lane] = folding * hinge_stiffness(to.weight[lane], metric, k);
+    to.side[k][lane] = c[k];
+    to.folded = to.folded || folding > 0;
   }
 }
 
@@ -91,8 +109,7 @@ MidEdgeShell::Cap MidEdgeShell::cap_of(double weight, const RaisedMetric& metric
   const double longest = q.maxCoeff(&cap.longest), p = q[(cap.longest + 1) % 3], s = q[(cap.longest + 2) % 3];
   const double flatness = (longest - p - s) / (2 * std::sqrt(p * s)); // -cos α
   const double part = std::max(0.0, (flatness - kCap) / (1 - kCap));
-  const double squared_height = metric.determinant / longest;
-  cap.stiffness = 4 * part * weight / (squared_height * squared_height);
+  cap.stiffness = part * hinge_stiffness(weight, metric, cap.longest);
   cap.height = heights[cap.longest];
   return cap;
 }

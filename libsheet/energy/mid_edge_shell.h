@@ -12,6 +12,12 @@
 // pop out by δ, which turns the triangle by δ/H while its three directors stay as they are: b sees a bump as long as
 // the edge only, so compressed caps fold over. The term is half a hinge at the longest edge, which holds face and
 // director together (docs/hard-cases.md).
+//
+// Where a director leans by α > 45 degrees from a triangle's normal, as it must at folds above 90 degrees, the triangle
+// also has
+//   k (c - c̄)²/2,   k = (1 - √2 cos ᾱ) (V μ ĥ²/(6 τ)) 4/H⁴,
+// c the side of the director's height (geometry/director.h), H the triangle's height over the edge. There g = |w| sin α
+// hardly changes any more when the director turns: at 90 degrees nothing would hold it.
 #pragma once
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/energy_sum.h"
@@ -49,7 +55,10 @@ private:
   void refer(std::size_t t, const Stage& stage);
   [[nodiscard]] static Cap cap_of(double weight, const RaisedMetric& metric, const Vector3& heights);
   [[nodiscard]] static MidEdgeState state_of(const VectorN<12>& u);
-  [[nodiscard]] Vector3 heights(std::size_t t, const Unknowns& u) const;
+  struct Heights { // of a triangle's directors, and their sides [m]
+    Vector3 heights, sides;
+  };
+  [[nodiscard]] Heights heights(std::size_t t, const Unknowns& u) const;
 
   double viscosity_; // [Pa s]
   bool arcs_;

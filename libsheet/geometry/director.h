@@ -29,6 +29,20 @@ struct EdgeFrame {
   }
 };
 
+// Of edge i with t, w = m_i - x_i and θ: the height g = n·w [m], and its side c, by which it changes if n turns: with α
+// the angle from the triangle's normal to n, g = |w| sin α and c = ±|w| cos α for w across the edge.
+struct HeightAndSide {
+  double height, side;
+};
+
+[[nodiscard]] inline HeightAndSide height_and_side(const EdgeFrame& frame, const Vector3& t, const Vector3& w,
+                                                   double theta) {
+  const Vector3 s = frame.tangent + t, across = w - (s.dot(w) / (1 + frame.tangent.dot(t))) * t;
+  const double up = frame.director.dot(across), beside = frame.binormal.dot(across);
+  const double cosine = std::cos(theta), sine = std::sin(theta);
+  return {cosine * up + sine * beside, cosine * beside - sine * up};
+}
+
 // Value, gradient and second derivative of g = n·w in terms of e = x_high - x_low, w = (x_low + x_high)/2 - x_apex, θ.
 struct DirectorHeight {
   double value;

@@ -166,6 +166,17 @@ private:
     return true;
   }
 
+  // Whether a triangle at the side has an edge that is longer against its size: as the longest are split first, that one
+  // may not be split (an inlet's strip), and halving the others would only squeeze the triangle towards it.
+  [[nodiscard]] bool beside_longer(std::uint32_t side) const {
+    const auto longer = [&](std::uint32_t s) {
+      const double own = ratio(mesh_.from(s), mesh_.to(s)) * (1 + 1e-9);
+      const std::uint32_t a = mesh_.from(s), b = mesh_.to(s), c = mesh_.apex(s);
+      return ratio(b, c) > own || ratio(c, a) > own;
+    };
+    return longer(side) || (mesh_.twin(side) != none && longer(mesh_.twin(side)));
+  }
+
   void split_long() {
     std::priority_queue<Candidate> queue; // longest first
     const auto push = [&](std::uint32_t a, std::uint32_t b) {
@@ -177,7 +188,7 @@ private:
       const Candidate longest = queue.top();
       queue.pop();
       const std::uint32_t side = edge(longest.a, longest.b);
-      if (side == none || !split(side))
+      if (side == none || beside_longer(side) || !split(side))
         continue;
       const std::uint32_t m = edit_.vertex;
       mesh_.for_neighbours(m, [&](std::uint32_t w) { push(m, w); });

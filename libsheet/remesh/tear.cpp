@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/remesh/cracks.h"
 #include "libsheet/remesh/fans.h"
 #include "libsheet/remesh/tear_cuts.h"
 #include "libsheet/sheet/account.h"
@@ -21,8 +21,6 @@ using formats::Frame;
 using remesh::Fans;
 
 namespace {
-
-constexpr double gap = 1e-3; // of the way from a vertex to the nearest opposite side
 
 // For each new vertex the volume of a third of its triangles [m³].
 std::vector<double> carried(const Fans& fans, std::span<const double> volumes) {
@@ -72,44 +70,8 @@ Lineage vertex_lineage(const Fans& fans, std::span<const double> volumes, const 
   return lineage;
 }
 
-// How a vertex moves into its fan: along the bisector of the fan's whole angle.
-class Retreat {
-public:
-  void add(const Vector3& x, const Vector3& next, const Vector3& previous) {
-    const Vector3 a = (next - x).normalized(), b = (previous - x).normalized();
-    const Vector3 between = a + b;
-    const double angle = std::atan2(a.cross(b).norm(), a.dot(b)), length = between.norm();
-    if (length > 0)
-      bisector_ += 2 * std::sin(angle / 2) / length * between; // the integral of unit vectors over the angle
-    const double opposite = (previous - next).norm();
-    if (opposite > 0)
-      room_ = std::min(room_, (next - x).cross(previous - x).norm() / opposite);
-  }
-  [[nodiscard]] Vector3 step() const {
-    const double length = bisector_.norm();
-    return length > 0 && std::isfinite(room_) ? Vector3(gap * room_ / length * bisector_) : Vector3::Zero();
-  }
-
-private:
-  Vector3 bisector_ = Vector3::Zero();
-  double room_ = std::numeric_limits<double>::infinity();
-};
-
-// Moves the vertices of the frame that have come apart.
-void open_cracks(Frame& frame, const std::vector<bool>& apart) {
-  const auto x = positions(frame);
-  std::vector<Retreat> retreats(frame.vertices);
-  for (const Corners& c : triangles(frame))
-    for (std::size_t i = 0; i < 3; ++i)
-      if (apart[c[i]])
-        retreats[c[i]].add(x[c[i]], x[c[(i + 1) % 3]], x[c[(i + 2) % 3]]);
-  for (std::size_t v = 0; v < x.size(); ++v)
-    if (apart[v])
-      x[v] += retreats[v].step();
-}
-
-// Gives the frame the vertices of the fans, without dropped triangles.
-void put_fans(Frame& frame, const Fans& fans, const std::vector<bool>& dropped) {
+// Gives the frame the vertices of the fans at these positions, without dropped triangles.
+void put_fans(Frame& frame, const Fans& fans, const std::vector<bool>& dropped, std::span<const Vector3> opened) {
   const std::vector<std::uint32_t> numbers = numbers_of(fans, dropped);
   const Lineage vertices = vertex_lineage(fans, volumes(static_cast<const Frame&>(frame)), numbers);
   Lineage kept;
@@ -121,14 +83,13 @@ void put_fans(Frame& frame, const Fans& fans, const std::vector<bool>& dropped) 
     const Triangle& c = fans.triangles[t];
     corners.push_back({numbers[c[0]], numbers[c[1]], numbers[c[2]]});
   }
-  std::vector<bool> apart;
-  for (std::size_t v = 0; v < fans.old_vertex.size(); ++v)
-    if (numbers[v] != kNone)
-      apart.push_back(fans.fan_count[fans.old_vertex[v]] > 1);
   const Directors directors(frame);
   transfer_frame(frame, vertices, kept, corners);
   const ContactSprings springs(frame);
-  open_cracks(frame, apart);
+  const auto x = positions(frame);
+  for (std::size_t v = 0; v < numbers.size(); ++v)
+    if (numbers[v] != kNone)
+      x[numbers[v]] = opened[v];
   springs.put(frame);
   directors.put(vertices, frame);
 }
@@ -171,7 +132,8 @@ Torn tear(Frame& frame, const Scene& scene) {
   Connectivity mesh = connect(frame.vertices, triangles(frame));
   if (const Fans fans = remesh::take_apart(mesh, none_of(mesh.edges.size())); count_apart(fans) > 0) {
     torn.vertices = count_apart(fans);
-    put_fans(frame, fans, none_of(mesh.triangles.size()));
+    const std::vector<bool> dropped = none_of(mesh.triangles.size());
+    put_fans(frame, fans, dropped, remesh::open_cracks(fans, dropped, positions(static_cast<const Frame&>(frame))));
     mesh = connect(frame.vertices, triangles(frame));
   }
   const auto x = positions(static_cast<const Frame&>(frame));
@@ -179,15 +141,27 @@ Torn tear(Frame& frame, const Scene& scene) {
   std::vector<double> areas;
   for (const Triangle& c : mesh.triangles)
     areas.push_back(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area);
-  const remesh::TearCuts cuts = remesh::find_cuts({.mesh = mesh,
+  remesh::TearCuts cuts = remesh::find_cuts({.mesh = mesh,
                                                    .volumes = volume,
                                                    .areas = areas,
                                                    .below = scene.tear->below,
                                                    .drop_crumbs = scene.tear->drop_crumbs,
                                                    .grips = grips_of(frame, scene),
                                                    .whole = inlet_of(frame)});
-  torn.edges = cuts.edges;
   torn.vetoed = cuts.vetoed;
+  if (cuts.edges == 0)
+    return torn;
+  Fans fans = remesh::take_apart(mesh, cuts.cut);
+  std::vector<Vector3> opened = remesh::open_cracks(fans, cuts.dropped, x);
+  for (;;) {
+    const std::size_t crossing = remesh::leave_crossing_whole(mesh, x, fans, opened, cuts);
+    if (crossing == 0)
+      break;
+    torn.crossing += crossing;
+    fans = remesh::take_apart(mesh, cuts.cut);
+    opened = remesh::open_cracks(fans, cuts.dropped, x);
+  }
+  torn.edges = cuts.edges;
   if (cuts.edges == 0)
     return torn;
   const auto v = velocities(static_cast<const Frame&>(frame));
@@ -200,9 +174,8 @@ Torn tear(Frame& frame, const Scene& scene) {
       if (!v.empty())
         torn.momentum += scene.material.density * volume[t] / 3 * v[c];
   }
-  const Fans fans = remesh::take_apart(mesh, cuts.cut);
   torn.vertices += count_apart(fans);
-  put_fans(frame, fans, cuts.dropped);
+  put_fans(frame, fans, cuts.dropped, opened);
   if (torn.dropped > 0) {
     add_to_account(frame, "tear.volume", "m^3", {&torn.volume, 1});
     add_to_account(frame, "tear.momentum", "kg*m/s", {torn.momentum.data(), 3});
@@ -217,8 +190,9 @@ void TearStage::tear(Frame& frame) {
     return;
   const Torn torn = sheet::tear(frame, scene);
   if (torn.vertices > 0)
-    log::detail("step {}: {} edges cut, {} vertices came apart, {} edges left whole for crumbs, {} triangles dropped",
-                frame.step, torn.edges, torn.vertices, torn.vetoed, torn.dropped);
+    log::detail("step {}: {} edges cut, {} vertices came apart, {} edges left whole for crumbs, {} as layers would "
+                "cross, {} triangles dropped",
+                frame.step, torn.edges, torn.vertices, torn.vetoed, torn.crossing, torn.dropped);
   total_.edges += torn.edges;
   total_.dropped += torn.dropped;
   total_.volume += torn.volume;

@@ -4,7 +4,7 @@
 // vertices, also where it had some before.
 //
 // A vertex that has come apart moves into its own piece, by a thousandth of the way to the nearest opposite side, so
-// that the lips of a crack do not touch; triangles keep their volumes, vertices their velocities, so volume, momentum
+// that the lips of a crack do not touch (cracks.h); triangles keep their volumes, vertices their velocities, so volume, momentum
 // and kinetic energy are what they were.
 #pragma once
 #include <cstdint>
@@ -19,6 +19,7 @@ struct Torn {
   std::size_t edges = 0;              // cut
   std::size_t vertices = 0;           // that came apart
   std::size_t vetoed = 0;             // edges left whole because a crumb would come off
+  std::size_t crossing = 0;           // edges left whole because the sheet would pass through itself
   std::size_t dropped = 0;            // triangles of crumbs
   double volume = 0;                  // dropped [m³]
   Vector3 momentum = Vector3::Zero(); // dropped [kg m/s]

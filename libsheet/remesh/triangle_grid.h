@@ -35,6 +35,7 @@ public:
 
   void add(std::uint32_t triangle, const Box& box);
   void remove(std::uint32_t triangle);
+  [[nodiscard]] bool has(std::uint32_t triangle) const { return triangle < items_.size() && items_[triangle].present; }
   [[nodiscard]] const Box& box_of(std::uint32_t triangle) const { return items_[triangle].box; }
 
   // visit(triangle) for every triangle whose box meets this one; in an order that depends on the history, but is the

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "libsheet/base/error.h"
+#include "libsheet/energy/leaning.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/area.h"
 
@@ -170,6 +171,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   }
   estimate_error(state, dt, stage, first, last, end, scale, report);
   end.director_angles = director_angles(stage, last);
+  limit_leaning(end, model_.holds);
   set_held_velocities(model_.holds, end.time, dt, end);
   if (model_.reactions) {
     // What is held does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
@@ -295,6 +297,7 @@ StepReport Stepper::step(State& state, double dt) {
   prepare_cache(state, report);
   const std::vector<double> seconds = cache_->system.assembly().seconds();
   State next = state;
+  limit_leaning(next, model_.holds);
   advance(next, dt, 0, report);
   next.time = state.time + dt;
   state = std::move(next);
@@ -317,6 +320,7 @@ Stepper::Outcome Stepper::attempt_either(const State& state, double dt, State& e
 }
 
 StepReport Stepper::step_within(State& state, double until, StepControl& control) {
+  limit_leaning(state, model_.holds);
   constexpr double kSafety = 0.9, kLeast = 0.2, kGreatest = 4;
   const double remaining = until - state.time;
   if (!(remaining > 0) || !std::isfinite(remaining))

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What resists a vertex at the flat angle of a cap that pops out of the sheet, all directors free to give way, over
-// what hinges resist it with.
+// What resists where heights of directors hardly do: a vertex at the flat angle of a cap that pops out of the sheet, all
+// directors free to give way, over what hinges resist it with; the director of a sharp fold.
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "libsheet/energy/hinge.h"
+#include "libsheet/energy/leaning.h"
 #include "libsheet/energy/mid_edge_shell.h"
 #include "libsheet/energy/stage_setup.h"
 #include "tests/support/meshes.h"
@@ -69,6 +71,66 @@ TEST(FlatCaps, ResistPoppingOutAsHingesDo) {
   const State s = test::at_rest(mesh, 0.01);
   // Without what the shell adds for caps: 0.0007.
   EXPECT_GT(stiffness_by_directors(s, apex), 0.2 * stiffness_by_hinges(s, apex));
+}
+
+// Two triangles, folded about the edge between them by so many degrees.
+State folded(double degrees) {
+  const double turn = degrees * std::numbers::pi / 180;
+  return test::at_rest({{{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {-std::cos(turn), 0.5, std::sin(turn)}},
+                        {{0, 2, 1}, {0, 1, 3}}},
+                       0.01);
+}
+
+bool on_rim(const State& s, std::size_t edge) {
+  const auto& sides = s.mesh->edge_triangles[edge];
+  return sides[0] == kNone || sides[1] == kNone;
+}
+
+TEST(Folds, HoldTheirDirector) {
+  const auto stiffness = [](double degrees) { // of the director of the fold
+    const State s = folded(degrees);
+    const Stage stage = first_stage(s, 0.1, 0.1, true);
+    MidEdgeShell shell(1, false);
+    shell.begin(stage);
+    double sum = 0;
+    for (std::size_t t = 0; t < 2; ++t) {
+      VectorN<12> u = VectorN<12>::Zero(), g;
+      MatrixN<12> h;
+      Eigen::Index own = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        u.segment<3>(static_cast<Eigen::Index>(3 * k)) = s.positions[s.mesh->triangles[t][k]];
+        if (!on_rim(s, s.mesh->triangle_edges[t][k]))
+          own = static_cast<Eigen::Index>(9 + k);
+      }
+      shell.derivatives(t, u, g, h, false);
+      sum += h(own, own);
+    }
+    return sum;
+  };
+  // By heights alone: 3e-10 of it at 179.998 degrees.
+  for (const double degrees : {30.0, 90.0, 150.0, 179.0, 179.998})
+    EXPECT_GT(stiffness(degrees), 0.3 * stiffness(0)) << degrees;
+}
+
+TEST(Directors, DoNotTurnOver) {
+  State s = folded(60);
+  const double degree = std::numbers::pi / 180;
+  s.director_angles.assign(s.mesh->edges.size(), 100 * degree);
+  s.director_angles[1] = -20 * degree;
+  limit_leaning(s, {});
+  for (std::size_t e = 0; e < s.mesh->edges.size(); ++e) {
+    EXPECT_NEAR(s.director_angles[e], (e == 1 ? -20 : on_rim(s, e) ? 80 : 50) * degree, 1e-12) << e;
+  }
+  Hold clamp;
+  clamp.clamped_edges = {0};
+  s.director_angles.assign(s.mesh->edges.size(), 100 * degree);
+  limit_leaning(s, {clamp});
+  EXPECT_EQ(s.director_angles[0], 100 * degree);
+  s = folded(170); // leaves no room
+  s.director_angles.assign(s.mesh->edges.size(), 100 * degree);
+  limit_leaning(s, {});
+  for (std::size_t e = 0; e < s.mesh->edges.size(); ++e)
+    EXPECT_NEAR(s.director_angles[e], on_rim(s, e) ? 80 * degree : 0, 1e-12) << e;
 }
 
 } // namespace

@@ -60,6 +60,14 @@ State drawn_out(Random& random) {
   return s;
 }
 
+// The crumpled sphere with directors that lean by 45 degrees to beyond 90.
+State leaning(Random& random) {
+  State s = crumpled(random);
+  for (std::size_t e = 0; e < s.mesh->edges.size(); ++e)
+    s.director_angles.push_back(e % 3 == 0 ? 0.5 * random() : 1.3 * (random() > 0 ? 1 : -1) + 0.5 * random());
+  return s;
+}
+
 template <class E> VectorN<12> unknowns(const E& element, std::size_t i, const State& s, Random& random) {
   VectorN<12> u = VectorN<12>::Zero();
   if constexpr (E::stencil == Stencil::hinge || E::stencil == Stencil::four) {
@@ -281,6 +289,8 @@ TEST(Derivatives, PressureOfTheEnclosedVolume) {
 // function of a rotation, which RigidMotion tests.
 TEST(Derivatives, MidEdge) { check(MidEdgeShell(2, false), {true, false}); }
 TEST(Derivatives, MidEdgeFlatCaps) { check(MidEdgeShell(2, false), {true, false}, true, drawn_out); }
+TEST(Derivatives, MidEdgeLeaningDirectors) { check(MidEdgeShell(2, false), {true, false}, true, leaning); }
+TEST(Derivatives, MidEdgeArcsAndLeaningDirectors) { check(MidEdgeShell(2, true), {true, false}, true, leaning); }
 TEST(Derivatives, MidEdgeArcs) { check(MidEdgeShell(2, true), {true, false}); }
 
 TEST(Derivatives, Hinges) {

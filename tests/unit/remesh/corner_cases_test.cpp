@@ -8,6 +8,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/measure/intersections.h"
 #include "libsheet/remesh/remesh.h"
+#include "libsheet/remesh/triangle_shape.h"
 #include "libsheet/shape/shapes.h"
 #include "tests/support/remesh/consistency.h"
 #include "tests/support/remesh/cycles.h"
@@ -217,6 +218,22 @@ TEST(CornerCase, CollinearCaps) {
   for (int i = 0; i < 3; ++i)
     static_cast<void>(remesh(good, nullptr, options(0.3)));
   EXPECT_GT(test::angles_of(good, 0.3).smallest, 15);
+}
+
+// The first triangle is an inlet's strip, which stays as it is. The one beside it was once halved towards their long
+// edge until it had no area.
+TEST(CornerCase, LongEdgeThatMayNotBeSplit) {
+  formats::Frame frame = frame_of({{0, 0, 0}, {2.7, 0, 0}, {1.35, -1, 0}, {1.35, 0.9, 0}}, {{0, 2, 1}, {0, 1, 3}});
+  formats::Array inlet = formats::make_array("inlet", formats::Place::vertex, formats::Type::uint64, 1, "1",
+                                             formats::Transfer::common, frame.vertices);
+  for (std::size_t v = 0; v < 3; ++v)
+    inlet.values<std::uint64_t>()[v] = 4;
+  frame.put(std::move(inlet));
+  const Report report = remesh(frame, nullptr, options(1));
+  EXPECT_LE(report.splits, 2U);
+  const auto x = positions(frame);
+  for (const Corners& t : triangles(frame))
+    EXPECT_LT(TriangleShape(x[t[0]], x[t[1]], x[t[2]]).sharpest, cosine_of_degrees(10));
 }
 
 TEST(CornerCase, InnerVertexOfDegreeThree) {
