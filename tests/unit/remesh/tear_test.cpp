@@ -171,6 +171,33 @@ TEST(Tear, AThinBandParts) {
   EXPECT_EQ(shape.isolated + shape.pinched + shape.touching, 0);
 }
 
+// A cone with a thin band across its top, and a splinter under it where one lip would go: the sheet stays whole there.
+TEST(Tear, LipsDoNotGoThroughOtherLayers) {
+  const Frame flat = test::grid(8, 8, 1, thick);
+  std::vector<Vector3> x(positions(flat).begin(), positions(flat).end());
+  for (Vector3& p : x)
+    p.z() = -(p - Vector3(4, 4, 0)).norm();
+  std::vector<Corners> t(triangles(flat).begin(), triangles(flat).end());
+  std::vector<double> v(volumes(flat).begin(), volumes(flat).end());
+  const auto torn = [&] {
+    Frame frame = make_frame(x, t, v);
+    make_thin(frame, [](const Vector3& p) { return std::abs(p[1] - 4) < 1; });
+    const Torn result = tear(frame, keep);
+    EXPECT_EQ(shape_of(frame).touching, 0);
+    return result;
+  };
+  const Torn alone = torn();
+  EXPECT_GT(alone.edges, 4);
+  EXPECT_EQ(alone.crossing, 0);
+  const auto n = static_cast<std::uint32_t>(x.size());
+  x.insert(x.end(), {{4 - 1e-5, 3.999, -1.02e-3}, {4 + 1e-5, 3.999, -1.02e-3}, {4, 3.999, -1.5e-3}});
+  t.push_back({n, n + 1, n + 2});
+  v.push_back(thick * 1e-8);
+  const Torn with_splinter = torn();
+  EXPECT_GT(with_splinter.crossing, 0);
+  EXPECT_EQ(with_splinter.edges + with_splinter.crossing, alone.edges);
+}
+
 TEST(Tear, AStripTwoTrianglesWideSnaps) {
   Frame frame = frame_of(test::rectangle(12, 2, 12, 2, 0));
   make_thin(frame, [](const Vector3& x) { return std::abs(x[0] - 6) < 1.1; });
