@@ -36,6 +36,13 @@ scaled() {
       on && /^[-0-9]/{for (i = 1; i <= NF; ++i) $i = sprintf("%.17g", $i * factor)} {print}' | sheet-parse
 }
 
+# usage: thrown FROM METRES [start_position]: the disk with a vertex so far away
+thrown() {
+  sheet-print disk.sheet |
+    awk -v v="$1" -v to="$2" -v start="${3:-none}" '/^array /{kind = $2; row = 0; print; next} {++row}
+      (kind == "position" || kind == start) && row == v {$1 = to} {print}' | sheet-parse
+}
+
 stages=("sheet-step --dt 0.01" sheet-collide "sheet-remesh --edge-length 0.4" sheet-tear)
 
 @test "8: positions and velocities near the end of the range are refused with their place" {
@@ -71,6 +78,27 @@ stages=("sheet-step --dt 0.01" sheet-collide "sheet-remesh --edge-length 0.4" sh
       done
     done
   done
+}
+
+@test "a vertex that has been thrown far away is refused at once, with its place" {
+  for far in 1e5 1e6 1e9 1e20; do
+    thrown 5 $far > thrown.sheet
+    run -3 timeout 10 sheet-collide thrown.sheet -o out.sheet
+    [[ $output == *'in one step, the edge from vertex '*"$(printf '(%g, ' "$far")"*' has become '*'shorter steps'* ]]
+    for start in none start_position; do
+      thrown 5 $far $start > thrown.sheet
+      run timeout 10 sheet-remesh --edge-length 0.5 thrown.sheet -o out.sheet
+      [[ $status == 3 && $output == *'the edge from vertex '*"$(printf '(%g, ' "$far")"*'longer edges'* ]] ||
+        [[ $status == 2 && $output == *'more than 1e+08: ask for longer edges'* ]]
+      for stage in sheet-collide sheet-tear sheet-emit 'sheet-step --dt 0.01' sheet-info sheet-check; do
+        timeout 10 bash -c "$stage thrown.sheet" > out 2> err || [[ $? == [1235] ]]
+      done
+    done
+  done
+  # far, and what is done about it in time
+  thrown 5 100 > thrown.sheet
+  timeout 20 sheet-collide thrown.sheet -o out.sheet
+  timeout 20 sheet-remesh --edge-length 0.5 thrown.sheet -o out.sheet
 }
 
 # usage: hostile NAME SCRIPT: the disk as text, changed by awk, with valid checksums whatever it says
