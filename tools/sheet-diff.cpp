@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
               "tolerance of one array instead, also of one of integers, or of the time; may be given again and again");
   tool.option("--ignore", ignored, "NAME", "array to pass over, or time, or step; may be given again and again");
   tool.example("sheet-diff --rel 1e-9 --ignore provenance a.sheet b.sheet", "the same but for round-off?");
-  tool.example("sheet-step < a.sheet | sheet-diff -q - b.sheet || echo different", "in a script");
+  tool.example("sheet-step --dt 0.01 < a.sheet | sheet-diff -q - b.sheet || echo different", "in a script");
   tool.exit_status(
       "0 the streams agree, 1 they differ, 2 trouble of any kind, also a corrupt stream: the codes of diff(1), "
       "not those of the other programs. With -q nothing is printed, and the first difference ends it.");

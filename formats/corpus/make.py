@@ -215,6 +215,7 @@ passed = {
     "start_time": stream(triangle_frame(start_position=Array(np.zeros((3, 3)), "vertex", "m", "drop"),
                                         start_time=Array(np.array([-0.125]), "frame", "s", "copy"))),
     "director_angle": with_array("director_angle", Array(np.array([0, -0.125, 3.0]), "edge", "rad", "drop")),
+    "touch_wide": with_array("touch", Array(np.array([[0, 1], [0, 0], [2, 0]], "u8"), "vertex", "1", "common")),
 }
 
 failed = {

@@ -16,6 +16,9 @@ namespace sheet::formats {
 
 namespace {
 
+// As many components as the scene asks for.
+constexpr std::uint32_t any_number = 0;
+
 struct Standard {
   std::string_view name;
   Place place;
@@ -34,7 +37,7 @@ constexpr std::array standards{
     Standard{"start_position", Place::vertex, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"start_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"hold", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
-    Standard{"touch", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
+    Standard{"touch", Place::vertex, Type::uint64, any_number, "1", Transfer::common, false},
     Standard{"touch_force", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
     Standard{"inlet", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
     Standard{"inlet_origin", Place::vertex, Type::float64, 3, "m", Transfer::interpolate, false},
@@ -131,10 +134,11 @@ std::string find_contact_error(const Frame& frame, const Array& array) {
 }
 
 std::string find_error(const Frame& frame, const Standard& standard, const Array& array) {
-  if (array.place != standard.place || array.type != standard.type || array.components != standard.components)
+  const std::uint32_t components = standard.components == any_number ? array.components : standard.components;
+  if (array.place != standard.place || array.type != standard.type || array.components != components)
     return fmt::format("array \"{}\" is {} {} x {}, it must be {} {} x {}", array.name, name_of(array.place),
                        name_of(array.type), array.components, name_of(standard.place), name_of(standard.type),
-                       standard.components);
+                       components);
   if (array.unit != standard.unit)
     return fmt::format("array \"{}\" has unit \"{}\", it must be \"{}\"", array.name, array.unit, standard.unit);
   if (array.transfer != standard.transfer)

@@ -44,7 +44,7 @@ _MAX_ARRAYS, _MAX_ROWS, _MAX_BYTES = 4096, 1 << 32, 1 << 48
 _FIRST_PORTION = 16 << 20  # memory asked for before the bytes have really arrived
 _NAME_CHARACTERS = frozenset("abcdefghijklmnopqrstuvwxyz0123456789_.:-")
 
-# name: place, type, components, unit, rule; the first three are required
+# name: place, type, components (0: any number), unit, rule; the first three are required
 _STANDARD = {
     "position": ("vertex", "float64", 3, "m", "interpolate"),
     "triangle": ("triangle", "uint32", 3, "1", "drop"),
@@ -56,7 +56,7 @@ _STANDARD = {
     "director_angle": ("edge", "float64", 1, "rad", "drop"),
     "next_output_time": ("frame", "float64", 1, "s", "copy"),
     "step_size": ("frame", "float64", 1, "s", "copy"),
-    "touch": ("vertex", "uint64", 1, "1", "common"),
+    "touch": ("vertex", "uint64", 0, "1", "common"),
     "touch_force": ("vertex", "float64", 3, "N", "conserve"),
     "inlet": ("vertex", "uint64", 1, "1", "common"),
     "inlet_origin": ("vertex", "float64", 3, "m", "interpolate"),
@@ -251,6 +251,7 @@ def _find_contact_error(frame, vertices):
 
 def _find_standard_error(frame, name, array):
     place, kind, components, unit, transfer = _STANDARD[name]
+    components = components or array.components
     if (array.place, array.type, array.components) != (place, kind, components):
         return (f'array "{name}" is {array.place} {array.type} x {array.components}, '
                 f"it must be {place} {kind} x {components}")

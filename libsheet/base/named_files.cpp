@@ -1,12 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/base/named_files.h"
 
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
 #include <sys/stat.h>
+#include <xxhash.h>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/file_roles.h"
 
 namespace sheet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Of a relative name, without 0, 1, ... of its leading folders; of an absolute one, itself.
+std::vector<fs::path> endings_of(const fs::path& name) {
+  if (name.is_absolute())
+    return {name};
+  std::vector<fs::path> endings;
+  for (auto first = name.begin(); first != name.end(); ++first) {
+    fs::path& ending = endings.emplace_back();
+    for (auto part = first; part != name.end(); ++part)
+      ending /= *part;
+  }
+  return endings;
+}
+
+} // namespace
 
 void check_named_file(const std::string& path) {
   struct stat status {};
@@ -18,6 +43,48 @@ void check_named_file(const std::string& path) {
          : S_ISFIFO(status.st_mode) ? "pipe"
                                     : "device");
   claim_file(path, FileRole::input);
+}
+
+std::string checksum_of_file(const std::string& path) {
+  check_named_file(path);
+  std::ifstream file(path, std::ios::binary);
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  std::array<char, 1 << 16> part{};
+  while (file.read(part.data(), part.size()) || file.gcount() > 0)
+    XXH3_64bits_update(state.get(), part.data(), static_cast<std::size_t>(file.gcount()));
+  if (!file.eof())
+    fail(ExitCode::io, "{}: it cannot be read", path);
+  return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+}
+
+std::string find_named_file(const std::string& name, const std::string& checksum) {
+  if (checksum.empty())
+    return name;
+  std::error_code error;
+  std::string other; // the first of its name that is another
+  fs::path above;
+  for (fs::path folder = fs::current_path(); true; folder = folder.parent_path(), above /= "..") {
+    for (const fs::path& ending : endings_of(name)) {
+      const std::string path = (above / ending).string();
+      if (!fs::is_regular_file(path, error))
+        continue;
+      if (checksum_of_file(path) == checksum)
+        return path;
+      if (other.empty())
+        other = path;
+    }
+    if (folder == folder.parent_path())
+      break;
+  }
+  if (!other.empty())
+    fail(ExitCode::bad_input,
+         "{}: it has changed since sheet-init ran (its checksum is {}, the scene says {}): bring the old one back, or "
+         "make the first frame anew",
+         other, checksum_of_file(other), checksum);
+  check_named_file(name);
+  fail(ExitCode::io,
+       "{}: there is no such file, neither as seen from here or from a folder above, nor without its folders", name);
 }
 
 formats::MeshImport import_named_mesh(const std::string& path) try {

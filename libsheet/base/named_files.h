@@ -12,6 +12,14 @@ namespace sheet {
 // not there says so.
 void check_named_file(const std::string& path);
 
+// What it holds: 16 hexadecimal digits, XXH3. Throws Error: io.
+[[nodiscard]] std::string checksum_of_file(const std::string& path);
+
+// Where a file is that a scene named when it had this checksum (empty: it is not known, and the name is the answer).
+// Looked for as named and without its leading folders, from the current folder and from each one above, so that a
+// stream may be worked on elsewhere. Throws Error: bad_input (another file has its place), io (there is none).
+[[nodiscard]] std::string find_named_file(const std::string& name, const std::string& checksum);
+
 // The mesh of such a file. Throws Error: io, bad_input (content, or a kind that is not known).
 [[nodiscard]] formats::MeshImport import_named_mesh(const std::string& path);
 

@@ -146,9 +146,7 @@ struct CollideStage::Impl {
     const auto v = velocities(frame);
     path.velocity.assign(v.begin(), v.end());
     path.velocity.resize(frame.vertices, Vector3::Zero());
-    const auto touch = masks(frame, "touch");
-    path.touch.assign(touch.begin(), touch.end());
-    path.touch.resize(frame.vertices, 0);
+    path.touch = touched_solids(frame, scene->solids.size());
     path.fixed = held(frame, path.start_time);
     const Shares s = shares(path.triangles, volumes(frame), path.start);
     const double density = scene->material.density > 0 ? scene->material.density : 1;
@@ -199,8 +197,36 @@ struct CollideStage::Impl {
            pair->first, pair->second);
   }
 
+  // A vertex that a step has thrown far away sweeps over everything there is, and what is found means nothing.
+  static void check_stretch(const StepPath& path) {
+    check_stretch(path, path.start, path.end, "become");
+    check_stretch(path, path.end, path.start, "been");
+  }
+
+  // No edge at one end of the step may be much longer than the whole sheet is at the other one.
+  static void check_stretch(const StepPath& path, std::span<const Vector3> whole, std::span<const Vector3> places,
+                            std::string_view when) {
+    constexpr double most = 100;
+    Box3 box;
+    for (const Vector3& x : whole)
+      box.extend(x);
+    const double limit = most * box.diagonal().norm();
+    for (const Corners& t : path.triangles)
+      for (std::size_t i = 0; i < 3 && limit > 0; ++i) {
+        const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+        const Vector3 &x = places[a], &y = places[b];
+        if (const double length = (y - x).norm(); !(length <= limit))
+          fail(ExitCode::bad_input,
+               "in one step, the edge from vertex {} at ({:.6g}, {:.6g}, {:.6g}) to vertex {} at ({:.6g}, {:.6g}, "
+               "{:.6g}) has {} {:.3g} m long, more than {:g} times the whole sheet: it has blown up; take shorter "
+               "steps, or remesh before them",
+               a, x.x(), x.y(), x.z(), b, y.x(), y.y(), y.z(), when, length, most);
+      }
+  }
+
   void step(Frame& frame) {
     StepPath path = path_of(frame);
+    check_stretch(path);
     Watch watch;
     std::vector<std::uint32_t> off;
     if (solids) {
@@ -234,8 +260,8 @@ struct CollideStage::Impl {
     }
     if (solids) { // what comes off was held in this step, and is free in the next one
       for (const std::uint32_t v : off)
-        path.touch[v] = 0;
-      std::copy(path.touch.begin(), path.touch.end(), put_masks(frame, "touch").begin());
+        path.touch[v] = no_solid;
+      put_touched_solids(frame, path.touch, scene->solids.size());
     }
     std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
     std::copy(path.velocity.begin(), path.velocity.end(), velocities(frame).begin());
@@ -270,8 +296,11 @@ struct CollideStage::Impl {
       path.fixed = std::move(fixed);
     }
     if (report.held_back > 0)
-      log::warning("step {}: {} vertices on solids or held stay behind, or the sheet would pass through itself", step,
-                   report.held_back);
+      log::warning("step {}: {} vertices on solids or held stay behind, or the sheet would pass through itself "
+                   "(nothing to worry "
+                   "about in a few steps; if it comes back step after step, solids or [[hold]]s leave the sheet too "
+                   "little room)",
+                   step, report.held_back);
     totals.add(report);
     log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", step, report.hits,
                 report.by_impulses, report.in_groups, report.pulled_back);

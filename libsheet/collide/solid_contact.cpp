@@ -2,7 +2,6 @@
 #include "libsheet/collide/solid_contact.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -20,8 +19,6 @@ constexpr int kRounds = 10;
 // By how many times the way that a point of a triangle is moved an impulse may move a corner. Of two corners with
 // masses m and M the lighter moves by up to sqrt(M/m)/2 times that way, so lighter ones count as having a part of M.
 constexpr double kLongestLever = 4, kLeastMass = 1 / (4 * kLongestLever * kLongestLever);
-
-std::int32_t first_bit(std::uint64_t mask) { return mask == 0 ? kRidesNone : std::countr_zero(mask); }
 
 // A point of the solid's frame brought to `offset` from its surface, along the normal. One turn where the surface is
 // smooth; a hollow narrower than the offset has no such point, so the turns are counted.
@@ -75,7 +72,7 @@ public:
       thickness = std::max(thickness, least);
     rides_.resize(path.start.size());
     for (std::size_t v = 0; v < rides_.size(); ++v)
-      rides_[v] = held(v) ? kRidesNone : first_bit(path.touch[v]);
+      rides_[v] = held(v) ? no_solid : path.touch[v];
     changed_.assign(path.start.size(), 0);
     carried_.assign(path.start.size(), 0);
     active_.resize(path.triangles.size());
@@ -114,11 +111,11 @@ private:
       for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v) {
         if (held(v))
           continue;
-        if (rides_[v] != kRidesNone && is_off(v)) {
-          rides_[v] = kRidesNone;
-          path_.touch[v] = 0;
+        if (rides_[v] != no_solid && is_off(v)) {
+          rides_[v] = no_solid;
+          path_.touch[v] = no_solid;
         }
-        if (rides_[v] != kRidesNone) {
+        if (rides_[v] != no_solid) {
           const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
           hold(v, view.own(view.pieces(), path_.end[v]));
         } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
@@ -261,7 +258,7 @@ private:
         continue;
       const std::uint32_t v = corners[c];
       // A vertex that touches does not slide.
-      const bool free = rides_[v] == kRidesNone;
+      const bool free = rides_[v] == no_solid;
       path_.end[v] += share[c].cwiseProduct(view.turned_at_end(free ? move : outward(move)));
       path_.velocity[v] += share[c].cwiseProduct(view.turned_at_end(free ? change : outward(change)));
       changed_[v] = 1;
@@ -311,13 +308,13 @@ private:
 
   void finish() {
     for (std::size_t v = 0; v < rides_.size(); ++v) {
-      if (held(v) || rides_[v] == kRidesNone)
+      if (held(v) || rides_[v] == no_solid)
         continue;
       path_.fixed[v] = all_axes;
-      if (carried_[v] != 0 && path_.touch[v] == 0)
+      if (carried_[v] != 0 && path_.touch[v] == no_solid)
         continue;
       const auto solid = static_cast<std::size_t>(rides_[v]);
-      path_.touch[v] = std::uint64_t{1} << solid;
+      path_.touch[v] = rides_[v];
       path_.velocity[v] =
           with_fixed(prescribed_[v], path_.velocity[v], solids_.surface_velocity(solid, path_.end[v], path_.end_time));
       ++report_.touching;
@@ -350,8 +347,8 @@ std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& 
   // What touches rides, and what ends where a solid has taken it.
   std::vector<std::int32_t> rides;
   for (std::size_t v = 0; v < path.start.size(); ++v) {
-    rides.push_back(first_bit(path.touch[v]));
-    for (std::size_t i = 0; i < views.size() && rides[v] == kRidesNone; ++i)
+    rides.push_back(path.touch[v]);
+    for (std::size_t i = 0; i < views.size() && rides[v] == no_solid; ++i)
       if ((views[i].carried(path.start[v]) - path.end[v]).norm() < 1e-9 * path.thickness[v])
         rides[v] = static_cast<std::int32_t>(i);
   }

@@ -41,11 +41,11 @@ struct SolidReport {
   std::size_t unresolved = 0;     // triangles that still come too close (see above)
 };
 
-// Corrects end, velocity, touch and fixed of the path; `touch` has a bit or none for each vertex at the start, `fixed`
-// is set there for the vertices of [[hold]]s; those fixed along all axes are left alone. Vertices of no triangle, whose
-// thickness is 0, are given the least thickness. Does nothing without solids. A vertex that starts in a solid, by at
-// most half of its longest edge, is caught there and ends outside. Throws Error (bad_input) where one starts deeper,
-// unless a [[hold]] put it there.
+// Corrects end, velocity, touch and fixed of the path; `touch` has a solid or no_solid for each vertex at the start,
+// `fixed` is set there for the vertices of [[hold]]s; those fixed along all axes are left alone. Vertices of no
+// triangle, whose thickness is 0, are given the least thickness. Does nothing without solids. A vertex that starts in a
+// solid, by at most half of its longest edge, is caught there and ends outside. Throws Error (bad_input) where one
+// starts deeper, unless a [[hold]] put it there.
 SolidReport resolve_solids(StepPath& path, const Solids& solids);
 
 // The triangles that the path takes too close to a solid (as above, less a fifth so that round-off raises no alarm),

@@ -89,15 +89,16 @@ private:
 
 SolidSurface read_surface(const scene::SolidMesh& mesh) {
   SolidSurface surface;
-  std::string ending = std::filesystem::path(mesh.file).extension().string();
+  const std::string file = find_named_file(mesh.file, mesh.checksum);
+  std::string ending = std::filesystem::path(file).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".vdb") {
-    check_named_file(mesh.file);
-    surface = read_level_set(mesh.file);
+    check_named_file(file);
+    surface = read_level_set(file);
   } else {
-    const formats::MeshImport import = import_named_mesh(mesh.file);
+    const formats::MeshImport import = import_named_mesh(file);
     for (const std::string& note : import.notes)
-      log::warning(note);
+      log::warning("{} (nothing to worry about: what is left is checked to be the closed surface of a solid)", note);
     for (const auto& [x, y, z] : import.mesh.points)
       surface.points.emplace_back(x, y, z);
     surface.triangles = import.mesh.triangles;

@@ -21,8 +21,6 @@ inline constexpr double kVertexSlack = 0.05; // a vertex this much beyond half t
 [[nodiscard]] std::optional<double> first_contact(const SolidDistance& shape, const Vector3& a, const Vector3& b,
                                                   double offset);
 
-constexpr std::int32_t kRidesNone = -1;
-
 // A vertex that meets a solid, after the part s of the step.
 struct VertexHit {
   std::uint32_t solid;

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/base/error.h"
 #include "libsheet/scene/overloaded.h"
 
 namespace sheet::collide {
 namespace {
+
+// Of a path in a solid's frame. Each vertex and each triangle is followed through all of them.
+constexpr double kMostPieces = 1e4;
 
 double size_of(double value) { return std::abs(value); }
 double size_of(const Vector3& value) { return value.norm(); }
@@ -73,8 +77,14 @@ SolidView::SolidView(const Solids& solids, std::size_t solid, const StepPath& pa
     return acceleration_bound(motion, path.start_time, path.end_time, reach) * time * time / 8;
   };
   const Vector3 center = center_of(motion);
-  const auto pieces = static_cast<std::size_t>(
-      std::max(1.0, std::ceil(std::sqrt(bent(reach_of(path, center), path.length()) / deviation))));
+  const double wanted = std::max(1.0, std::ceil(std::sqrt(bent(reach_of(path, center), path.length()) / deviation)));
+  if (!(wanted <= kMostPieces))
+    fail(ExitCode::bad_input,
+         "{} turns or speeds up so much within the step that paths beside it bend by {:.2g} m, while the sheet is "
+         "{:.2g} m "
+         "thin: take shorter steps, or a slower motion",
+         solids.name(solid), bent(reach_of(path, center), path.length()), 100 * deviation);
+  const auto pieces = static_cast<std::size_t>(wanted);
   const Box3 own = shape_->bounds();
   const bool finite = own.sizes().allFinite();
   swept_ = finite ? Box3() : own;

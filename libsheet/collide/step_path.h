@@ -41,8 +41,8 @@ struct StepPath {
       thickness; // at each vertex [m]: volume / area of its triangles, at most twice the length of its edges
   std::vector<double>
       mass; // of each vertex [kg]; a third of its triangles' (volume / 3 where the density is not given)
-  std::vector<std::uint64_t> touch; // bit i: held by solid i
-  std::vector<Axes> fixed;          // where held or touching: moved by nothing else (infinite mass)
+  std::vector<std::int32_t> touch; // the solid that holds each vertex, or no_solid
+  std::vector<Axes> fixed;         // where held or touching: moved by nothing else (infinite mass)
 
   [[nodiscard]] double length() const { return end_time - start_time; }
 };

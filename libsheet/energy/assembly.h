@@ -3,6 +3,7 @@
 // every term. Elements with the same stencil share a place in one buffer, which the MatrixPattern gathers into the
 // matrix.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,8 +39,9 @@ public:
                         Eigen::VectorXd& gradient, SparseLower& matrix);
   // The Hessian at u of the terms of one kind (inertial or elastic) times a vector.
   [[nodiscard]] Eigen::VectorXd multiply(const Terms& terms, Kind kind, const Unknowns& u, const Eigen::VectorXd& x);
-  // Seconds spent in each term (summed over threads) and, last, in gathering, since construction or the last reset.
+  // Seconds spent in each term (summed over threads) and, last, in gathering, since construction or clear_seconds.
   [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
+  void clear_seconds() { std::ranges::fill(seconds_, 0.0); }
 
 private:
   [[nodiscard]] std::size_t chunks() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/energy/model.h"
 
+#include "libsheet/base/error.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/gravity.h"
 #include "libsheet/energy/hinge.h"
@@ -33,6 +34,8 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
     terms.push_back(make_term(Bath(model.bath->density, model.gravity, model.bath->level, model.bath->clings)));
   if (!model.contacts.empty())
     terms.push_back(make_term(Contact(model.contacts)));
+  if (terms.empty())
+    fail(ExitCode::bad_input, "the model has no term: neither viscosity nor inertia nor any force");
   return terms;
 }
 

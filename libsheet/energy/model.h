@@ -40,6 +40,7 @@ struct Model {
   [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && viscosity > 0; }
 };
 
+// Throws Error (bad_input) where there are none.
 [[nodiscard]] Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& mesh);
 
 } // namespace sheet

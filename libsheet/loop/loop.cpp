@@ -567,7 +567,7 @@ void check(const LoopOptions& options) {
   if (!options.until && !options.steps)
     fail(ExitCode::usage, "when does it end? give --until SECONDS or --steps N");
   if (options.pipeline.find_first_not_of(" \t\n") == std::string::npos)
-    fail(ExitCode::usage, "no pipeline: give the stages behind --, as in -- 'sheet-step | sheet-remesh'");
+    fail(ExitCode::usage, "no pipeline: give the stages behind --, as in -- 'sheet-remesh | sheet-step'");
   if (!options.resume.empty() && (options.input != "-" || options.output != "-"))
     fail(ExitCode::usage, "--resume FILE is input and output at once: give neither INPUT nor -o with it");
   [[maybe_unused]] const Keep keep = parse_keep(options);

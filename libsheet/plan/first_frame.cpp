@@ -8,11 +8,13 @@
 #include "libsheet/collide/solids.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/remesh/emit.h"
+#include "libsheet/remesh/mesh.h"
 #include "libsheet/remesh/tear.h"
 #include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/step_stage.h"
 
 namespace sheet {
 
@@ -74,6 +76,8 @@ double until_of(const Scene& scene, const scene::Scales& scales) {
 
 Frame checked_first_frame(const Scene& scene) {
   Frame frame = build_frame(scene);
+  (void)remesh::Mesh(frame.vertices, triangles(frame));
+  StepStage({}).check(frame);
   if (scene.inflow) {
     Frame copy = frame;
     EmitStage().emit(copy);
@@ -84,7 +88,7 @@ Frame checked_first_frame(const Scene& scene) {
   }
   if (!scene.solids.empty())
     check_outside_solids(scene, frame);
-  if (scene.contact && scene.contact->self) {
+  if (!scene.solids.empty() || (scene.contact && scene.contact->self)) {
     Frame copy = frame; // as if a step in which nothing moved had made it
     formats::Array start = formats::make_array("start_position", formats::Place::vertex, formats::Type::float64, 3, "m",
                                                formats::Transfer::drop, frame.vertices);

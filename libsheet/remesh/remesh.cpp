@@ -19,6 +19,7 @@ constexpr double repair_thickness = 1.3; // see Limits::thickness
 constexpr double flat_enough = 0.1;      // of an edge: a flip may move the surface so far at any fold
 constexpr double least_gain = 0.01;      // of the cosine of the smallest angle: about one degree
 constexpr double most_triangles = 1e8;
+constexpr double most_pieces = 1e4; // of an edge: squared, the triangles above
 constexpr int most_passes = 5, most_repairs = 3;
 
 class Remesher {
@@ -305,6 +306,23 @@ double wanted_triangles(const EditableSheet& sheet, const SizeField& size) {
   return sum;
 }
 
+// A vertex far away, as a step that has gone wrong leaves it, would be reached by needles of millions of pieces.
+void check_lengths(const EditableSheet& sheet, const SizeField& size) {
+  for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = sheet.mesh().corners(t)[i], b = sheet.mesh().corners(t)[(i + 1) % 3];
+      const Vector3 &x = sheet.at(a), &y = sheet.at(b);
+      const double length = (y - x).norm(), wanted = std::min(size.at(a), size.at(b));
+      if (!(length <= most_pieces * wanted))
+        fail(
+            ExitCode::bad_input,
+            "the edge from vertex {} at ({:.6g}, {:.6g}, {:.6g}) to vertex {} at ({:.6g}, {:.6g}, {:.6g}) is {:.3g} m "
+            "long, more than {:g} times the edges of {:g} m asked for: the sheet has blown up (shorter steps help), or "
+            "ask for longer edges",
+            a, x.x(), x.y(), x.z(), b, y.x(), y.y(), y.z(), length, most_pieces, wanted);
+    }
+}
+
 } // namespace
 
 Report remesh(formats::Frame& frame, const Scene* scene, const Options& options) {
@@ -318,6 +336,7 @@ Report remesh(formats::Frame& frame, const Scene* scene, const Options& options)
     fail(ExitCode::usage,
          "edges of {:g} m would cut this sheet into {:.2g} triangles, more than {:.2g}: ask for longer edges",
          size.shortest(), wanted, most_triangles);
+  check_lengths(sheet, size);
   const Report report = Remesher(sheet, size, options, wanted).run();
   sheet.put(frame);
   return report;

@@ -107,13 +107,14 @@ std::vector<std::vector<std::uint64_t>> grips_of(const Frame& frame, const Scene
       in_force |= std::uint64_t{1} << i;
   }
   std::vector<std::vector<std::uint64_t>> grips;
-  for (const auto& [name, wanted] : {std::pair("hold", in_force), std::pair("touch", ~std::uint64_t{0})}) {
-    const auto bits = masks(frame, name);
-    if (bits.empty())
-      continue;
-    grips.emplace_back(bits.begin(), bits.end());
-    for (std::uint64_t& b : grips.back())
-      b &= wanted;
+  for (const std::string_view name : {"hold", "touch"}) {
+    const formats::Array* array = frame.find(name);
+    for (std::size_t k = 0; array != nullptr && k < array->components; ++k) { // the k-th word of each vertex
+      std::vector<std::uint64_t>& bits = grips.emplace_back();
+      const std::uint64_t wanted = name == "hold" ? in_force : ~std::uint64_t{0};
+      for (std::size_t v = 0; v < frame.vertices; ++v)
+        bits.push_back(array->values<std::uint64_t>()[v * array->components + k] & wanted);
+    }
   }
   return grips;
 }

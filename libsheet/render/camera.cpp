@@ -52,21 +52,19 @@ Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up) {
   return std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside) + std::sin(elevation) * up;
 }
 
-ViewFit::ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin_x, double margin_y)
-    : options_(options), up_(up), toward_(direction_to_camera(options, up)), right_(right_of(-toward_, up)),
-      above_(right_.cross(-toward_)), aspect_(aspect) {
-  const double tangent = std::tan(options.field_of_view * degree / 2);
-  tangent_x_ = tangent * aspect * (1 - 2 * margin_x);
-  tangent_y_ = tangent * (1 - 2 * margin_y);
+ViewFit::ViewFit(const CameraOptions& options, const Vector3& up, double aspect, const Margins& margins)
+    : options_(options), up_(up), toward_(direction_to_camera(options, up)), aspect_(aspect) {
+  const Vector3 right = right_of(-toward_, up), above = right.cross(-toward_);
+  side_ = {right, -right, above, -above};
+  const double y = std::tan(options.field_of_view * degree / 2), x = y * aspect;
+  tangent_ = {x * (1 - 2 * margins.right), x * (1 - 2 * margins.left), y * (1 - 2 * margins.top),
+              y * (1 - 2 * margins.bottom)};
   most_.fill(-std::numeric_limits<double>::infinity());
 }
 
 void ViewFit::add(const Vector3& center, double radius) {
-  const double near_x = tangent_x_ * center.dot(toward_), near_y = tangent_y_ * center.dot(toward_);
-  const double x = center.dot(right_), y = center.dot(above_);
-  const double reach_x = radius * std::hypot(1, tangent_x_), reach_y = radius * std::hypot(1, tangent_y_);
-  most_ = {std::max(most_[0], near_x + x + reach_x), std::max(most_[1], near_x - x + reach_x),
-           std::max(most_[2], near_y + y + reach_y), std::max(most_[3], near_y - y + reach_y)};
+  for (std::size_t i = 0; i < 4; ++i)
+    most_[i] = std::max(most_[i], center.dot(tangent_[i] * toward_ + side_[i]) + radius * std::hypot(1, tangent_[i]));
 }
 
 void ViewFit::add(const ViewFit& other) {
@@ -78,20 +76,22 @@ Camera ViewFit::camera(const Vector3& middle, double growth) const {
   const Vector3 target = options_.target.value_or(middle);
   if (options_.eye)
     return {*options_.eye, target, up_, options_.field_of_view, aspect_};
-  const std::array<Vector3, 4> slope = {tangent_x_ * toward_ + right_, tangent_x_ * toward_ - right_,
-                                        tangent_y_ * toward_ + above_, tangent_y_ * toward_ - above_};
   std::array<double, 4> most = most_;
   for (std::size_t i = 0; i < 4; ++i)
-    most[i] += growth * (most[i] - slope[i].dot(middle));
-  Vector3 side; // where the eye is in the plane across its line of sight
-  if (options_.target)
-    side = target - target.dot(toward_) * toward_;
-  else
-    side = 0.5 * (most[0] - most[1]) * right_ + 0.5 * (most[2] - most[3]) * above_;
+    most[i] += growth * (most[i] - (tangent_[i] * toward_ + side_[i]).dot(middle));
+  Vector3 across = Vector3::Zero(); // where the eye is in the plane across its line of sight
   double distance = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 4; ++i)
-    distance = std::max(distance, (most[i] - slope[i].dot(side)) / (i < 2 ? tangent_x_ : tangent_y_));
-  const Vector3 eye = side + distance * toward_;
+  if (options_.target) {
+    across = target - target.dot(toward_) * toward_;
+    for (std::size_t i = 0; i < 4; ++i)
+      distance = std::max(distance, (most[i] - side_[i].dot(across)) / tangent_[i]);
+  } else { // as near as both pairs of sides allow, and in the middle between those of the other pair
+    for (const std::size_t i : {0, 2})
+      distance = std::max(distance, (most[i] + most[i + 1]) / (tangent_[i] + tangent_[i + 1]));
+    for (const std::size_t i : {0, 2})
+      across += 0.5 * (most[i] - most[i + 1] + distance * (tangent_[i + 1] - tangent_[i])) * side_[i];
+  }
+  const Vector3 eye = across + distance * toward_;
   return {eye, eye - toward_, up_, options_.field_of_view, aspect_};
 }
 

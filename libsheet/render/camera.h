@@ -55,14 +55,18 @@ private:
 // may be any unit vector.
 [[nodiscard]] Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up);
 
+// Parts of the picture's width or height that stay free at each edge.
+struct Margins {
+  double right = 0, left = 0, top = 0, bottom = 0;
+};
+
 // Finds the place of a camera of given direction from which all of some points are in the picture. A point p is in it
 // if
-//   |(p - eye).right| <= tangent_x (eye - p).toward,   likewise upwards,
+//   (p - eye).right <= tangent (eye - p).toward,   likewise to the left, upwards and downwards, each with its tangent,
 // which bounds four linear functions of p: their greatest values over the points are all that need be kept.
 class ViewFit {
 public:
-  // Margins: parts of the picture's width and height that stay free at each edge.
-  ViewFit(const CameraOptions& options, const Vector3& up, double aspect, double margin_x, double margin_y);
+  ViewFit(const CameraOptions& options, const Vector3& up, double aspect, const Margins& margins);
   void add(const Vector3& center, double radius); // a ball
   void add(const ViewFit& other);                 // of the same camera
   // With a target, on the line through it. `growth`: as if all points were so many times their distance farther from
@@ -71,10 +75,11 @@ public:
 
 private:
   CameraOptions options_;
-  Vector3 up_, toward_, right_, above_;
-  double aspect_, tangent_x_, tangent_y_;
-  std::array<double, 4>
-      most_; // of p.(tangent_x toward + right), (.. - right), (tangent_y toward + above), (.. - above)
+  Vector3 up_, toward_;
+  std::array<Vector3, 4> side_; // right, left, above, below
+  double aspect_;
+  std::array<double, 4> tangent_; // of the part of the field of view to each side
+  std::array<double, 4> most_;    // of p.(tangent toward + side)
 };
 
 } // namespace sheet::render

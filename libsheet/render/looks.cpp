@@ -95,11 +95,9 @@ std::vector<double> speed(const formats::Frame& frame) {
 
 std::vector<double> contacts(const formats::Frame& frame) {
   std::vector<double> result(frame.vertices, 0);
-  if (const formats::Array* touch = frame.find("touch")) {
-    const auto bits = touch->values<std::uint64_t>();
-    for (std::size_t i = 0; i < bits.size(); ++i)
-      result[i] = bits[i] != 0 ? 1 : 0;
-  }
+  const auto touched = touched_solids(frame);
+  for (std::size_t v = 0; v < touched.size(); ++v)
+    result[v] = touched[v] != no_solid ? 1 : 0;
   if (const formats::Array* springs = frame.find("contact_vertex"))
     for (const std::uint32_t v : springs->values<std::uint32_t>())
       result[v] = 2;

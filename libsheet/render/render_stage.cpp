@@ -20,7 +20,6 @@ namespace {
 
 constexpr double margin = 0.04;         // of the picture, around the subject
 constexpr double largest = 1e30;        // subject, far from where single precision ends [m]
-constexpr double scale_margin = 0.19;   // of its width, where a scale is drawn
 constexpr double unknown_growth = 0.25; // of a subject of which only the first frame is known
 constexpr double farthest = 1e9;        // eye, in sizes of the subject
 constexpr double thinnest = 1e-4;       // of the subject: a sheet below it is drawn as its mid-surface
@@ -131,12 +130,23 @@ struct RenderStage::Impl {
       meshes = scene != nullptr ? make_solids(*scene) : std::vector<SolidMesh>{};
   }
 
+  // Around the subject; what is written on the picture stands beside it.
+  [[nodiscard]] Margins margins() const {
+    const int width = options.draw.width, height = options.draw.height;
+    Margins m{margin, margin, margin, margin};
+    if (has_scale(options.look) && has_room_for_scale(width, height))
+      m.right = std::max(margin, scale_width(width, height));
+    if (options.look != Look::material)
+      m.bottom = std::max(margin, clock_height(width, height));
+    return m;
+  }
+
   void look_at(const formats::Frame& frame) {
     read_scene_of(frame);
     if (!survey) {
       up = up_of(scene);
       const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
-      survey.emplace(ViewFit(options.camera, up, aspect, has_scale(options.look) ? scale_margin : margin, margin));
+      survey.emplace(ViewFit(options.camera, up, aspect, margins()));
     }
     survey->add(frame, scene, meshes, options.look);
   }

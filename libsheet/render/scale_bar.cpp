@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,16 @@ namespace sheet::render {
 namespace {
 
 constexpr Ink dark = {40, 44, 52};
+
+// In pixels of the font: between what is written and the picture's edge, and what stands before it; the widest scale
+// (a bar, its ticks and "-1.2e-06"; the title's words are narrower); a line of text.
+constexpr int edge = 12, gap = 6, widest = 63, line = 11;
+constexpr std::size_t longest_label = 8;
+// Of the picture that the scale may take away.
+constexpr double most_width = 0.3;
+constexpr int least_height = 11 * line;
+
+int font_size(int width, int height) { return std::max(1, std::min(width, height) / 320); }
 
 struct Unit {
   const char* name; // Latin-1
@@ -33,14 +44,19 @@ std::vector<Unit> units_of(Look look) {
 std::uint8_t byte_of(float x) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0F, 1.0F))); }
 Ink ink_of(const Colour& displayed) { return {byte_of(displayed[0]), byte_of(displayed[1]), byte_of(displayed[2])}; }
 
-void draw_key(Bitmap& bitmap, int text, int margin) {
-  const char* names[] = {"free", "on a solid", "on the sheet"};
-  int y = margin;
+void draw_key(Bitmap& bitmap, int text, int x) {
+  const char* names[] = {"free", "on solid", "on sheet"};
+  int y = edge * text;
   for (int i = 0; i < 3; ++i, y += 14 * text) {
-    const int x = bitmap.width - margin - text_width("on the sheet", text) - 12 * text;
     fill(bitmap, x, y, 7 * text, 7 * text, ink_of(false_colour((static_cast<float>(i) + 0.5F) / 3, Look::contacts)));
     write_text(bitmap, x + 12 * text, y, names[i], text, dark);
   }
+}
+
+// No longer than there is room for.
+std::string label_of(double value, int decimals) {
+  std::string label = fmt::format("{:.{}f}", value, decimals);
+  return label.size() <= longest_label ? label : fmt::format("{:.2g}", value);
 }
 
 } // namespace
@@ -66,33 +82,50 @@ Ruler make_ruler(const Scale& scale, Look look, int most) {
               {}};
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
-    ruler.ticks.push_back({(k * step - low) / (high - low), fmt::format("{:.{}f}", k * step + 0.0, decimals)});
+    ruler.ticks.push_back({(k * step - low) / (high - low), label_of(k * step + 0.0, decimals)});
   return ruler;
 }
 
+bool has_room_for_scale(int width, int height) {
+  return scale_width(width, height) <= most_width && height >= least_height;
+}
+
+double scale_width(int width, int height) {
+  return static_cast<double>((gap + widest + edge) * font_size(width, height)) / width;
+}
+
+double clock_height(int width, int height) {
+  return has_room_for_scale(width, height)
+             ? static_cast<double>((gap + line + edge) * font_size(width, height)) / height
+             : 0;
+}
+
 void draw_scale(Bitmap& bitmap, const Scale& scale, Look look, double time) {
-  const int text = std::max(1, bitmap.height / 320), margin = 12 * text;
+  if (!has_room_for_scale(bitmap.width, bitmap.height))
+    return;
+  const int text = font_size(bitmap.width, bitmap.height), margin = edge * text,
+            x0 = bitmap.width - margin - widest * text;
   const std::string clock = fmt::format("t = {:.4g} s", time);
   write_text(bitmap, margin, bitmap.height - margin - 7 * text, clock, text, dark);
   if (look == Look::contacts)
-    draw_key(bitmap, text, margin);
+    draw_key(bitmap, text, x0);
   if (look != Look::thickness && look != Look::curvature && look != Look::speed)
     return;
-  const int height = bitmap.height * 6 / 10, bar = 10 * text, y0 = margin + 16 * text;
+  const int bar = 10 * text, most_lines = 3, y0 = margin + most_lines * line * text,
+            height = bitmap.height - y0 - margin;
   const Ruler ruler = make_ruler(scale, look, std::max(2, height / (24 * text)));
-  int widest = 0;
-  for (const Tick& tick : ruler.ticks)
-    widest = std::max(widest, text_width(tick.label, text));
-  const int x0 = bitmap.width - margin - std::max(widest + 6 * text + bar, text_width(ruler.title, text));
-  write_text(bitmap, x0, margin, ruler.title, text, dark);
+  int y = margin;
+  std::istringstream words(ruler.title); // one below the other
+  for (std::string word; words >> word; y += line * text)
+    write_text(bitmap, x0, y, word, text, dark);
   fill(bitmap, x0 - 1, y0 - 1, bar + 2, height + 2, dark);
-  for (int y = 0; y < height; ++y)
-    fill(bitmap, x0, y0 + y, bar, 1,
-         ink_of(false_colour(1 - (static_cast<float>(y) + 0.5F) / static_cast<float>(height), look)));
+  for (int row = 0; row < height; ++row)
+    fill(bitmap, x0, y0 + row, bar, 1,
+         ink_of(false_colour(1 - (static_cast<float>(row) + 0.5F) / static_cast<float>(height), look)));
   for (const Tick& tick : ruler.ticks) {
-    const int y = y0 + static_cast<int>(std::lround((1 - tick.place) * (height - 1)));
-    fill(bitmap, x0 + bar, y, 3 * text, 1, dark);
-    write_text(bitmap, x0 + bar + 5 * text, y - 3 * text, tick.label, text, dark);
+    const int row = y0 + static_cast<int>(std::lround((1 - tick.place) * (height - 1)));
+    fill(bitmap, x0 + bar, row, 3 * text, 1, dark);
+    write_text(bitmap, x0 + bar + 5 * text, row - 3 * text, tick.label, text, dark);
   }
 }
 

@@ -20,7 +20,14 @@ struct Ruler {
 // Round values between the ends of the scale, at most about `most` of them, in the unit of the SI that suits.
 [[nodiscard]] Ruler make_ruler(const Scale& scale, Look look, int most);
 
-// Draws the bar at the right edge, and "t = 0.25 s" at the lower left. Nothing for looks without a scale but the time.
+// Whether a picture of that size has room for scale and time: a scale without numbers says nothing.
+[[nodiscard]] bool has_room_for_scale(int width, int height);
+// The parts of a picture's width and height that the scale and the time take away at the right and at the bottom.
+[[nodiscard]] double scale_width(int width, int height);
+[[nodiscard]] double clock_height(int width, int height);
+
+// Draws the bar at the right edge, and "t = 0.25 s" at the lower left, where there is room. Nothing for looks without a
+// scale but the time.
 void draw_scale(Bitmap& bitmap, const Scale& scale, Look look, double time);
 
 } // namespace sheet::render

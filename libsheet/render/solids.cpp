@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/render/solids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
@@ -13,14 +15,20 @@ namespace sheet::render {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int around = 192; // facets of a circle
+const double crease_cosine = std::cos(40 * pi / 180);
+
+// Of so many solids, such that a crowd of them has no more triangles than 16 have.
+int facets_of_circles(std::size_t solids) {
+  constexpr double most = 192, least = 12;
+  return static_cast<int>(std::max(least, most * std::min(1.0, std::sqrt(16 / static_cast<double>(solids)))));
+}
 
 // Surfaces of revolution about the y axis: a profile of points (radius, height) and normals, from top to bottom.
 struct ProfilePoint {
   double radius, height, normal_radius, normal_height;
 };
 
-void revolve(const std::vector<ProfilePoint>& profile, SolidMesh& mesh) {
+void revolve(const std::vector<ProfilePoint>& profile, int around, SolidMesh& mesh) {
   for (const ProfilePoint& p : profile)
     for (int i = 0; i < around; ++i) {
       const double angle = 2 * pi * i / around, c = std::cos(angle), s = std::sin(angle);
@@ -41,7 +49,7 @@ void revolve(const std::vector<ProfilePoint>& profile, SolidMesh& mesh) {
 }
 
 // The arc of a sphere from one polar angle to another, its center at the height `center`.
-void add_arc(double radius, double center, double from, double to, std::vector<ProfilePoint>& profile) {
+void add_arc(double radius, double center, double from, double to, int around, std::vector<ProfilePoint>& profile) {
   const int steps = std::max(2, static_cast<int>(std::lround(around * std::abs(to - from) / (2 * pi))));
   for (int i = 0; i <= steps; ++i) {
     const double polar = from + (to - from) * i / steps;
@@ -67,19 +75,52 @@ void add_box(const Vector3& size, SolidMesh& mesh) {
     }
 }
 
+// A corner's normal is the mean of those of the triangles around its vertex that are not across a crease from it;
+// where corners of a vertex differ, the vertex stands there once for each.
+void add_normals(SolidMesh& mesh) {
+  std::vector<Vector3> of_triangle;
+  std::vector<std::vector<std::uint32_t>> around_vertex(mesh.positions.size()); // triangles
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    of_triangle.push_back(
+        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a])); // times twice the area
+    for (const std::uint32_t v : mesh.triangles[t])
+      around_vertex[v].push_back(t);
+  }
+  const auto smooth = [&](std::uint32_t s, std::uint32_t t) {
+    const Vector3 &m = of_triangle[s], &n = of_triangle[t];
+    return m.dot(n) >= crease_cosine * m.norm() * n.norm();
+  };
+  const std::vector<Vector3> places = std::exchange(mesh.positions, {});
+  const std::vector<Corners> corners = mesh.triangles;
+  std::vector<std::uint32_t> made; // at a vertex
+  for (std::uint32_t v = 0; v < places.size(); ++v) {
+    made.clear();
+    for (const std::uint32_t t : around_vertex[v]) {
+      Vector3 sum = Vector3::Zero();
+      for (const std::uint32_t s : around_vertex[v])
+        if (smooth(s, t))
+          sum += of_triangle[s];
+      const Vec normal = sum.stableNormalized().cast<float>();
+      auto it = std::ranges::find_if(made, [&](std::uint32_t m) { return mesh.normals[m] == normal; });
+      if (it == made.end()) {
+        it = made.insert(it, static_cast<std::uint32_t>(mesh.positions.size()));
+        mesh.positions.push_back(places[v]);
+        mesh.normals.push_back(normal);
+      }
+      for (std::size_t i = 0; i < 3; ++i)
+        if (corners[t][i] == v)
+          mesh.triangles[t][i] = *it;
+    }
+  }
+}
+
 void add_file(const scene::SolidMesh& shape, SolidMesh& mesh) try {
-  const formats::ForeignMesh file = import_named_mesh(shape.file).mesh;
+  const formats::ForeignMesh file = import_named_mesh(find_named_file(shape.file, shape.checksum)).mesh;
   for (const auto& p : file.points)
     mesh.positions.push_back(shape.scale * Vector3(p[0], p[1], p[2]));
   mesh.triangles = file.triangles;
-  std::vector<Vector3> sum(mesh.positions.size(), Vector3::Zero());
-  for (const Corners& t : mesh.triangles) {
-    const Vector3 n = (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
-    for (const std::uint32_t v : t)
-      sum[v] += n;
-  }
-  for (const Vector3& n : sum)
-    mesh.normals.push_back(n.stableNormalized().cast<float>());
+  add_normals(mesh);
 } catch (const Error& error) {
   fail(error.code(),
        "[[solid]] {}: {} (the scene names it as seen from the folder in which sheet-init ran: draw from there)",
@@ -87,40 +128,40 @@ void add_file(const scene::SolidMesh& shape, SolidMesh& mesh) try {
 }
 
 // False: there is nothing to draw as a mesh.
-bool add_shape(const scene::SolidShape& shape, SolidMesh& mesh) {
+bool add_shape(const scene::SolidShape& shape, int around, SolidMesh& mesh) {
   using namespace scene;
   std::vector<ProfilePoint> profile;
   return std::visit(
-      Overloaded{
-          [&](const Sphere& s) {
-            add_arc(s.radius, 0, 0, pi, profile);
-            revolve(profile, mesh);
-            return true;
-          },
-          [&](const SolidBox& s) {
-            add_box(s.size, mesh);
-            return true;
-          },
-          [&](const Capsule& s) {
-            add_arc(s.radius, s.length / 2, 0, pi / 2, profile);
-            add_arc(s.radius, -s.length / 2, pi / 2, pi, profile);
-            revolve(profile, mesh);
-            return true;
-          },
-          [&](const Cylinder& s) {
-            const double r = s.radius, y = s.height / 2;
-            revolve({{0, y, 0, 1}, {r, y, 0, 1}, {r, y, 1, 0}, {r, -y, 1, 0}, {r, -y, 0, -1}, {0, -y, 0, -1}}, mesh);
-            return true;
-          },
-          [](const HalfSpace&) { return false; },
-          [&](const scene::SolidMesh& s) {
-            if (s.file.ends_with(".vdb")) {
-              log::warning("[[solid]] {}: {} is a distance field and is not drawn", mesh.solid, s.file);
-              return false;
-            }
-            add_file(s, mesh);
-            return true;
-          }},
+      Overloaded{[&](const Sphere& s) {
+                   add_arc(s.radius, 0, 0, pi, around, profile);
+                   revolve(profile, around, mesh);
+                   return true;
+                 },
+                 [&](const SolidBox& s) {
+                   add_box(s.size, mesh);
+                   return true;
+                 },
+                 [&](const Capsule& s) {
+                   add_arc(s.radius, s.length / 2, 0, pi / 2, around, profile);
+                   add_arc(s.radius, -s.length / 2, pi / 2, pi, around, profile);
+                   revolve(profile, around, mesh);
+                   return true;
+                 },
+                 [&](const Cylinder& s) {
+                   const double r = s.radius, y = s.height / 2;
+                   revolve({{0, y, 0, 1}, {r, y, 0, 1}, {r, y, 1, 0}, {r, -y, 1, 0}, {r, -y, 0, -1}, {0, -y, 0, -1}},
+                           around, mesh);
+                   return true;
+                 },
+                 [](const HalfSpace&) { return false; },
+                 [&](const scene::SolidMesh& s) {
+                   if (s.file.ends_with(".vdb")) {
+                     log::warning("[[solid]] {}: {} is a distance field and is not drawn", mesh.solid, s.file);
+                     return false;
+                   }
+                   add_file(s, mesh);
+                   return true;
+                 }},
       shape);
 }
 
@@ -128,11 +169,12 @@ bool add_shape(const scene::SolidShape& shape, SolidMesh& mesh) {
 
 std::vector<SolidMesh> make_solids(const Scene& scene) {
   std::vector<SolidMesh> meshes;
+  const int around = facets_of_circles(scene.solids.size());
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const scene::Solid& solid = scene.solids[i];
     SolidMesh mesh;
     mesh.solid = i;
-    if (!add_shape(solid.shape, mesh))
+    if (!add_shape(solid.shape, around, mesh))
       continue;
     const Eigen::Matrix3d turn = matrix(solid.rotation);
     for (Vector3& x : mesh.positions)

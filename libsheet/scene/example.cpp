@@ -182,12 +182,14 @@ center = [0, "-0.3 m", 0]
 #normal = [0, 1, 0]
 #surface_velocity = [0, 0, "25 mm/s"]
 
-# A mesh (.obj .off .ply .stl) or a distance field (.vdb).
+# A mesh (.obj .off .ply .stl) or a distance field (.vdb). In a frame's scene it has a `checksum` besides, by which stages find
+# the file and tell whether it has changed.
 #[[solid]]
 #shape = "mesh"
 #file = "bunny.off"
 #scale = 2.0
 #voxel_size = "5 mm"
+#checksum = "0123456789abcdef"
 #center = [0, -0.6, 0]
 
 # ------------------------------------------------------------------------ new liquid that flows in at a border

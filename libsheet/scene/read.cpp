@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/read.h"
 
+#include <limits>
+
 #include "libsheet/base/files.h"
 #include "libsheet/scene/tables.h"
 
 namespace sheet::scene {
 namespace {
 
-// [[hold]]s and [[solid]]s: each has a bit of 64 in the arrays "hold" and "touch" of a frame.
-constexpr std::size_t most_of_a_kind = 64;
+// [[hold]]s have a bit of 64 each in the array "hold" of a frame.
+constexpr std::size_t most_holds = 64;
 
 // What only several tables together can say.
 void check_together(const Scene& scene, const Node& document, Problems& problems) {
@@ -57,7 +59,7 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
       return {};
     return named(key, *node);
   };
-  const auto list = [&](std::string_view key) {
+  const auto list = [&](std::string_view key, std::size_t most) {
     std::vector<TableReader> tables;
     const Node* node = top.take(key);
     if (!node)
@@ -66,9 +68,9 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
       problems.add(node->place, fmt::format("{0}: expected tables [[{0}]], got {1}", key, describe(node->type)));
       return tables;
     }
-    if (node->items.size() > most_of_a_kind)
-      problems.add(node->items[most_of_a_kind].place, fmt::format("{0}: {1} tables [[{0}]]; a scene may have {2}", key,
-                                                                  node->items.size(), most_of_a_kind));
+    if (node->items.size() > most)
+      problems.add(node->items[most].place,
+                   fmt::format("{0}: {1} tables [[{0}]]; a scene may have {2}", key, node->items.size(), most));
     for (const Node& item : node->items) {
       if (item.type == Node::Type::table)
         tables.emplace_back(item, fmt::format("[[{}]]", key), problems);
@@ -91,9 +93,9 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     scene.sheet = read_sheet(named("sheet", *document.find("sheet")), scene.environment, files);
   else
     scene.sheet.shape = SheetMesh{"", 1}; // has every border
-  for (TableReader& table : list("hold"))
+  for (TableReader& table : list("hold", most_holds))
     scene.holds.push_back(read_hold(table, scene.sheet, scene.model));
-  for (TableReader& table : list("solid"))
+  for (TableReader& table : list("solid", std::numeric_limits<std::size_t>::max()))
     scene.solids.push_back(read_solid(table, scene.environment, files));
   if (auto table = optional("inflow"))
     scene.inflow = read_inflow(*table, scene.sheet);

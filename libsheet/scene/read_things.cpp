@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [[hold]], [[solid]], [inflow], [tear], [contact]
+#include <filesystem>
+
+#include "libsheet/base/named_files.h"
 #include "libsheet/scene/tables.h"
 #include "libsheet/scene/words.h"
 
@@ -79,6 +82,17 @@ struct KnownSolid {
   std::string_view keys;
 };
 
+// Of the file; sheet-init finds it out, so that stages can tell whether they read the same one.
+std::string read_checksum(TableReader& table, const std::string& file, const Files& files) {
+  const std::string told = table.text("checksum").value_or("");
+  if (!files.must_exist || !std::filesystem::is_regular_file(file))
+    return told;
+  const std::string found = checksum_of_file(file);
+  if (!told.empty() && told != found)
+    table.wrong("checksum", fmt::format("\"{}\" has {}: another file, or take the key away", file, found));
+  return found;
+}
+
 KnownSolid read_solid_shape(TableReader& table, std::size_t kind, const Environment& environment, const Files& files) {
   switch (kind) {
   case 0:
@@ -104,8 +118,10 @@ KnownSolid read_solid_shape(TableReader& table, std::size_t kind, const Environm
   default: {
     std::string file = read_file(table, files, mesh_files);
     const double scale = table.quantity_or("scale", quantity::number, 1, Bound::positive);
-    return {SolidMesh{std::move(file), scale, table.quantity("voxel_size", quantity::length, Bound::positive)},
-            "file, scale, voxel_size, rotation"};
+    const auto voxel_size = table.quantity("voxel_size", quantity::length, Bound::positive);
+    std::string checksum = read_checksum(table, file, files);
+    return {SolidMesh{std::move(file), scale, voxel_size, std::move(checksum)},
+            "file, scale, voxel_size, checksum, rotation"};
   }
   }
 }
@@ -146,7 +162,8 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
     table.has_no_meaning({"radius", "size", "length", "height", "normal", "file", "scale", "voxel_size", "rotation"},
                          because);
   } else {
-    for (const auto key : {"radius", "size", "length", "height", "normal", "file", "scale", "voxel_size", "rotation"})
+    for (const auto key :
+         {"radius", "size", "length", "height", "normal", "file", "scale", "voxel_size", "checksum", "rotation"})
       table.take(key); // judged when the shape is known
   }
   solid.motion = read_motion(table, solid.center);

@@ -213,6 +213,7 @@ struct SolidMesh {
   std::string file;
   double scale;                     // metres per unit of the file
   std::optional<double> voxel_size; // of the distance field [m]; absent: the program chooses
+  std::string checksum = {};        // of the file (named_files.h); empty: not known
   bool operator==(const SolidMesh&) const = default;
 };
 using SolidShape = std::variant<Sphere, SolidBox, Capsule, Cylinder, HalfSpace, SolidMesh>;

@@ -202,6 +202,8 @@ void write_solid(Writer& out, const Solid& solid) {
                           out.line("file", toml_text(s.file));
                           out.line("scale", s.scale);
                           out.line("voxel_size", s.voxel_size);
+                          if (!s.checksum.empty())
+                            out.line("checksum", toml_text(s.checksum));
                         }},
              solid.shape);
   out.line_unless_zero("center", solid.center);

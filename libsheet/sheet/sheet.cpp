@@ -2,7 +2,9 @@
 #include "libsheet/sheet/sheet.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +17,8 @@ using formats::Transfer;
 using formats::Type;
 
 namespace {
+
+constexpr std::size_t word_bits = 64;
 
 const Array& required(const Frame& frame, std::string_view name) {
   const Array* array = frame.find(name);
@@ -86,6 +90,39 @@ std::span<std::uint64_t> put_masks(Frame& frame, std::string_view name) {
           .values<std::uint64_t>();
   std::fill(bits.begin(), bits.end(), 0);
   return bits;
+}
+
+std::vector<std::int32_t> touched_solids(const Frame& frame, std::size_t solids) {
+  std::vector<std::int32_t> touched(frame.vertices, no_solid);
+  const Array* array = frame.find("touch");
+  if (array == nullptr)
+    return touched;
+  const auto words = array->values<std::uint64_t>();
+  for (std::size_t i = words.size(); i-- > 0;) { // from the last word, so that the first solid counts
+    const std::size_t solid = i % array->components * word_bits + static_cast<std::size_t>(std::countr_zero(words[i]));
+    if (words[i] != 0 && solid < solids)
+      touched[i / array->components] = static_cast<std::int32_t>(solid);
+  }
+  return touched;
+}
+
+std::vector<std::int32_t> touched_solids(const Frame& frame) {
+  return touched_solids(frame, std::numeric_limits<std::int32_t>::max());
+}
+
+void put_touched_solids(Frame& frame, std::span<const std::int32_t> touch, std::size_t solids) {
+  const std::size_t count = std::max<std::size_t>(1, (solids + word_bits - 1) / word_bits);
+  const auto words =
+      frame
+          .put(formats::make_array("touch", Place::vertex, Type::uint64, static_cast<std::uint32_t>(count), "1",
+                                   Transfer::common, frame.vertices))
+          .values<std::uint64_t>();
+  std::fill(words.begin(), words.end(), 0);
+  for (std::size_t v = 0; v < touch.size(); ++v)
+    if (touch[v] != no_solid) {
+      const auto solid = static_cast<std::size_t>(touch[v]);
+      words[v * count + solid / word_bits] = std::uint64_t{1} << solid % word_bits;
+    }
 }
 
 void put_number(Frame& frame, std::string_view name, std::string_view unit, double value) {

@@ -33,6 +33,14 @@ using Corners = std::array<std::uint32_t, 3>; // vertex indices of a triangle, c
 // Adds or replaces one; all bits are 0.
 [[nodiscard]] std::span<std::uint64_t> put_masks(formats::Frame& frame, std::string_view name);
 
+// The array touch: for each vertex the first of the scene's `solids` solids that it touches, or no_solid.
+inline constexpr std::int32_t no_solid = -1;
+[[nodiscard]] std::vector<std::int32_t> touched_solids(const formats::Frame& frame, std::size_t solids);
+// The same of a frame whose scene is not known.
+[[nodiscard]] std::vector<std::int32_t> touched_solids(const formats::Frame& frame);
+// Adds or replaces it; `touch` has a solid or no_solid for each vertex.
+void put_touched_solids(formats::Frame& frame, std::span<const std::int32_t> touch, std::size_t solids);
+
 // Bits of the array inlet.
 inline constexpr std::uint64_t in_inlet = 1;        // moves at the inflow's velocity
 inline constexpr std::uint64_t at_inlet_border = 2; // where liquid enters

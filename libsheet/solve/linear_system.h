@@ -71,6 +71,7 @@ public:
 
   [[nodiscard]] std::size_t unknowns() const { return assembly_.unknowns(); }
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
+  void clear_seconds() { assembly_.clear_seconds(); }
   [[nodiscard]] const SparseLower& matrix() const { return matrix_; }
   [[nodiscard]] double flops() const { return single_.flops(); }
 

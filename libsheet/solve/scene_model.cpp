@@ -66,19 +66,20 @@ void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   }
 }
 
-bool has_touching(const Scene& scene, const Frame& frame) {
-  const auto touch = sheet::masks(frame, "touch");
-  return !scene.solids.empty() && std::any_of(touch.begin(), touch.end(), [](std::uint64_t m) { return m != 0; });
-}
-
-// No slip: what touches a solid moves with its surface [Batty et al. 2012, section 3.5].
-void add_touching(const Scene& scene, const Frame& frame, Model& model) {
-  const auto masks = sheet::masks(frame, "touch");
-  for (std::size_t i = 0; i < scene.solids.size() && !masks.empty(); ++i) {
-    Hold hold;
-    hold.vertices = with_bit(masks, i);
-    if (hold.vertices.empty())
+// No slip: what touches a solid moves with its surface [Batty et al. 2012, section 3.5]. Gives whether anything does.
+bool add_touching(const Scene& scene, const Frame& frame, Model& model) {
+  std::vector<std::vector<std::uint32_t>> touching(scene.solids.size());
+  const auto touched = touched_solids(frame, scene.solids.size());
+  for (std::uint32_t v = 0; v < touched.size(); ++v)
+    if (touched[v] != no_solid)
+      touching[static_cast<std::size_t>(touched[v])].push_back(v);
+  bool any = false;
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    if (touching[i].empty())
       continue;
+    any = true;
+    Hold hold;
+    hold.vertices = std::move(touching[i]);
     hold.motion = [solid = scene.solids[i]](double from, double to) {
       RigidMotion motion = rigid(scene::motion_between(solid.motion, from, to));
       motion.shift += (to - from) * solid.surface_velocity;
@@ -86,6 +87,7 @@ void add_touching(const Scene& scene, const Frame& frame, Model& model) {
     };
     model.holds.push_back(std::move(hold));
   }
+  return any;
 }
 
 // What is in the inlet moves at the inflow's velocity, and does not turn.
@@ -169,9 +171,9 @@ void put_reactions(std::span<const Vector3> reactions, Frame& frame) {
     return;
   Array force = formats::make_array("touch_force", formats::Place::vertex, formats::Type::float64, 3, "N",
                                     formats::Transfer::conserve, frame.vertices);
-  const auto touch = sheet::masks(frame, "touch");
+  const auto touched = touched_solids(frame);
   for (std::size_t v = 0; v < reactions.size(); ++v)
-    force.values<Vector3>()[v] = touch[v] != 0 ? reactions[v] : Vector3(Vector3::Zero());
+    force.values<Vector3>()[v] = touched[v] != no_solid ? reactions[v] : Vector3(Vector3::Zero());
   frame.put(std::move(force));
 }
 
@@ -190,11 +192,12 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (scene.environment.bath)
     model.bath =
         BathModel{scene.environment.bath->density, scene.environment.bath->level, scene.environment.bath->clings};
-  add_touching(scene, frame, model); // first: along the axes that a [[hold]] prescribes that one counts
+  const bool touching =
+      add_touching(scene, frame, model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
   add_inlet(scene, frame, mesh, model);
   add_contacts(scene, frame, model);
-  model.reactions = scene.contact && scene.contact->adhesion && has_touching(scene, frame);
+  model.reactions = scene.contact && scene.contact->adhesion && touching;
   return model;
 }
 

@@ -83,8 +83,6 @@ void Stepper::prepare_cache(const State& state, StepReport& report) {
   if (same && !cache_->terms.empty())
     return;
   Terms terms = make_terms(model_, state.mesh);
-  if (terms.empty())
-    fail(ExitCode::bad_input, "the model has no term: neither viscosity nor inertia nor any force");
   // The elements that the matrix has, beyond those of the mesh.
   std::vector<std::uint32_t> signature;
   for (const auto& term : terms) {
@@ -104,7 +102,7 @@ void Stepper::prepare_cache(const State& state, StepReport& report) {
   cache_->signature = std::move(signature);
   cache_->terms = std::move(terms);
   cache_->system.analyze(state.mesh, cache_->terms, model_.has_angles());
-  report.seconds_analysis = cache_->system.seconds_analysis();
+  report.seconds_analysis += cache_->system.seconds_analysis();
 }
 
 void Stepper::set_model(Model model) {
@@ -279,14 +277,22 @@ void Stepper::advance_flat(State& state, double dt, StepReport& report) {
   report.error = std::max(report.error, flat.error);
   report.reactions = flat.reactions;
   report.seconds_analysis += flat.seconds_analysis;
-  report.terms.insert(report.terms.end(), flat.terms.begin(), flat.terms.end());
 }
 
-void Stepper::finish(StepReport& report, const std::vector<double>& seconds_before) const {
-  const std::vector<double>& after = cache_->system.assembly().seconds();
-  for (std::size_t t = 0; t < after.size(); ++t)
-    report.terms.push_back(
-        {t < cache_->terms.size() ? cache_->terms[t]->name() : "gathering", after[t] - seconds_before[t]});
+void Stepper::clear_times() {
+  if (cache_)
+    cache_->system.clear_seconds();
+  if (flat_)
+    flat_->clear_times();
+}
+
+// Of what was done since clear_times, without arcs as well.
+void Stepper::tell_times(StepReport& report) const {
+  const std::vector<double>& seconds = cache_->system.assembly().seconds();
+  for (std::size_t t = 0; t < seconds.size(); ++t)
+    report.terms.push_back({t < cache_->terms.size() ? cache_->terms[t]->name() : "gathering", seconds[t]});
+  if (flat_ && flat_->cache_ && flat_->cache_->system.assembly().seconds().back() > 0)
+    flat_->tell_times(report);
 }
 
 StepReport Stepper::step(State& state, double dt) {
@@ -294,14 +300,14 @@ StepReport Stepper::step(State& state, double dt) {
     fail(ExitCode::usage, "a time step of {} s is not possible", dt);
   StepReport report;
   filters_errors_ = false; // it is only told
+  clear_times();
   prepare_cache(state, report);
-  const std::vector<double> seconds = cache_->system.assembly().seconds();
   State next = state;
   limit_leaning(next, model_.holds);
   advance(next, dt, 0, report);
   next.time = state.time + dt;
   state = std::move(next);
-  finish(report, seconds);
+  tell_times(report);
   return report;
 }
 
@@ -329,8 +335,8 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
     fail(ExitCode::usage, "--tolerance: {} is not above 0", control.tolerance);
   StepReport report;
   filters_errors_ = true;
+  clear_times();
   prepare_cache(state, report);
-  const std::vector<double> seconds = cache_->system.assembly().seconds();
   const double wanted = control.dt > 0 ? control.dt : remaining;
   // No sliver of a step before the output time: two equal steps instead.
   const double first = wanted >= remaining ? remaining : wanted > 0.5 * remaining ? 0.5 * remaining : wanted;
@@ -427,7 +433,7 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
   state = std::move(best->end);
   if (best->dt >= remaining)
     state.time = until;
-  finish(report, seconds);
+  tell_times(report);
   return report;
 }
 

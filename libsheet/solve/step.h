@@ -56,7 +56,8 @@ struct StepReport {
   std::size_t worst = 0; // the vertex that has it
   std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex, at the end [N]
   double seconds_analysis = 0;
-  std::vector<TermTime> terms; // assembled terms, their element work summed over threads; last: gathering
+  // Assembled terms, their element work summed over threads, and gathering; again for what was done without arcs.
+  std::vector<TermTime> terms;
 };
 
 // Steps chosen by the error estimate. `dt` is the next step to try [s]; 0: not known yet.
@@ -95,7 +96,8 @@ private:
   [[nodiscard]] bool has_arcs() const { return model_.arcs && model_.has_angles(); }
   Stepper& without_arcs();
   void advance_flat(State& state, double dt, StepReport& report);
-  void finish(StepReport& report, const std::vector<double>& seconds_before) const;
+  void clear_times();
+  void tell_times(StepReport& report) const;
 
   Model model_;
   StepOptions options_;

@@ -114,16 +114,21 @@ struct StepStage::Impl {
     return until;
   }
 
-  void step(Frame& frame) {
+  // What the step is computed with. Errors as StepStage::check.
+  Model prepare(const Frame& frame) {
     check_magnitudes(frame);
     const Scene& scene = scenes.of(frame);
     connect_mesh(frame);
     check_edges(frame, *mesh);
-    const double until = end_of_step(scene, frame);
     if (mesh->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
     // Arcs reduce locking where the sheet bends by directors (docs/hard-cases.md says what they cost).
-    Model model = model_of(scene, frame, *mesh, options.bending, use_arcs);
+    return model_of(scene, frame, *mesh, options.bending, use_arcs);
+  }
+
+  void step(Frame& frame) {
+    Model model = prepare(frame);
+    const double until = end_of_step(scenes.of(frame), frame);
     if (stepper) {
       stepper->set_model(std::move(model));
     } else {
@@ -191,6 +196,11 @@ StepStage::StepStage(StepStageOptions options) : impl_(std::make_unique<Impl>())
 }
 
 StepStage::~StepStage() = default;
+
+void StepStage::check(const Frame& frame) {
+  const Model model = impl_->prepare(frame);
+  (void)make_terms(model, impl_->mesh);
+}
 
 void StepStage::step(Frame& frame) {
   try {

@@ -31,6 +31,8 @@ public:
   // Advances the frame by one step, never past its next_output_time. Throws Error: bad_input (no scene, a mesh that is
   // no oriented manifold, nothing to do), not_converged.
   void step(formats::Frame& frame);
+  // Throws what step throws before it begins to compute.
+  void check(const formats::Frame& frame);
 
   // With -v: the assembled terms, their shares of the time, steps, Newton iterations.
   void report() const;

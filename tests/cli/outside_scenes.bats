@@ -18,22 +18,41 @@ density = 1000
 END
 }
 
-@test "1: more holds or solids than a frame has bits for are refused, by every program" {
-  for kind in hold solid; do
-    cp disk.toml many.toml
-    for i in $(seq 65); do
-      [[ $kind != hold ]] || printf '[[hold]]\nregion = "rim"\n'
-      [[ $kind != solid ]] || printf '[[solid]]\nshape = "sphere"\ncenter = [9, 0, %d]\nradius = 0.1\n' "$i"
-    done >> many.toml
-    printf '[contact]\n' >> many.toml
-    run -3 sheet-init many.toml -o many.sheet
-    [[ $output == *"$kind: 65 tables [[$kind]]; a scene may have 64"* ]]
-    run -3 sheet-init --check many.toml
-    sheet-init disk.toml | sheet-print | grep -v '^| ' | sed '/^array scene /r '<(sed 's/^/| /' many.toml) |
-      sheet-parse > many.sheet
-    run -3 sheet-collide many.sheet -o out.sheet
-    run -3 sheet-step --dt 0.01 many.sheet -o out.sheet
+@test "1: more holds than a frame has bits for are refused, by every program" {
+  cp disk.toml many.toml
+  for _ in $(seq 65); do
+    printf '[[hold]]\nregion = "rim"\n' >> many.toml
   done
+  run -3 sheet-init many.toml -o many.sheet
+  [[ $output == *"hold: 65 tables [[hold]]; a scene may have 64"* ]]
+  run -3 sheet-init --check many.toml
+  sheet-init disk.toml | sheet-print | grep -v '^| ' | sed '/^array scene /r '<(sed 's/^/| /' many.toml) |
+    sheet-parse > many.sheet
+  run -3 sheet-collide many.sheet -o out.sheet
+  run -3 sheet-step --dt 0.01 many.sheet -o out.sheet
+}
+
+@test "1: a scene may have any number of solids: the last of 131 does what it does alone" {
+  { cat disk.toml; printf '[environment]\ngravity = [0, 0, -9.81]\n[tear]\nbelow = 1e-6\n[contact]\nadhesion = "1 Pa"\n'; } > alone.toml
+  cp alone.toml many.toml
+  for i in $(seq 130); do
+    printf '[[solid]]\nshape = "sphere"\ncenter = [9, 0, %d]\nradius = 0.1\n' "$i" >> many.toml
+  done
+  for scene in alone many; do
+    printf '[[solid]]\nshape = "plane"\ncenter = [0, 0, -0.01]\nnormal = [0, 0, 1]\nsurface_velocity = [0.5, 0, 0]\n' >> $scene.toml
+    sheet-init $scene.toml | sheet-loop -q --steps 20 --keep 1 -o $scene.sheet -- \
+      'sheet-remesh --edge-length 0.3 | sheet-tear | sheet-step --dt 5e-3 | sheet-collide'
+    sheet-select --last $scene.sheet | sheet-print > $scene.txt
+    sheet-render $scene.sheet --frames -1 --look contacts --ppm --size 64x36 --samples 2 --eye 0,0,5 > $scene.ppm
+  done
+  sheet-diff --ignore touch --ignore scene --ignore provenance alone.sheet many.sheet
+  grep -q '^array touch vertex uint64 1 ' alone.txt
+  grep -q '^array touch vertex uint64 3 ' many.txt
+  [[ $(sed -n '/^array touch /,/^array /p' many.txt | grep -c '^0 0 4$') -gt 9 ]]
+  cmp alone.ppm many.ppm
+  # bits of solids that the scene does not have hold nothing
+  sheet-print many.sheet | sed 's/^0 0 4$/0 0 8/' | sheet-parse | sheet-select --last > wrong.sheet
+  sheet-step --dt 5e-3 wrong.sheet | sheet-collide -q -o out.sheet
 }
 
 @test "3: what a hold has let go is remeshed like what nothing ever held" {
@@ -153,6 +172,11 @@ gravity = [0, 0, -9.81]'
   box_mesh 0.1 > box.obj
   refused 'voxels' $'[[solid]]\nshape = "mesh"\nfile = "box.obj"\ncenter = [0, 0, -1]\nvoxel_size = "1 um"'
   refused 'the sheet starts inside solid 0 (sphere)' $'[[solid]]\nshape = "sphere"\nradius = 0.5'
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n' > turned.obj
+  sed 's/^shape.*/shape = "mesh"\nfile = "turned.obj"/; /^radius/d; /^edge_length/d' disk.toml > turned.toml
+  sheet-init turned.toml | run -3 sheet-step --dt 1e-3
+  run -3 sheet-init --check turned.toml
+  [[ $output == *'triangles 0 and 1 run along it in the same direction'* ]]
   refused 'points out of the sheet' $'[inflow]\nregion = "rim"\nthickness = 0.01\nvelocity = [1, 0, 0]'
   sed -i 's/^thickness/center = [1e300, 0, 0]\nthickness/' disk.toml
   run -3 sheet-init disk.toml
@@ -206,6 +230,33 @@ gravity = [0, 0, -9.81]'
   [[ $(grep -c '^| \[\[solid\]\]' text) == 2 ]]
   run -3 sheet-init disk.toml --set solid.1.shape=plane
   run -2 sheet-init disk.toml --set solid.0.shape=plane --set solid.2.shape=plane
+}
+
+@test "25: a solid's mesh is found from elsewhere, and one that has changed is told" {
+  mkdir -p project/scenes/meshes project/out else/meshes
+  box_mesh 0.1 > project/scenes/meshes/box.obj
+  { cat disk.toml; printf '[[solid]]\nshape = "mesh"\nfile = "meshes/box.obj"\ncenter = [0, 0, -1]\n'; } > project/scenes/box.toml
+  (cd project && sheet-init scenes/box.toml | sheet-step --dt 1e-3 -o out/box.sheet)
+  collided() { (cd "$1" && sheet-collide "$BATS_TEST_TMPDIR/project/out/box.sheet" -o out.sheet); }
+  local folder
+  for folder in project project/scenes project/out project/scenes/meshes; do
+    collided $folder
+    (cd $folder && sheet-render out.sheet -o out.png --size 32x18 --samples 2 -q)
+  done
+  run -6 collided else
+  [[ $output == *'there is no such file'* ]]
+  box_mesh 0.11 > else/meshes/box.obj # has the name and is another
+  run -3 collided else
+  [[ $output == *'meshes/box.obj: it has changed since sheet-init ran'* ]]
+  cp else/meshes/box.obj project/scenes/meshes/
+  run -3 collided project
+  cd project
+  run -3 sheet-render out/box.sheet -o out.png --size 32x18 --samples 2
+  cd ..
+  # a scene that says which file it means
+  echo 'checksum = "0123456789abcdef"' >> project/scenes/box.toml
+  run -3 sheet-init project/scenes/box.toml
+  [[ $output == *'checksum: "project/scenes/meshes/box.obj" has '* ]]
 }
 
 @test "25: a pipeline's --help says what it does and does nothing" {

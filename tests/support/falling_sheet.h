@@ -32,7 +32,7 @@ struct FallingSheet {
     for (const Corners& t : triangles)
       for (const std::uint32_t v : t)
         path.mass[v] += thickness / 6 * (start[t[1]] - start[t[0]]).cross(start[t[2]] - start[t[0]]).norm();
-    path.touch.assign(start.size(), 0);
+    path.touch.assign(start.size(), no_solid);
     path.fixed.assign(start.size(), 0);
     path.velocity.assign(start.size(), velocity);
     path.triangles = triangles;

@@ -19,7 +19,7 @@ TEST(Release, PulledHarderThanTheAdhesion) {
   StepPath path;
   path.end_time = 0.5;
   path.end = {{0, 1.4, 0}, {1, 1.9, 0}, {0, 1.4, 1}, {1, 1.9, 1}, {0, 1.4, 2}};
-  path.touch = {2, 2, 2, 0, 2};
+  path.touch = {1, 1, 1, no_solid, 1};
   const double area = 0.25, tension = 8; // [m²], [Pa]
   const std::vector<double> areas(5, area);
   const Vector3 along = Vector3(std::sqrt(0.75), 0.5, 0);

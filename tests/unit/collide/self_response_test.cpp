@@ -38,7 +38,7 @@ struct Case {
     path.mass.assign(start.size(), 1);
     for (std::size_t v = 0; v < start.size(); ++v)
       path.mass[v] = 1 + 0.5 * static_cast<double>(v % 3);
-    path.touch.assign(start.size(), 0);
+    path.touch.assign(start.size(), no_solid);
     path.fixed.assign(start.size(), 0);
     reach = path.thickness;
   }
@@ -244,7 +244,7 @@ TEST(SelfResponse, NothingIsThrownByALever) {
   c.path.velocity.assign(6, Vector3::Zero());
   c.path.thickness.assign(6, 0.02);
   c.path.mass.assign(6, 1);
-  c.path.touch.assign(6, 0);
+  c.path.touch.assign(6, no_solid);
   c.path.fixed = {all_axes, all_axes, 0, all_axes, 0, 0};
   c.reach = c.path.thickness;
   c.displace(3, {0, 0, -0.03});

@@ -67,7 +67,7 @@ TEST(SolidContact, on_the_ground) {
       EXPECT_NEAR(sheet.path.end[v].y(), kThickness / 2, 1e-12);
       EXPECT_NEAR(sheet.path.end[v].x(), sheet.start[v].x(), 1e-12);
       EXPECT_EQ(sheet.path.velocity[v], Vector3(0, 0, 0));
-      EXPECT_EQ(sheet.path.touch[v], 1U);
+      EXPECT_EQ(sheet.path.touch[v], 0);
       EXPECT_EQ(sheet.path.fixed[v], all_axes);
     }
     EXPECT_TRUE(unsafe_triangles(sheet.path, ground).empty());
@@ -94,7 +94,7 @@ TEST(SolidContact, nothing_gets_through) {
       EXPECT_LT(test::least_distance(sheet.path, solids, 0, 1e-4, 10), kThickness) << name << speed;
       EXPECT_TRUE(unsafe_triangles(sheet.path, solids).empty()) << name << speed;
       for (std::size_t v = 0; v < sheet.start.size(); ++v)
-        if (sheet.path.touch[v] != 0 && report.pushed == 0) {
+        if (sheet.path.touch[v] != no_solid && report.pushed == 0) {
           EXPECT_NEAR(distance_at_end(sheet, solids, v), kThickness / 2, 1e-9) << name << speed;
         }
     }
@@ -162,7 +162,7 @@ TEST(SolidContact, met_by_a_turning_bar) {
   EXPECT_EQ(report.unresolved, 0U);
   EXPECT_TRUE(unsafe_triangles(sheet.path, solids).empty());
   for (std::size_t v = 0; v < sheet.start.size(); ++v)
-    if (sheet.path.touch[v] != 0) {
+    if (sheet.path.touch[v] != no_solid) {
       const Vector3 arm = sheet.path.end[v] - Vector3(0, -0.02, 0);
       EXPECT_LT((sheet.path.velocity[v] - 100 * Vector3::UnitX().cross(arm)).norm(), 1e-9);
     }
@@ -173,7 +173,7 @@ TEST(SolidContact, what_leaves_is_let_go) {
   FallingSheet sheet = falling(-0.01, kThickness / 2);
   EXPECT_EQ(resolve_solids(sheet.path, ground).touching, 0U);
   FallingSheet stuck = falling(-0.01, kThickness / 2);
-  stuck.path.touch.assign(stuck.start.size(), 1);
+  stuck.path.touch.assign(stuck.start.size(), 0);
   EXPECT_EQ(resolve_solids(stuck.path, ground).touching, stuck.start.size());
   EXPECT_NEAR(stuck.path.end[0].y(), kThickness / 2, 1e-12);
 }
@@ -186,7 +186,7 @@ TEST(SolidContact, holds_are_left_alone) {
   const SolidReport report = resolve_solids(sheet.path, ball);
   EXPECT_EQ(sheet.path.end[0], corner);
   EXPECT_EQ(sheet.path.end[60], middle);
-  EXPECT_EQ(sheet.path.touch[60], 0U);
+  EXPECT_EQ(sheet.path.touch[60], no_solid);
   EXPECT_GT(report.unresolved, 0U); // the held middle goes through the ball, and the report says so
 }
 
@@ -197,8 +197,8 @@ TEST(SolidContact, between_two_solids) {
   EXPECT_EQ(report.unresolved, 0U);
   bool ground = false, ball = false;
   for (std::size_t v = 0; v < sheet.start.size(); ++v) {
-    ground = ground || sheet.path.touch[v] == 1;
-    ball = ball || sheet.path.touch[v] == 2;
+    ground = ground || sheet.path.touch[v] == 0;
+    ball = ball || sheet.path.touch[v] == 1;
     EXPECT_GE(distance_at_end(sheet, solids, v, 0), kThickness / 8);
     EXPECT_GE(distance_at_end(sheet, solids, v, 1), kThickness / 8);
   }
@@ -296,11 +296,11 @@ TEST(SolidContact, held_along_one_axis) {
 TEST(SolidContact, what_touches_nothing_is_let_go) {
   const Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
   FallingSheet sheet = falling(0, 3 * kThickness);
-  sheet.path.touch.assign(sheet.start.size(), 1);
+  sheet.path.touch.assign(sheet.start.size(), 0);
   const auto end = sheet.path.end;
   EXPECT_EQ(resolve_solids(sheet.path, ground).touching, 0U);
   EXPECT_EQ(sheet.path.end, end);
-  EXPECT_EQ(sheet.path.touch, std::vector<std::uint64_t>(end.size(), 0));
+  EXPECT_EQ(sheet.path.touch, std::vector<std::int32_t>(end.size(), no_solid));
 }
 
 // A pin stops a triangle at a point far from its lightest corner, which is not thrown.
@@ -315,7 +315,7 @@ TEST(SolidContact, no_lever_throws_a_light_corner) {
   for (auto* list : {&sheet.path.thickness, &sheet.path.mass})
     list->assign(3, kThickness);
   sheet.path.mass[2] *= 1e-6;
-  sheet.path.touch.assign(3, 0);
+  sheet.path.touch.assign(3, no_solid);
   sheet.path.fixed.assign(3, 0);
   const double way = 2e-3;
   sheet.path.velocity.assign(3, Vector3(0, -way / kStep, 0));

@@ -8,7 +8,7 @@
 namespace sheet::render {
 namespace {
 
-const ViewFit any_view({}, Vector3::UnitY(), 1, 0, 0);
+const ViewFit any_view({}, Vector3::UnitY(), 1, {});
 
 Box box(const Vector3& low, const Vector3& high) {
   Box b;
@@ -41,18 +41,52 @@ TEST(Camera, the_box_is_in_the_picture_and_fills_it) {
 
 TEST(Camera, grows_about_the_middle_and_looks_at_its_target) {
   CameraOptions o;
-  ViewFit fit(o, {0, 1, 0}, 1, 0, 0);
+  ViewFit fit(o, {0, 1, 0}, 1, {});
   fit.add({0, 0, 0}, 1);
   const Vector3 eye = fit.camera({0, 0, 0}, 0).eye(), far = fit.camera({0, 0, 0}, 0.5).eye();
   EXPECT_NEAR(eye.norm(), 1 / std::sin(14 * std::numbers::pi / 180), 1e-9); // the cone touches the ball
   EXPECT_NEAR((far - 1.5 * eye).norm(), 0, 1e-9);
   o.target = Vector3(0.3, 0.1, 0.2);
-  ViewFit aimed(o, {0, 1, 0}, 1, 0, 0);
+  ViewFit aimed(o, {0, 1, 0}, 1, {});
   aimed.add({0, 0, 0}, 1);
   const Camera camera = aimed.camera({0, 0, 0}, 0);
   EXPECT_NEAR((*o.target - camera.eye()).normalized().dot(camera.axis().cast<double>()), 1, 1e-6);
   for (const Vector3& p : {Vector3(1, 0, 0), Vector3(0, -1, 0), Vector3(0, 0, -1), Vector3(0, 1, 0)})
     EXPECT_TRUE(camera.sees(p));
+}
+
+// A margin at one side moves the subject to the other, and no more.
+TEST(Camera, margins_are_kept_free_at_each_side) {
+  const Box b = box({-1, -1, -1}, {1, 1, 1});
+  for (const double aspect : {0.6, 2.0}) {
+    const Margins margins{0.3, 0.02, 0.05, 0.1};
+    ViewFit fit({}, Vector3::UnitY(), aspect, margins);
+    for (int c = 0; c < 8; ++c)
+      fit.add({(c & 1) != 0 ? 1.0 : -1, (c & 2) != 0 ? 1.0 : -1, (c & 4) != 0 ? 1.0 : -1}, 0);
+    const Camera camera = fit.camera(b.center(), 0);
+    const auto at_depth_1 = [&](double x, double y) {
+      const Vector3 d = camera.direction(x, y).cast<double>();
+      return Vector3(d / d.dot(camera.axis().cast<double>()));
+    };
+    const Vector3 corner = at_depth_1(0, 0), right = at_depth_1(1, 0) - corner, down = at_depth_1(0, 1) - corner;
+    double low_x = 1, high_x = 0, low_y = 1, high_y = 0;
+    for (int c = 0; c < 8; ++c) {
+      const Vector3 p = Vector3((c & 1) != 0 ? 1 : -1, (c & 2) != 0 ? 1 : -1, (c & 4) != 0 ? 1 : -1) - camera.eye();
+      Eigen::Matrix3d m; // p in parts of the picture: corner + x right + y down
+      m << corner, right, down;
+      const Vector3 at = m.inverse() * p;
+      low_x = std::min(low_x, at.y() / at.x());
+      high_x = std::max(high_x, at.y() / at.x());
+      low_y = std::min(low_y, at.z() / at.x());
+      high_y = std::max(high_y, at.z() / at.x());
+    }
+    EXPECT_GE(low_x, margins.left - 1e-5);
+    EXPECT_LE(high_x, 1 - margins.right + 1e-5);
+    EXPECT_GE(low_y, margins.top - 1e-5);
+    EXPECT_LE(high_y, 1 - margins.bottom + 1e-5);
+    const double free_x = 1 - margins.left - margins.right, free_y = 1 - margins.top - margins.bottom;
+    EXPECT_NEAR(std::max((high_x - low_x) / free_x, (high_y - low_y) / free_y), 1, 1e-5); // one pair is filled
+  }
 }
 
 TEST(Camera, directions_are_upright) {

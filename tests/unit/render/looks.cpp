@@ -87,6 +87,27 @@ TEST(Scale, is_never_without_width) {
     }
 }
 
+TEST(ScaleBar, stands_beside_the_subject) {
+  for (const auto& [w, h] : {std::pair{320, 180}, {640, 360}, {1280, 720}, {500, 900}}) {
+    Bitmap bitmap(w, h);
+    ASSERT_TRUE(has_room_for_scale(w, h));
+    for (const Scale& scale :
+         {Scale{0.001, 0.002}, Scale{-1.23e-3, 1e-3}, Scale{999, 1000}, Scale{-1.7e-9, 1.7e-9}, Scale{-3e7, 3e7}})
+      for (const Look look : {Look::thickness, Look::curvature, Look::speed, Look::contacts})
+        draw_scale(bitmap, scale, look, 1.234e-5);
+    const std::vector<std::uint8_t> before = Bitmap(w, h).bytes;
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const auto at = static_cast<std::size_t>(3 * (y * w + x));
+        if (bitmap.bytes[at] != before[at]) {
+          const bool at_right = x >= w * (1 - scale_width(w, h)), below = y >= h * (1 - clock_height(w, h));
+          ASSERT_TRUE(at_right || below) << x << " " << y;
+        }
+      }
+  }
+  EXPECT_FALSE(has_room_for_scale(128, 72));
+}
+
 TEST(ScaleBar, is_drawn_into_small_pictures_without_harm) {
   for (const auto& [w, h] : {std::pair{1, 1}, {30, 20}, {640, 360}}) {
     Bitmap bitmap(w, h);

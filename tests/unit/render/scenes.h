@@ -63,7 +63,7 @@ inline Box box_of(const formats::Frame& frame) {
 }
 
 inline Camera frame_box(const Box& box, const CameraOptions& options, const V& up, double aspect, double margin) {
-  ViewFit fit(options, up, aspect, margin, margin);
+  ViewFit fit(options, up, aspect, {margin, margin, margin, margin});
   for (int corner = 0; corner < 8; ++corner)
     fit.add(V((corner & 1) != 0 ? box.high.x() : box.low.x(), (corner & 2) != 0 ? box.high.y() : box.low.y(),
               (corner & 4) != 0 ? box.high.z() : box.low.z()),

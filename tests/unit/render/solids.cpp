@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/render/solids.h"
 
+#include <fstream>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +52,36 @@ TEST(Solids, planes_move_with_their_motion) {
   EXPECT_EQ(planes[0].id, first_solid_id + 1);
   EXPECT_NEAR((planes[0].normal - Vector3(0, -1, 0)).norm(), 0, 1e-12);
   EXPECT_NEAR((planes[0].point - Vector3(0, -1, 0)).norm(), 0, 1e-12);
+}
+
+// A cube's faces are flat, what is only a facet of something round is smooth.
+TEST(Solids, meshes_have_creases) {
+  const std::string file = testing::TempDir() + "creases.obj";
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+                         "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\n"
+                         "f 2 4 8\nf 2 8 6\n";
+  Scene scene;
+  scene.solids.resize(1);
+  scene.solids[0].shape = scene::SolidMesh{file, 1, {}};
+  const std::vector<SolidMesh> meshes = make_solids(scene);
+  ASSERT_EQ(meshes.size(), 1U);
+  const SolidMesh& cube = meshes[0];
+  EXPECT_EQ(cube.positions.size(), 24U);
+  EXPECT_EQ(cube.triangles.size(), 12U);
+  for (const Corners& t : cube.triangles) {
+    const Vector3 n = (cube.positions[t[1]] - cube.positions[t[0]]).cross(cube.positions[t[2]] - cube.positions[t[0]]);
+    EXPECT_NEAR(n.norm(), 1, 1e-12);
+    for (const std::uint32_t v : t)
+      EXPECT_LT((cube.normals[v] - n.cast<float>()).norm(), 1e-6);
+  }
+  // A roof of 20 degrees has one normal along its ridge.
+  std::ofstream(file) << "v 0 -1 0\nv 1 -1 0\nv 0 0 0.176\nv 1 0 0.176\nv 0 1 0\nv 1 1 0\n"
+                         "f 1 2 4\nf 1 4 3\nf 3 4 6\nf 3 6 5\nf 1 5 6\nf 1 6 2\nf 1 3 5\nf 2 6 4\n";
+  const SolidMesh roof = make_solids(scene)[0];
+  int ridge = 0; // but those of the gables
+  for (std::size_t v = 0; v < roof.positions.size(); ++v)
+    ridge += roof.positions[v].z() > 0 && roof.normals[v].z() > 0.5F;
+  EXPECT_EQ(ridge, 2);
 }
 
 TEST(Solids, a_missing_file_is_named) {

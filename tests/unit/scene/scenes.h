@@ -63,6 +63,7 @@ shape = "mesh"
 file = "meshes/b.off"
 scale = 0.01
 voxel_size = "1 mm"
+checksum = "0123456789abcdef"
 center = [0, -1, 0]
 motion = {kind = "rotating", axis = [0, 1, 0], rate = 1}
 [[solid]]

@@ -61,6 +61,7 @@ shape = "mesh"
 file = "scenes/meshes/b.off"
 scale = 0.01
 voxel_size = 0.001
+checksum = "0123456789abcdef"
 center = [0, -1, 0]
 motion = {kind = "rotating", axis = [0, 1, 0], center = [0, -1, 0], rate = 1}
 
