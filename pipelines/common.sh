@@ -3,7 +3,7 @@
 # What the scripts pipelines/NAME/run share; each begins by sourcing it. Results go to $out.
 #   OUT=FOLDER         where results go, if not to out/NAME
 #   FILM=WIDTHxHEIGHT  size of films and pictures (default 640x360); FILM=no: none
-#   SAMPLES=N          samples a pixel (default 24)
+#   SAMPLES=N          samples a pixel of films (default 4, denoised; false colours 24), a quarter of those of pictures
 #   SHEET_BIN=FOLDER   looked into for programs before build/bin: put one of your own there to take a stage's place
 # A run that was interrupted goes on where it was.
 set -euo pipefail
@@ -43,17 +43,26 @@ measure() {
   sheet-info --csv "$out/$1.sheet" > "$out/$1.csv"
 }
 
+# draw FACTOR NAME [OPTION...]: sheet-render with that multiple of the samples of a film. False colours have no noise,
+# only edges.
+draw() {
+  local samples=${SAMPLES:-4} how=(--denoise)
+  if [[ " $* " == *" --look "* ]]; then
+    samples=${SAMPLES:-24} how=()
+  fi
+  sheet-render "$out/$2.sheet" --size "$FILM" --samples $(($1 * samples)) "${how[@]}" "${@:3}"
+}
+
 # film NAME FILM.mp4 [OPTION...]: options are sheet-render's.
 film() {
   [[ $FILM != no ]] || return 0
-  sheet-render "$out/$1.sheet" --size "$FILM" --samples "${SAMPLES:-24}" "${@:3}" --y4m |
-    ffmpeg -y -loglevel error -i - -pix_fmt yuv420p "$out/$2"
+  draw 1 "$1" "${@:3}" --y4m | ffmpeg -y -loglevel error -i - -pix_fmt yuv420p "$out/$2"
 }
 
 # picture NAME FRAME PICTURE.png [OPTION...]: one frame (-1: the last), with four times the samples.
 picture() {
   [[ $FILM != no ]] || return 0
-  sheet-render "$out/$1.sheet" --frames "$2" --size "$FILM" --samples $((4 * ${SAMPLES:-24})) "${@:4}" -o "$out/$3"
+  draw 4 "$1" --frames "$2" "${@:4}" -o "$out/$3"
 }
 
 # plot NAME << END: $out/NAME.png by gnuplot, from commands that read CSV files.

@@ -14,8 +14,6 @@
 namespace sheet::render {
 namespace {
 
-constexpr int tile_edge = 16;
-
 struct Tile {
   int x0, y0, x1, y1;
 };
@@ -27,9 +25,6 @@ std::vector<Tile> tiles_of(int width, int height) {
       tiles.push_back({x, y, std::min(x + tile_edge, width), std::min(y + tile_edge, height)});
   return tiles;
 }
-
-// Where in a tent of half width 1 a uniform number falls.
-float tent(float u) { return u < 0.5F ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
 
 struct TileResult {
   double squared_noise = 0; // sum over pixels
@@ -99,6 +94,8 @@ private:
 };
 
 } // namespace
+
+float tent(float u) { return u < 0.5F ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
 
 Picture draw(const World& world, const Camera& camera, const Shader& shader, const DrawOptions& options,
              const Progress& progress) {

@@ -28,6 +28,11 @@ struct DrawOptions {
 [[nodiscard]] Picture draw(const World& world, const Camera& camera, const Shader& shader, const DrawOptions& options,
                            const Progress& progress);
 
+inline constexpr int tile_edge = 16; // [pixels]; of the tiles whose noise is looked at
+
+// Where in a tent of half width 1 a uniform number falls.
+[[nodiscard]] float tent(float u);
+
 // The layers alone: one ray through the middle of each pixel.
 void fill_layers(const World& world, const Camera& camera, Picture& picture);
 

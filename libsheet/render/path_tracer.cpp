@@ -13,6 +13,7 @@ constexpr float pi = std::numbers::pi_v<float>;
 constexpr int longest_path = 256; // meetings; Russian roulette ends nearly all paths long before
 constexpr int sure_meetings = 4;  // before Russian roulette starts, and
 constexpr float faint = 0.1F;     // the weight to which it brings those that are fainter
+constexpr int longest_look = 16;  // layers that features are looked for behind
 constexpr float darkness = 1e-3F; // a shadow that lets less through is black
 
 Vec cosine_direction(const Vec& normal, Point2 p) { // density cos / pi [Malley]
@@ -37,6 +38,29 @@ std::pair<float, float> range_of(const std::vector<float>& values) {
   return high > 0 ? std::pair(low, high) : std::pair(1.0F, 1.0F);
 }
 
+// Ways on from a slab.
+enum Way : std::size_t { mirror, through, turbid_back, turbid_through };
+
+// With which a path of that weight takes each; all 0 if nothing is left.
+std::array<float, 4> chances(const Colour& weight, const std::array<Colour, 4>& part) {
+  std::array<float, 4> chance{};
+  float sum = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    sum += chance[i] = (weight * part[i]).sum();
+  for (float& c : chance)
+    c = sum > 0 ? c / sum : 0;
+  return chance;
+}
+
+std::size_t choose(const std::array<float, 4>& chance, float choice) {
+  std::size_t lobe = 0;
+  while (lobe < 3 && choice >= chance[lobe])
+    choice -= chance[lobe++];
+  while (lobe > 0 && chance[lobe] <= 0) // the sum of chances is rounded
+    --lobe;
+  return lobe;
+}
+
 } // namespace
 
 // A path on its way.
@@ -44,8 +68,10 @@ struct PathTracer::Path {
   Ray ray;
   Colour weight = Colour::Ones();
   bool inside = false;            // in a sheet whose slab has been met already
+  std::size_t layer = 0;          // of Light::chance
   int splits = 2;                 // so many mirror images in turn are followed for themselves
   bool straight = true;           // nothing but straight transmission since the camera
+  bool certain = true;            // no random decision so far
   bool indirect = false;          // has left a turbid or matte surface
   std::optional<float> density{}; // of its direction, if a turbid or matte surface chose it [1/sr]
 };
@@ -70,153 +96,204 @@ struct PathTracer::Meeting {
   }
 };
 
+// What a slab does to a path that meets it.
+struct PathTracer::Crossing {
+  Meeting meeting;
+  float thickness;
+  Colour mean_coupled;
+  Vec mirrored;               // the direction
+  Colour coupled;             // Straight::coupled
+  std::array<Colour, 4> part; // of the light, by way
+};
+
 PathTracer::PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings)
     : world_(&world), lighting_(&lighting), slab_(liquid),
       diffuse_(slab_, range_of(world.surface().thickness).first, range_of(world.surface().thickness).second),
       surroundings_(std::move(surroundings)) {}
 
-Colour PathTracer::radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const {
-  Path path;
-  path.ray = ray;
-  return follow(path, sampler, rays);
+Light PathTracer::radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const {
+  ++rays;
+  return radiance(ray, world_->nearest(ray), sampler, rays);
 }
 
-Colour PathTracer::follow(Path path, Sampler& sampler, std::uint64_t& rays) const {
-  Colour light = Colour::Zero();
-  for (int meetings = 0; meetings < longest_path;) {
-    ++rays;
-    const Hit hit = world_->nearest(path.ray);
-    const Vec direction = path.ray.direction;
-    if (!hit.anything()) {
-      if (path.straight)
-        return light + path.weight * lighting_->backdrop(direction);
-      if (!path.density && path.indirect)
-        return light + path.weight * lighting_->softened(direction);
-      const Lighting::Light far = lighting_->at(direction);
-      const float share = path.density ? *path.density / (*path.density + far.density) : 1.0F;
-      return light + path.weight * share * far.radiance;
-    }
-    if (hit.id == sheet_id && path.inside && world_->surface().closed && direction.dot(hit.face) > 0) {
-      path.inside = false;
-      path.ray = leave(hit, direction);
-      continue;
-    }
-    light += hit.id == sheet_id ? meet_sheet(hit, path, sampler, rays) : meet_matte(hit, path, sampler, rays);
-    const float most = path.weight.maxCoeff();
-    if (++meetings > sure_meetings || most < faint) {
-      const float survival = std::min(0.97F, most / faint);
-      if (!(sampler.number() < survival))
-        return light;
-      path.weight /= survival;
-    }
-  }
+Light PathTracer::radiance(const Ray& ray, const Hit& first, Sampler& sampler, std::uint64_t& rays) const {
+  Path path;
+  path.ray = ray;
+  Light light;
+  follow(path, first, sampler, rays, light);
   return light;
 }
 
-Colour PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays) const {
-  const Vec direction = path.ray.direction;
+Hit PathTracer::nearest(const Path& path, std::uint64_t& rays) const {
+  ++rays;
+  return world_->nearest(path.ray);
+}
+
+// The light from infinity at the end of a path.
+Colour PathTracer::from_afar(const Path& path) const {
+  const Vec& direction = path.ray.direction;
+  if (path.straight)
+    return path.weight * lighting_->backdrop(direction);
+  if (!path.density && path.indirect)
+    return path.weight * lighting_->softened(direction);
+  const Lighting::Light far = lighting_->at(direction);
+  const float share = path.density ? *path.density / (*path.density + far.density) : 1.0F;
+  return path.weight * share * far.radiance;
+}
+
+// Whether the path only leaves a slab that it has met already.
+bool PathTracer::leaves(const Hit& hit, const Path& path) const {
+  return hit.id == sheet_id && path.inside && world_->surface().closed && path.ray.direction.dot(hit.face) > 0;
+}
+
+void PathTracer::follow(Path path, const Hit& first, Sampler& sampler, std::uint64_t& rays, Light& light) const {
+  Hit hit = first;
+  for (int meetings = 0; meetings < longest_path; hit = nearest(path, rays)) {
+    if (!hit.anything()) {
+      light.of(path.certain, path.layer) += from_afar(path);
+      return;
+    }
+    if (leaves(hit, path)) {
+      path.inside = false;
+      path.ray = leave(hit, path.ray.direction);
+      continue;
+    }
+    if (hit.id == sheet_id)
+      meet_sheet(hit, path, sampler, rays, light);
+    else
+      meet_matte(hit, path, sampler, rays, light);
+    const float most = path.weight.maxCoeff();
+    if (!(most > 0))
+      return;
+    if (++meetings; !path.certain && (meetings > sure_meetings || most < faint)) {
+      const float survival = std::min(0.97F, most / faint);
+      if (!(sampler.number() < survival))
+        return;
+      path.weight /= survival;
+    }
+  }
+}
+
+PathTracer::Crossing PathTracer::cross(const Hit& hit, const Vec& direction) const {
   const Meeting meeting(hit, direction);
   const float h = world_->thickness_at(hit);
   const Straight straight = slab_.straight(meeting.cosine, h);
   const Diffuse diffuse = diffuse_.at(h);
-  const Vec mirrored = direction - 2 * direction.dot(meeting.normal) * meeting.normal;
-  const auto go = [&](Path& p, const Vec& d) {
-    p.ray = leave(hit, d);
-    p.inside = meeting.inside_after(hit, d);
-  };
-  Colour light = Colour::Zero();
-  enum Lobe { mirror, through, turbid_back, turbid_through };
-  std::array<Colour, 4> part = {straight.reflected, straight.transmitted, straight.coupled * diffuse.reflected,
-                                straight.coupled * diffuse.transmitted};
+  return {meeting,
+          h,
+          diffuse.mean_coupled.max(1e-20F),
+          direction - 2 * direction.dot(meeting.normal) * meeting.normal,
+          straight.coupled,
+          {straight.reflected, straight.transmitted, straight.coupled * diffuse.reflected,
+           straight.coupled * diffuse.transmitted}};
+}
+
+// Sends a path on from a meeting with a sheet.
+void PathTracer::go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path) {
+  path.ray = leave(hit, direction);
+  path.inside = meeting.inside_after(hit, direction);
+}
+
+// Takes the mirror image out of a path, to be followed for itself.
+PathTracer::Path PathTracer::split(const Hit& hit, Crossing& crossing, Path& path) {
+  Path image = path;
+  --image.splits;
+  image.layer = 1;
+  path.splits = 0;
+  image.weight *= crossing.part[mirror];
+  image.straight = false;
+  image.density.reset();
+  go(hit, crossing.meeting, crossing.mirrored, image);
+  crossing.part[mirror].setZero();
+  return image;
+}
+
+void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const {
+  const Vec direction = path.ray.direction;
+  Crossing crossing = cross(hit, direction);
+  const Meeting& meeting = crossing.meeting;
   if (path.splits > 0) {
-    Path image = path;
-    --image.splits;
-    path.splits = 0;
-    image.weight *= part[mirror];
-    image.straight = false;
-    image.density.reset();
-    go(image, mirrored);
-    light += follow(image, sampler, rays);
-    part[mirror].setZero();
+    const Path image = split(hit, crossing, path);
+    follow(image, nearest(image, rays), sampler, rays, light);
   }
-  std::array<float, 4> chance{};
-  float sum = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    sum += chance[i] = (path.weight * part[i]).sum();
-  if (!(sum > 0)) {
+  const std::array<float, 4> chance = chances(path.weight, crossing.part);
+  if (chance[turbid_back] + chance[turbid_through] > 0)
+    light.chance[path.layer] += lamp_at_sheet(hit, path.weight, crossing, chance, sampler, rays);
+  const std::size_t lobe = choose(chance, sampler.number());
+  if (!(chance[lobe] > 0)) {
     path.weight.setZero();
-    return light;
+    return;
   }
-  for (float& c : chance)
-    c /= sum;
-
-  const float turbid = chance[turbid_back] + chance[turbid_through];
-  if (turbid > 0) {
-    const float choice = sampler.number();
-    const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
-    const float cosine = lamp.direction.dot(meeting.normal);
-    const float lobe = chance[cosine > 0 ? turbid_back : turbid_through] * std::abs(cosine) / pi;
-    if (lobe > 0 && lamp.light.density > 0) {
-      const Colour out = slab_.straight(std::abs(cosine), h).coupled / diffuse.mean_coupled.max(1e-20F);
-      const Colour f = part[cosine > 0 ? turbid_back : turbid_through] * out * (std::abs(cosine) / pi);
-      const Colour weight = path.weight * f / (lamp.light.density + lobe);
-      if (weight.maxCoeff() > 0)
-        light += weight * lamp.light.radiance *
-                 visible(hit, lamp.direction, meeting.inside_after(hit, lamp.direction), rays);
-    }
-  }
-
-  float choice = sampler.number();
-  std::size_t lobe = 0;
-  while (lobe < 3 && choice >= chance[lobe])
-    choice -= chance[lobe++];
-  while (chance[lobe] <= 0) // the sum of chances is rounded
-    --lobe;
-  path.weight *= part[lobe] / chance[lobe];
+  path.certain = path.certain && lobe == through && chance[lobe] == 1;
+  path.weight *= crossing.part[lobe] / chance[lobe];
   if (lobe == through) {
-    go(path, direction);
-    return light;
+    go(hit, meeting, direction, path);
+    return;
   }
   path.straight = false;
   if (lobe == mirror) {
     path.density.reset();
-    go(path, mirrored);
-    return light;
+    go(hit, meeting, crossing.mirrored, path);
+    return;
   }
-  const Vec normal = lobe == turbid_back ? meeting.normal : Vec(-meeting.normal);
-  const Vec d = cosine_direction(normal, sampler.point());
-  const float cosine = std::max(d.dot(normal), 1e-6F);
-  path.weight *= slab_.straight(cosine, h).coupled / diffuse.mean_coupled.max(1e-20F);
+  const Vec d = cosine_direction(lobe == turbid_back ? meeting.normal : Vec(-meeting.normal), sampler.point());
+  const float cosine = std::max(std::abs(d.dot(meeting.normal)), 1e-6F);
+  path.weight *= slab_.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
   path.density = chance[lobe] * cosine / pi;
   path.indirect = true;
-  go(path, d);
-  return light;
+  go(hit, meeting, d, path);
 }
 
-Colour PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays) const {
-  Colour light = Colour::Zero();
+// A sample of the lights, scattered by a turbid sheet.
+Colour PathTracer::lamp_at_sheet(const Hit& hit, const Colour& weight, const Crossing& crossing,
+                                 const std::array<float, 4>& chance, Sampler& sampler, std::uint64_t& rays) const {
+  const float choice = sampler.number();
+  const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
+  const float slope = lamp.direction.dot(crossing.meeting.normal), cosine = std::abs(slope);
+  const Way way = slope > 0 ? turbid_back : turbid_through;
+  const float lobe = chance[way] * cosine / pi;
+  if (!(lobe > 0 && lamp.light.density > 0))
+    return Colour::Zero();
+  const Colour out = slab_.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
+  const Colour share = weight * crossing.part[way] * out * (cosine / pi) / (lamp.light.density + lobe);
+  if (!(share.maxCoeff() > 0))
+    return Colour::Zero();
+  return share * lamp.light.radiance *
+         visible(hit, lamp.direction, crossing.meeting.inside_after(hit, lamp.direction), rays);
+}
+
+// Planes that the camera sees straight blend into the backdrop in the distance.
+Colour PathTracer::fade(const Hit& hit, Path& path) const {
+  if (!path.straight || !hit.plane)
+    return Colour::Zero();
+  const float gone = smooth_step(surroundings_.fade_from, surroundings_.fade_to, hit.position.norm());
+  const Colour seen = path.weight * gone * lighting_->backdrop(path.ray.direction);
+  path.weight *= 1 - gone;
+  return seen;
+}
+
+const Colour& PathTracer::albedo(const Hit& hit) const {
+  return hit.id == ground_id || hit.id - first_solid_id >= surroundings_.solids.size()
+             ? surroundings_.ground
+             : surroundings_.solids[hit.id - first_solid_id];
+}
+
+void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const {
   const Vec direction = path.ray.direction;
-  const Colour& albedo = hit.id == ground_id || hit.id - first_solid_id >= surroundings_.solids.size()
-                             ? surroundings_.ground
-                             : surroundings_.solids[hit.id - first_solid_id];
-  if (path.straight && hit.plane) {
-    const float gone = smooth_step(surroundings_.fade_from, surroundings_.fade_to, hit.position.norm());
-    light += path.weight * gone * lighting_->backdrop(direction);
-    path.weight *= 1 - gone;
-  }
+  light.of(path.certain, path.layer) += fade(hit, path);
   const float side = direction.dot(hit.face) < 0 ? 1.0F : -1.0F;
   const Vec face = side * hit.face;
   Vec normal = side * hit.normal;
   if (direction.dot(normal) > -1e-3F)
     normal = face;
-  path.weight *= albedo;
+  path.weight *= albedo(hit);
 
   const float choice = sampler.number();
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
   const float cosine = lamp.direction.dot(normal);
   if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0)
-    light += path.weight * (cosine / pi / (lamp.light.density + cosine / pi)) * lamp.light.radiance *
-             visible(hit, lamp.direction, false, rays);
+    light.chance[path.layer] += path.weight * (cosine / pi / (lamp.light.density + cosine / pi)) * lamp.light.radiance *
+                                visible(hit, lamp.direction, false, rays);
 
   Vec d = cosine_direction(normal, sampler.point());
   path.density = std::max(d.dot(normal), 1e-6F) / pi;
@@ -224,11 +301,68 @@ Colour PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std:
   if (below < 0)
     d = (d - 2 * below * face).normalized();
   path.straight = false;
+  path.certain = false;
   path.splits = 0;
   path.indirect = true;
   path.inside = false;
   path.ray = leave(hit, d);
-  return light;
+}
+
+Sight PathTracer::look(const Ray& ray, std::uint64_t& rays) const {
+  Path path;
+  path.ray = ray;
+  Sight sight;
+  look(path, sight, rays);
+  return sight;
+}
+
+// Goes on straight where most of the light does, and into the first mirror image.
+void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
+  SightLayer& layer = sight.layers[path.layer];
+  float length = 0;
+  for (int meetings = 0; meetings < longest_look; ++meetings) {
+    const Hit hit = nearest(path, rays);
+    if (meetings == 0)
+      sight.first = hit;
+    if (!hit.anything()) {
+      if (path.certain)
+        sight.certain += from_afar(path);
+      return;
+    }
+    length += hit.distance;
+    if (leaves(hit, path)) {
+      path.inside = false;
+      path.ray = leave(hit, path.ray.direction);
+      continue;
+    }
+    const Meeting meeting(hit, path.ray.direction);
+    const Colour faded = hit.id == sheet_id ? Colour(Colour::Zero()) : fade(hit, path);
+    if (path.certain)
+      sight.certain += faded;
+    layer.way = 31 * layer.way + hit.id;
+    layer.normal = meeting.normal;
+    layer.position = hit.position;
+    layer.length = length;
+    layer.weight = path.weight;
+    if (hit.id != sheet_id)
+      return;
+    Crossing crossing = cross(hit, path.ray.direction);
+    if (path.splits > 0) {
+      Sight beyond;
+      look(split(hit, crossing, path), beyond, rays);
+      sight.certain += beyond.certain;
+      if (path.layer == 0)
+        sight.layers[1] = beyond.layers[1];
+    }
+    const std::array<float, 4> chance = chances(path.weight, crossing.part);
+    if (!(chance[through] > 0.5F)) {
+      layer.weight *= crossing.coupled;
+      return;
+    }
+    path.certain = path.certain && chance[through] == 1;
+    path.weight *= crossing.part[through];
+    go(hit, meeting, path.ray.direction, path);
+  }
 }
 
 // What a ray that leaves `hit` brings of the light from infinity: all layers of sheet passed straight.

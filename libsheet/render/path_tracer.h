@@ -11,6 +11,7 @@
 // One bias, against specks: where a turbid or matte surface sees a mirror image of the lights (caustics), it sees them
 // blurred.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "libsheet/render/lighting.h"
@@ -26,20 +27,61 @@ struct Surroundings {
         fade_to = 9; // planes seen directly blend into the backdrop between these distances, in the world's unit
 };
 
+// The light along a ray, in parts.
+struct Light {
+  Colour certain = Colour::Zero(); // of paths without any random decision: the same for each sample
+  // Of the others: those that pass the first sheet or end there, and those in its mirror.
+  std::array<Colour, 2> chance{Colour::Zero(), Colour::Zero()};
+  Colour& of(bool is_certain, std::size_t layer) { return is_certain ? certain : chance[layer]; }
+  [[nodiscard]] Colour sum() const { return certain + chance[0] + chance[1]; }
+};
+
+// What the light in one part of Light::chance comes from: the last surface on the way straight through all slabs that
+// let most of the light pass. So it is what lies behind a clear sheet, not the sheet.
+struct SightLayer {
+  Colour weight = Colour::Zero(); // about what the light was multiplied with since it left that surface
+  Vec normal = Vec::Zero();       // towards the camera
+  Vec position = Vec::Zero();     // in the world's unit
+  float length = 0;               // of the way there
+  std::uint32_t way = 0;          // a number for all ids on the way; 0: there is nothing
+};
+
+// What the camera sees along a ray without any random decision.
+struct Sight {
+  Hit first;
+  Colour certain = Colour::Zero(); // Light::certain
+  std::array<SightLayer, 2> layers;
+};
+
 class PathTracer {
 public:
   // World and lighting must outlive it.
   PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings);
   // The radiance that arrives along the ray. Adds the rays that it took to `rays`.
-  [[nodiscard]] Colour radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const;
+  [[nodiscard]] Light radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const;
+  // The same, if it is known what the ray hits.
+  [[nodiscard]] Light radiance(const Ray& ray, const Hit& first, Sampler& sampler, std::uint64_t& rays) const;
+  [[nodiscard]] Sight look(const Ray& ray, std::uint64_t& rays) const;
 
 private:
   struct Path;
   struct Meeting;
-  Colour follow(Path path, Sampler& sampler, std::uint64_t& rays) const;
-  Colour meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays) const;
-  Colour meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays) const;
+  struct Crossing;
+  void follow(Path path, const Hit& first, Sampler& sampler, std::uint64_t& rays, Light& light) const;
+  void look(Path path, Sight& sight, std::uint64_t& rays) const;
+  void meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const;
+  void meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const;
+  Hit nearest(const Path& path, std::uint64_t& rays) const;
+  [[nodiscard]] Crossing cross(const Hit& hit, const Vec& direction) const;
+  static void go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path);
+  static Path split(const Hit& hit, Crossing& crossing, Path& path);
+  Colour lamp_at_sheet(const Hit& hit, const Colour& weight, const Crossing& crossing,
+                       const std::array<float, 4>& chance, Sampler& sampler, std::uint64_t& rays) const;
   Colour visible(const Hit& hit, const Vec& direction, bool inside, std::uint64_t& rays) const;
+  [[nodiscard]] bool leaves(const Hit& hit, const Path& path) const;
+  [[nodiscard]] Colour from_afar(const Path& path) const;
+  [[nodiscard]] Colour fade(const Hit& hit, Path& path) const;
+  [[nodiscard]] const Colour& albedo(const Hit& hit) const;
 
   const World* world_;
   const Lighting* lighting_;

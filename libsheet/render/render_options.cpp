@@ -140,6 +140,9 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
         o.draw.noise = static_cast<float>(v);
       },
       [&o] { return fmt::format("{}", o.draw.noise); });
+  tool.flag("--denoise", o.denoise,
+            "smooth what is random about the light over places that see the same surface, and draw edges with rays of "
+            "their own: looks clean with --samples 4. Of materials; false colours have no noise");
   word_option(tool, "--look", o.look, look_names(), "the material itself, or a quantity in false colours, or the mesh");
   word_option(tool, "--material", o.liquid, liquid_names(), "what the sheet is made of");
   tool.option("--index", o.index, "N", "index of refraction, instead of the material's");

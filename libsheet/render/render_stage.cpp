@@ -8,6 +8,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/numbered_name.h"
+#include "libsheet/render/denoised.h"
 #include "libsheet/render/display.h"
 #include "libsheet/render/framing.h"
 #include "libsheet/render/path_tracer.h"
@@ -30,6 +31,8 @@ void check(const RenderOptions& o) {
     fail(ExitCode::usage, "give -o FILE, such as -o frames/%04d.png, or --y4m and pipe it on");
   if ((o.y4m ? 1 : 0) + (o.ppm ? 1 : 0) + (o.output.empty() ? 0 : 1) > 1)
     fail(ExitCode::usage, "-o, --y4m and --ppm exclude each other");
+  if (o.denoise && o.draw.noise > 0)
+    fail(ExitCode::usage, "--denoise and --noise exclude each other");
   if (!o.output.empty() && !o.output.ends_with(".png") && !o.output.ends_with(".exr"))
     fail(ExitCode::usage, "-o {}: the name must end in .png or .exr", o.output);
   if (!(c.field_of_view >= 1 && c.field_of_view <= 160))
@@ -235,9 +238,13 @@ struct RenderStage::Impl {
     if (bath_in_view() != nullptr)
       around.ground = bath_colour;
     const PathTracer tracer(world, fixed->lighting, liquid_of(options), std::move(around));
+    if (options.denoise)
+      return draw_denoised(world, fixed->camera, tracer, options.draw, progress);
     return render::draw(
         world, fixed->camera,
-        [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) { return tracer.radiance(ray, sampler, rays); },
+        [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) {
+          return tracer.radiance(ray, sampler, rays).sum();
+        },
         options.draw, progress);
   }
 

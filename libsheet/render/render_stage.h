@@ -18,6 +18,7 @@ struct RenderOptions {
   std::string output;            // name of the picture files (NumberedName), .png or .exr; "" with a video
   bool y4m = false, ppm = false; // a video to standard output
   DrawOptions draw;              // exposure is not used; see below
+  bool denoise = false;          // draw_denoised; of materials only
   CameraOptions camera;
   Look look = Look::material;
   std::size_t liquid = 0; // number of the preset

@@ -83,7 +83,9 @@ int main(int argc, char** argv) {
       const double seconds = measure(repetitions, [&] {
         picture = draw(
             world, camera,
-            [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) { return tracer.radiance(ray, sampler, rays); },
+            [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) {
+              return tracer.radiance(ray, sampler, rays).sum();
+            },
             o, nullptr);
       });
       const double camera_rays = static_cast<double>(o.width) * o.height * o.samples;

@@ -40,7 +40,7 @@ Picture draw_furnace(const Furnace& f, const Liquid& liquid, int pixels, int sam
   draw_options.samples = samples;
   return draw(
       world, camera,
-      [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) { return tracer.radiance(ray, sampler, rays); },
+      [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) { return tracer.radiance(ray, sampler, rays).sum(); },
       draw_options, nullptr);
 }
 

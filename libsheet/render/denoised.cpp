@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/denoised.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include "libsheet/render/display.h"
+#include "libsheet/render/smooth.h"
+
+namespace sheet::render {
+namespace {
+
+constexpr int edge_rays = 32;           // of a pixel whose neighbours see different things
+constexpr int edge_width = 2;           // pixels so near to another surface
+constexpr int edge_factor = 4;          // get so many times the samples
+constexpr float least_weight = 0.02F;   // that random light is divided by
+constexpr float least_likeness = 1e-3F; // of a point whose light a ray takes, if it is the best there is
+constexpr float plain_likeness = 0.2F;  // of neighbours that see one thing, and
+constexpr float plain_levels = 6;       // their greatest difference, of 255
+
+class Painter {
+public:
+  Painter(const World& world, const Camera& camera, const PathTracer& tracer, const DrawOptions& options,
+          const Progress& progress)
+      : tracer_(&tracer), camera_(&camera), options_(options), progress_(&progress), eye_(world.to_world(camera.eye())),
+        pixel_angle_(static_cast<float>(camera.pixel_angle(options.height))) {
+    const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    first_.resize(pixels);
+    certain_.resize(pixels);
+    samples_.resize(pixels);
+    whole_.resize(pixels);
+    for (Layer& layer : layers_) {
+      layer.points.resize(pixels);
+      layer.weights.resize(pixels);
+      layer.light.resize(pixels);
+    }
+  }
+
+  Picture paint() {
+    each_row([&](int x, int y, std::uint64_t& rays) { look_at(x, y, rays); });
+    each_row([&](int x, int y, std::uint64_t& rays) { sample_point(x, y, rays); });
+    for (Layer& layer : layers_)
+      smooth(layer.light, layer.points, samples_, options_.width);
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      whole_[i] = {certain_[i], certain_[i]};
+      for (const Layer& layer : layers_)
+        whole_[i].add(layer.weights[i], layer.light[i]);
+    }
+    picture_.light = Image(options_.width, options_.height);
+    std::vector<float> noise(whole_.size());
+    each_row([&](int x, int y, std::uint64_t& rays) {
+      const Halves halves = plain(x, y) ? blend(x, y) : gather(x, y, rays);
+      noise[index(x, y)] = (level(halves.a) - level(halves.b)) / 2;
+      picture_.light.at(x, y) = options_.exposure * halves.mean();
+    });
+    state_noise(noise);
+    picture_.samples = std::accumulate(samples_.begin(), samples_.end(), 0.0) / static_cast<double>(samples_.size());
+    picture_.rays = rays_;
+    return std::move(picture_);
+  }
+
+private:
+  // One part of the random light (Light::chance), in the middles of the pixels.
+  struct Layer {
+    std::vector<SurfacePoint> points;
+    std::vector<Colour> weights; // that the light is divided by
+    std::vector<Halves> light;
+  };
+
+  [[nodiscard]] Ray ray_through(float x, float y) const { // in pixels
+    return {eye_,
+            camera_->direction(static_cast<double>(x) / options_.width, static_cast<double>(y) / options_.height)};
+  }
+  [[nodiscard]] SurfacePoint point_of(const SightLayer& layer) const {
+    return {layer.normal, layer.position, pixel_angle_ * layer.length, layer.way};
+  }
+  static Colour divisor(const SightLayer& layer) { return layer.weight.max(least_weight); }
+  [[nodiscard]] float level(const Colour& light) const { return display_level(luminance(options_.exposure * light)); }
+
+  [[nodiscard]] Ray middle_ray(int x, int y) const {
+    return ray_through(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+  }
+
+  void look_at(int x, int y, std::uint64_t& rays) {
+    const std::size_t i = index(x, y);
+    const Sight sight = tracer_->look(middle_ray(x, y), rays);
+    first_[i] = sight.first;
+    certain_[i] = sight.certain;
+    for (std::size_t l = 0; l < layers_.size(); ++l) {
+      layers_[l].points[i] = point_of(sight.layers[l]);
+      layers_[l].weights[i] = divisor(sight.layers[l]);
+    }
+  }
+
+  // Shadows next to what throws them are too narrow to be smoothed.
+  [[nodiscard]] bool near_edge(int x, int y) const {
+    const std::vector<SurfacePoint>& points = layers_[0].points;
+    for (int j = -edge_width; j <= edge_width; ++j)
+      for (int i = -edge_width; i <= edge_width; ++i)
+        if (points[nearest_index(x + i, y + j)].way != points[index(x, y)].way)
+          return true;
+    return false;
+  }
+
+  void sample_point(int x, int y, std::uint64_t& rays) {
+    const std::size_t i = index(x, y);
+    const Ray ray = middle_ray(x, y);
+    samples_[i] = options_.samples * (near_edge(x, y) ? edge_factor : 1);
+    const int half = samples_[i] / 2;
+    for (int s = 0; s < samples_[i]; ++s) {
+      Sampler sampler(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(s));
+      const Light light = tracer_->radiance(ray, first_[i], sampler, rays);
+      for (std::size_t l = 0; l < layers_.size(); ++l) {
+        Halves& sum = layers_[l].light[i];
+        (s < half ? sum.a : sum.b) += light.chance[l] / (layers_[l].weights[i] * static_cast<float>(half));
+      }
+    }
+  }
+
+  // Whether the pixels around see the same things, evenly enough that the middles of pixels tell all.
+  [[nodiscard]] bool plain(int x, int y) const {
+    const std::size_t here = index(x, y);
+    float low = 255, high = 0;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) {
+        const std::size_t there = nearest_index(x + i, y + j);
+        for (const Layer& layer : layers_)
+          if (layer.points[there].way != layer.points[here].way)
+            return false;
+        if (likeness(layers_[0].points[here], layers_[0].points[there], 1) < plain_likeness)
+          return false;
+        const float brightness = level(whole_[there].mean());
+        low = std::min(low, brightness);
+        high = std::max(high, brightness);
+      }
+    return high - low < plain_levels;
+  }
+
+  // The middles of pixels with weights that have the second moments of the tent, 1/6.
+  [[nodiscard]] Halves blend(int x, int y) const {
+    constexpr std::array<float, 3> weights{1 / 12.0F, 10 / 12.0F, 1 / 12.0F};
+    Halves sum;
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i)
+        sum.add(Colour::Constant(weights[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(j)]),
+                whole_[nearest_index(x + i - 1, y + j - 1)]);
+    return sum;
+  }
+
+  [[nodiscard]] Halves gather(int x, int y, std::uint64_t& rays) const {
+    Halves sum;
+    for (int s = 0; s < edge_rays; ++s) {
+      Sampler sampler(static_cast<std::uint32_t>(index(x, y) + whole_.size()), static_cast<std::uint32_t>(s));
+      const Point2 p = sampler.point();
+      const float fx = static_cast<float>(x) + 0.5F + tent(p.x), fy = static_cast<float>(y) + 0.5F + tent(p.y);
+      const Ray ray = ray_through(fx, fy);
+      const Sight sight = tracer_->look(ray, rays);
+      Halves light{sight.certain, sight.certain};
+      bool found = true;
+      for (std::size_t l = 0; found && l < layers_.size(); ++l)
+        found = borrow(fx, fy, sight.layers[l], layers_[l], light);
+      if (!found)
+        light.a = light.b = tracer_->radiance(ray, sight.first, sampler, rays).sum();
+      sum.add(Colour::Constant(1.0F / edge_rays), light);
+    }
+    return sum;
+  }
+
+  // Adds the light of the points around a place of the picture that see what is seen there, most of it from the nearest
+  // and most alike. False if there is none.
+  [[nodiscard]] bool borrow(float fx, float fy, const SightLayer& seen, const Layer& layer, Halves& light) const {
+    if (seen.way == 0)
+      return true;
+    const SurfacePoint point = point_of(seen);
+    const int left = static_cast<int>(std::floor(fx - 0.5F)), top = static_cast<int>(std::floor(fy - 0.5F));
+    float weights = 0;
+    Halves sum;
+    for (int y = std::max(top - 1, 0); y <= std::min(top + 2, options_.height - 1); ++y)
+      for (int x = std::max(left - 1, 0); x <= std::min(left + 2, options_.width - 1); ++x) {
+        if (layer.points[index(x, y)].way != seen.way)
+          continue;
+        const float like = std::max(likeness(point, layer.points[index(x, y)], 1), least_likeness);
+        const float dx = static_cast<float>(x) + 0.5F - fx, dy = static_cast<float>(y) + 0.5F - fy;
+        const float weight = like * std::exp(-3 * (dx * dx + dy * dy));
+        weights += weight;
+        sum.add(Colour::Constant(weight), layer.light[index(x, y)]);
+      }
+    light.add(divisor(seen) / weights, sum);
+    return weights > 0;
+  }
+
+  void state_noise(const std::vector<float>& noise) {
+    const int across = (options_.width + tile_edge - 1) / tile_edge;
+    std::vector<double> squares(static_cast<std::size_t>(across * ((options_.height + tile_edge - 1) / tile_edge)));
+    std::vector<int> pixels(squares.size());
+    for (int y = 0; y < options_.height; ++y)
+      for (int x = 0; x < options_.width; ++x) {
+        const auto tile = static_cast<std::size_t>(y / tile_edge * across + x / tile_edge);
+        const auto n = static_cast<double>(noise[index(x, y)]);
+        squares[tile] += n * n;
+        ++pixels[tile];
+      }
+    double worst = 0;
+    for (std::size_t t = 0; t < squares.size(); ++t)
+      worst = std::max(worst, squares[t] / pixels[t]);
+    const double all = std::accumulate(squares.begin(), squares.end(), 0.0);
+    picture_.noise = static_cast<float>(std::sqrt(all / static_cast<double>(noise.size())));
+    picture_.worst_noise = static_cast<float>(std::sqrt(worst));
+  }
+
+  // All pixels, rows in parallel.
+  template <class Pixel> void each_row(Pixel&& pixel) {
+    tbb::parallel_for(0, options_.height, [&](int y) {
+      std::uint64_t rays = 0;
+      for (int x = 0; x < options_.width; ++x)
+        pixel(x, y, rays);
+      rays_ += rays;
+      const int done = ++rows_done_;
+      if (const std::unique_lock lock(telling_, std::try_to_lock); lock && *progress_)
+        (*progress_)(done / (3.0 * options_.height));
+    });
+  }
+
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(x);
+  }
+  [[nodiscard]] std::size_t nearest_index(int x, int y) const { // in the picture
+    return index(std::clamp(x, 0, options_.width - 1), std::clamp(y, 0, options_.height - 1));
+  }
+
+  const PathTracer* tracer_;
+  const Camera* camera_;
+  DrawOptions options_;
+  const Progress* progress_;
+  Vec eye_;
+  float pixel_angle_;
+  std::vector<Hit> first_;
+  std::vector<Colour> certain_; // in the middles of the pixels
+  std::vector<int> samples_;
+  std::array<Layer, 2> layers_;
+  std::vector<Halves> whole_; // all light there
+  Picture picture_;
+  std::atomic<std::uint64_t> rays_ = 0;
+  std::atomic<int> rows_done_ = 0;
+  std::mutex telling_;
+};
+
+} // namespace
+
+Picture draw_denoised(const World& world, const Camera& camera, const PathTracer& tracer, const DrawOptions& options,
+                      const Progress& progress) {
+  return Painter(world, camera, tracer, options, progress).paint();
+}
+
+} // namespace sheet::render
