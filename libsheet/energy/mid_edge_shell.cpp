@@ -33,9 +33,9 @@ MidEdgeShell::Heights MidEdgeShell::heights(std::size_t t, const Unknowns& u) co
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t edge = mesh_->triangle_edges[t][k];
     const Vector3 low = stage_->position(u, mesh_->edges[edge][0]), high = stage_->position(u, mesh_->edges[edge][1]);
-    const HeightAndSide both = height_and_side(stage_->frames[edge], (high - low).normalized(),
-                                               0.5 * (low + high) - stage_->position(u, v[k]),
-                                               u[static_cast<Eigen::Index>(3 * stage_->vertices() + edge)]);
+    const HeightAndSide both =
+        height_and_side(stage_->frames[edge], (high - low).normalized(), 0.5 * (low + high) - stage_->position(u, v[k]),
+                        u[static_cast<Eigen::Index>(3 * stage_->vertices() + edge)]);
     result.heights[static_cast<Eigen::Index>(k)] = both.height;
     result.sides[static_cast<Eigen::Index>(k)] = both.side;
   }

@@ -167,8 +167,8 @@ private:
     return true;
   }
 
-  // Whether a triangle at the side has an edge that is longer against its size: as the longest are split first, that one
-  // may not be split (an inlet's strip), and halving the others would only squeeze the triangle towards it.
+  // Whether a triangle at the side has an edge that is longer against its size: as the longest are split first, that
+  // one may not be split (an inlet's strip), and halving the others would only squeeze the triangle towards it.
   [[nodiscard]] bool beside_longer(std::uint32_t side) const {
     const auto longer = [&](std::uint32_t s) {
       const double own = ratio(mesh_.from(s), mesh_.to(s)) * (1 + 1e-9);

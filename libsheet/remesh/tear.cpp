@@ -143,12 +143,12 @@ Torn tear(Frame& frame, const Scene& scene) {
   for (const Triangle& c : mesh.triangles)
     areas.push_back(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area);
   remesh::TearCuts cuts = remesh::find_cuts({.mesh = mesh,
-                                                   .volumes = volume,
-                                                   .areas = areas,
-                                                   .below = scene.tear->below,
-                                                   .drop_crumbs = scene.tear->drop_crumbs,
-                                                   .grips = grips_of(frame, scene),
-                                                   .whole = inlet_of(frame)});
+                                             .volumes = volume,
+                                             .areas = areas,
+                                             .below = scene.tear->below,
+                                             .drop_crumbs = scene.tear->drop_crumbs,
+                                             .grips = grips_of(frame, scene),
+                                             .whole = inlet_of(frame)});
   torn.vetoed = cuts.vetoed;
   if (cuts.edges == 0)
     return torn;

@@ -4,8 +4,8 @@
 // vertices, also where it had some before.
 //
 // A vertex that has come apart moves into its own piece, by a thousandth of the way to the nearest opposite side, so
-// that the lips of a crack do not touch (cracks.h); triangles keep their volumes, vertices their velocities, so volume, momentum
-// and kinetic energy are what they were.
+// that the lips of a crack do not touch (cracks.h); triangles keep their volumes, vertices their velocities, so volume,
+// momentum and kinetic energy are what they were.
 #pragma once
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What resists where heights of directors hardly do: a vertex at the flat angle of a cap that pops out of the sheet, all
-// directors free to give way, over what hinges resist it with; the director of a sharp fold.
+// What resists where heights of directors hardly do: a vertex at the flat angle of a cap that pops out of the sheet,
+// all directors free to give way, over what hinges resist it with; the director of a sharp fold.
 #include <cmath>
 #include <numbers>
 
@@ -76,9 +76,8 @@ TEST(FlatCaps, ResistPoppingOutAsHingesDo) {
 // Two triangles, folded about the edge between them by so many degrees.
 State folded(double degrees) {
   const double turn = degrees * std::numbers::pi / 180;
-  return test::at_rest({{{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {-std::cos(turn), 0.5, std::sin(turn)}},
-                        {{0, 2, 1}, {0, 1, 3}}},
-                       0.01);
+  return test::at_rest(
+      {{{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {-std::cos(turn), 0.5, std::sin(turn)}}, {{0, 2, 1}, {0, 1, 3}}}, 0.01);
 }
 
 bool on_rim(const State& s, std::size_t edge) {
