@@ -89,18 +89,20 @@ void follow(std::vector<ContactSpring>& springs, const Scene& scene, const Sprin
 void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
                       const std::vector<Axes>& fixed, std::span<Vector3> velocity) {
   constexpr int sweeps = 30;
+  constexpr double longest_lever = 4; // as of impulses (self_response.cpp): a vertex may change by so much of the rate
   const bool sticks = !scene.contact || scene.contact->adhesion != 0.0;
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (const ContactSpring& s : springs) {
-      double rate = 0, compliance = 0;
+      double rate = 0, compliance = 0, farthest = 0;
       std::array<Vector3, 4> share;
       for (std::size_t i = 0; i < 4; ++i) {
         const std::uint32_t v = s.vertices[i];
         rate += s.weights[i] * s.normal.dot(velocity[v]);
         share[i] = s.weights[i] / mass[v] * free_part(fixed[v]).cwiseProduct(s.normal);
         compliance += s.weights[i] * s.normal.dot(share[i]);
+        farthest = std::max(farthest, share[i].norm());
       }
-      if (compliance > 0 && (sticks || rate < 0))
+      if (compliance > 0 && farthest <= longest_lever * compliance && (sticks || rate < 0))
         for (std::size_t i = 0; i < 4; ++i)
           velocity[s.vertices[i]] -= rate / compliance * share[i];
     }

@@ -187,6 +187,20 @@ TEST(ContactSprings, DoNotBounceAndKeepMomentum) {
   EXPECT_EQ(velocity, apart);
 }
 
+// A contact whose one free vertex has a thousandth of it would have to throw that vertex to take the rate of the
+// others.
+TEST(ContactSprings, LevelledVelocitiesThrowNoVertex) {
+  ContactSpring spring;
+  spring.vertices = {0, 1, 2, 3};
+  spring.weights = {1, -0.001, -0.5, -0.499};
+  spring.normal = Vector3::UnitZ();
+  const std::vector<double> mass(4, 2);
+  const std::vector<Axes> fixed = {all_axes, 0, all_axes, all_axes};
+  std::vector<Vector3> velocity = {{0, 0, -1}, {0, 0, 0}, {0, 0, 1}, {0, 0, 1}};
+  level_velocities(std::vector{spring}, scene_with(""), mass, fixed, velocity);
+  EXPECT_LT(velocity[1].norm(), 4 * 2);
+}
+
 // A triangle's diagonal is flipped under a vertex that presses on it: the spring that takes the place of the old one
 // carries the same force, normal and tangential.
 TEST(LooseSprings, ForcesAreHandedOver) {
