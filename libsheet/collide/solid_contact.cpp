@@ -232,7 +232,8 @@ private:
       s = (compliance.array() > 0).select(s.cwiseQuotient(compliance), 0.0);
       most = std::max(most, s.maxCoeff());
     }
-    if (most > kLongestLever) { // nearly all of the point is held: left to the other means
+    // Nearly all of the point is held: left to the other means; all of it, and driven into the solid: to be told.
+    if (most > kLongestLever || (compliance.isZero(0) && hit.kind == FoundHit::Kind::meeting)) {
       for (const std::uint32_t v : corners)
         changed_[v] = 1;
       return;

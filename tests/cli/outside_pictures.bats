@@ -64,7 +64,7 @@ file = "box.obj"')
   for solid in "${solids[@]}"; do
     { sed 's/^shape = "disk"/&\nplane = "xz"/; s/^center = .*/center = [0, 0.002, 0]/; s/^gravity = .*/gravity = [0, -9.81, 0]/' disk.toml; printf '[[solid]]\n%s\n' "$solid"; } > solid.toml
     sheet-init solid.toml -o solid.sheet
-    for material in honey glass film; do
+    for material in chocolate caramel honey batter glass film; do
       sheet-render solid.sheet --material $material --eye 0,0.5,0.3 --target 0,0,0 --fov 15 --size 160x90 --samples 32 --ppm > a.ppm
       # the middle of the disk in blocks of 8 x 8: the darkest against the median
       /usr/bin/python3 - << 'END'
@@ -87,5 +87,34 @@ light = lambda x, y: sum(data[3 * (160 * y + x):3 * (160 * y + x) + 3]) / 3
 mean = lambda x, y: sum(light(x + i, y + j) for i in range(8) for j in range(8)) / 64
 assert abs(mean(76, 41) - mean(2, 80)) > 12, (mean(76, 41), mean(2, 80))
 END
+  done
+}
+
+@test "18: the sheet fills what the scale leaves free, in pictures of every size and shape" {
+  printf '[sheet]\nshape = "sphere"\nradius = 0.1\nedge_length = 0.03\nthickness = 0.004\n[material]\nviscosity = 1\ndensity = 1\n' > sphere.toml
+  sed 's/shape = "sphere"/shape = "rectangle"\nsize = [1, 0.1]/; /^radius/d' sphere.toml > wide.toml
+  sed 's/shape = "sphere"/shape = "rectangle"\nsize = [0.1, 1]/; /^radius/d' sphere.toml > tall.toml
+  for shape in sphere wide tall; do
+    sheet-init $shape.toml -o $shape.sheet
+    for size in 128x72 320x180 640x360 1280x720 400x700; do
+      sheet-render $shape.sheet --look thickness --size $size --samples 1 --ppm > a.ppm
+      /usr/bin/python3 - $size << 'END'
+import sys
+w, h = map(int, sys.argv[1].split("x"))
+data = open("a.ppm", "rb").read()[-3 * w * h:]
+coloured = lambda x, y: max(p := data[3 * (y * w + x):3 * (y * w + x) + 3]) - min(p) > 30
+columns = [x for x in range(w) if any(coloured(x, y) for y in range(h))]
+groups = [[columns[0]]]
+for a, b in zip(columns, columns[1:]):
+    if b - a > 2:
+        groups.append([])
+    groups[-1].append(b)
+assert len(groups) == (1 if w == 128 else 2), [(g[0], g[-1]) for g in groups]
+first, last = groups[0][0], groups[0][-1]
+free = w if w == 128 else groups[1][0]
+rows = [y for y in range(h) if any(coloured(x, y) for x in range(first, last + 1))]
+assert last - first > 0.85 * free or rows[-1] - rows[0] > 0.75 * h, (first, last, free, rows[0], rows[-1])
+END
+    done
   done
 }

@@ -273,3 +273,19 @@ gravity = [0, 0, -9.81]'
   sheet-step --dt 0.01 on.sheet | sheet-print | grep -q '^| viscosity = 50$'
   sheet-step --help | tr -s ' \n' ' ' | grep -q 'better choice unless steps must be equal'
 }
+
+@test "25: sheet-collide's warnings say whether to worry and what to do" {
+  warned() { # TABLES: a step of the disk with them
+    { cat disk.toml; printf '[contact]\n%s\n' "$1"; } > warned.toml
+    run -0 --separate-stderr bash -c 'sheet-init warned.toml | sheet-step --dt 0.05 | sheet-collide -o out.sheet'
+    echo "$stderr"
+  }
+  down='motion = {kind = "translating", velocity = [0, 0, -1]}'
+  warned "$(printf '[environment]\ngravity = [0, 0, -9.81]\n[[hold]]\nregion = {box = [[-2, -2, -1], [2, 2, 1]]}\n%s\n[[solid]]\nshape = "sphere"\nradius = 0.2\ncenter = [0, 0, -0.22]' "$down")"
+  [[ $stderr == *'triangles come too close to solids (nothing to worry about once in a while; if '*'take shorter steps'* ]]
+  awk 'BEGIN{for (k = 0; k < 2; ++k) { for (i = 0; i < 4; ++i) print "v", i % 2, int(i / 2), k * 0.0101
+    print "f", 1 + 4 * k, 2 + 4 * k, 4 + 4 * k; print "f", 1 + 4 * k, 4 + 4 * k, 3 + 4 * k } }' > layers.obj
+  sed -i 's/^shape.*/shape = "mesh"\nfile = "layers.obj"/; /^radius/d; /^edge_length/d' disk.toml
+  warned "$(printf '[[hold]]\nregion = {box = [[-1, -1, -0.001], [2, 2, 0.001]]}\n[[hold]]\nregion = {box = [[-1, -1, 0.009], [2, 2, 0.02]]}\n%s' "$down")"
+  [[ $stderr == *'stay behind'*'(nothing to worry about in a few steps; if it comes back '*'too little room)'* ]]
+}

@@ -190,6 +190,20 @@ TEST(SolidContact, holds_are_left_alone) {
   EXPECT_GT(report.unresolved, 0U); // the held middle goes through the ball, and the report says so
 }
 
+// What is held altogether cannot be kept out, but it is told; where it starts in the solid, as in a clamp, it is meant
+// so.
+TEST(SolidContact, what_holds_drive_into_a_solid_is_told) {
+  const Solids ball = solids_of({solid(scene::Sphere{0.03}, {0, -0.03, 0})});
+  FallingSheet sheet = falling(1);
+  std::ranges::fill(sheet.path.fixed, all_axes);
+  const std::vector<Vector3> end = sheet.path.end;
+  EXPECT_GT(resolve_solids(sheet.path, ball).unresolved, 0U);
+  EXPECT_EQ(sheet.path.end, end);
+  FallingSheet clamped = falling(0, -0.02);
+  std::ranges::fill(clamped.path.fixed, all_axes);
+  EXPECT_EQ(resolve_solids(clamped.path, ball).unresolved, 0U);
+}
+
 TEST(SolidContact, between_two_solids) {
   const Solids solids = solids_of({solid(scene::HalfSpace{{0, 1, 0}}), solid(scene::Sphere{0.02}, {0, 0.01, 0})});
   FallingSheet sheet = falling(1, 0.035);
