@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/leaning.h"
@@ -16,10 +15,7 @@ namespace {
 
 const double kGamma = 1 - std::sqrt(0.5);
 
-constexpr int kHalvingsBeforeEuler = 1;
-constexpr double kFloor = 1e-10;                     // shift of the scaled matrix where motions are free
-constexpr double kMuchShorter = 1e-3, kHelped = 0.3; // a step that much shorter shall have that part of the error
-constexpr int kHopeless = 4;                         // times the iterations allowed, with those of unfinished substeps
+constexpr double kFloor = 1e-10; // shift of the scaled matrix where motions are free
 
 // Whether every triangle still has an area beyond round-off.
 bool sound(const State& s) {
@@ -44,19 +40,6 @@ std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, std::sp
       if (held[3 * v + a] != 0)
         result[v][static_cast<Eigen::Index>(a)] = gradient[static_cast<Eigen::Index>(3 * v + a)];
   return result;
-}
-
-// Steps chosen by their error are not shorter: the time in which the sheet crosses 1e-4 of an edge, or a thousandth of
-// what is left [s].
-double shortest_step(const State& state, double left) {
-  double squares = 0, lengths = 0;
-  for (const Vector3& v : state.velocities)
-    squares += v.squaredNorm();
-  for (const Edge& e : state.mesh->edges)
-    lengths += (state.positions[e[1]] - state.positions[e[0]]).norm();
-  const double speed = std::sqrt(squares / static_cast<double>(state.velocities.size()));
-  const double edge = lengths / static_cast<double>(state.mesh->edges.size());
-  return std::min(1e-4 * edge / speed, 1e-3 * left);
 }
 
 bool same_mesh(const Connectivity& a, const Connectivity& b) {
@@ -216,47 +199,6 @@ void Stepper::estimate_error(const State& state, double dt, const Stage& stage, 
   }
 }
 
-void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
-  State end;
-  const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
-  if (outcome == Outcome::done) {
-    ++report.substeps;
-    state = std::move(end);
-    return;
-  }
-  ++report.failed;
-  if (depth == 0 && outcome == Outcome::not_converged && has_arcs()) {
-    advance_flat(state, dt, report);
-    return;
-  }
-  const bool exhausted = report.newton.iterations >= options_.iterations;
-  if (!exhausted && options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
-      attempt(state, dt, Scheme::backward_euler, Demand::converged, end, report) == Outcome::done) {
-    ++report.substeps;
-    ++report.euler_fallbacks;
-    state = std::move(end);
-    return;
-  }
-  const bool divisible = depth < options_.retries;
-  if ((exhausted || !divisible) &&
-      attempt(state, dt, Scheme::backward_euler, Demand::lower_potential, end, report) == Outcome::done) {
-    ++report.substeps;
-    ++report.unfinished;
-    state = std::move(end);
-    return;
-  }
-  if (divisible && report.newton.iterations < kHopeless * options_.iterations) {
-    const double middle = state.time + 0.5 * dt, until = state.time + dt;
-    advance(state, middle - state.time, depth + 1, report);
-    advance(state, until - state.time, depth + 1, report);
-    return;
-  }
-  fail(ExitCode::not_converged,
-       "the step at t = {} s did not converge, not even with dt = {} s ({} Newton iterations, the last of {:.2g} edge "
-       "lengths)",
-       state.time, dt, report.newton.iterations, report.newton.last_step);
-}
-
 Stepper& Stepper::without_arcs() {
   if (!flat_) {
     Model model = model_;
@@ -264,19 +206,6 @@ Stepper& Stepper::without_arcs() {
     flat_ = std::make_unique<Stepper>(std::move(model), options_);
   }
   return *flat_;
-}
-
-void Stepper::advance_flat(State& state, double dt, StepReport& report) {
-  const StepReport flat = without_arcs().step(state, dt);
-  report.substeps += flat.substeps;
-  report.failed += flat.failed;
-  report.euler_fallbacks += flat.euler_fallbacks;
-  report.unfinished += flat.unfinished;
-  ++report.flat_fallbacks;
-  report.newton += flat.newton;
-  report.error = std::max(report.error, flat.error);
-  report.reactions = flat.reactions;
-  report.seconds_analysis += flat.seconds_analysis;
 }
 
 void Stepper::clear_times() {
@@ -295,22 +224,6 @@ void Stepper::tell_times(StepReport& report) const {
     flat_->tell_times(report);
 }
 
-StepReport Stepper::step(State& state, double dt) {
-  if (!(dt > 0) || !std::isfinite(dt))
-    fail(ExitCode::usage, "a time step of {} s is not possible", dt);
-  StepReport report;
-  filters_errors_ = false; // it is only told
-  clear_times();
-  prepare_cache(state, report);
-  State next = state;
-  limit_leaning(next, model_.holds);
-  advance(next, dt, 0, report);
-  next.time = state.time + dt;
-  state = std::move(next);
-  tell_times(report);
-  return report;
-}
-
 // flat: whether it was done without arcs, as it did not converge with them.
 Stepper::Outcome Stepper::attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report) {
   flat = false;
@@ -323,118 +236,6 @@ Stepper::Outcome Stepper::attempt_either(const State& state, double dt, State& e
   without_arcs().filters_errors_ = filters_errors_;
   without_arcs().prepare_cache(state, report);
   return without_arcs().attempt(state, dt, options_.scheme, Demand::converged, end, report);
-}
-
-StepReport Stepper::step_within(State& state, double until, StepControl& control) {
-  limit_leaning(state, model_.holds);
-  constexpr double kSafety = 0.9, kLeast = 0.2, kGreatest = 4;
-  const double remaining = until - state.time;
-  if (!(remaining > 0) || !std::isfinite(remaining))
-    fail(ExitCode::usage, "cannot step from t = {} s to {} s", state.time, until);
-  if (!(control.tolerance > 0))
-    fail(ExitCode::usage, "--tolerance: {} is not above 0", control.tolerance);
-  StepReport report;
-  filters_errors_ = true;
-  clear_times();
-  prepare_cache(state, report);
-  const double wanted = control.dt > 0 ? control.dt : remaining;
-  // No sliver of a step before the output time: two equal steps instead.
-  const double first = wanted >= remaining ? remaining : wanted > 0.5 * remaining ? 0.5 * remaining : wanted;
-  struct Trial {
-    State end;
-    double dt = 0, error = 0;
-    std::size_t worst = 0;
-    bool flat = false;
-    std::vector<Vector3> reactions;
-  };
-  std::optional<Trial> best, longest; // of those that converged
-  bool jumps = false;                 // shorter steps do not help
-  Trial trial;
-  trial.dt = first;
-  const double shortest = std::min(shortest_step(state, remaining), first);
-  bool too_short = false;
-  for (int tries = 0; !best || best->error > control.tolerance; ++tries) {
-    too_short = trial.dt < shortest;
-    if (too_short || tries > 4 * options_.retries || state.time + trial.dt == state.time ||
-        report.newton.iterations >= options_.iterations)
-      break;
-    report.error = 0;
-    if (attempt_either(state, trial.dt, trial.end, trial.flat, report) != Outcome::done) {
-      ++report.failed;
-      trial.dt *= kLeast;
-      continue;
-    }
-    trial.error = report.error;
-    trial.worst = report.worst;
-    trial.reactions = report.reactions;
-    report.rejected += trial.error > control.tolerance;
-    if (!best || trial.error < best->error)
-      best = trial;
-    if (!longest)
-      longest = trial;
-    if (trial.dt <= kMuchShorter * longest->dt && trial.error > kHelped * longest->error) {
-      best = longest;
-      jumps = true;
-      break;
-    }
-    trial.dt *= std::clamp(kSafety * std::sqrt(control.tolerance / trial.error), kLeast, kSafety);
-  }
-  if (!best && too_short) { // as a fixed step is done
-    trial = {state, shortest, 0, 0, false, {}};
-    report.error = 0;
-    advance(trial.end, shortest, 0, report);
-    trial.error = report.error;
-    trial.worst = report.worst;
-    trial.reactions = report.reactions;
-    best = std::move(trial);
-    --report.substeps; // counted below
-  }
-  if (!best) {
-    Stepper& last = has_arcs() ? without_arcs() : *this;
-    last.prepare_cache(state, report);
-    trial = {{}, first, 0, 0, has_arcs(), {}};
-    report.error = 0;
-    while (last.attempt(state, trial.dt, Scheme::backward_euler, Demand::lower_potential, trial.end, report) !=
-           Outcome::done) {
-      ++report.failed;
-      trial.dt *= kLeast;
-      report.error = 0;
-      if (report.newton.iterations < kHopeless * options_.iterations && state.time + trial.dt > state.time)
-        continue;
-      fail(ExitCode::not_converged, "the step at t = {} s did not converge ({} Newton iterations, last tried {} s)",
-           state.time, report.newton.iterations, trial.dt);
-    }
-    trial.error = report.error;
-    trial.worst = report.worst;
-    trial.reactions = report.reactions;
-    ++report.unfinished;
-    best = std::move(trial);
-  }
-  if (state.time + best->dt == state.time) {
-    const Vector3& x = state.positions[best->worst];
-    fail(
-        ExitCode::not_converged,
-        "the steps have come down to nothing at t = {} s: the sheet changes faster and faster there, most at vertex {} "
-        "({:.4g}, {:.4g}, {:.4g}) m; the flow may have no later state (a film that bursts), else remeshing helps",
-        state.time, best->worst, x.x(), x.y(), x.z());
-  }
-  report.inaccurate = report.unfinished == 0 && best->error > control.tolerance;
-  report.error = best->error;
-  report.worst = best->worst;
-  report.reactions = std::move(best->reactions);
-  report.flat_fallbacks = best->flat;
-  ++report.substeps;
-  const double factor = report.unfinished > 0 || jumps
-                            ? 1
-                            : std::clamp(kSafety * std::sqrt(control.tolerance / best->error), kLeast, kGreatest);
-  // A step that was cut to land says nothing against the longer one that was wanted.
-  control.dt =
-      std::max(std::max(shortest, best->dt * factor), factor >= 1 ? std::min(wanted, kGreatest * best->dt) : 0.0);
-  state = std::move(best->end);
-  if (best->dt >= remaining)
-    state.time = until;
-  tell_times(report);
-  return report;
 }
 
 } // namespace sheet

@@ -84,6 +84,7 @@ public:
 
 private:
   struct Cache;
+  class ChosenStep;
   enum class Outcome { done, not_converged, shrinks_to_nothing };
   Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end, StepReport& report);
   Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
@@ -93,6 +94,8 @@ private:
   Outcome attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);
+  // With those of unfinished substeps.
+  [[nodiscard]] int hopeless_iterations() const { return 4 * options_.iterations; }
   [[nodiscard]] bool has_arcs() const { return model_.arcs && model_.has_angles(); }
   Stepper& without_arcs();
   void advance_flat(State& state, double dt, StepReport& report);

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A step chosen by its error, and what is done where none is accurate enough or none converges (docs/hard-cases.md).
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "libsheet/base/error.h"
+#include "libsheet/energy/leaning.h"
+#include "libsheet/solve/step.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr double kSafety = 0.9, kLeast = 0.2, kGreatest = 4; // factors from one step to the next
+constexpr double kMuchShorter = 1e-3, kHelped = 0.3; // a step that much shorter shall have that part of the error
+
+// Steps chosen by their error are not shorter: the time in which the sheet crosses 1e-4 of an edge, or a thousandth of
+// what is left [s].
+double shortest_step(const State& state, double left) {
+  double squares = 0, lengths = 0;
+  for (const Vector3& v : state.velocities)
+    squares += v.squaredNorm();
+  for (const Edge& e : state.mesh->edges)
+    lengths += (state.positions[e[1]] - state.positions[e[0]]).norm();
+  const double speed = std::sqrt(squares / static_cast<double>(state.velocities.size()));
+  const double edge = lengths / static_cast<double>(state.mesh->edges.size());
+  return std::min(1e-4 * edge / speed, 1e-3 * left);
+}
+
+} // namespace
+
+class Stepper::ChosenStep {
+public:
+  ChosenStep(Stepper& stepper, const State& state, double remaining, const StepControl& control, StepReport& report)
+      : stepper_(stepper), state_(state), remaining_(remaining), tolerance_(control.tolerance),
+        wanted_(control.dt > 0 ? control.dt : remaining), report_(report) {
+    // No sliver of a step before the output time: two equal steps instead.
+    first_ = wanted_ >= remaining ? remaining : wanted_ > 0.5 * remaining ? 0.5 * remaining : wanted_;
+    shortest_ = std::min(shortest_step(state, remaining), first_);
+  }
+
+  void find() {
+    try_shorter();
+    if (!best_ && too_short_)
+      take_shortest();
+    if (!best_)
+      take_unfinished();
+    if (leads_nowhere(best_->dt))
+      fail_of_nothing();
+    report_.inaccurate = report_.unfinished == 0 && best_->error > tolerance_;
+    report_.error = best_->error;
+    report_.worst = best_->worst;
+    report_.reactions = std::move(best_->reactions);
+    report_.flat_fallbacks = best_->flat;
+    ++report_.substeps;
+  }
+
+  // The next step to try.
+  [[nodiscard]] double next() const {
+    const double factor = report_.unfinished > 0 || jumps_
+                              ? 1
+                              : std::clamp(kSafety * std::sqrt(tolerance_ / best_->error), kLeast, kGreatest);
+    // A step that was cut to land says nothing against the longer one that was wanted.
+    return std::max(std::max(shortest_, best_->dt * factor),
+                    factor >= 1 ? std::min(wanted_, kGreatest * best_->dt) : 0.0);
+  }
+
+  [[nodiscard]] bool lands() const { return best_->dt >= remaining_; }
+  [[nodiscard]] State& end() { return best_->end; }
+
+private:
+  struct Trial {
+    State end;
+    double dt = 0, error = 0;
+    std::size_t worst = 0;
+    bool flat = false;
+    std::vector<Vector3> reactions;
+  };
+
+  [[nodiscard]] bool leads_nowhere(double dt) const { return state_.time + dt == state_.time; }
+
+  // Until one is accurate enough, none can be, or the iterations are spent.
+  void try_shorter() {
+    Trial trial;
+    trial.dt = first_;
+    std::optional<Trial> longest; // that converged
+    for (int tries = 0; !best_ || best_->error > tolerance_; ++tries) {
+      too_short_ = trial.dt < shortest_;
+      if (too_short_ || tries > 4 * stepper_.options_.retries || leads_nowhere(trial.dt) ||
+          report_.newton.iterations >= stepper_.options_.iterations)
+        return;
+      report_.error = 0;
+      if (stepper_.attempt_either(state_, trial.dt, trial.end, trial.flat, report_) != Outcome::done) {
+        ++report_.failed;
+        trial.dt *= kLeast;
+        continue;
+      }
+      note(trial);
+      report_.rejected += trial.error > tolerance_;
+      if (!best_ || trial.error < best_->error)
+        best_ = trial;
+      if (!longest)
+        longest = trial;
+      if (trial.dt <= kMuchShorter * longest->dt && trial.error > kHelped * longest->error) {
+        best_ = longest;
+        jumps_ = true;
+        return;
+      }
+      trial.dt *= std::clamp(kSafety * std::sqrt(tolerance_ / trial.error), kLeast, kSafety);
+    }
+  }
+
+  // As a fixed step is done.
+  void take_shortest() {
+    Trial trial{state_, shortest_, 0, 0, false, {}};
+    report_.error = 0;
+    stepper_.advance(trial.end, shortest_, 0, report_);
+    note(trial);
+    best_ = std::move(trial);
+    --report_.substeps; // find() counts it
+  }
+
+  void take_unfinished() {
+    Stepper& last = stepper_.has_arcs() ? stepper_.without_arcs() : stepper_;
+    last.prepare_cache(state_, report_);
+    Trial trial{{}, first_, 0, 0, stepper_.has_arcs(), {}};
+    report_.error = 0;
+    while (last.attempt(state_, trial.dt, Scheme::backward_euler, Demand::lower_potential, trial.end, report_) !=
+           Outcome::done) {
+      ++report_.failed;
+      trial.dt *= kLeast;
+      report_.error = 0;
+      if (report_.newton.iterations >= stepper_.hopeless_iterations() || leads_nowhere(trial.dt))
+        fail(ExitCode::not_converged, "the step at t = {} s did not converge ({} Newton iterations, last tried {} s)",
+             state_.time, report_.newton.iterations, trial.dt);
+    }
+    note(trial);
+    ++report_.unfinished;
+    best_ = std::move(trial);
+  }
+
+  // What the report says of the last attempt.
+  void note(Trial& trial) const {
+    trial.error = report_.error;
+    trial.worst = report_.worst;
+    trial.reactions = report_.reactions;
+  }
+
+  [[noreturn]] void fail_of_nothing() const {
+    const Vector3& x = state_.positions[best_->worst];
+    fail(
+        ExitCode::not_converged,
+        "the steps have come down to nothing at t = {} s: the sheet changes faster and faster there, most at vertex {} "
+        "({:.4g}, {:.4g}, {:.4g}) m; the flow may have no later state (a film that bursts), else remeshing helps",
+        state_.time, best_->worst, x.x(), x.y(), x.z());
+  }
+
+  Stepper& stepper_;
+  const State& state_;
+  double remaining_, tolerance_, wanted_;
+  StepReport& report_;
+  double first_ = 0, shortest_ = 0; // to be tried
+  std::optional<Trial> best_;       // of those that converged
+  bool jumps_ = false;              // shorter steps do not help
+  bool too_short_ = false;          // the next one would be
+};
+
+StepReport Stepper::step_within(State& state, double until, StepControl& control) {
+  const double remaining = until - state.time;
+  if (!(remaining > 0) || !std::isfinite(remaining))
+    fail(ExitCode::usage, "cannot step from t = {} s to {} s", state.time, until);
+  if (!(control.tolerance > 0))
+    fail(ExitCode::usage, "--tolerance: {} is not above 0", control.tolerance);
+  limit_leaning(state, model_.holds);
+  StepReport report;
+  filters_errors_ = true;
+  clear_times();
+  prepare_cache(state, report);
+  ChosenStep chosen(*this, state, remaining, control, report);
+  chosen.find();
+  control.dt = chosen.next();
+  const bool lands = chosen.lands();
+  state = std::move(chosen.end());
+  if (lands)
+    state.time = until;
+  tell_times(report);
+  return report;
+}
+
+} // namespace sheet

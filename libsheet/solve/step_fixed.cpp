@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A step of a given length, and what is done where it does not converge: without arcs, then in halves, halves by
+// backward Euler, and, when Newton's iterations are spent, unfinished (docs/hard-cases.md).
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/base/error.h"
+#include "libsheet/energy/leaning.h"
+#include "libsheet/solve/step.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr int kHalvingsBeforeEuler = 1;
+
+} // namespace
+
+StepReport Stepper::step(State& state, double dt) {
+  if (!(dt > 0) || !std::isfinite(dt))
+    fail(ExitCode::usage, "a time step of {} s is not possible", dt);
+  StepReport report;
+  filters_errors_ = false; // it is only told
+  clear_times();
+  prepare_cache(state, report);
+  State next = state;
+  limit_leaning(next, model_.holds);
+  advance(next, dt, 0, report);
+  next.time = state.time + dt;
+  state = std::move(next);
+  tell_times(report);
+  return report;
+}
+
+void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
+  State end;
+  const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
+  if (outcome == Outcome::done) {
+    ++report.substeps;
+    state = std::move(end);
+    return;
+  }
+  ++report.failed;
+  if (depth == 0 && outcome == Outcome::not_converged && has_arcs()) {
+    advance_flat(state, dt, report);
+    return;
+  }
+  const bool exhausted = report.newton.iterations >= options_.iterations;
+  if (!exhausted && options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
+      attempt(state, dt, Scheme::backward_euler, Demand::converged, end, report) == Outcome::done) {
+    ++report.substeps;
+    ++report.euler_fallbacks;
+    state = std::move(end);
+    return;
+  }
+  const bool divisible = depth < options_.retries;
+  if ((exhausted || !divisible) &&
+      attempt(state, dt, Scheme::backward_euler, Demand::lower_potential, end, report) == Outcome::done) {
+    ++report.substeps;
+    ++report.unfinished;
+    state = std::move(end);
+    return;
+  }
+  if (divisible && report.newton.iterations < hopeless_iterations()) {
+    const double middle = state.time + 0.5 * dt, until = state.time + dt;
+    advance(state, middle - state.time, depth + 1, report);
+    advance(state, until - state.time, depth + 1, report);
+    return;
+  }
+  fail(ExitCode::not_converged,
+       "the step at t = {} s did not converge, not even with dt = {} s ({} Newton iterations, the last of {:.2g} edge "
+       "lengths)",
+       state.time, dt, report.newton.iterations, report.newton.last_step);
+}
+
+void Stepper::advance_flat(State& state, double dt, StepReport& report) {
+  const StepReport flat = without_arcs().step(state, dt);
+  report.substeps += flat.substeps;
+  report.failed += flat.failed;
+  report.euler_fallbacks += flat.euler_fallbacks;
+  report.unfinished += flat.unfinished;
+  ++report.flat_fallbacks;
+  report.newton += flat.newton;
+  report.error = std::max(report.error, flat.error);
+  report.reactions = flat.reactions;
+  report.seconds_analysis += flat.seconds_analysis;
+}
+
+} // namespace sheet
