@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
       "--frames", film.frames, "RANGES",
       "draw only these frames, as in 0,5,10-20,30-; counted from 0. Negative ones count from the end of a file");
   tool.example("sheet-render run.sheet -o frames/%04d.png --material honey", "a picture of each frame");
-  tool.example("sheet-render run.sheet --y4m | ffmpeg -i - bunny.mp4", "a film");
+  tool.example("sheet-render run.sheet --denoise --samples 4 --y4m | ffmpeg -i - bunny.mp4", "a film");
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look thickness", "where the sheet is thin at the end");
   tool.example("sheet-render run.sheet --frames -1 -o end.exr --noise 1 --samples 4096",
                "light, depth, normals, thickness for other programs");

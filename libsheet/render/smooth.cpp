@@ -10,10 +10,10 @@
 namespace sheet::render {
 namespace {
 
-constexpr int levels = 5;                // of the filter; each reaches twice as far as the one before
-constexpr float normal_falloff = 40;     // exponent for 1 - cos of the angle between normals
-constexpr float plane_falloff = 1;       // for the distance from the tangent plane, in pixels
-constexpr float light_deviations = 2.5F; // by which the light of two points may differ
+constexpr int levels = 6;             // of the filter; each reaches twice as far as the one before
+constexpr float normal_falloff = 40;  // exponent for 1 - cos of the angle between normals
+constexpr float plane_falloff = 1;    // for the distance from the tangent plane, in pixels
+constexpr float light_deviations = 4; // by which the light of two points of the fewest samples may differ
 constexpr float least_variance = 1e-7F;
 constexpr std::array<float, 5> kernel{1 / 16.0F, 4 / 16.0F, 6 / 16.0F, 4 / 16.0F, 1 / 16.0F}; // cubic B-spline
 
@@ -32,6 +32,7 @@ float falloff(float x) {
 struct Noisy {
   Halves light;
   float level = 0, variance = 0; // of the mean's luminance
+  float deviations = 0;          // by which the luminance of others may differ
 };
 
 class Filter {
@@ -74,13 +75,14 @@ public:
   [[nodiscard]] Noisy smoothed(int x, int y, int step, const std::vector<Noisy>& from) const {
     const Noisy& here = from[index(x, y)];
     Noisy result;
+    result.deviations = here.deviations;
     if ((*points_)[index(x, y)].way == 0)
       return here;
     float weights = 0;
     around(x, y, step, [&](float weight, float unlike, std::size_t q) {
       const Noisy& there = from[q];
       const float difference = there.level - here.level;
-      const float scale = light_deviations * light_deviations * 2 * here.variance + least_variance;
+      const float scale = 2 * here.deviations * here.deviations * here.variance + least_variance;
       const float w = weight * falloff(unlike + difference * difference / scale);
       weights += w;
       result.light.add(Colour::Constant(w), there.light);
@@ -119,9 +121,13 @@ void smooth(std::vector<Halves>& light, const std::vector<SurfacePoint>& points,
             int width) {
   const Filter filter(points, width);
   std::vector<Noisy> now(light.size()), next(light.size());
+  const auto fewest = static_cast<float>(*std::min_element(samples.begin(), samples.end()));
   for (std::size_t i = 0; i < light.size(); ++i) {
     const float difference = luminance(light[i].a) - luminance(light[i].b);
-    next[i] = {light[i], luminance(light[i].mean()), difference * difference / 4 * static_cast<float>(samples[i])};
+    const auto count = static_cast<float>(samples[i]);
+    // Where there are more samples less needs to be smoothed.
+    next[i] = {light[i], luminance(light[i].mean()), difference * difference / 4 * count,
+               light_deviations * std::sqrt(fewest / count)};
   }
   now = next;
   filter.each([&](int x, int y) {
