@@ -8,7 +8,7 @@
 // A step that does not converge with arcs is done without them; one that does not converge is done in halves, halves by
 // backward Euler where SDIRK2 fails. When the Newton iterations allowed to a step are spent, what is left of it is done
 // by backward Euler, and taken where the last iteration promised to lower the potential by less than a hundredth of
-// what all have: a stable step of lower accuracy, in halves if need be, with up to four times the iterations. If that
+// what all have: a stable step of lower accuracy, in halves if need be, with up to eight times the iterations. If that
 // fails too, Error(not_converged), the state untouched.
 // Steps chosen by their error are shortened instead of halved. When the iterations are spent, the most accurate step
 // that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above. Where a
@@ -95,7 +95,7 @@ private:
   void advance(State& state, double dt, int depth, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);
   // With those of unfinished substeps.
-  [[nodiscard]] int hopeless_iterations() const { return 4 * options_.iterations; }
+  [[nodiscard]] int hopeless_iterations() const { return 8 * options_.iterations; }
   [[nodiscard]] bool has_arcs() const { return model_.arcs && model_.has_angles(); }
   Stepper& without_arcs();
   void advance_flat(State& state, double dt, StepReport& report);
