@@ -282,7 +282,7 @@ struct CollideStage::Impl {
     const StepPath asked = path;
     SelfReport report;
     for (int round = 1;; ++round) {
-      report = resolve_self(path, *search, reach);
+      report = resolve_self(path, *search, reach, asked.fixed);
       if (!solids || report.hits == 0 || round == rounds_with_solids)
         break;
       std::vector<Axes> fixed = path.fixed;

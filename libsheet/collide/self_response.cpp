@@ -26,8 +26,9 @@ struct Inequality {
 
 class Response {
 public:
-  Response(StepPath& path, SelfSearch& search, std::span<const double> reach)
-      : path_(path), search_(search), reach_(reach), islands_(path.start.size()), mobility_(path.start.size()) {
+  Response(StepPath& path, SelfSearch& search, std::span<const double> reach, std::vector<Axes> prescribed)
+      : path_(path), search_(search), reach_(reach), prescribed_(std::move(prescribed)), islands_(path.start.size()),
+        mobility_(path.start.size()) {
     for (std::size_t v = 0; v < mobility_.size(); ++v)
       mobility_[v] = free_part(path.fixed[v]) / path.mass[v];
   }
@@ -206,7 +207,8 @@ private:
   void set_velocities(const std::vector<Vector3>& asked, const std::vector<Vector3>& before) {
     for (std::size_t v = 0; v < asked.size(); ++v)
       if (path_.end[v] != asked[v])
-        path_.velocity[v] = before[v] + (path_.end[v] - asked[v]) / path_.length();
+        path_.velocity[v] =
+            with_fixed(prescribed_[v], before[v], before[v] + (path_.end[v] - asked[v]) / path_.length());
     for (const auto& island : islands_.all()) {
       Axes fixed = 0;
       double mass = 0;
@@ -231,6 +233,7 @@ private:
   StepPath& path_;
   SelfSearch& search_;
   std::span<const double> reach_;
+  std::vector<Axes> prescribed_; // velocities
   Sets islands_;
   std::vector<Vector3> mobility_; // inverse mass along each axis [1/kg]
   std::vector<Inequality> inequalities_;
@@ -239,8 +242,9 @@ private:
 
 } // namespace
 
-SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach) {
-  return Response(path, search, reach).run();
+SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
+                        std::optional<std::vector<Axes>> prescribed) {
+  return Response(path, search, reach, std::move(prescribed).value_or(path.fixed)).run();
 }
 
 } // namespace sheet::collide

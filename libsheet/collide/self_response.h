@@ -23,10 +23,16 @@
 // without an intersection, they stay behind; the report counts them. What touches a solid may then be inside of it; the
 // next step pushes it out.
 //
-// Velocities change by the displacement over the step's length. Then each island (vertices joined by hits) without
-// fixed vertices gets the rigid motion that gives its momentum and angular momentum back (of nearly collinear islands
-// the part about their line is left out), others the momentum along the axes along which none is fixed.
+// Velocities change by the displacement over the step's length, but not along axes along which they are prescribed:
+// what a solid carries or brings out and this leaves behind still has the solid's velocity, and springs to it do not
+// throw what is free. Then each island (vertices joined by hits) without fixed vertices gets the rigid motion that
+// gives its momentum and angular momentum back (of nearly collinear islands the part about their line is left out),
+// others the momentum along the axes along which none is fixed.
 #pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/step_path.h"
 
@@ -41,7 +47,9 @@ struct SelfReport {
   std::size_t held_back = 0;   // those whose motion is prescribed, among them
 };
 
-// Corrects end and velocity of the path. `reach`: contact distance at each vertex [m].
-SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach);
+// Corrects end and velocity of the path. `reach`: contact distance at each vertex [m]; `prescribed`: axes along which
+// each vertex has a prescribed velocity, those of path.fixed if not given.
+SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
+                        std::optional<std::vector<Axes>> prescribed = std::nullopt);
 
 } // namespace sheet::collide

@@ -122,6 +122,22 @@ TEST(SelfResponse, RandomWays) {
   }
 }
 
+// A solid at rest brings its layer out by more than there is room: what stays behind has the solid's velocity, not that
+// of its way back.
+TEST(SelfResponse, WhatASolidBringsOutAndStaysBehindIsAtRest) {
+  Case c(2, 4, 0.05);
+  for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+    c.path.fixed[v] = all_axes;
+    if (v < c.start.size() / 2)
+      c.path.end[v] = c.start[v] + Vector3(0, 0, 0.2);
+  }
+  const SelfReport report = c.resolve();
+  EXPECT_GT(report.held_back, 0u);
+  c.expect_safe();
+  for (const Vector3& velocity : c.path.velocity)
+    EXPECT_EQ(velocity, Vector3::Zero());
+}
+
 // Held vertices that are sent through the rest, or through each other, stay behind at worst.
 TEST(SelfResponse, HeldVerticesSentThroughOthers) {
   for (unsigned seed = 0; seed < 20; ++seed) {
