@@ -14,16 +14,12 @@ namespace {
 
 constexpr double kGreatestLean = 80 * std::numbers::pi / 180;
 
-// The angle from the mean of the normals at the edge to those of its triangles [rad].
-double half_fold(const State& state, std::size_t edge, const Vector3& mean) {
-  double greatest = 0;
-  for (const auto side : state.mesh->edge_triangles[edge])
-    if (side != kNone) {
-      const Triangle& t = state.mesh->triangles[side];
-      const Vector3 normal = TriangleArea(state.positions[t[0]], state.positions[t[1]], state.positions[t[2]]).normal;
-      greatest = std::max(greatest, std::acos(std::clamp(normal.dot(mean), -1.0, 1.0)));
-    }
-  return greatest;
+std::vector<Vector3> normals_of(const State& state) {
+  std::vector<Vector3> normals;
+  normals.reserve(state.mesh->triangles.size());
+  for (const Triangle& t : state.mesh->triangles)
+    normals.push_back(TriangleArea(state.positions[t[0]], state.positions[t[1]], state.positions[t[2]]).normal);
+  return normals;
 }
 
 } // namespace
@@ -34,8 +30,13 @@ void limit_leaning(State& state, const std::vector<Hold>& holds) {
     return;
   const std::vector<double> before = angles;
   const std::vector<EdgeFrame> means = mean_normal_frames(*state.mesh, state.positions);
+  const std::vector<Vector3> normals = normals_of(state);
   for (std::size_t e = 0; e < angles.size(); ++e) {
-    const double most = std::max(0.0, kGreatestLean - half_fold(state, e, means[e].director));
+    double cosine = 1; // of the angle from the mean to the normals of the edge's triangles
+    for (const auto side : state.mesh->edge_triangles[e])
+      if (side != kNone)
+        cosine = std::min(cosine, normals[side].dot(means[e].director));
+    const double most = std::max(0.0, kGreatestLean - std::acos(std::max(cosine, -1.0)));
     angles[e] = std::clamp(angles[e], -most, most);
   }
   for (const Hold& hold : holds)

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "libsheet/base/error.h"
-#include "libsheet/energy/leaning.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/area.h"
 
@@ -152,7 +151,6 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   }
   estimate_error(state, dt, stage, first, last, end, scale, report);
   end.director_angles = director_angles(stage, last);
-  limit_leaning(end, model_.holds);
   set_held_velocities(model_.holds, end.time, dt, end);
   if (model_.reactions) {
     // What is held does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
