@@ -65,6 +65,26 @@ interrupted() {
   interrupted INT run folding 0.025 0.4
 }
 
+@test "ice cream: killed and resumed = straight" {
+  interrupted KILL run ice-cream 0.02 0.1
+}
+
+@test "enrobing: interrupted and resumed = straight" {
+  interrupted INT run enrobing 0.04 0.15
+}
+
+@test "tearing: interrupted and resumed = straight" {
+  interrupted INT run tearing 0.05 0.06
+}
+
+@test "curtain: killed and resumed = straight" {
+  interrupted KILL run curtain 0.25 0.25
+}
+
+@test "drape: interrupted and resumed = straight" {
+  interrupted INT run drape 0.1 0.25
+}
+
 @test "a stream that was made with other options is not gone on with" {
   export OUT=$BATS_TEST_TMPDIR/run
   pipelines/bunny/run 0.3 0.1
