@@ -81,6 +81,10 @@ interrupted() {
   interrupted KILL run curtain 0.25 0.25
 }
 
+@test "rupture: interrupted and resumed = straight" {
+  interrupted INT fine rupture 0.002 2
+}
+
 @test "drape: interrupted and resumed = straight" {
   interrupted INT run drape 0.1 0.25
 }
