@@ -78,7 +78,7 @@ interrupted() {
 }
 
 @test "curtain: killed and resumed = straight" {
-  interrupted KILL run curtain 0.25 0.25
+  interrupted KILL run curtain 0.12 0.4
 }
 
 @test "rupture: interrupted and resumed = straight" {
