@@ -103,7 +103,7 @@ private:
 
   bool collapse(std::uint32_t side, const Limits& limits, double longest) {
     const std::uint32_t a = mesh_.from(side), b = mesh_.to(side);
-    if (!propose_collapse(sheet_, side, pay_ * size_.along(a, b), edit_))
+    if (!propose_collapse(sheet_, side, most_pay * size_.along(a, b), edit_))
       return false;
     for (const Corners& t : edit_.added) // what is collapsed here must not be split there
       for (const std::uint32_t v : t)
@@ -145,7 +145,7 @@ private:
   }
 
   bool smooth(std::uint32_t v, double thickness) {
-    if (!propose_smooth(sheet_, v, pay_ * size_.at(v), edit_))
+    if (!propose_smooth(sheet_, v, most_pay * size_.at(v), edit_))
       return false;
     double before = 0, after = 0;
     for (std::size_t i = 0; i < edit_.removed.size(); ++i) {
@@ -285,7 +285,7 @@ private:
     return moved;
   }
 
-  static constexpr double pay_ = 0.02; // of an edge: how far a vertex moves at most to pay back swept volume
+  static constexpr double most_pay = 0.02; // of an edge: how far a vertex moves at most to pay back swept volume
   EditableSheet& sheet_;
   const Mesh& mesh_;
   SizeField& size_;

@@ -161,7 +161,8 @@ void grade(const EditableSheet& sheet, std::vector<double>& size) {
   for (std::uint32_t v = 0; v < size.size(); ++v)
     queue.push({size[v], v});
   while (!queue.empty()) {
-    const auto [length, v] = queue.top();
+    const double length = queue.top().first;
+    const std::uint32_t v = queue.top().second;
     queue.pop();
     if (length > size[v])
       continue;
