@@ -76,18 +76,20 @@ plot() {
   } | gnuplot
 }
 
-# panels hstack|vstack NAME FRAME,FRAME,... PICTURE.png [OPTION...]: these frames (-1: the last) beside or below each other,
-# in 256 colours.
+# panels hstack|vstack NAME PERCENT,PERCENT,... PICTURE.png [OPTION...]: the frames at these parts of a run that was measured
+# (100: the last) beside or below each other, in 256 colours.
 panels() {
   [[ $FILM != no ]] || return 0
-  local folder frames=() inputs=() frame
+  local folder percents=() inputs=() percent frame last
+  last=$(($(wc -l < "$out/$2.csv") - 2))
   folder=$(mktemp -d "$out/.panels.XXXXXX")
-  IFS=, read -ra frames <<< "$3"
-  for frame in "${frames[@]}"; do
-    draw 4 "$2" --frames "$frame" "${@:5}" -o "$folder/$frame.png"
-    inputs+=(-i "$folder/$frame.png")
+  IFS=, read -ra percents <<< "$3"
+  for percent in "${percents[@]}"; do
+    frame=$(((percent * last + 50) / 100))
+    draw 4 "$2" --frames "$frame" "${@:5}" -o "$folder/$percent.png"
+    inputs+=(-i "$folder/$percent.png")
   done
   ffmpeg -y -loglevel error "${inputs[@]}" -filter_complex \
-    "$1=${#frames[@]},split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=none" "$out/$4"
+    "$1=${#percents[@]},split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=none" "$out/$4"
   rm -r "$folder"
 }

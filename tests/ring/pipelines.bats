@@ -93,6 +93,11 @@ interrupted() {
   interrupted INT run drape 0.1 0.25
 }
 
+@test "ice cream: frequency goes as speed, whatever the edges" {
+  OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/ice-cream/law 0.01 4 "1.5 3" "0.055 0.06"
+  [[ $(grep -cE "goes as speed to (0\.9[0-9]*|1\.0[0-9]*)," <<< "$output") == 2 ]]
+}
+
 @test "gallery: a scene that is ended ends it, it goes on from there, and what is done is not done again" {
   export OUT=$BATS_TEST_TMPDIR/gallery SHEET_BIN=$BATS_TEST_TMPDIR/bin
   mkdir "$SHEET_BIN"
