@@ -75,3 +75,19 @@ plot() {
     cat
   } | gnuplot
 }
+
+# panels hstack|vstack NAME FRAME,FRAME,... PICTURE.png [OPTION...]: these frames (-1: the last) beside or below each other,
+# in 256 colours.
+panels() {
+  [[ $FILM != no ]] || return 0
+  local folder frames=() inputs=() frame
+  folder=$(mktemp -d "$out/.panels.XXXXXX")
+  IFS=, read -ra frames <<< "$3"
+  for frame in "${frames[@]}"; do
+    draw 4 "$2" --frames "$frame" "${@:5}" -o "$folder/$frame.png"
+    inputs+=(-i "$folder/$frame.png")
+  done
+  ffmpeg -y -loglevel error "${inputs[@]}" -filter_complex \
+    "$1=${#frames[@]},split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=none" "$out/$4"
+  rm -r "$folder"
+}

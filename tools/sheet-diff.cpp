@@ -1,46 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-diff: compares two streams. Its exit codes are those of diff(1).
-#include "formats/cpp/stream_reader.h"
-#include "libsheet/base/files.h"
-#include "libsheet/base/log.h"
 #include "libsheet/base/tool.h"
-#include "libsheet/measure/compare.h"
-
-namespace {
-
-// True if the streams differ; prints how.
-bool differ(const std::string& first, const std::string& second, const sheet::CompareOptions& options) {
-  if (first == "-" && second == "-")
-    sheet::fail(sheet::ExitCode::usage, "standard input cannot be both streams");
-  const sheet::InputFile in_a(first), in_b(second);
-  sheet::OutputFile out("-", sheet::OutputFile::Content::text);
-  sheet::formats::StreamReader a(in_a.descriptor(), in_a.name()), b(in_b.descriptor(), in_b.name());
-  sheet::formats::Frame frame_a, frame_b;
-  const bool quiet = sheet::log::level() == sheet::log::Level::quiet;
-  bool different = false, more_a = a.read(frame_a), more_b = b.read(frame_b);
-  for (; more_a && more_b; more_a = a.read(frame_a), more_b = b.read(frame_b)) {
-    for (const std::string& line : compare(frame_a, frame_b, options)) {
-      different = true;
-      if (!quiet)
-        out.write(fmt::format("frame {}: {}\n", a.frames() - 1, line));
-    }
-    if (different && quiet)
-      return true;
-  }
-  if (more_a != more_b) {
-    different = true;
-    while (more_a && a.read(frame_a)) // to count them
-      continue;
-    while (more_b && b.read(frame_b))
-      continue;
-    if (!quiet)
-      out.write(fmt::format("{} frames in the first, {} in the second\n", a.frames(), b.frames()));
-  }
-  out.close();
-  return different;
-}
-
-} // namespace
+#include "libsheet/measure/compare_streams.h"
 
 int main(int argc, char** argv) {
   sheet::Tool tool(
@@ -73,7 +34,7 @@ int main(int argc, char** argv) {
     for (const std::string& text : arrays)
       sheet::add_tolerance(options, text);
     options.ignored.insert(ignored.begin(), ignored.end());
-    different = differ(first, second, options);
+    different = sheet::streams_differ(first, second, options);
   });
   return code != 0 ? 2 : different ? 1 : 0;
 }

@@ -5,16 +5,14 @@
 
 int main(int argc, char** argv) {
   sheet::Tool tool("sheet-remesh", "good triangles for a sheet that stretches and folds",
-                   "Splits long edges, collapses short ones, turns diagonals and repairs flat triangles, in the sheet "
-                   "and at its rims. "
-                   "The liquid's volume is kept to round-off, momentum and enclosed volume too; thickness gets no new "
-                   "extremes, kinetic "
-                   "energy does not grow, triangles do not come to intersect. Velocities, holds, contacts and all "
-                   "other arrays go along "
-                   "by their rules. A frame whose mesh needs nothing passes unchanged.\n"
+                   "Splits long edges, collapses short ones, turns diagonals and repairs flat triangles, in the "
+                   "sheet and at its rims. The liquid's volume is kept to round-off, momentum and enclosed volume "
+                   "too; thickness gets no new extremes, kinetic energy does not grow, triangles do not come to "
+                   "intersect. Velocities, holds, contacts and all other arrays go along by their rules. A frame "
+                   "whose mesh needs nothing passes unchanged.\n"
                    "Edges longer than 1.4 times the wanted length are split, those shorter than 0.6 times collapsed. "
-                   "The wanted length "
-                   "is the same everywhere, or, with --adaptive, follows curvature, thickness, flow and buckling.");
+                   "The wanted length is the same everywhere, or, with --adaptive, follows curvature, thickness, "
+                   "flow and buckling.");
   sheet::remesh::StageOptions o;
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);

@@ -9,13 +9,11 @@ int main(int argc, char** argv) {
       "sheet-step", "one implicit time step of a viscous sheet",
       "Advances each frame by one time step of the model in its scene: viscous stretching and bending, surface "
       "tension, inertia, gravity, pressure, bath, holds, and the motion of an inlet. What the scene does not mention "
-      "is not assembled; -v lists "
-      "the terms and each one's share of the time.\n"
+      "is not assembled; -v lists the terms and each one's share of the time.\n"
       "Steps end exactly at the output times that sheet-loop stamps, and where a prescribed motion has a kink. A "
       "step that does not converge is retried smaller; if nothing helps, the exit code is 5 and the frame is saved.");
   sheet::StepStageOptions o;
   sheet::FilterOptions filter;
-  std::size_t scheme = 0, bending = 0;
   sheet::declare_filter_options(tool, filter);
   tool.option("--dt", o.dt, "SECONDS",
               "fixed time step, shortened where equal steps must land on an output time; without it, "
@@ -23,9 +21,14 @@ int main(int argc, char** argv) {
               "shortest that -v shows with --tolerance, or a tenth of the time in which anything moves by an edge");
   tool.option("--tolerance", o.tolerance, "E",
               "choose steps whose estimated error is below this part of the edges' length (the default, with 0.001)");
-  tool.choice("--scheme", scheme, {"sdirk2", "backward-euler"}, "second order, or the paper's first order");
+  tool.choice("--scheme", o.scheme,
+              {{"sdirk2", sheet::Scheme::sdirk2}, {"backward-euler", sheet::Scheme::backward_euler}},
+              "second order, or the paper's first order");
   tool.choice(
-      "--bending", bending, {"mid-edge", "hinge", "hinge-paper"},
+      "--bending", o.bending,
+      {{"mid-edge", sheet::Bending::mid_edge},
+       {"hinge", sheet::Bending::hinge},
+       {"hinge-paper", sheet::Bending::hinge_paper}},
       "how bending is discretised, if the scene has bending: directors (converges on any mesh), hinges with the mean "
       "constant, hinges as the paper prints them");
   tool.option("--failed", o.failed, "FILE", "where a frame goes whose step fails; '' for nowhere",
@@ -34,10 +37,6 @@ int main(int argc, char** argv) {
                "two seconds, steps as the error asks for");
   tool.example("sheet-step --dt 0.01 < a.sheet > b.sheet", "one step");
   return tool.run(argc, argv, [&] {
-    o.scheme = scheme == 0 ? sheet::Scheme::sdirk2 : sheet::Scheme::backward_euler;
-    o.bending = bending == 0   ? sheet::Bending::mid_edge
-                : bending == 1 ? sheet::Bending::hinge
-                               : sheet::Bending::hinge_paper;
     if (!o.failed.empty())
       sheet::claim_file(o.failed, sheet::FileRole::output);
     sheet::StepStage stage(o);

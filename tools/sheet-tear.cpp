@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-tear: separates a sheet where it has become too thin.
 #include "libsheet/base/filter.h"
-#include "libsheet/remesh/tear.h"
+#include "libsheet/flow/tear.h"
 
 int main(int argc, char** argv) {
   sheet::Tool tool(
@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-tear | sheet-step' > run.sheet",
                "a sheet that tears as it is stretched");
   return tool.run(argc, argv, [&] {
-    sheet::TearStage stage;
+    sheet::flow::TearStage stage;
     sheet::run_filter(tool, filter, [&](sheet::formats::Frame& frame) { stage.tear(frame); });
     stage.report();
   });

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -181,6 +182,14 @@ std::string find_value_error(const Frame& frame) {
       return fmt::format("the frame counts {} edges, its triangles have {}", frame.edges, edges);
   }
   return {};
+}
+
+Array make_standard_array(std::string_view name, std::uint64_t rows, std::uint32_t components) {
+  const Standard* s = find_standard(name);
+  if (s == nullptr)
+    throw std::logic_error(fmt::format("\"{}\" is no standard array", name));
+  return make_array(s->name, s->place, s->type, s->components == any_number ? components : s->components, s->unit,
+                    s->transfer, rows);
 }
 
 std::string find_array_error(const Frame& frame, const Array& array) {

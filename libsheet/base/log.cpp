@@ -49,6 +49,8 @@ void warning(std::string_view message) {
     write_lines(message);
 }
 
+void note(std::string_view message) { warning(message); }
+
 void detail(std::string_view message) {
   if (state().level == Level::verbose)
     write_lines(message);

@@ -72,6 +72,16 @@ void print_to_stdout(const std::string& text) {
   throw Finished{};
 }
 
+// A word that no option has taken.
+[[noreturn]] void refuse(const std::string& word, const std::vector<std::string>& spellings, const std::string& tool) {
+  if (word.size() < 2 || word[0] != '-')
+    fail(ExitCode::usage, "argument \"{}\" is one too many (see {} --help)", word, tool);
+  const std::vector<std::string_view> known(spellings.begin(), spellings.end());
+  const std::string_view nearest = nearest_word(word.substr(0, word.find('=')), known);
+  fail(ExitCode::usage, "unknown option {}{} (see {} --help)", word,
+       nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), tool);
+}
+
 } // namespace
 
 Tool::Tool(std::string name, std::string summary, std::string description)
@@ -143,19 +153,20 @@ void Tool::flag(std::string_view names, bool& value, std::string_view text, Prov
   add(std::move(o));
 }
 
-void Tool::choice(std::string_view names, std::size_t& value, std::vector<std::string> words, std::string_view text) {
+void Tool::choice_of_word(std::string_view names, std::vector<std::string> words, std::string_view text,
+                          std::function<void(std::size_t)> set, std::function<std::size_t()> get) {
   Option o;
   o.names = names;
   o.text = text;
   for (const std::string& word : words)
     o.placeholder += (o.placeholder.empty() ? "" : "|") + word;
-  o.set = [&value, words](const std::string& s) {
+  o.set = [set = std::move(set), words](const std::string& s) {
     const auto it = std::find(words.begin(), words.end(), s);
     if (it == words.end())
       fail(ExitCode::usage, "\"{}\" is not one of {}", s, fmt::join(words, ", "));
-    value = static_cast<std::size_t>(it - words.begin());
+    set(static_cast<std::size_t>(it - words.begin()));
   };
-  o.get = [&value, words] { return std::vector{words[value]}; };
+  o.get = [get = std::move(get), words] { return std::vector{words[get()]}; };
   o.words = std::move(words);
   add(std::move(o));
 }
@@ -261,20 +272,14 @@ void Tool::parse(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     fail(ExitCode::usage, "{} (see {} --help)", error.what(), name_);
   }
+  std::vector<std::string> spellings;
+  for (const Option& option : options_)
+    for (const std::string& spelling : CLI::detail::split(option.names, ','))
+      if (spelling[0] == '-')
+        spellings.push_back(spelling);
   for (const std::string& extra : app.remaining()) {
-    if (extra == "--") // CLI11 leaves the separator behind
-      continue;
-    if (extra.size() < 2 || extra[0] != '-')
-      fail(ExitCode::usage, "argument \"{}\" is one too many (see {} --help)", extra, name_);
-    std::vector<std::string> names;
-    for (const Option& option : options_)
-      for (const std::string& name : CLI::detail::split(option.names, ','))
-        if (name[0] == '-')
-          names.push_back(name);
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    const std::string_view nearest = nearest_word(extra.substr(0, extra.find('=')), known);
-    fail(ExitCode::usage, "unknown option {}{} (see {} --help)", extra,
-         nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), name_);
+    if (extra != "--") // CLI11 leaves the separator behind
+      refuse(extra, spellings, name_);
   }
 }
 

@@ -38,8 +38,21 @@ public:
   void option(std::string_view names, std::vector<std::string>& values, std::string_view placeholder,
               std::string_view text);
   void flag(std::string_view names, bool& value, std::string_view text, Provenance provenance = Provenance::record);
-  // One of several words; `value` is the index of the chosen one.
-  void choice(std::string_view names, std::size_t& value, std::vector<std::string> words, std::string_view text);
+  // One of several words, each of which stands for a value.
+  template <class T>
+  void choice(std::string_view names, T& value, std::vector<std::pair<std::string, T>> words, std::string_view text) {
+    std::vector<std::string> spelled;
+    for (const auto& [word, meaning] : words)
+      spelled.push_back(word);
+    choice_of_word(
+        names, std::move(spelled), text, [&value, words](std::size_t chosen) { value = words[chosen].second; },
+        [&value, words] {
+          std::size_t i = 0;
+          while (words[i].second != value)
+            ++i;
+          return i;
+        });
+  }
   // A value that the caller parses: `set` throws Error to refuse, `print` gives the text of the value now ("" for
   // none).
   void custom(std::string_view names, std::string_view placeholder, std::string_view text,
@@ -77,6 +90,8 @@ private:
     std::function<std::vector<std::string>()> get; // the values now; none: absent
   };
   void add(Option option);
+  void choice_of_word(std::string_view names, std::vector<std::string> words, std::string_view text,
+                      std::function<void(std::size_t)> set, std::function<std::size_t()> get);
   void parse(int argc, char** argv);
   [[nodiscard]] std::string synopsis() const;
   [[nodiscard]] std::string help_text() const;

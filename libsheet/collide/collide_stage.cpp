@@ -10,13 +10,14 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
-#include "libsheet/collide/contact_arrays.h"
 #include "libsheet/collide/known_triangles.h"
 #include "libsheet/collide/loose_springs.h"
 #include "libsheet/collide/release.h"
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
 #include "libsheet/scene/frame_scene.h"
+#include "libsheet/scene/prescribed.h"
+#include "libsheet/sheet/frame_mesh.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::collide {
@@ -56,7 +57,7 @@ struct Totals {
     solids.brought_out += r.brought_out;
     solids.pushed += r.pushed;
     solids.carried += r.carried;
-    solids.unresolved += r.unresolved;
+    solids.started_across = std::max(solids.started_across, r.started_across);
   }
 
   void add(const SelfReport& r) {
@@ -99,9 +100,9 @@ Shares shares(std::span<const Corners> triangles, std::span<const double> volume
 
 struct CollideStage::Impl {
   FrameScene scenes;
-  const Scene* scene = nullptr; // the frame's
-  std::optional<Solids> solids; // if the scene has some
-  std::optional<Connectivity> mesh;
+  const Scene* scene = nullptr;        // the frame's
+  std::optional<solid::Solids> solids; // if the scene has some
+  FrameMesh mesh;
   std::optional<SelfSearch> search;
   std::vector<Vector3> last_end; // safe, so a step that starts there on the same mesh needs no check
   KnownTriangles known;          // those of the last end: of another mesh, pairs of them need no check
@@ -118,18 +119,7 @@ struct CollideStage::Impl {
 
   [[nodiscard]] bool self() const { return scene->contact && scene->contact->self; }
 
-  void connect_mesh(const Frame& frame) {
-    const auto corners = triangles(frame);
-    if (mesh && mesh->vertices == frame.vertices &&
-        std::equal(corners.begin(), corners.end(), mesh->triangles.begin(), mesh->triangles.end()))
-      return;
-    search.reset();
-    last_end.clear();
-    mesh = connect(frame.vertices, corners);
-    search.emplace(*mesh);
-  }
-
-  [[nodiscard]] StepPath path_of(const Frame& frame) const {
+  [[nodiscard]] StepPath path_of(const Frame& frame, Shares& at_start) const {
     const Array* start = frame.find("start_position");
     const double nan = std::numeric_limits<double>::quiet_NaN();
     StepPath path;
@@ -147,36 +137,17 @@ struct CollideStage::Impl {
     path.velocity.assign(v.begin(), v.end());
     path.velocity.resize(frame.vertices, Vector3::Zero());
     path.touch = touched_solids(frame, scene->solids.size());
-    path.fixed = held(frame, path.start_time);
-    const Shares s = shares(path.triangles, volumes(frame), path.start);
+    path.fixed = scene::prescribed_axes(frame, *scene, path.start_time);
+    at_start = shares(path.triangles, volumes(frame), path.start);
     const double density = scene->material.density > 0 ? scene->material.density : 1;
     for (std::size_t i = 0; i < path.start.size(); ++i) {
-      const double limit = edges_of_reach * s.edge[i]; // where triangles are crushed, volume over area is beyond sense
-      path.thickness.push_back(s.volume[i] < limit * s.area[i] ? s.volume[i] / s.area[i] : limit);
-      path.mass.push_back(s.volume[i] * density);
+      const double limit =
+          edges_of_reach * at_start.edge[i]; // where triangles are crushed, volume over area is beyond sense
+      path.thickness.push_back(at_start.volume[i] < limit * at_start.area[i] ? at_start.volume[i] / at_start.area[i]
+                                                                             : limit);
+      path.mass.push_back(at_start.volume[i] * density);
     }
     return path;
-  }
-
-  // By a [[hold]] or inflow that is in force at time t.
-  [[nodiscard]] std::vector<Axes> held(const Frame& frame, double t) const {
-    std::vector<Axes> fixed(frame.vertices, 0);
-    const auto hold = holds(frame);
-    for (std::size_t i = 0; i < scene->holds.size(); ++i) {
-      const auto& [x, y, z] = scene->holds[i].axes;
-      const auto axes = static_cast<Axes>((x ? 1 : 0) | (y ? 2 : 0) | (z ? 4 : 0));
-      if (const auto& until = scene->holds[i].until; until && t >= *until)
-        continue;
-      for (std::size_t v = 0; v < hold.size(); ++v)
-        if ((hold[v] >> i & 1) != 0)
-          fixed[v] |= axes;
-    }
-    const auto inlet = masks(frame, "inlet");
-    if (scene->inflow && (!scene->inflow->until || t < *scene->inflow->until))
-      for (std::size_t v = 0; v < inlet.size(); ++v)
-        if ((inlet[v] & in_inlet) != 0)
-          fixed[v] = all_axes;
-    return fixed;
   }
 
   // Contact distance at each vertex.
@@ -207,7 +178,7 @@ struct CollideStage::Impl {
   static void check_stretch(const StepPath& path, std::span<const Vector3> whole, std::span<const Vector3> places,
                             std::string_view when) {
     constexpr double most = 100;
-    Box3 box;
+    solid::Box3 box;
     for (const Vector3& x : whole)
       box.extend(x);
     const double limit = most * box.diagonal().norm();
@@ -225,7 +196,8 @@ struct CollideStage::Impl {
   }
 
   void step(Frame& frame) {
-    StepPath path = path_of(frame);
+    Shares at_start;
+    StepPath path = path_of(frame, at_start);
     check_stretch(path);
     Watch watch;
     std::vector<std::uint32_t> off;
@@ -242,8 +214,11 @@ struct CollideStage::Impl {
       totals.with_solids += watch.lap();
     }
     if (self()) {
-      connect_mesh(frame);
-      const std::vector<double> reach = reach_of(path, shares(path.triangles, volumes(frame), path.start));
+      if (mesh.follow(frame)) {
+        last_end.clear();
+        search.emplace(*mesh.mesh());
+      }
+      const std::vector<double> reach = reach_of(path, at_start);
       search->gather(path.start, path.end, reach);
       check_start(path);
       totals.check += watch.lap();
@@ -297,9 +272,8 @@ struct CollideStage::Impl {
     }
     if (report.held_back > 0)
       log::warning("step {}: {} vertices on solids or held stay behind, or the sheet would pass through itself "
-                   "(nothing to worry "
-                   "about in a few steps; if it comes back step after step, solids or [[hold]]s leave the sheet too "
-                   "little room)",
+                   "(nothing to worry about in a few steps; if it comes back step after step, solids or [[hold]]s "
+                   "leave the sheet too little room)",
                    step, report.held_back);
     totals.add(report);
     log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", step, report.hits,
@@ -310,7 +284,7 @@ struct CollideStage::Impl {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
     const SpringSheet sheet{path.start, path.end, reach, path.thickness, at_end.area, fixed, path.length()};
     std::vector<ContactSpring> springs = read_springs(frame);
-    const std::vector<ContactSpring> loose = take_loose(springs, *mesh, path.start);
+    const std::vector<ContactSpring> loose = take_loose(springs, *mesh.mesh(), path.start);
     follow(springs, *scene, sheet);
     add_springs(springs, search->near(path.end, reach), *scene, sheet);
     hand_over(loose, path.end, springs);
@@ -336,10 +310,10 @@ void CollideStage::report() const {
     return;
   const double ms = 1e3 / static_cast<double>(t.steps);
   if (impl_->solids) {
-    log::detail("{} steps with solids: {} vertices caught, {} released, {} brought out, at most {} touching, {} "
-                "impulses, {} vertices carried",
-                t.steps, t.solids.caught, t.released, t.solids.brought_out, t.most_touching, t.solids.pushed,
-                t.solids.carried);
+    log::detail("{} steps with solids: {} vertices caught, {} released, {} brought out, at most {} touching, at "
+                "most {} triangles that start across a surface, {} impulses, {} vertices carried",
+                t.steps, t.solids.caught, t.released, t.solids.brought_out, t.most_touching, t.solids.started_across,
+                t.solids.pushed, t.solids.carried);
     log::detail("  processor time of a step: {:.2f} ms", ms * t.with_solids);
   }
   if (impl_->self()) {

@@ -9,20 +9,11 @@ namespace sheet::collide {
 
 namespace {
 
-bool of_vertex(const ContactSpring& s) { return s.weights[0] == 1; }
-
-Vector3 offset(const ContactSpring& s, std::span<const Vector3> x) {
-  Vector3 c = Vector3::Zero();
-  for (std::size_t i = 1; i < 4; ++i)
-    c += s.weights[i] * (x[s.vertices[i]] - x[s.vertices[0]]);
-  return c;
-}
-
 // Unit normal of the triangle, or of both edges; none where they nearly degenerate.
 std::optional<Vector3> normal_of(const ContactSpring& s, std::span<const Vector3> x) {
   const auto& v = s.vertices;
-  const Vector3 a = of_vertex(s) ? x[v[2]] - x[v[1]] : x[v[1]] - x[v[0]];
-  const Vector3 b = of_vertex(s) ? x[v[3]] - x[v[1]] : x[v[3]] - x[v[2]];
+  const Vector3 a = s.of_vertex() ? x[v[2]] - x[v[1]] : x[v[1]] - x[v[0]];
+  const Vector3 b = s.of_vertex() ? x[v[3]] - x[v[1]] : x[v[3]] - x[v[2]];
   const Vector3 n = a.cross(b);
   const double length = n.norm();
   if (!(length > 1e-3 * a.norm() * b.norm()))
@@ -32,7 +23,7 @@ std::optional<Vector3> normal_of(const ContactSpring& s, std::span<const Vector3
 
 // Half of the area that a spring stands for.
 double area_of(const ContactSpring& s, std::span<const double> area) {
-  if (of_vertex(s))
+  if (s.of_vertex())
     return 0.5 * area[s.vertices[0]];
   return 0.125 * (area[s.vertices[0]] + area[s.vertices[1]] + area[s.vertices[2]] + area[s.vertices[3]]);
 }
@@ -47,7 +38,7 @@ double mean_at(std::span<const double> values, const ContactSpring& s) {
 // The time in which a contact acts: a tenth of that of falling by its distance d, without gravity of coming by it. Of
 // the step only where nothing falls or comes, so that a contact is the same in short steps as in long ones.
 double time_of(const ContactSpring& s, double g, double d, const SpringSheet& sheet) {
-  const double coming = s.normal.dot(offset(s, sheet.start) - offset(s, sheet.end)) / sheet.step;
+  const double coming = s.normal.dot(s.offset(sheet.start) - s.offset(sheet.end)) / sheet.step;
   if (g > 0)
     return 0.1 * std::sqrt(d / g);
   return coming > 0 ? 0.1 * d / coming : sheet.step;
@@ -72,7 +63,7 @@ bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   const auto turn = Eigen::Quaterniond::FromTwoVectors(*before, *after);
   s.normal = (turn * s.normal).normalized();
   s.anchor = turn * s.anchor;
-  const double gap = s.normal.dot(offset(s, sheet.end));
+  const double gap = s.normal.dot(s.offset(sheet.end));
   if (!(gap > 0))
     return false;
   if (!scene.contact || !scene.contact->adhesion)
@@ -112,13 +103,13 @@ void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair
                  const SpringSheet& sheet) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> linked; // vertices of the two features of a spring
   const auto link = [&](const ContactSpring& s) {
-    const std::size_t first = of_vertex(s) ? 1 : 2;
+    const std::size_t first = s.of_vertex() ? 1 : 2;
     for (std::size_t a = 0; a < first; ++a)
       for (std::size_t b = first; b < 4; ++b)
         linked.emplace(s.vertices[a], s.vertices[b]);
   };
   const auto is_linked = [&](const ContactSpring& s) {
-    if (of_vertex(s)) // the other way, from a vertex of the triangle to this one, is another spring
+    if (s.of_vertex()) // the other way, from a vertex of the triangle to this one, is another spring
       return linked.contains({s.vertices[0], s.vertices[1]}) || linked.contains({s.vertices[0], s.vertices[2]}) ||
              linked.contains({s.vertices[0], s.vertices[3]});
     for (std::size_t a = 0; a < 2; ++a)

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The springs between near features of a sheet that hold layers apart, and together, in the next steps [Batty et al.
-// 2012, section 3.5]. The energy of a spring is that of libsheet/energy/contact.h; the frame carries them
-// (formats/sheet.md, contact_*). SI units.
+// 2012, section 3.5]: where they come and go, and how stiff they are. Their energy is that of
+// libsheet/energy/contact.h. SI units.
 //
 // A vertex and a triangle whose distance falls below the mean of their thicknesses, or contact.distance where the
-// scene says one, get a spring, the nearest triangle
-// first and none that shares a corner with one that the vertex has already; so do two edges between whose vertices
-// there is no such contact. The normal part is at rest at the distance that they have, the tangential part at the
-// offset that they have. A spring goes with its features: its normal and anchor turn by the smallest rotation that
-// takes the features' normal from before the step to after it, so turning as a whole costs nothing.
+// scene says one, get a spring, the nearest triangle first and none that shares a corner with one that the vertex has
+// already; so do two edges between whose vertices there is no such contact. The normal part is at rest at the distance
+// that they have, the tangential part at the offset that they have. A spring goes with its features: its normal and
+// anchor turn by the smallest rotation that takes the features' normal from before the step to after it, so turning as
+// a whole costs nothing.
 //
 // Stiffness [N/m] of both parts, unless the scene says one, for a spring that stands for the area A = half of the area
 // of its vertex (the vertices of both layers get springs; edges: half of the mean of their vertices'):
@@ -22,17 +22,9 @@
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/step_path.h"
 #include "libsheet/scene/scene.h"
+#include "libsheet/sheet/contact_spring.h"
 
 namespace sheet::collide {
-
-struct ContactSpring {
-  std::array<std::uint32_t, 4> vertices{};
-  std::array<double, 4> weights{};
-  Vector3 normal = Vector3::Zero();
-  double rest = 0;                   // [m]
-  Vector3 anchor = Vector3::Zero();  // [m]
-  std::array<double, 2> stiffness{}; // normal, tangential [N/m]
-};
 
 // The sheet at the end of a step, as springs see it; one value a vertex.
 struct SpringSheet {

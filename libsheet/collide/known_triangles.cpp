@@ -29,7 +29,7 @@ std::size_t hash_of(const Vector3& x) {
 // The slot of the table of a place: where a vertex at this place is, or an empty one.
 std::size_t slot_of(const std::vector<std::uint32_t>& table, std::span<const Vector3> positions, const Vector3& x) {
   std::size_t slot = hash_of(x) & (table.size() - 1);
-  while (table[slot] != kNone && !same_bits(positions[table[slot]], x))
+  while (table[slot] != no_index && !same_bits(positions[table[slot]], x))
     slot = (slot + 1) & (table.size() - 1);
   return slot;
 }
@@ -52,11 +52,11 @@ void KnownTriangles::forget() { triangles_.clear(); }
 void KnownTriangles::remember(std::span<const Corners> triangles, std::span<const Vector3> start,
                               std::span<const Vector3> end) {
   positions_.assign(end.begin(), end.end());
-  table_.assign(std::bit_ceil(2 * positions_.size() + 1), kNone);
+  table_.assign(std::bit_ceil(2 * positions_.size() + 1), no_index);
   std::vector<std::uint8_t> twice(positions_.size(), 0); // another vertex stands there
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     std::uint32_t& there = table_[slot_of(table_, positions_, positions_[v])];
-    if (there == kNone)
+    if (there == no_index)
       there = v;
     else
       twice[v] = twice[there] = 1;
@@ -76,18 +76,18 @@ void KnownTriangles::remember(std::span<const Corners> triangles, std::span<cons
     triangles_[next[t[0]]++] = t;
 }
 
-// Of each place the vertex that stood there; kNone where none did, or where several stand now.
+// Of each place the vertex that stood there; no_index where none did, or where several stand now.
 std::vector<std::uint32_t> KnownTriangles::find_again(std::span<const Vector3> positions) const {
   std::vector<std::uint32_t> found(positions.size()), visitors(positions_.size(), 0);
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const bool stays = v < positions_.size() && same_bits(positions[v], positions_[v]);
     found[v] = stays ? static_cast<std::uint32_t>(v) : table_[slot_of(table_, positions_, positions[v])];
-    if (found[v] != kNone)
+    if (found[v] != no_index)
       ++visitors[found[v]];
   }
   for (std::uint32_t& v : found)
-    if (v != kNone && visitors[v] > 1)
-      v = kNone;
+    if (v != no_index && visitors[v] > 1)
+      v = no_index;
   return found;
 }
 
@@ -99,7 +99,7 @@ std::vector<std::uint8_t> KnownTriangles::unknown(std::span<const Corners> trian
   const std::vector<std::uint32_t> old = find_again(positions);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Corners corners = ascending({old[triangles[t][0]], old[triangles[t][1]], old[triangles[t][2]]});
-    if (corners[2] == kNone)
+    if (corners[2] == no_index)
       continue;
     const auto begin = triangles_.begin() + first_[corners[0]], end = triangles_.begin() + first_[corners[0] + 1];
     result[t] = std::find(begin, end, corners) == end;

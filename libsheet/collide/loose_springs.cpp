@@ -11,35 +11,28 @@ namespace {
 
 constexpr double facing = 0.5; // cosine
 
-Vector3 offset(const ContactSpring& s, std::span<const Vector3> x) {
-  Vector3 c = Vector3::Zero();
-  for (std::size_t i = 1; i < 4; ++i)
-    c += s.weights[i] * (x[s.vertices[i]] - x[s.vertices[0]]);
-  return c;
-}
-
-// The index of the edge; kNone if there is none.
+// The index of the edge; no_index if there is none.
 std::uint32_t edge_of(const Connectivity& mesh, std::uint32_t a, std::uint32_t b) {
   const Edge edge{std::min(a, b), std::max(a, b)};
   const auto at = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
-  return at != mesh.edges.end() && *at == edge ? static_cast<std::uint32_t>(at - mesh.edges.begin()) : kNone;
+  return at != mesh.edges.end() && *at == edge ? static_cast<std::uint32_t>(at - mesh.edges.begin()) : no_index;
 }
 
 bool has_triangle(const Connectivity& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const std::uint32_t edge = edge_of(mesh, a, b);
-  if (edge == kNone)
+  if (edge == no_index)
     return false;
   const auto& beside = mesh.edge_triangles[edge];
   return std::any_of(beside.begin(), beside.end(), [&](std::uint32_t t) {
-    return t != kNone && std::find(mesh.triangles[t].begin(), mesh.triangles[t].end(), c) != mesh.triangles[t].end();
+    return t != no_index && std::find(mesh.triangles[t].begin(), mesh.triangles[t].end(), c) != mesh.triangles[t].end();
   });
 }
 
 bool is_loose(const ContactSpring& s, const Connectivity& mesh, std::span<const Vector3> x) {
   const auto& v = s.vertices;
-  const bool there = s.weights[0] == 1 ? has_triangle(mesh, v[1], v[2], v[3])
-                                       : edge_of(mesh, v[0], v[1]) != kNone && edge_of(mesh, v[2], v[3]) != kNone;
-  const Vector3 c = offset(s, x);
+  const bool there = s.of_vertex() ? has_triangle(mesh, v[1], v[2], v[3])
+                                   : edge_of(mesh, v[0], v[1]) != no_index && edge_of(mesh, v[2], v[3]) != no_index;
+  const Vector3 c = s.offset(x);
   return !there || !(s.normal.dot(c) > facing * c.norm());
 }
 
@@ -49,7 +42,7 @@ struct Force {
 };
 
 Force force_of(const ContactSpring& s, std::span<const Vector3> x) {
-  const Vector3 c = offset(s, x), slide = c - s.anchor;
+  const Vector3 c = s.offset(x), slide = c - s.anchor;
   return {s.stiffness[0] * (s.normal.dot(c) - s.rest), s.stiffness[1] * (slide - s.normal.dot(slide) * s.normal)};
 }
 

@@ -3,7 +3,7 @@
 
 namespace sheet::collide {
 
-std::vector<std::uint32_t> pulled_off(const StepPath& path, const Solids& solids, std::span<const Vector3> force,
+std::vector<std::uint32_t> pulled_off(const StepPath& path, const solid::Solids& solids, std::span<const Vector3> force,
                                       double adhesion, std::span<const double> area) {
   std::vector<std::uint32_t> off;
   for (std::uint32_t v = 0; v < force.size(); ++v) {

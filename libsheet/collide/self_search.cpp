@@ -144,7 +144,7 @@ SelfSearch::Flags SelfSearch::outside(Positions start, Positions end, std::span<
 SelfSearch::Flags SelfSearch::triangles_with(std::span<const std::uint8_t> vertices) const {
   Flags flags(mesh_.triangles.size());
   for (std::size_t t = 0; t < flags.size(); ++t) {
-    const Triangle& c = mesh_.triangles[t];
+    const Corners& c = mesh_.triangles[t];
     flags[t] = vertices[c[0]] | vertices[c[1]] | vertices[c[2]];
   }
   return flags;
@@ -159,7 +159,7 @@ SelfSearch::Candidates SelfSearch::overlapping(std::span<const std::uint8_t> cho
               [&](std::size_t i) { own_edges_[i].box = QuickBox(edge_boxes_[own_edges_[i].index]); });
   std::vector<Candidates> found(tree_.chunks());
   const auto vertex_triangle = [&](Candidates& out, std::uint32_t s, std::uint32_t t) {
-    const Triangle& c = mesh_.triangles[t];
+    const Corners& c = mesh_.triangles[t];
     for (std::uint32_t i = own_begin_[s][0]; i < own_begin_[s + 1][0]; ++i)
       if (const Owned& v = own_vertices_[i];
           v.box.may_overlap(quick[t]) && v.index != c[0] && v.index != c[1] && v.index != c[2])
@@ -213,7 +213,7 @@ std::vector<Found> SelfSearch::collect(std::span<const std::uint8_t> flags, bool
     const auto pair_of = [&](std::size_t i) -> std::optional<FeaturePair> {
       if (i < count) {
         const auto& [v, t] = candidates.vertex_triangle[i];
-        const Triangle& c = mesh_.triangles[t];
+        const Corners& c = mesh_.triangles[t];
         return vertex_boxes_[v].overlaps(boxes_[t])
                    ? std::optional(FeaturePair{Features::vertex_triangle, {v, c[0], c[1], c[2]}})
                    : std::nullopt;

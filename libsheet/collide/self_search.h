@@ -14,8 +14,8 @@
 #include <span>
 #include <vector>
 
-#include "libsheet/collide/box_tree.h"
 #include "libsheet/collide/swept_pair.h"
+#include "libsheet/geometry/box_tree.h"
 #include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/connectivity.h"
 

@@ -15,16 +15,16 @@ namespace sheet::collide {
 namespace {
 
 // Rounds of impulses before what still hits is carried.
-constexpr int kRounds = 10;
+constexpr int rounds = 10;
 // By how many times the way that a point of a triangle is moved an impulse may move a corner. Of two corners with
 // masses m and M the lighter moves by up to sqrt(M/m)/2 times that way, so lighter ones count as having a part of M.
-constexpr double kLongestLever = 4, kLeastMass = 1 / (4 * kLongestLever * kLongestLever);
+constexpr double longest_lever = 4, least_mass_part = 1 / (4 * longest_lever * longest_lever);
 
 // A point of the solid's frame brought to `offset` from its surface, along the normal. One turn where the surface is
 // smooth; a hollow narrower than the offset has no such point, so the turns are counted.
-Vector3 settle(const SolidDistance& shape, Vector3 x, double offset) {
+Vector3 settle(const solid::SolidDistance& shape, Vector3 x, double offset) {
   for (int turn = 0; turn < 10; ++turn) {
-    const Near near = shape.nearest(x);
+    const solid::Near near = shape.nearest(x);
     const double error = offset - near.distance;
     if (std::abs(error) <= 1e-9 * offset)
       break;
@@ -55,7 +55,7 @@ std::vector<double> longest_edges(const StepPath& path) {
   return longest;
 }
 
-std::vector<SolidView> views_of(const Solids& solids, const StepPath& path) {
+std::vector<SolidView> views_of(const solid::Solids& solids, const StepPath& path) {
   std::vector<SolidView> views;
   for (std::size_t i = 0; i < solids.size(); ++i)
     views.emplace_back(solids, i, path, 0.01 * thinnest(path));
@@ -64,7 +64,7 @@ std::vector<SolidView> views_of(const Solids& solids, const StepPath& path) {
 
 class Resolution {
 public:
-  Resolution(StepPath& path, const Solids& solids)
+  Resolution(StepPath& path, const solid::Solids& solids)
       : path_(path), solids_(solids), prescribed_(path.fixed), views_(views_of(solids, path)) {
     // Vertices of no triangle have no thickness of their own.
     const double least = thinnest(path);
@@ -81,7 +81,7 @@ public:
 
   SolidReport run() {
     hold_vertices();
-    for (int round = 0; round < kRounds && !active_.empty(); ++round) {
+    for (int round = 0; round < rounds && !active_.empty(); ++round) {
       const auto hits = find_hits(path_, views_, rides_, active_, {.mend = true});
       count_across(hits);
       for (const FoundHit& hit : hits)
@@ -168,7 +168,7 @@ private:
     const Vector3 free = free_part(prescribed_[v]);
     Vector3 x = with_fixed(prescribed_[v], path_.end[v], end);
     for (int turn = 0; turn < 10; ++turn) {
-      const Near near = view.shape().nearest(view.own(view.pieces(), x));
+      const solid::Near near = view.shape().nearest(view.own(view.pieces(), x));
       const Vector3 along = free.cwiseProduct(view.turned_at_end(near.normal));
       const double error = path_.thickness[v] / 2 - near.distance;
       if (std::abs(error) <= 1e-9 * path_.thickness[v] || along.squaredNorm() < 0.01)
@@ -217,7 +217,7 @@ private:
     Vector3 end = Vector3::Zero(), velocity = Vector3::Zero(), compliance = Vector3::Zero();
     std::array<Vector3, 3> share; // along each axis
     const double least_mass =
-        kLeastMass * std::max({path_.mass[corners[0]], path_.mass[corners[1]], path_.mass[corners[2]]});
+        least_mass_part * std::max({path_.mass[corners[0]], path_.mass[corners[1]], path_.mass[corners[2]]});
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = corners[c];
       const double weight = hit.point.weights[c];
@@ -233,14 +233,14 @@ private:
       most = std::max(most, s.maxCoeff());
     }
     // Nearly all of the point is held: left to the other means; all of it, and driven into the solid: to be told.
-    if (most > kLongestLever || (compliance.isZero(0) && hit.kind == FoundHit::Kind::meeting)) {
+    if (most > longest_lever || (compliance.isZero(0) && hit.kind == FoundHit::Kind::meeting)) {
       for (const std::uint32_t v : corners)
         changed_[v] = 1;
       return;
     }
-    const Near& near = hit.point.near;
+    const solid::Near& near = hit.point.near;
     // What only must come out does so along the normal, and loses the speed at which it approaches.
-    const Vector3 comes_out = std::max(0.0, kTarget * half - near.distance) * near.normal;
+    const Vector3 comes_out = std::max(0.0, target * half - near.distance) * near.normal;
     Vector3 move = view.belt(1 - hit.s), change = Vector3::Zero(); // in the solid's frame
     if (hit.kind == FoundHit::Kind::meeting) {
       move += hit.place - end;
@@ -323,7 +323,7 @@ private:
   }
 
   StepPath& path_;
-  const Solids& solids_;
+  const solid::Solids& solids_;
   const std::vector<Axes> prescribed_; // by [[hold]]s
   std::vector<SolidView> views_;
   std::vector<std::int32_t> rides_;             // the solid that each vertex moves with, or none
@@ -335,13 +335,13 @@ private:
 
 } // namespace
 
-SolidReport resolve_solids(StepPath& path, const Solids& solids) {
+SolidReport resolve_solids(StepPath& path, const solid::Solids& solids) {
   if (solids.empty() || path.triangles.empty())
     return {};
   return Resolution(path, solids).run();
 }
 
-std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& solids) {
+std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const solid::Solids& solids) {
   if (solids.empty() || path.triangles.empty())
     return {};
   const std::vector<SolidView> views = views_of(solids, path);
@@ -356,7 +356,7 @@ std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& 
   std::vector<std::uint32_t> all(path.triangles.size()), result;
   std::iota(all.begin(), all.end(), 0U);
   // A little less than what resolve_solids keeps, so that round-off raises no alarm.
-  for (const FoundHit& hit : find_hits(path, views, rides, all, {0.8 * kClearance, 0.1 * kClearance}))
+  for (const FoundHit& hit : find_hits(path, views, rides, all, {0.8 * clearance_part, 0.1 * clearance_part}))
     result.push_back(hit.triangle);
   return result;
 }

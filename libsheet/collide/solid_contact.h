@@ -26,8 +26,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "libsheet/collide/solids.h"
 #include "libsheet/collide/step_path.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet::collide {
 
@@ -46,11 +46,11 @@ struct SolidReport {
 // triangle, whose thickness is 0, are given the least thickness. Does nothing without solids. A vertex that starts in a
 // solid, by at most half of its longest edge, is caught there and ends outside. Throws Error (bad_input) where one
 // starts deeper, unless a [[hold]] put it there.
-SolidReport resolve_solids(StepPath& path, const Solids& solids);
+SolidReport resolve_solids(StepPath& path, const solid::Solids& solids);
 
 // The triangles that the path takes too close to a solid (as above, less a fifth so that round-off raises no alarm),
 // ascending. For checks after other corrections; the vertices of [[hold]]s are followed too. Paths are straight, but in
 // a solid's frame for what touches it or ends where it is carried.
-[[nodiscard]] std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const Solids& solids);
+[[nodiscard]] std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const solid::Solids& solids);
 
 } // namespace sheet::collide

@@ -11,18 +11,19 @@ namespace {
 
 // A vertex that starts a piece of its path within the offset and moves out of it touches only what it comes nearer to
 // than it was.
-double offset_for(const SolidDistance& shape, const Vector3& start, const Vector3& next, double offset) {
-  const double reach = offset * (1 + kVertexSlack);
+double offset_for(const solid::SolidDistance& shape, const Vector3& start, const Vector3& next, double offset) {
+  const double reach = offset * (1 + vertex_slack);
   if (shape.distance(start, reach) >= reach)
     return offset;
-  const Near near = shape.nearest(start);
+  const solid::Near near = shape.nearest(start);
   return near.distance > 0 && near.normal.dot(next - start) > 0 ? std::min(offset, 0.9 * near.distance) : offset;
 }
 
 } // namespace
 
-std::optional<double> first_contact(const SolidDistance& shape, const Vector3& a, const Vector3& b, double offset) {
-  const double travel = (b - a).norm(), slack = kVertexSlack * offset;
+std::optional<double> first_contact(const solid::SolidDistance& shape, const Vector3& a, const Vector3& b,
+                                    double offset) {
+  const double travel = (b - a).norm(), slack = vertex_slack * offset;
   double s = 0;
   while (s <= 1) {
     const double within = offset + slack + (1 - s) * travel;
@@ -44,9 +45,9 @@ std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidVi
   std::optional<VertexHit> first;
   const double offset = path.thickness[vertex] / 2;
   const Vector3 &start = path.start[vertex], &end = path.end[vertex];
-  Box3 box(start);
+  solid::Box3 box(start);
   box.extend(end);
-  const double reach = offset * (1 + kVertexSlack);
+  const double reach = offset * (1 + vertex_slack);
   box.min().array() -= reach;
   box.max().array() += reach;
   for (std::uint32_t i = 0; i < views.size(); ++i) {
@@ -79,14 +80,14 @@ public:
 
   [[nodiscard]] std::optional<FoundHit> first(double clearance, double slack, bool mend) const {
     const double wanted = clearance;
-    MovingTriangle moving{at(0), at(1)};
+    solid::MovingTriangle moving{at(0), at(1)};
     double starts_with = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < view_.pieces(); ++k) {
       if (k > 0)
         moving = {moving.end, at(k + 1)};
       auto hit = view_.shape().first_hit(moving, clearance, slack);
       if (k == 0 && hit && hit->s == 0) {
-        starts_with = std::min(clearance, view_.shape().separation(moving.start, clearance, kMeasured * clearance));
+        starts_with = std::min(clearance, view_.shape().separation(moving.start, clearance, measured * clearance));
         if (starts_with == 0)
           return at_end(FoundHit::Kind::across, clearance, slack);
         hit = view_.shape().first_hit(moving, 0.9 * starts_with, 0.05 * starts_with);
@@ -100,21 +101,21 @@ public:
                       0,
                       (static_cast<double>(k) + hit->s) / static_cast<double>(view_.pieces()),
                       hit->point,
-                      point_of(moving.at(hit->s), hit->point.weights)};
+                      solid::point_of(moving.at(hit->s), hit->point.weights)};
     }
     if (starts_with == std::numeric_limits<double>::infinity())
       return std::nullopt;
     const double ends_with = mend ? wanted : starts_with;
-    if (view_.shape().separation(moving.end, ends_with, kMeasured * ends_with) < (1 - 2 * kMeasured) * ends_with)
+    if (view_.shape().separation(moving.end, ends_with, measured * ends_with) < (1 - 2 * measured) * ends_with)
       return at_end(FoundHit::Kind::closing, clearance, slack);
     return std::nullopt;
   }
 
 private:
-  static constexpr double kMeasured = 1e-4; // the part by which separations may be too small
+  static constexpr double measured = 1e-4; // the part by which separations may be too small
 
-  [[nodiscard]] Triangle3 at(std::size_t k) const {
-    Triangle3 result;
+  [[nodiscard]] solid::Triangle3 at(std::size_t k) const {
+    solid::Triangle3 result;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = path_.triangles[triangle_][c];
       result[c] = view_.on_path(k, path_.start[v], path_.end[v], rides_[c]);
@@ -123,11 +124,11 @@ private:
   }
 
   [[nodiscard]] std::optional<FoundHit> at_end(FoundHit::Kind kind, double clearance, double slack) const {
-    const Triangle3 last = at(view_.pieces());
-    const TrianglePoint deepest = view_.shape().deepest(last, slack);
+    const solid::Triangle3 last = at(view_.pieces());
+    const solid::TrianglePoint deepest = view_.shape().deepest(last, slack);
     if (kind == FoundHit::Kind::across && deepest.near.distance >= clearance)
       return std::nullopt;
-    return FoundHit{kind, triangle_, 0, 1, deepest, point_of(last, deepest.weights)};
+    return FoundHit{kind, triangle_, 0, 1, deepest, solid::point_of(last, deepest.weights)};
   }
 
   const StepPath& path_;
@@ -142,7 +143,7 @@ std::optional<FoundHit> first_hit(const StepPath& path, std::span<const SolidVie
                                   std::span<const std::int32_t> rides, std::uint32_t triangle,
                                   const Nearness& nearness) {
   const Corners& corners = path.triangles[triangle];
-  Box3 box;
+  solid::Box3 box;
   double half = std::numeric_limits<double>::infinity();
   for (const std::uint32_t v : corners) {
     box.extend(path.start[v]);

@@ -11,14 +11,14 @@
 namespace sheet::collide {
 
 // How near is too near, as parts of half the sheet's thickness.
-inline constexpr double kClearance = 0.25;   // of triangles: what is guaranteed
-inline constexpr double kHitSlack = 0.125;   // between this more and the guarantee, a hit may or may not be found
-inline constexpr double kTarget = 0.5;       // how far out a triangle that has hit is brought
-inline constexpr double kVertexSlack = 0.05; // a vertex this much beyond half the thickness touches
+inline constexpr double clearance_part = 0.25; // of triangles: what is guaranteed
+inline constexpr double hit_slack = 0.125;     // between this more and the guarantee, a hit may or may not be found
+inline constexpr double target = 0.5;          // how far out a triangle that has hit is brought
+inline constexpr double vertex_slack = 0.05;   // a vertex this much beyond half the thickness touches
 
 // The earliest s at which a point on its way from a to b is within `offset` of the solid (or up to a twentieth more),
 // by sphere tracing [Hart 1996]; nothing where it never is. Each turn advances by at least a twentieth of the offset.
-[[nodiscard]] std::optional<double> first_contact(const SolidDistance& shape, const Vector3& a, const Vector3& b,
+[[nodiscard]] std::optional<double> first_contact(const solid::SolidDistance& shape, const Vector3& a, const Vector3& b,
                                                   double offset);
 
 // A vertex that meets a solid, after the part s of the step.
@@ -42,14 +42,14 @@ struct FoundHit {
   };
   Kind kind;
   std::uint32_t triangle, solid;
-  double s;            // the part of the step until then
-  TrianglePoint point; // near in the solid's frame
-  Vector3 place;       // of the point, in the solid's frame, at that time
+  double s;                   // the part of the step until then
+  solid::TrianglePoint point; // near in the solid's frame
+  Vector3 place;              // of the point, in the solid's frame, at that time
 };
 
 // How near triangles may come, as parts of half the thickness.
 struct Nearness {
-  double clearance = kClearance, slack = kHitSlack;
+  double clearance = clearance_part, slack = hit_slack;
   bool mend = false; // what starts nearer than the clearance must not end so
 };
 

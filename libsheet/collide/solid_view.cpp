@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "libsheet/base/error.h"
-#include "libsheet/scene/overloaded.h"
+#include "libsheet/base/overloaded.h"
 
 namespace sheet::collide {
 namespace {
 
 // Of a path in a solid's frame. Each vertex and each triangle is followed through all of them.
-constexpr double kMostPieces = 1e4;
+constexpr double most_pieces = 1e4;
 
 double size_of(double value) { return std::abs(value); }
 double size_of(const Vector3& value) { return value.norm(); }
@@ -44,13 +44,13 @@ struct Reach {
 // A bound of the acceleration of such points as the moving frame sees it [m/s²]: for rotations those of Coriolis,
 // centrifugal and Euler.
 double acceleration_bound(const scene::Motion& motion, double from, double to, const Reach& reach) {
-  return std::visit(scene::Overloaded{[](const scene::Fixed&) { return 0.0; },
-                                      [&](const scene::Translating& m) { return steepest(m.velocity, from, to); },
-                                      [&](const scene::Rotating& m) {
-                                        const double rate = largest(m.rate, from, to);
-                                        return 2 * rate * reach.speed +
-                                               (rate * rate + steepest(m.rate, from, to)) * reach.radius;
-                                      }},
+  return std::visit(Overloaded{[](const scene::Fixed&) { return 0.0; },
+                               [&](const scene::Translating& m) { return steepest(m.velocity, from, to); },
+                               [&](const scene::Rotating& m) {
+                                 const double rate = largest(m.rate, from, to);
+                                 return 2 * rate * reach.speed +
+                                        (rate * rate + steepest(m.rate, from, to)) * reach.radius;
+                               }},
                     motion);
 }
 
@@ -70,7 +70,7 @@ Reach reach_of(const StepPath& path, const Vector3& center) {
 
 } // namespace
 
-SolidView::SolidView(const Solids& solids, std::size_t solid, const StepPath& path, double deviation)
+SolidView::SolidView(const solid::Solids& solids, std::size_t solid, const StepPath& path, double deviation)
     : shape_(&solids.shape(solid)) {
   const scene::Motion& motion = solids.scene(solid).motion;
   const auto bent = [&](const Reach& reach, double time) {
@@ -78,16 +78,15 @@ SolidView::SolidView(const Solids& solids, std::size_t solid, const StepPath& pa
   };
   const Vector3 center = center_of(motion);
   const double wanted = std::max(1.0, std::ceil(std::sqrt(bent(reach_of(path, center), path.length()) / deviation)));
-  if (!(wanted <= kMostPieces))
+  if (!(wanted <= most_pieces))
     fail(ExitCode::bad_input,
          "{} turns or speeds up so much within the step that paths beside it bend by {:.2g} m, while the sheet is "
-         "{:.2g} m "
-         "thin: take shorter steps, or a slower motion",
+         "{:.2g} m thin: take shorter steps, or a slower motion",
          solids.name(solid), bent(reach_of(path, center), path.length()), 100 * deviation);
   const auto pieces = static_cast<std::size_t>(wanted);
-  const Box3 own = shape_->bounds();
+  const solid::Box3 own = shape_->bounds();
   const bool finite = own.sizes().allFinite();
-  swept_ = finite ? Box3() : own;
+  swept_ = finite ? solid::Box3() : own;
   Reach solid_reach;
   for (std::size_t k = 0; k <= pieces; ++k) {
     const double part = static_cast<double>(k) / static_cast<double>(pieces);
@@ -95,7 +94,7 @@ SolidView::SolidView(const Solids& solids, std::size_t solid, const StepPath& pa
     to_own_.push_back(place.inverse());
     if (!finite)
       continue;
-    const Box3 now = own.transformed(place);
+    const solid::Box3 now = own.transformed(place);
     swept_.extend(now);
     solid_reach.radius = std::max(solid_reach.radius, (now.center() - center).norm() + now.diagonal().norm() / 2);
   }

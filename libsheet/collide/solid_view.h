@@ -3,8 +3,8 @@
 #pragma once
 #include <vector>
 
-#include "libsheet/collide/solids.h"
 #include "libsheet/collide/step_path.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet::collide {
 
@@ -12,9 +12,9 @@ class SolidView {
 public:
   // As many pieces as keep within `deviation` [m] of the true, bent paths of the sheet's vertices: a curve whose second
   // derivative stays below a leaves its chord over the time t by at most a t² / 8.
-  SolidView(const Solids& solids, std::size_t solid, const StepPath& path, double deviation);
+  SolidView(const solid::Solids& solids, std::size_t solid, const StepPath& path, double deviation);
 
-  [[nodiscard]] const SolidDistance& shape() const { return *shape_; }
+  [[nodiscard]] const solid::SolidDistance& shape() const { return *shape_; }
   [[nodiscard]] std::size_t pieces() const { return to_own_.size() - 1; }
 
   // From the world to the solid's frame at the start of piece k; k = pieces(): at the end of the step.
@@ -37,14 +37,14 @@ public:
   }
 
   // Where the solid is in the course of the step, in the world; infinite for a half-space.
-  [[nodiscard]] const Box3& swept() const { return swept_; }
+  [[nodiscard]] const solid::Box3& swept() const { return swept_; }
 
 private:
-  const SolidDistance* shape_;
+  const solid::SolidDistance* shape_;
   std::vector<Eigen::Isometry3d> to_own_;
   Eigen::Isometry3d from_own_at_end_;
   Vector3 belt_;
-  Box3 swept_;
+  solid::Box3 swept_;
 };
 
 } // namespace sheet::collide

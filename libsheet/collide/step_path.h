@@ -5,15 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "libsheet/geometry/axes.h"
 #include "libsheet/geometry/types.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::collide {
-
-// Axes along which a vertex's motion is prescribed: bit a for axis a.
-using Axes = std::uint8_t;
-inline constexpr Axes all_axes = 7;
-[[nodiscard]] constexpr bool has_axis(Axes axes, int a) { return (axes >> a & 1) != 0; }
 
 // 1 along the axes that are free, 0 along the others.
 [[nodiscard]] inline Vector3 free_part(Axes fixed) {

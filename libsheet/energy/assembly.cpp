@@ -3,16 +3,17 @@
 #include "libsheet/energy/assembly.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <tbb/parallel_for.h>
+
+#include "libsheet/base/stopwatch.h"
 
 namespace sheet {
 
 namespace {
 
-constexpr std::size_t kChunk = 16; // elements
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+constexpr std::size_t chunk = 16; // elements
 
 ElementGroup make_group(const Connectivity& mesh, const Term& term) {
   ElementGroup group;
@@ -128,10 +129,10 @@ template <class Visit> void Assembly::each_chunk(Visit&& visit) const {
   };
   std::vector<Chunk> chunks;
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g)
-    for (std::size_t i = 0; i < groups_[g].size(); i += kChunk)
-      chunks.push_back({g, i, std::min(groups_[g].size(), i + kChunk)});
+    for (std::size_t i = 0; i < groups_[g].size(); i += chunk)
+      chunks.push_back({g, i, std::min(groups_[g].size(), i + chunk)});
   tbb::parallel_for(std::size_t{0}, chunks.size(),
-                    [&](std::size_t c) { visit(c, chunks.size(), chunks[c].group, chunks[c].first, chunks[c].last); });
+                    [&](std::size_t c) { visit(c, chunks[c].group, chunks[c].first, chunks[c].last); });
 }
 
 void Assembly::collect(const ElementGroup& group, std::size_t first, std::size_t last, const Unknowns& u,
@@ -154,16 +155,22 @@ void Assembly::collect(const ElementGroup& group, std::size_t first, std::size_t
 std::size_t Assembly::chunks() const {
   std::size_t total = 0;
   for (const auto& group : groups_)
-    total += (group.size() + kChunk - 1) / kChunk;
+    total += (group.size() + chunk - 1) / chunk;
   return total;
 }
 
-EnergySum Assembly::value(const Terms& terms, const Unknowns& u) {
+void Assembly::prepare(const Terms& terms, const Unknowns& u) const {
+  if (terms.size() != group_of_term_.size())
+    throw std::logic_error("assembly of other terms than it was made for");
   for (const auto& term : terms)
     term->prepare(u);
+}
+
+EnergySum Assembly::value(const Terms& terms, const Unknowns& u) {
+  prepare(terms, u);
   std::vector<EnergySum> sums(chunks());
-  each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
-    double local[kChunk * 12];
+  each_chunk([&](std::size_t c, int g, std::size_t first, std::size_t last) {
+    double local[chunk * 12];
     collect(groups_[g], first, last, u, local);
     for (std::size_t t = 0; t < terms.size(); ++t)
       if (group_of_term_[t] == g)
@@ -184,11 +191,10 @@ void Assembly::gather_gradient(std::span<const char> held, Eigen::VectorXd& grad
 
 EnergySum Assembly::gradient(const Terms& terms, const Unknowns& u, std::span<const char> held,
                              Eigen::VectorXd& gradient) {
-  for (const auto& term : terms)
-    term->prepare(u);
+  prepare(terms, u);
   std::vector<EnergySum> sums(chunks());
-  each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
-    double local[kChunk * 12];
+  each_chunk([&](std::size_t c, int g, std::size_t first, std::size_t last) {
+    double local[chunk * 12];
     collect(groups_[g], first, last, u, local);
     double* gradients = &gradients_[(groups_[g].first + first) * static_cast<std::size_t>(stride_)];
     bool overwrite = true;
@@ -207,36 +213,33 @@ EnergySum Assembly::gradient(const Terms& terms, const Unknowns& u, std::span<co
 
 EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool definite, std::span<const char> held,
                                 Eigen::VectorXd& gradient, SparseLower& matrix) {
-  for (const auto& term : terms)
-    term->prepare(u);
+  prepare(terms, u);
   const std::size_t total = chunks();
   std::vector<EnergySum> sums(total);
   std::vector<double> seconds(total * terms.size(), 0.0);
-  each_chunk([&](std::size_t c, std::size_t, int g, std::size_t first, std::size_t last) {
-    double local[kChunk * 12];
+  each_chunk([&](std::size_t c, int g, std::size_t first, std::size_t last) {
+    double local[chunk * 12];
     collect(groups_[g], first, last, u, local);
     const std::size_t place = groups_[g].first + first;
     double* gradients = &gradients_[place * static_cast<std::size_t>(stride_)];
-    double hessians[kChunk * 144];
-    double before = now();
+    double hessians[chunk * 144];
+    Stopwatch watch;
     bool overwrite = true;
     for (const std::size_t t : term_order_)
       if (group_of_term_[t] == g) {
         sums[c].add(terms[t]->add_derivatives(first, last, local, stride_, gradients, hessians, definite, overwrite));
         overwrite = false;
-        const double after = now();
-        seconds[c * terms.size() + t] = after - before;
-        before = after;
+        seconds[c * terms.size() + t] = watch.lap();
       }
     const std::size_t packed = static_cast<std::size_t>(packed_size(groups_[g].stencil));
     for (std::size_t i = first; i < last; ++i)
       pattern_->pack(groups_[g], i, hessians + (i - first) * static_cast<std::size_t>(stride_ * stride_),
                      &hessians_[groups_[g].first_hessian + i * packed]);
   });
-  const double before = now();
+  Stopwatch watch;
   gather_gradient(held, gradient);
   pattern_->gather_matrix(hessians_, held, matrix);
-  seconds_.back() += now() - before;
+  seconds_.back() += watch.lap();
   EnergySum sum;
   for (std::size_t c = 0; c < total; ++c) {
     sum.add(sums[c]);
@@ -247,11 +250,10 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
 }
 
 Eigen::VectorXd Assembly::multiply(const Terms& terms, Kind kind, const Unknowns& u, const Eigen::VectorXd& x) {
-  for (const auto& term : terms)
-    term->prepare(u);
+  prepare(terms, u);
   std::fill(gradients_.begin(), gradients_.end(), 0.0);
-  each_chunk([&](std::size_t, std::size_t, int g, std::size_t first, std::size_t last) {
-    double at[kChunk * 12], along[kChunk * 12], unused[kChunk * 12], hessians[kChunk * 144];
+  each_chunk([&](std::size_t, int g, std::size_t first, std::size_t last) {
+    double at[chunk * 12], along[chunk * 12], unused[chunk * 12], hessians[chunk * 144];
     const auto stride = static_cast<std::size_t>(stride_);
     for (std::size_t t = 0; t < terms.size(); ++t) {
       if (group_of_term_[t] != g || terms[t]->kind() != kind)

@@ -18,7 +18,8 @@ namespace sheet {
 class Assembly {
 public:
   Assembly() = default;
-  // angles: whether every edge has an unknown.
+  // angles: whether every edge has an unknown. The terms of all calls below are these, or others in the same order with
+  // the same elements (a model whose numbers have changed); another number of terms throws std::logic_error.
   Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles);
 
   [[nodiscard]] std::size_t unknowns() const { return 3 * mesh_->vertices + (angles_ ? mesh_->edges.size() : 0); }
@@ -44,6 +45,7 @@ public:
   void clear_seconds() { std::ranges::fill(seconds_, 0.0); }
 
 private:
+  void prepare(const Terms& terms, const Unknowns& u) const;
   [[nodiscard]] std::size_t chunks() const;
   template <class Visit> void each_chunk(Visit&& visit) const;
   void gather_gradient(std::span<const char> held, Eigen::VectorXd& gradient);

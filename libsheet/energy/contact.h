@@ -7,24 +7,16 @@
 // normal part acts only while n·c < d.
 #pragma once
 #include "libsheet/energy/element.h"
+#include "libsheet/sheet/contact_spring.h"
 
 namespace sheet {
-
-struct ContactSpring {
-  std::array<std::uint32_t, 4> vertices{};
-  std::array<double, 4> weights{};
-  Vector3 normal = Vector3::UnitZ();
-  double rest = 0;                                       // [m]
-  Vector3 anchor = Vector3::Zero();                      // [m]
-  double normal_stiffness = 0, tangential_stiffness = 0; // [N/m]
-  bool adhesion = false;
-};
 
 class Contact {
 public:
   static constexpr Stencil stencil = Stencil::four;
   static constexpr Kind kind = Kind::elastic;
-  explicit Contact(std::vector<ContactSpring> springs) : springs_(std::move(springs)) {}
+  // adhesion: they pull, too; else they only push.
+  Contact(std::vector<ContactSpring> springs, bool adhesion) : springs_(std::move(springs)), adhesion_(adhesion) {}
   [[nodiscard]] const char* name() const { return "contact"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
@@ -34,23 +26,23 @@ public:
     const ContactSpring& s = springs_[i];
     const Vector3 c = offset(s, u), slide = tangential(s, c);
     const double gap = s.normal.dot(c) - s.rest;
-    return 0.5 * normal_stiffness(s, gap) * gap * gap + 0.5 * s.tangential_stiffness * slide.squaredNorm();
+    return 0.5 * normal_stiffness(s, gap) * gap * gap + 0.5 * s.stiffness[1] * slide.squaredNorm();
   }
 
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian, bool) const {
     const ContactSpring& s = springs_[i];
     const Vector3 c = offset(s, u), slide = tangential(s, c);
     const double gap = s.normal.dot(c) - s.rest, k = normal_stiffness(s, gap);
-    const Vector3 force = k * gap * s.normal + s.tangential_stiffness * slide;
+    const Vector3 force = k * gap * s.normal + s.stiffness[1] * slide;
     const Matrix3 nn = s.normal * s.normal.transpose();
-    const Matrix3 stiffness = k * nn + s.tangential_stiffness * (Matrix3::Identity() - nn);
+    const Matrix3 stiffness = k * nn + s.stiffness[1] * (Matrix3::Identity() - nn);
     for (int a = 0; a < 4; ++a) {
       const double wa = s.weights[static_cast<std::size_t>(a)];
       gradient.segment<3>(3 * a) = wa * force;
       for (int b = 0; b < 4; ++b)
         hessian.block<3, 3>(3 * a, 3 * b) = (wa * s.weights[static_cast<std::size_t>(b)]) * stiffness;
     }
-    return 0.5 * k * gap * gap + 0.5 * s.tangential_stiffness * slide.squaredNorm();
+    return 0.5 * k * gap * gap + 0.5 * s.stiffness[1] * slide.squaredNorm();
   }
 
 private:
@@ -62,11 +54,12 @@ private:
     const Vector3 d = c - s.anchor;
     return d - s.normal.dot(d) * s.normal;
   }
-  static double normal_stiffness(const ContactSpring& s, double gap) {
-    return s.adhesion || gap < 0 ? s.normal_stiffness : 0;
+  [[nodiscard]] double normal_stiffness(const ContactSpring& s, double gap) const {
+    return adhesion_ || gap < 0 ? s.stiffness[0] : 0;
   }
 
   std::vector<ContactSpring> springs_;
+  bool adhesion_;
 };
 
 } // namespace sheet

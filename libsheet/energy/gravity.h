@@ -16,7 +16,7 @@ public:
   void begin(const Stage& stage) { stage_ = &stage; }
 
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
-    const Triangle& v = stage_->start->mesh->triangles[i];
+    const Corners& v = stage_->start->mesh->triangles[i];
     const auto& x = stage_->start->positions;
     const Vector3 moved = (u.segment<3>(0) - x[v[0]]) + (u.segment<3>(3) - x[v[1]]) + (u.segment<3>(6) - x[v[2]]);
     return -stage_->start->volumes[i] * weight_.dot(moved);

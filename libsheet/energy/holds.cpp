@@ -26,7 +26,7 @@ std::vector<char> held_unknowns(const std::vector<Hold>& holds, const Stage& sta
   for (const Hold& hold : holds) {
     for (const auto v : hold.vertices)
       for (std::size_t a = 0; a < 3; ++a)
-        if (hold.axes[a])
+        if (has_axis(hold.axes, a))
           held[3 * v + a] = 1;
     if (!stage.frames.empty())
       for (const auto e : hold.clamped_edges)
@@ -42,7 +42,7 @@ void place_held(const std::vector<Hold>& holds, const Stage& stage, double to, U
     for (const auto v : hold.vertices) {
       const Vector3 x = motion(stage.start->positions[v]);
       for (int a = 0; a < 3; ++a)
-        if (hold.axes[static_cast<std::size_t>(a)])
+        if (has_axis(hold.axes, a))
           u[3 * v + a] = x[a];
     }
     if (stage.frames.empty())
@@ -61,7 +61,7 @@ bool move_with_held(const std::vector<Hold>& holds, const Stage& stage, double t
   Matrix3 moment = Matrix3::Zero();
   for (const int pass : {0, 1})
     for (const Hold& hold : holds) {
-      if (!(hold.axes[0] && hold.axes[1] && hold.axes[2]))
+      if (hold.axes != all_axes)
         continue;
       const RigidMotion motion = hold.moved(stage.start->time, to);
       for (const auto v : hold.vertices)
@@ -88,23 +88,19 @@ bool move_with_held(const std::vector<Hold>& holds, const Stage& stage, double t
 std::size_t fully_held(const std::vector<Hold>& holds) {
   std::size_t count = 0;
   for (const Hold& hold : holds)
-    if (hold.axes[0] && hold.axes[1] && hold.axes[2])
+    if (hold.axes == all_axes)
       count += hold.vertices.size();
   return count;
 }
 
-void set_held_velocities(const std::vector<Hold>& holds, double t, double duration, State& state) {
-  const double d = 1e-3 * duration;
-  for (const Hold& hold : holds) {
-    const RigidMotion after = hold.moved(t, t + d), before = hold.moved(t, t - d);
+void set_held_velocities(const std::vector<Hold>& holds, double t, State& state) {
+  for (const Hold& hold : holds)
     for (const auto v : hold.vertices) {
-      const Vector3 x = state.positions[v];
-      const Vector3 velocity = (after(x) - before(x)) / (2 * d);
+      const Vector3 velocity = hold.velocity_at(t, state.positions[v]);
       for (int a = 0; a < 3; ++a)
-        if (hold.axes[static_cast<std::size_t>(a)])
+        if (has_axis(hold.axes, a))
           state.velocities[v][a] = velocity[a];
     }
-  }
 }
 
 } // namespace sheet

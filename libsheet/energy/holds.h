@@ -3,11 +3,11 @@
 // held along some axes only. They stay in the list of unknowns; the assembly turns their rows into those of the unit
 // matrix.
 #pragma once
-#include <array>
 #include <functional>
 #include <vector>
 
 #include "libsheet/energy/stage.h"
+#include "libsheet/geometry/axes.h"
 
 namespace sheet {
 
@@ -19,12 +19,17 @@ struct RigidMotion {
 
 struct Hold {
   std::vector<std::uint32_t> vertices;
-  std::array<bool, 3> axes{true, true, true};
+  Axes axes = all_axes;
   std::vector<std::uint32_t> clamped_edges; // their directors turn with the motion; ignored without angle unknowns
-  // Where what is at x at the time `from` [s] is at the time `to`; empty: at rest.
+  // Where what is at x at the time `from` [s] is at the time `to`, and the velocity at time t of what is at x [m/s].
+  // Both or neither: at rest.
   std::function<RigidMotion(double from, double to)> motion;
+  std::function<Vector3(double t, const Vector3& x)> velocity;
 
   [[nodiscard]] RigidMotion moved(double from, double to) const { return motion ? motion(from, to) : RigidMotion{}; }
+  [[nodiscard]] Vector3 velocity_at(double t, const Vector3& x) const {
+    return velocity ? velocity(t, x) : Vector3(Vector3::Zero());
+  }
 };
 
 // One flag for each unknown.
@@ -40,7 +45,7 @@ void place_held(const std::vector<Hold>& holds, const Stage& stage, double to, U
 // Number of vertices held along all axes.
 [[nodiscard]] std::size_t fully_held(const std::vector<Hold>& holds);
 
-// Sets the velocities of held vertices at the time t [s]; `duration` is the step's, for a difference quotient.
-void set_held_velocities(const std::vector<Hold>& holds, double t, double duration, State& state);
+// Sets the velocities of held vertices at the time t [s].
+void set_held_velocities(const std::vector<Hold>& holds, double t, State& state);
 
 } // namespace sheet

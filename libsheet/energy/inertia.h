@@ -45,7 +45,7 @@ private:
     return density_ * stage_->start->volumes[i] / (stage_->duration * stage_->duration);
   }
   [[nodiscard]] VectorN<9> offset(std::size_t i, const VectorN<9>& u) const {
-    const Triangle& v = stage_->start->mesh->triangles[i];
+    const Corners& v = stage_->start->mesh->triangles[i];
     VectorN<9> d;
     for (int a = 0; a < 3; ++a)
       d.segment<3>(3 * a) = u.segment<3>(3 * a) - stage_->inertial[v[a]];

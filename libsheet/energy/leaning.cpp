@@ -12,12 +12,12 @@ namespace sheet {
 
 namespace {
 
-constexpr double kGreatestLean = 80 * std::numbers::pi / 180;
+constexpr double greatest_lean = 80 * std::numbers::pi / 180;
 
 std::vector<Vector3> normals_of(const State& state) {
   std::vector<Vector3> normals;
   normals.reserve(state.mesh->triangles.size());
-  for (const Triangle& t : state.mesh->triangles)
+  for (const Corners& t : state.mesh->triangles)
     normals.push_back(TriangleArea(state.positions[t[0]], state.positions[t[1]], state.positions[t[2]]).normal);
   return normals;
 }
@@ -34,9 +34,9 @@ void limit_leaning(State& state, const std::vector<Hold>& holds) {
   for (std::size_t e = 0; e < angles.size(); ++e) {
     double cosine = 1; // of the angle from the mean to the normals of the edge's triangles
     for (const auto side : state.mesh->edge_triangles[e])
-      if (side != kNone)
+      if (side != no_index)
         cosine = std::min(cosine, normals[side].dot(means[e].director));
-    const double most = std::max(0.0, kGreatestLean - std::acos(std::max(cosine, -1.0)));
+    const double most = std::max(0.0, greatest_lean - std::acos(std::max(cosine, -1.0)));
     angles[e] = std::clamp(angles[e], -most, most);
   }
   for (const Hold& hold : holds)

@@ -13,7 +13,7 @@ void Membrane::begin(const Stage& stage) {
   const auto& triangles = state_->mesh->triangles;
   reference_.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Triangle& v = triangles[t];
+    const Corners& v = triangles[t];
     const auto lengths = [&](const Unknowns& u) {
       return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
     };

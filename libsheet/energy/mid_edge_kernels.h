@@ -5,10 +5,10 @@
 
 namespace sheet {
 
-inline constexpr int kLanes = 8;
+inline constexpr int lane_count = 8;
 
 // A number of each triangle.
-using LaneNumbers = double[kLanes];
+using LaneNumbers = double[lane_count];
 
 // What stays during a stage. Edge k runs from corner k+1 to corner k+2, and so does its start direction `tangent`;
 // `binormal` is what the director turns towards.

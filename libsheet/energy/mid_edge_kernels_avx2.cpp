@@ -5,6 +5,6 @@
 namespace sheet {
 
 extern const MidEdgeKernels avx2_mid_edge;
-const MidEdgeKernels avx2_mid_edge = kKernels;
+const MidEdgeKernels avx2_mid_edge = kernel_table;
 
 } // namespace sheet

@@ -5,6 +5,6 @@
 namespace sheet {
 
 extern const MidEdgeKernels plain_mid_edge;
-const MidEdgeKernels plain_mid_edge = kKernels;
+const MidEdgeKernels plain_mid_edge = kernel_table;
 
 } // namespace sheet

@@ -14,8 +14,8 @@ namespace {
 // β = -2 K g with K = [[0,1,1],[1,0,1],[1,1,0]]; its transpose is itself.
 Vector3 curvature(const Vector3& g) { return {-2 * (g[1] + g[2]), -2 * (g[2] + g[0]), -2 * (g[0] + g[1])}; }
 
-constexpr double kCap = 0.92; // -cos 157°: triangles with a greater angle are caps
-constexpr std::size_t kAtOnce = 512;
+constexpr double cap_cosine = 0.92; // -cos 157°: triangles with a greater angle are caps
+constexpr std::size_t at_once = 512;
 
 // Of half a hinge at edge k [J/m²]: 4/H⁴ of the weight.
 double hinge_stiffness(double weight, const RaisedMetric& metric, int k) {
@@ -28,7 +28,7 @@ Vector3 arc_lengths(const Vector3& lengths, const Vector3& beta) { return length
 } // namespace
 
 MidEdgeShell::Heights MidEdgeShell::heights(std::size_t t, const Unknowns& u) const {
-  const Triangle& v = mesh_->triangles[t];
+  const Corners& v = mesh_->triangles[t];
   Heights result;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t edge = mesh_->triangle_edges[t][k];
@@ -46,21 +46,22 @@ void MidEdgeShell::begin(const Stage& stage) {
   stage_ = &stage;
   mesh_ = stage.start->mesh.get();
   triangles_ = mesh_->triangles.size();
-  references_.resize((triangles_ + kLanes - 1) / kLanes);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references_.size(), kAtOnce / kLanes), [&](const auto& range) {
-    for (std::size_t t = kLanes * range.begin(); t < std::min(kLanes * range.end(), triangles_); ++t)
-      refer(t, stage);
-    if (range.end() == references_.size()) // lanes beyond the last triangle must hold numbers
-      for (std::size_t t = triangles_; t < kLanes * references_.size(); ++t)
-        refer(t, stage);
-  });
+  references_.resize((triangles_ + lane_count - 1) / lane_count);
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count), [&](const auto& range) {
+        for (std::size_t t = lane_count * range.begin(); t < std::min(lane_count * range.end(), triangles_); ++t)
+          refer(t, stage);
+        if (range.end() == references_.size()) // lanes beyond the last triangle must hold numbers
+          for (std::size_t t = triangles_; t < lane_count * references_.size(); ++t)
+            refer(t, stage);
+      });
 }
 
 // Fills a lane with what stays during the stage; lanes beyond the last triangle are like it.
 void MidEdgeShell::refer(std::size_t lane_of_all, const Stage& stage) {
-  const std::size_t t = std::min(lane_of_all, triangles_ - 1), lane = lane_of_all % kLanes;
-  MidEdgeReference& to = references_[lane_of_all / kLanes];
-  const Triangle& v = mesh_->triangles[t];
+  const std::size_t t = std::min(lane_of_all, triangles_ - 1), lane = lane_of_all % lane_count;
+  MidEdgeReference& to = references_[lane_of_all / lane_count];
+  const Corners& v = mesh_->triangles[t];
   const auto lengths = [&](const Unknowns& u) {
     return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
   };
@@ -108,7 +109,7 @@ MidEdgeShell::Cap MidEdgeShell::cap_of(double weight, const RaisedMetric& metric
   const Vector3& q = metric.lengths;
   const double longest = q.maxCoeff(&cap.longest), p = q[(cap.longest + 1) % 3], s = q[(cap.longest + 2) % 3];
   const double flatness = (longest - p - s) / (2 * std::sqrt(p * s)); // -cos α
-  const double part = std::max(0.0, (flatness - kCap) / (1 - kCap));
+  const double part = std::max(0.0, (flatness - cap_cosine) / (1 - cap_cosine));
   cap.stiffness = part * hinge_stiffness(weight, metric, cap.longest);
   cap.height = heights[cap.longest];
   return cap;
@@ -118,7 +119,7 @@ void MidEdgeShell::prepare(const Unknowns& u) {
   const std::size_t edges = mesh_->edges.size(), vertices = stage_->vertices();
   cosine_.resize(edges);
   sine_.resize(edges);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges, kAtOnce), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges, at_once), [&](const auto& range) {
     for (std::size_t e = range.begin(); e < range.end(); ++e) {
       const double angle = u[static_cast<Eigen::Index>(3 * vertices + e)];
       cosine_[e] = std::cos(angle);
@@ -135,9 +136,9 @@ EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const doub
   MidEdgeState state;
   MidEdgeResult result;
   EnergySum sum;
-  for (std::size_t i = first; i < last; i += kLanes) {
-    const int used = static_cast<int>(std::min<std::size_t>(kLanes, last - i));
-    for (int lane = 0; lane < kLanes; ++lane) { // lanes beyond the last element repeat it
+  for (std::size_t i = first; i < last; i += lane_count) {
+    const int used = static_cast<int>(std::min<std::size_t>(lane_count, last - i));
+    for (int lane = 0; lane < lane_count; ++lane) { // lanes beyond the last element repeat it
       const int at = std::min(lane, used - 1);
       for (int k = 0; k < 9; ++k)
         state.x[k][lane] = u[at * stride + k];
@@ -147,7 +148,7 @@ EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const doub
         state.sine[k][lane] = sine_[edge];
       }
     }
-    kernel(references_[i / kLanes], state, arcs_, result);
+    kernel(references_[i / lane_count], state, arcs_, result);
     for (int lane = 0; lane < used; ++lane) {
       sum.add(result.value[lane]);
       if (gradients) {
@@ -165,7 +166,7 @@ EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const doub
         hessians += stride * stride;
       }
     }
-    u += kLanes * stride;
+    u += lane_count * stride;
   }
   return sum;
 }
@@ -173,7 +174,7 @@ EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const doub
 // One triangle's state in all lanes.
 MidEdgeState MidEdgeShell::state_of(const VectorN<12>& u) {
   MidEdgeState state;
-  for (int lane = 0; lane < kLanes; ++lane) {
+  for (int lane = 0; lane < lane_count; ++lane) {
     for (int k = 0; k < 9; ++k)
       state.x[k][lane] = u[k];
     for (int k = 0; k < 3; ++k) {
@@ -186,22 +187,22 @@ MidEdgeState MidEdgeShell::state_of(const VectorN<12>& u) {
 
 double MidEdgeShell::value(std::size_t i, const VectorN<12>& u) const {
   MidEdgeResult result;
-  mid_edge_kernels().value(references_[i / kLanes], state_of(u), arcs_, result);
-  return result.value[i % kLanes];
+  mid_edge_kernels().value(references_[i / lane_count], state_of(u), arcs_, result);
+  return result.value[i % lane_count];
 }
 
 double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                                  bool definite) const {
   MidEdgeResult result;
   const MidEdgeKernels& kernels = mid_edge_kernels();
-  (definite ? kernels.definite : kernels.hessian)(references_[i / kLanes], state_of(u), arcs_, result);
+  (definite ? kernels.definite : kernels.hessian)(references_[i / lane_count], state_of(u), arcs_, result);
   const LaneNumbers* from = result.hessian;
   for (int row = 0; row < 12; ++row) {
-    gradient[row] = result.gradient[row][i % kLanes];
+    gradient[row] = result.gradient[row][i % lane_count];
     for (int column = 0; column <= row; ++column)
-      hessian(row, column) = hessian(column, row) = (*from++)[i % kLanes];
+      hessian(row, column) = hessian(column, row) = (*from++)[i % lane_count];
   }
-  return result.value[i % kLanes];
+  return result.value[i % lane_count];
 }
 
 } // namespace sheet

@@ -41,7 +41,7 @@ public:
   // of Hessians (none: null) the lower triangles.
   EnergySum evaluate(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                      double* hessians, bool definite, bool overwrite) const;
-  // Of one element, for tests. In evaluate, `first` is a multiple of kLanes.
+  // Of one element, for tests. In evaluate, `first` is a multiple of lane_count.
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const;
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const;
@@ -65,7 +65,7 @@ private:
   const Stage* stage_ = nullptr;
   const Connectivity* mesh_ = nullptr;
   std::size_t triangles_ = 0;
-  std::vector<MidEdgeReference> references_; // of kLanes triangles each
+  std::vector<MidEdgeReference> references_; // of lane_count triangles each
   std::vector<double> cosine_, sine_;        // of the edges' angles
 };
 

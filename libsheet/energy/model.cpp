@@ -33,7 +33,7 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
   if (model.bath && model.gravity.squaredNorm() > 0)
     terms.push_back(make_term(Bath(model.bath->density, model.gravity, model.bath->level, model.bath->clings)));
   if (!model.contacts.empty())
-    terms.push_back(make_term(Contact(model.contacts)));
+    terms.push_back(make_term(Contact(model.contacts, model.contacts_adhere)));
   if (terms.empty())
     fail(ExitCode::bad_input, "the model has no term: neither viscosity nor inertia nor any force");
   return terms;

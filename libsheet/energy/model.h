@@ -35,6 +35,7 @@ struct Model {
   std::vector<Hold> holds; // of two that hold the same unknown, the later one
   bool reactions = false;  // whether the forces of the holds are wanted
   std::vector<ContactSpring> contacts;
+  bool contacts_adhere = false;
 
   [[nodiscard]] bool has_inertia() const { return inertia && density > 0; }
   [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && viscosity > 0; }

@@ -11,8 +11,8 @@
 namespace sheet {
 
 namespace {
-constexpr std::size_t kColumnsAtOnce = 256;
-constexpr std::size_t kAhead = 24; // sources are asked for this early, as they lie all over the buffer
+constexpr std::size_t columns_at_once = 256;
+constexpr std::size_t ahead = 24; // sources are asked for this early, as they lie all over the buffer
 
 // The place of the block of the local nodes a and b among an element's packed numbers: pairs of vertices first, then of
 // an edge and a vertex, then of edges.
@@ -67,7 +67,7 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
     std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
     each_pair([&](std::uint32_t column, const Pair& pair) { pairs[next[column]++] = pair; });
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, kColumnsAtOnce), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, columns_at_once), [&](const auto& range) {
     for (std::size_t k = range.begin(); k < range.end(); ++k)
       std::sort(pairs.begin() + start[k], pairs.begin() + start[k + 1],
                 [](const Pair& p, const Pair& q) { return p.row != q.row ? p.row < q.row : p.source < q.source; });
@@ -83,7 +83,7 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
       reversed_.push_back(static_cast<std::uint8_t>(mask));
     }
 
-  sources_.resize(pairs.size() + kAhead);
+  sources_.resize(pairs.size() + ahead);
   block_start_.assign(nodes + 1, 0);
   structure_.size = static_cast<int>(permutation_.size());
   structure_.starts.assign(permutation_.size() + 1, 0);
@@ -161,7 +161,7 @@ void MatrixPattern::pack(const ElementGroup& group, std::size_t element, const d
 
 void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const {
   gradient.resize(static_cast<Eigen::Index>(permutation_.size()));
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order_.size(), 4 * kColumnsAtOnce), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order_.size(), 4 * columns_at_once), [&](const auto& range) {
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
       double sum[3] = {0, 0, 0};
       const int w = width(static_cast<std::uint32_t>(n));
@@ -186,7 +186,7 @@ void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<c
       double sum[9] = {}; // by columns
       const auto add = [&]<int Size>(std::integral_constant<int, Size>) {
         for (std::uint32_t s = block.first_source; s < blocks_[b + 1].first_source; ++s) {
-          __builtin_prefetch(&buffer[sources_[s + kAhead]]);
+          __builtin_prefetch(&buffer[sources_[s + ahead]]);
           for (int at = 0; at < Size; ++at)
             sum[at] += buffer[sources_[s] + static_cast<std::size_t>(at)];
         }
@@ -211,7 +211,7 @@ void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<c
       }
     }
   };
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(order_.size()), kColumnsAtOnce),
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(order_.size()), columns_at_once),
                     [&](const auto& range) {
                       for (std::uint32_t k = range.begin(); k < range.end(); ++k)
                         gather(k);

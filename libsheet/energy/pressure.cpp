@@ -18,7 +18,7 @@ double Pressure::signed_volume(const VectorN<9>& u) const {
 }
 
 VectorN<9> Pressure::corners(const Unknowns& u, std::size_t i) const {
-  const Triangle& v = stage_->start->mesh->triangles[i];
+  const Corners& v = stage_->start->mesh->triangles[i];
   VectorN<9> x;
   x << stage_->position(u, v[0]), stage_->position(u, v[1]), stage_->position(u, v[2]);
   return x;
@@ -27,7 +27,7 @@ VectorN<9> Pressure::corners(const Unknowns& u, std::size_t i) const {
 double Pressure::change(std::size_t i, const VectorN<9>& u) const {
   double sum = signed_volume(u) - start_[i];
   if (!lagged_.empty()) {
-    const Triangle& v = stage_->start->mesh->triangles[i];
+    const Corners& v = stage_->start->mesh->triangles[i];
     for (int a = 0; a < 3; ++a)
       sum += lagged_[i].segment<3>(3 * a).dot(u.segment<3>(3 * a) - stage_->start->positions[v[a]]);
   }
@@ -55,7 +55,7 @@ void Pressure::begin(const Stage& stage) {
   start_enclosed_ = 0;
   bool rim = false;
   for (std::size_t t = 0; t < start_.size(); ++t) {
-    const Triangle& v = mesh.triangles[t];
+    const Corners& v = mesh.triangles[t];
     VectorN<9> u;
     u << state.positions[v[0]], state.positions[v[1]], state.positions[v[2]];
     start_enclosed_ += start_[t] = signed_volume(u);

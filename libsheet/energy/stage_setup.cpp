@@ -11,7 +11,7 @@ namespace sheet {
 namespace {
 
 // Principal stretches (squared) of an extrapolated metric, over the start's.
-constexpr double kLeast = 0.25, kGreatest = 4;
+constexpr double least_ratio = 0.25, greatest_ratio = 4;
 
 // The principal values of a change of the metric a.
 struct Principal {
@@ -29,10 +29,10 @@ RaisedMetric predicted_metric(const Vector3& start, const Vector3& change) {
   const RaisedMetric a(start);
   const Principal p(a, change);
   double part = 1;
-  if (p.least < kLeast - 1)
-    part = std::min(part, (kLeast - 1) / p.least);
-  if (p.greatest > kGreatest - 1)
-    part = std::min(part, (kGreatest - 1) / p.greatest);
+  if (p.least < least_ratio - 1)
+    part = std::min(part, (least_ratio - 1) / p.least);
+  if (p.greatest > greatest_ratio - 1)
+    part = std::min(part, (greatest_ratio - 1) / p.greatest);
   return std::isfinite(part) ? RaisedMetric(start + part * change) : a;
 }
 
@@ -66,7 +66,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
   const auto& x = state.positions;
   const auto& v = state.velocities;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle& c = mesh.triangles[t];
+    const Corners& c = mesh.triangles[t];
     Vector3 change;
     for (int k = 0; k < 3; ++k) {
       const auto a = c[(k + 1) % 3], b = c[(k + 2) % 3];
@@ -92,13 +92,13 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
   }
   bool possible = true;
   for (std::size_t t = 0; t < state.mesh->triangles.size(); ++t) {
-    const Triangle& c = state.mesh->triangles[t];
+    const Corners& c = state.mesh->triangles[t];
     const auto& x = state.positions;
     const Vector3 start = squared_lengths(x[c[0]], x[c[1]], x[c[2]]);
     const Vector3 end =
         squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
     stage.raised[t] = predicted_metric(start, (end - start) / gamma);
-    possible = possible && Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= kLeast - 1;
+    possible = possible && Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= least_ratio - 1;
   }
   return possible;
 }
@@ -132,7 +132,7 @@ void raise_as_started(Stage& stage) {
   const State& state = *stage.start;
   const auto& x = state.positions;
   for (std::size_t t = 0; t < stage.raised.size(); ++t) {
-    const Triangle& c = state.mesh->triangles[t];
+    const Corners& c = state.mesh->triangles[t];
     stage.raised[t] = RaisedMetric(squared_lengths(x[c[0]], x[c[1]], x[c[2]]));
   }
 }

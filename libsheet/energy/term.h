@@ -38,9 +38,9 @@ public:
 
 template <class E> class TermOf final : public Term {
 public:
-  static constexpr int kSize = stencil_unknowns(E::stencil);
+  static constexpr int unknown_count = stencil_unknowns(E::stencil);
   // Some elements are evaluated many at a time.
-  static constexpr bool kInBatches = requires(const E& e) {
+  static constexpr bool in_batches = requires(const E& e) {
     e.evaluate(0, 0, nullptr, 0, nullptr, nullptr, false, false);
   };
   explicit TermOf(E element) : element_(std::move(element)) {}
@@ -68,29 +68,29 @@ public:
   }
 
   [[nodiscard]] EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const override {
-    if constexpr (kInBatches)
+    if constexpr (in_batches)
       return element_.evaluate(first, last, u, stride, nullptr, nullptr, false, false);
     EnergySum sum;
     for (std::size_t i = first; i < last; ++i, u += stride)
-      sum.add(element_.value(i, Eigen::Map<const VectorN<kSize>>(u)));
+      sum.add(element_.value(i, Eigen::Map<const VectorN<unknown_count>>(u)));
     return sum;
   }
 
   EnergySum add_gradients(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                           bool overwrite) const override {
-    if constexpr (kInBatches)
+    if constexpr (in_batches)
       return element_.evaluate(first, last, u, stride, gradients, nullptr, false, overwrite);
     EnergySum sum;
-    VectorN<kSize> g;
+    VectorN<unknown_count> g;
     for (std::size_t i = first; i < last; ++i, u += stride, gradients += stride) {
-      const Eigen::Map<const VectorN<kSize>> local(u);
+      const Eigen::Map<const VectorN<unknown_count>> local(u);
       if constexpr (requires { element_.gradient(i, local, g); }) {
         sum.add(element_.gradient(i, local, g));
       } else {
-        MatrixN<kSize> unused;
+        MatrixN<unknown_count> unused;
         sum.add(element_.derivatives(i, local, g, unused, true));
       }
-      Eigen::Map<VectorN<kSize>> gradient(gradients, kSize);
+      Eigen::Map<VectorN<unknown_count>> gradient(gradients, unknown_count);
       if (overwrite)
         gradient = g;
       else
@@ -101,18 +101,19 @@ public:
 
   EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                             double* hessians, bool definite, bool overwrite) const override {
-    if constexpr (kInBatches)
+    if constexpr (in_batches)
       return element_.evaluate(first, last, u, stride, gradients, hessians, definite, overwrite);
     if constexpr (requires { E::linear; })
       if (!overwrite)
         return add_gradients(first, last, u, stride, gradients, overwrite);
     EnergySum sum;
-    VectorN<kSize> g;
-    MatrixN<kSize> h;
+    VectorN<unknown_count> g;
+    MatrixN<unknown_count> h;
     for (std::size_t i = first; i < last; ++i, u += stride, gradients += stride, hessians += stride * stride) {
-      sum.add(element_.derivatives(i, Eigen::Map<const VectorN<kSize>>(u), g, h, definite));
-      Eigen::Map<VectorN<kSize>> gradient(gradients, kSize);
-      Eigen::Map<MatrixN<kSize>, 0, Eigen::OuterStride<>> hessian(hessians, kSize, kSize, Eigen::OuterStride<>(stride));
+      sum.add(element_.derivatives(i, Eigen::Map<const VectorN<unknown_count>>(u), g, h, definite));
+      Eigen::Map<VectorN<unknown_count>> gradient(gradients, unknown_count);
+      Eigen::Map<MatrixN<unknown_count>, 0, Eigen::OuterStride<>> hessian(hessians, unknown_count, unknown_count,
+                                                                          Eigen::OuterStride<>(stride));
       if (overwrite) {
         gradient = g;
         hessian = h;

@@ -8,13 +8,13 @@
 
 namespace sheet {
 
-Connectivity connect(std::size_t vertices, std::span<const Triangle> triangles) {
+Connectivity connect(std::size_t vertices, std::span<const Corners> triangles) {
   struct Half {
     std::uint32_t high, triangle, corner;
   };
   std::vector<std::size_t> start(vertices + 1, 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Triangle& v = triangles[t];
+    const Corners& v = triangles[t];
     for (int i = 0; i < 3; ++i) {
       if (v[i] >= vertices)
         fail(ExitCode::bad_input, "triangle {}: vertex {} of a mesh with {} vertices", t, v[i], vertices);
@@ -50,11 +50,11 @@ Connectivity connect(std::size_t vertices, std::span<const Triangle> triangles) 
     for (auto h = first; h != last; ++h) {
       if (h == first || h->high != (h - 1)->high) {
         c.edges.push_back({low, h->high});
-        c.edge_triangles.push_back({kNone, kNone});
+        c.edge_triangles.push_back({no_index, no_index});
       }
       const int side = triangles[h->triangle][(h->corner + 1) % 3] == low ? 0 : 1;
       auto& slot = c.edge_triangles.back()[side];
-      if (slot != kNone)
+      if (slot != no_index)
         fail(ExitCode::bad_input,
              "edge ({}, {}): triangles {} and {} run along it in the same direction (not a consistently oriented "
              "surface; duplicate the edge's vertices)",

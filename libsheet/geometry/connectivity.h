@@ -8,27 +8,27 @@
 #include <span>
 #include <vector>
 
+#include "libsheet/geometry/types.h"
+
 namespace sheet {
 
-using Triangle = std::array<std::uint32_t, 3>;
 using Edge = std::array<std::uint32_t, 2>;
-inline constexpr std::uint32_t kNone = 0xffffffffU;
 
 struct Connectivity {
   std::size_t vertices = 0;
-  std::vector<Triangle> triangles;
+  std::vector<Corners> triangles;
   std::vector<Edge> edges;
   std::vector<std::array<std::uint32_t, 3>> triangle_edges; // [triangle][i]: the edge opposite vertex i
   std::vector<std::array<std::uint32_t, 2>>
-      edge_triangles; // the triangle that runs lower to higher first; kNone: no such
+      edge_triangles; // the triangle that runs lower to higher first; no_index: no such
 
   [[nodiscard]] bool on_rim(std::size_t edge) const {
-    return edge_triangles[edge][0] == kNone || edge_triangles[edge][1] == kNone;
+    return edge_triangles[edge][0] == no_index || edge_triangles[edge][1] == no_index;
   }
 };
 
 // Fails with bad_input on an index out of range, a triangle with a repeated vertex, an edge of more than two triangles,
 // or two triangles that run along their common edge in the same direction.
-[[nodiscard]] Connectivity connect(std::size_t vertices, std::span<const Triangle> triangles);
+[[nodiscard]] Connectivity connect(std::size_t vertices, std::span<const Corners> triangles);
 
 } // namespace sheet

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mid-edge directors: unit vectors perpendicular to their edges, shared by the two triangles of an edge, and the second
-// fundamental form that they give a triangle [Grinspun et al. 2006].
-// A director is the start-of-step one, carried by the smallest rotation that takes the start
-// direction t0 of the edge to the present one t [Bergou et al. 2010], then turned about the edge by an angle θ [rad]:
+// fundamental form that they give a triangle [Grinspun et al. 2006]. A director is the start-of-step one, carried by
+// the smallest rotation that takes the start direction t0 of the edge to the present one t [Bergou et al. 2010], then
+// turned about the edge by an angle θ [rad]:
 //   n = q - (t·q)/(1 + t0·t) (t0 + t),   q = cosθ d + sinθ (t0 × d).
 // For edge i opposite vertex i, with midpoint m_i, the height g_i = n_i·(m_i - x_i) [m] gives the second form b; on the
 // edges b(e_k, e_k) = -2 (g_i + g_j) [m], {i, j, k} the three corners (curvature is positive where the sheet bends

@@ -7,7 +7,7 @@ namespace sheet {
 
 namespace {
 
-constexpr double kCancelled = 1e-8; // length of a sum of two unit vectors
+constexpr double cancelled = 1e-8; // length of a sum of two unit vectors
 
 Vector3 across(const Vector3& n, const Vector3& t) { return n - n.dot(t) * t; }
 
@@ -16,7 +16,7 @@ Vector3 across(const Vector3& n, const Vector3& t) { return n - n.dot(t) * t; }
 std::vector<EdgeFrame> mean_normal_frames(const Connectivity& mesh, std::span<const Vector3> positions) {
   std::vector<Vector3> normals(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) {
-    const Triangle& v = mesh.triangles[t];
+    const Corners& v = mesh.triangles[t];
     normals[t] = TriangleArea(positions[v[0]], positions[v[1]], positions[v[2]]).normal;
   }
   std::vector<EdgeFrame> frames(mesh.edges.size());
@@ -25,11 +25,11 @@ std::vector<EdgeFrame> mean_normal_frames(const Connectivity& mesh, std::span<co
     const auto& sides = mesh.edge_triangles[e];
     Vector3 n = Vector3::Zero();
     for (const auto side : sides)
-      if (side != kNone)
+      if (side != no_index)
         n += normals[side];
     n = across(n, t);
-    if (n.norm() < kCancelled)
-      n = normals[sides[0] != kNone ? sides[0] : sides[1]].cross(t);
+    if (n.norm() < cancelled)
+      n = normals[sides[0] != no_index ? sides[0] : sides[1]].cross(t);
     n = across(n, t).normalized();
     frames[e] = {t, n, t.cross(n)};
   }

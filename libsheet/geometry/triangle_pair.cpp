@@ -104,7 +104,7 @@ bool intersect(const Pair& p) {
   }
 }
 
-Pair make_pair(std::span<const Vector3d> x, const Triangle& a, const Triangle& b) {
+Pair make_pair(std::span<const Vector3d> x, const Corners& a, const Corners& b) {
   Pair p;
   std::size_t last_a = 3, last_b = 3, first = 0;
   std::array<bool, 3> taken{};
@@ -127,12 +127,12 @@ Pair make_pair(std::span<const Vector3d> x, const Triangle& a, const Triangle& b
 
 } // namespace
 
-bool triangles_intersect(std::span<const Vector3d> x, const Triangle& a, const Triangle& b) {
+bool triangles_intersect(std::span<const Vector3d> x, const Corners& a, const Corners& b) {
   const Pair pair = make_pair(x, a, b);
   return pair.shared < 3 && intersect(pair);
 }
 
-bool corners_collinear(std::span<const Vector3d> x, const Triangle& t) {
+bool corners_collinear(std::span<const Vector3d> x, const Corners& t) {
   return CGAL::collinear(point(x[t[0]]), point(x[t[1]]), point(x[t[2]]));
 }
 

@@ -12,9 +12,9 @@ namespace sheet {
 
 // Precondition: neither triangle's corners lie on a line. Two triangles at the same three vertices do not intersect
 // here: they are duplicates.
-[[nodiscard]] bool triangles_intersect(std::span<const Vector3> positions, const Triangle& a, const Triangle& b);
+[[nodiscard]] bool triangles_intersect(std::span<const Vector3> positions, const Corners& a, const Corners& b);
 
 // True if the corners lie on a line, exactly.
-[[nodiscard]] bool corners_collinear(std::span<const Vector3> positions, const Triangle& triangle);
+[[nodiscard]] bool corners_collinear(std::span<const Vector3> positions, const Corners& triangle);
 
 } // namespace sheet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Short names of the fixed-size dense types that geometry and energies speak in. Nothing here has a unit.
+// Short names of the types that geometry and energies speak in. Nothing here has a unit.
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -10,6 +11,9 @@ namespace sheet {
 
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
+using Corners = std::array<std::uint32_t, 3>; // vertices of a triangle, counter-clockwise from its positive side
+inline constexpr std::uint32_t no_index = 0xffffffffU; // in place of that of a vertex, an edge, a triangle
+
 template <int N> using VectorN = Eigen::Matrix<double, N, 1>;
 template <int N> using MatrixN = Eigen::Matrix<double, N, N>;
 

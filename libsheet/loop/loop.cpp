@@ -1,38 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/loop/loop.h"
 
-#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <future>
 #include <limits>
 #include <memory>
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <poll.h>
-#include <sys/signalfd.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "formats/cpp/stream_reader.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
-#include "libsheet/base/file_lock.h"
 #include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
-#include "libsheet/base/whole_file.h"
+#include "libsheet/loop/kept_stream.h"
 #include "libsheet/loop/pipeline.h"
+#include "libsheet/loop/pipeline_end.h"
 #include "libsheet/loop/progress.h"
 #include "libsheet/loop/same_run.h"
+#include "libsheet/loop/signals.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/ring.h"
+#include "libsheet/sheet/sheet.h"
 
 namespace sheet {
 
@@ -69,162 +63,6 @@ Keep parse_keep(const LoopOptions& options) {
   return keep;
 }
 
-// SIGINT and SIGTERM as something to wait for, from construction on; as before after destruction.
-class Signals {
-public:
-  Signals() {
-    sigemptyset(&set_);
-    sigaddset(&set_, SIGINT);
-    sigaddset(&set_, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &set_, &old_);
-    descriptor_ = ::signalfd(-1, &set_, SFD_CLOEXEC | SFD_NONBLOCK);
-    if (descriptor_ < 0)
-      fail(ExitCode::io, "cannot wait for signals: {}", std::strerror(errno));
-  }
-  ~Signals() {
-    ::close(descriptor_);
-    pthread_sigmask(SIG_SETMASK, &old_, nullptr);
-  }
-  Signals(const Signals&) = delete;
-  Signals& operator=(const Signals&) = delete;
-
-  // Waits until `descriptor` can be read (true) or a signal has come (false). Calls `patience_ends` every now and then.
-  template <class F> [[nodiscard]] bool wait_readable(int descriptor, F&& patience_ends) const {
-    constexpr int patience = 5000; // [ms]
-    for (;;) {
-      std::array<pollfd, 2> waited{pollfd{descriptor, POLLIN, 0}, pollfd{descriptor_, POLLIN, 0}};
-      const int ready = ::poll(waited.data(), waited.size(), patience);
-      if (ready == 0)
-        patience_ends();
-      if (ready <= 0)
-        continue; // or EINTR
-      if (waited[1].revents != 0)
-        return false;
-      if (waited[0].revents != 0)
-        return true;
-    }
-  }
-  // The signal that wait_readable saw.
-  [[nodiscard]] int take() const {
-    signalfd_siginfo info{};
-    return ::read(descriptor_, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : SIGINT;
-  }
-
-private:
-  sigset_t set_{}, old_{};
-  int descriptor_ = -1;
-};
-
-// The stream of kept frames: a new one, or one that a run before has left.
-class Output {
-public:
-  // Reads what is there, and leaves the last whole frame in `last`. What is behind it is cut off before the first frame
-  // is added.
-  static std::unique_ptr<Output> resume(const std::string& path, Frame& last) {
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0)
-      fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
-    lock_for_writing(descriptor, path); // what another run still writes must not be taken for a torn end
-    std::uint64_t frames = 0, bytes = 0;
-    {
-      const InputFile input(path);
-      StreamReader reader(input.descriptor(), input.name());
-      Frame frame;
-      try {
-        while (reader.read(frame)) {
-          std::swap(frame, last);
-          frames = reader.frames_since_end();
-        }
-      } catch (const StreamError& error) {
-        if (error.kind() == StreamError::Kind::io)
-          throw;
-        // A run that was cut off leaves a torn last frame, or no end mark: mended. Damage before that is not ours to
-        // drop.
-        const off_t damage = ::lseek(input.descriptor(), 0, SEEK_CUR);
-        if (damage < ::lseek(input.descriptor(), 0, SEEK_END))
-          fail(ExitCode::corrupt,
-               "{}; more follows behind it, so the file is left as it is: save what is before with "
-               "sheet-select --first {} and resume that",
-               error.what(), reader.frames());
-        log::detail("{}; going on from the frame before", error.what());
-      }
-      bytes = reader.bytes_of_frames();
-      if (reader.frames() == 0)
-        fail(ExitCode::bad_input, "{} holds no whole frame: start the run anew", path);
-    }
-    release_file(path, FileRole::input);
-    claim_file(path, FileRole::output);
-    return std::unique_ptr<Output>(new Output(descriptor, path, frames, static_cast<off_t>(bytes)));
-  }
-  static std::unique_ptr<Output> create(const std::string& path) {
-    return std::unique_ptr<Output>(new Output(std::make_unique<OutputFile>(path, OutputFile::Content::binary)));
-  }
-  ~Output() {
-    if (resumed_ >= 0)
-      ::close(resumed_);
-  }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-
-  void write(const Frame& frame) {
-    start();
-    writer_.write(frame);
-  }
-  void end() {
-    start();
-    writer_.end();
-    if (created_)
-      created_->close();
-    if (resumed_ >= 0 && ::close(std::exchange(resumed_, -1)) != 0)
-      fail(ExitCode::io, "cannot finish writing: {}", std::strerror(errno));
-  }
-  [[nodiscard]] std::uint64_t frames() const { return writer_.frames(); }
-
-private:
-  explicit Output(std::unique_ptr<OutputFile> file)
-      : created_(std::move(file)), writer_(created_->descriptor(), created_->name()) {}
-  Output(int descriptor, std::string path, std::uint64_t frames, off_t bytes)
-      : path_(std::move(path)), resumed_(descriptor), bytes_(bytes), writer_(descriptor, path_, frames) {}
-
-  void start() {
-    if (std::exchange(started_, true))
-      return;
-    if (created_)
-      created_->start();
-    else if (::ftruncate(resumed_, bytes_) != 0 || ::lseek(resumed_, 0, SEEK_END) < 0)
-      fail(ExitCode::io, "cannot go on with {}: {}", path_, std::strerror(errno));
-  }
-
-  std::unique_ptr<OutputFile> created_;
-  std::string path_;
-  int resumed_ = -1;
-  off_t bytes_ = 0; // of the whole frames that are there
-  bool started_ = false;
-  StreamWriter writer_;
-};
-
-// A file that holds the newest frame, replaced as a whole.
-void write_checkpoint(const std::string& path, const Frame& frame) {
-  release_file(path, FileRole::output);
-  write_whole_file(path, [&](OutputFile& file) {
-    file.start();
-    StreamWriter writer(file.descriptor(), file.name());
-    writer.write(frame);
-    writer.end();
-  });
-  claim_file(path, FileRole::output);
-}
-
-Frame read_last_frame(const InputFile& input) {
-  StreamReader reader(input.descriptor(), input.name());
-  Frame frame, last;
-  while (reader.read(frame))
-    std::swap(frame, last);
-  if (reader.frames() == 0)
-    fail(ExitCode::bad_input, "{} holds no frame to start from", input.name());
-  return last;
-}
-
 void stamp_next_output_time(Frame& frame, const LoopOptions& options) {
   double next = options.until.value_or(std::numeric_limits<double>::infinity());
   if (options.fps)
@@ -233,10 +71,7 @@ void stamp_next_output_time(Frame& frame, const LoopOptions& options) {
     frame.erase("next_output_time");
     return;
   }
-  formats::Array array = formats::make_array("next_output_time", formats::Place::frame, formats::Type::float64, 1, "s",
-                                             formats::Transfer::copy, 1);
-  array.values<double>()[0] = next;
-  frame.put(std::move(array));
+  put_number(frame, "next_output_time", next);
 }
 
 // The ring's provenance is one line, not one a round.
@@ -246,40 +81,6 @@ void record_once(Frame& frame, const std::string& line) {
       (array != nullptr && ("\n" + std::string(array->text()) + "\n").find("\n1 " + line + "\n") != std::string::npos))
     return;
   record_provenance(frame, line);
-}
-
-ExitCode exit_code_of(const StageStatus& stage) {
-  constexpr int command_not_found = 127, not_executable = 126;
-  if (stage.code == command_not_found || stage.code == not_executable)
-    return ExitCode::usage;
-  return stage.code >= 1 && stage.code <= 6 ? static_cast<ExitCode>(stage.code) : ExitCode::internal;
-}
-
-std::string describe(const StageStatus& stage) {
-  if (stage.code == 127)
-    return fmt::format("stage \"{}\" was not found (exit code 127)", stage.command);
-  if (stage.code > 128)
-    return fmt::format("stage \"{}\" was ended by signal {} ({})", stage.command, stage.code - 128,
-                       strsignal(stage.code - 128));
-  return fmt::format("stage \"{}\" failed with exit code {}", stage.command, stage.code);
-}
-
-void report_times(const PipelineEnd& end, std::uint64_t rounds, double elapsed) {
-  std::string text = fmt::format("{} steps in {:.3g} s", rounds, elapsed);
-  double known = 0;
-  for (const StageTime& time : end.times) {
-    known += time.seconds;
-    text += fmt::format("\n  {:<16} {:10.3f} s {:9.3f} ms a step {:5.1f} %", time.name, time.seconds,
-                        1e3 * time.seconds / static_cast<double>(std::max<std::uint64_t>(1, time.frames)),
-                        100 * time.seconds / elapsed);
-  }
-  // A stage writes while the next one reads, so that the sum may exceed the whole.
-  const double others = elapsed - known;
-  text += fmt::format("\n  {:<16} {:10.3f} s {:9.3f} ms a step {:5.1f} %",
-                      others >= 0 ? "pipes and others" : "at the same time", std::abs(others),
-                      1e3 * std::abs(others) / static_cast<double>(std::max<std::uint64_t>(1, rounds)),
-                      100 * std::abs(others) / elapsed);
-  log::warning("{}", text);
 }
 
 class Ring {
@@ -335,7 +136,7 @@ private:
   void start() {
     if (!options_.resume.empty()) {
       claim_checkpoint(); // other than the stream
-      output_ = Output::resume(options_.resume, frame_);
+      output_ = KeptStream::resume(options_.resume, frame_);
       kept_ = true;
       if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint))
         take_checkpoint();
@@ -344,7 +145,7 @@ private:
       const InputFile input(options_.input);
       frame_ = read_last_frame(input);
       claim_checkpoint();
-      output_ = Output::create(options_.output);
+      output_ = KeptStream::create(options_.output);
       record_once(frame_, provenance_line_);
       if (!keep_.last_only)
         first_ = frame_;
@@ -544,7 +345,7 @@ private:
   LoopOptions options_;
   Keep keep_;
   std::string provenance_line_;
-  std::unique_ptr<Output> output_;
+  std::unique_ptr<KeptStream> output_;
   std::optional<Frame> first_; // not yet written
   Frame frame_, back_;         // the newest state; the one that comes back (after a round: the one before)
   bool told_of_silence_ = false;

@@ -5,15 +5,15 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/collide/collide_stage.h"
-#include "libsheet/collide/solids.h"
+#include "libsheet/flow/emit.h"
+#include "libsheet/flow/tear.h"
 #include "libsheet/geometry/area.h"
-#include "libsheet/remesh/emit.h"
 #include "libsheet/remesh/mesh.h"
-#include "libsheet/remesh/tear.h"
 #include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
 #include "libsheet/solve/step_stage.h"
 
 namespace sheet {
@@ -41,7 +41,7 @@ double mean_edge_of(const Frame& frame) {
 
 // What is held, or stands in the inlet, may begin in a nozzle or a clamp.
 void check_outside_solids(const Scene& scene, const Frame& frame) {
-  const collide::Solids solids(scene);
+  const solid::Solids solids(scene);
   const auto x = positions(frame);
   const auto held = holds(frame), inlet = masks(frame, "inlet");
   for (std::size_t i = 0; i < solids.size(); ++i)
@@ -80,21 +80,20 @@ Frame checked_first_frame(const Scene& scene) {
   StepStage({}).check(frame);
   if (scene.inflow) {
     Frame copy = frame;
-    EmitStage().emit(copy);
+    flow::EmitStage().emit(copy);
   }
   if (scene.tear) {
     Frame copy = frame;
-    TearStage().tear(copy);
+    flow::TearStage().tear(copy);
   }
   if (!scene.solids.empty())
     check_outside_solids(scene, frame);
   if (!scene.solids.empty() || (scene.contact && scene.contact->self)) {
     Frame copy = frame; // as if a step in which nothing moved had made it
-    formats::Array start = formats::make_array("start_position", formats::Place::vertex, formats::Type::float64, 3, "m",
-                                               formats::Transfer::drop, frame.vertices);
+    formats::Array start = formats::make_standard_array("start_position", frame.vertices);
     std::ranges::copy(positions(std::as_const(frame)), start.values<Eigen::Vector3d>().begin());
     copy.put(std::move(start));
-    put_number(copy, "start_time", "s", frame.time - 1);
+    put_number(copy, "start_time", frame.time - 1);
     collide::CollideStage().step(copy);
   }
   return frame;

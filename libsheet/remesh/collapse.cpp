@@ -14,17 +14,17 @@ namespace {
 // with two triangles (inside) or none (at a rim).
 bool keeps_manifold(const Mesh& mesh, std::uint32_t side) {
   const std::uint32_t u = mesh.from(side), v = mesh.to(side), twin = mesh.twin(side);
-  if (twin != none && mesh.on_rim(u) && mesh.on_rim(v))
+  if (twin != no_index && mesh.on_rim(u) && mesh.on_rim(v))
     return false;
   std::size_t common = 0;
   mesh.for_neighbours(u, [&](std::uint32_t w) {
     if (w != v && mesh.adjacent(w, v))
       ++common;
   });
-  if (common != (twin == none ? 1U : 2U))
+  if (common != (twin == no_index ? 1U : 2U))
     return false;
   const auto survives = [&](std::uint32_t apex) { return mesh.degree(apex) >= (mesh.on_rim(apex) ? 2U : 4U); };
-  return survives(mesh.apex(side)) && (twin == none || survives(mesh.apex(twin)));
+  return survives(mesh.apex(side)) && (twin == no_index || survives(mesh.apex(twin)));
 }
 
 // Regularised quadric of the planes of triangles: the point with the least Σ A (n·(x - c))² + r ΣA |x - middle|².
@@ -111,9 +111,9 @@ void make_fans(const EditableSheet& sheet, std::uint32_t kept, std::uint32_t gon
 } // namespace
 
 RimNeighbours rim_neighbours(const Mesh& mesh, std::uint32_t v) {
-  RimNeighbours found{none, mesh.to(mesh.side_at(v))};
+  RimNeighbours found{no_index, mesh.to(mesh.side_at(v))};
   mesh.for_fan(v, [&](std::uint32_t side) {
-    if (mesh.twin(Mesh::previous(side)) == none)
+    if (mesh.twin(Mesh::previous(side)) == no_index)
       found.before = mesh.from(Mesh::previous(side));
   });
   return found;
@@ -148,12 +148,12 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
     return false;
   // An end may insist on its place as a corner of the rim, as held more than the other, as the one on the rim; if both
   // do for different reasons, neither can go.
-  std::uint32_t kept = none;
+  std::uint32_t kept = no_index;
   const auto insist = [&](bool u_does, bool v_does) {
     if (u_does == v_does)
       return true;
     const std::uint32_t who = u_does ? u : v;
-    if (kept != none && kept != who)
+    if (kept != no_index && kept != who)
       return false;
     kept = who;
     return true;
@@ -161,8 +161,8 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
   const bool corner_u = is_corner(sheet, u), corner_v = is_corner(sheet, v);
   if ((corner_u && corner_v) || !insist(corner_u, corner_v) || !insist(!under_v, !under_u) || !insist(rim_u, rim_v))
     return false;
-  const bool stays = kept != none || sheet.fixed(u);
-  kept = kept == none ? u : kept;
+  const bool stays = kept != no_index || sheet.fixed(u);
+  kept = kept == no_index ? u : kept;
   const std::uint32_t gone = kept == u ? v : u;
 
   edit.clear();
@@ -188,7 +188,7 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
   }
   if (!stays)
     for (int axis = 0; axis < 3; ++axis)
-      if (sheet.held_axes(kept)[static_cast<std::size_t>(axis)])
+      if (has_axis(sheet.held_axes(kept), axis))
         edit.position[axis] = middle[axis];
   if ((edit.position - middle).norm() > 1.5 * (b - a).norm())
     return false;

@@ -22,11 +22,11 @@ struct Edit {
   std::vector<std::size_t> former;
 
   // At most one vertex is new (split), takes the place of two (collapse) or moves (smooth).
-  std::uint32_t vertex = none;
-  Vector3 position = Vector3::Zero();  // of `vertex` afterwards [m]
-  std::vector<Parent> parents;         // of `vertex`
-  bool keeps_hold = false;             // what holds `vertex` goes on holding it, whatever its parents
-  std::uint32_t removed_vertex = none; // collapse
+  std::uint32_t vertex = no_index;
+  Vector3 position = Vector3::Zero();      // of `vertex` afterwards [m]
+  std::vector<Parent> parents;             // of `vertex`
+  bool keeps_hold = false;                 // what holds `vertex` goes on holding it, whatever its parents
+  std::uint32_t removed_vertex = no_index; // collapse
 
   // overlap[i * removed.size() + j]: the area of added triangle i that covers removed triangle j [m²]
   std::vector<double> overlap;
@@ -44,7 +44,7 @@ struct Edit {
     overlap.clear();
     rise.clear();
     volumes.clear();
-    vertex = removed_vertex = none;
+    vertex = removed_vertex = no_index;
     swept = 0;
     keeps_hold = false;
   }

@@ -29,7 +29,7 @@ double EditableSheet::carried_volume(std::uint32_t v) const {
 
 // Puts the edit's vertex where it will be; its slot may be new.
 void EditableSheet::place(const Edit& edit) {
-  if (edit.vertex == none)
+  if (edit.vertex == no_index)
     return;
   if (edit.vertex >= position_.size())
     position_.resize(edit.vertex + 1, Vector3::Zero());
@@ -69,7 +69,7 @@ void EditableSheet::flatten_old(const Edit& edit, const PlaneFrame& plane) {
     std::array<ThicknessAt, 3> beside;
     std::size_t count = 0;
     for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side)
-      if (const std::uint32_t twin = mesh_.twin(side); twin != none) {
+      if (const std::uint32_t twin = mesh_.twin(side); twin != no_index) {
         const std::uint32_t other = Mesh::triangle_of(twin);
         if (shape_[other].area > 0)
           beside[count++] = {middle_of(flat(mesh_.corners(other))), volume_[other] / shape_[other].area};
@@ -142,7 +142,7 @@ bool EditableSheet::intersects(const Edit& edit) {
         degenerate(mesh_.corners(t), shape_[t]))
       return;
     for (const Corners& c : edit.added)
-      if (box_of(c).meets(grid_->box_of(t)) && triangles_intersect(position_, c, mesh_.corners(t))) {
+      if (box_of(c).overlaps(grid_->box_of(t)) && triangles_intersect(position_, c, mesh_.corners(t))) {
         found = true;
         return;
       }
@@ -186,7 +186,7 @@ bool EditableSheet::make(Edit& edit, const Limits& limits) {
            !(limits.intersections && intersects(edit));
   };
   if (!accepted()) {
-    if (edit.vertex != none)
+    if (edit.vertex != no_index)
       position_[edit.vertex] = old_position_;
     return false;
   }
@@ -227,7 +227,7 @@ void EditableSheet::commit(const Edit& edit) {
   if (grid_)
     for (const std::uint32_t t : slots_)
       grid_->add(t, box_of(mesh_.corners(t)));
-  if (edit.removed_vertex != none) {
+  if (edit.removed_vertex != no_index) {
     mesh_.remove_vertex(edit.removed_vertex);
     successor_[edit.removed_vertex] = edit.vertex;
     std::erase(patch_, edit.removed_vertex);
@@ -253,7 +253,7 @@ void EditableSheet::commit(const Edit& edit) {
 }
 
 void EditableSheet::write_vertex_rows(const Edit& edit) {
-  if (edit.vertex == none)
+  if (edit.vertex == no_index)
     return;
   if (!velocity_.empty()) {
     Vector3 velocity = Vector3::Zero();

@@ -9,11 +9,11 @@
 #include <optional>
 #include <vector>
 
+#include "libsheet/geometry/triangle_grid.h"
 #include "libsheet/remesh/edit.h"
 #include "libsheet/remesh/overlap.h"
 #include "libsheet/remesh/side_directors.h"
 #include "libsheet/remesh/thickness.h"
-#include "libsheet/remesh/triangle_grid.h"
 #include "libsheet/remesh/triangle_shape.h"
 #include "libsheet/remesh/velocity.h"
 #include "libsheet/scene/scene.h"
@@ -34,8 +34,8 @@ struct Limits {
 
 class EditableSheet {
 public:
-  // Copies what it needs from the frame. `scene` says which axes its holds hold; without it they hold all. Errors:
-  // bad_input as Mesh.
+  // Copies what it needs from the frame. `scene`, which outlives this, says which axes its holds hold; without it they
+  // hold all. Errors: bad_input as Mesh.
   explicit EditableSheet(const formats::Frame& frame, const Scene* scene = nullptr);
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
@@ -50,8 +50,8 @@ public:
   [[nodiscard]] bool held_within(std::uint32_t u, std::uint32_t v) const;
   [[nodiscard]] bool held_alike(std::uint32_t u, std::uint32_t v) const { return grip(u) == grip(v); }
   // The coordinates in which a vertex is held.
-  [[nodiscard]] const Axes& held_axes(std::uint32_t v) const { return grips_[grip(v)].axes; }
-  [[nodiscard]] bool fixed(std::uint32_t v) const { return held_axes(v) == Axes{true, true, true}; }
+  [[nodiscard]] Axes held_axes(std::uint32_t v) const { return grips_[grip(v)].axes; }
+  [[nodiscard]] bool fixed(std::uint32_t v) const { return held_axes(v) == all_axes; }
   // By how much edits at this vertex have made the enclosed volume grow, not yet paid back [m³].
   [[nodiscard]] double swept(std::uint32_t v) const { return swept_[v]; }
 
@@ -79,21 +79,21 @@ private:
   [[nodiscard]] Box box_of(const Corners& corners) const;
   struct Grip {
     std::vector<std::byte> masks; // one after the other
-    Axes axes;
+    Axes axes = 0;
   };
   [[nodiscard]] std::uint32_t grip(std::uint32_t v) const { return grip_.empty() ? 0 : grip_[v]; }
   [[nodiscard]] std::uint32_t grip_of(std::uint32_t v);
   [[nodiscard]] Axes axes_of(std::uint32_t v);
   [[nodiscard]] double carried_volume(std::uint32_t v) const;
 
+  const Scene* scene_;
   Mesh mesh_;
   std::vector<Vector3> position_, velocity_; // velocity_: empty in a frame at rest
   std::vector<double> volume_, swept_, carried_;
   std::vector<TriangleShape> shape_;
   SideDirectors directors_;
   std::vector<std::uint32_t> grip_;                         // of vertices, indices of grips_; empty: nothing is held
-  std::vector<Grip> grips_ = {{{}, {false, false, false}}}; // the first: free
-  std::vector<Axes> hold_axes_;                             // of the scene's holds
+  std::vector<Grip> grips_ = std::vector<Grip>(1);          // the first: free
   std::vector<bool> at_inlet_;                              // marked vertices of the frame; empty: there is no inlet
   std::vector<formats::Array> vertex_rows_, triangle_rows_; // all other arrays, by slot
   std::vector<std::uint32_t> successor_;                    // of removed vertices; itself: still there

@@ -6,7 +6,8 @@
 #include "libsheet/remesh/editable_sheet.h"
 #include "libsheet/remesh/numbering.h"
 #include "libsheet/remesh/row_storage.h"
-#include "libsheet/sheet/contact_springs.h"
+#include "libsheet/scene/prescribed.h"
+#include "libsheet/sheet/carried_springs.h"
 #include "libsheet/sheet/edge_rows.h"
 
 namespace sheet::remesh {
@@ -53,10 +54,7 @@ Array made_like(const Array& old, const std::vector<std::uint32_t>& slots, Array
 
 // A hold that has let go holds nobody any longer: its bit goes.
 void forget_released(const Scene& scene, double time, std::vector<Array>& vertex_rows) {
-  std::uint64_t in_force = ~std::uint64_t{0};
-  for (std::size_t i = 0; i < scene.holds.size(); ++i)
-    if (const auto& until = scene.holds[i].until; until && time >= *until)
-      in_force &= ~(std::uint64_t{1} << i);
+  const std::uint64_t in_force = scene::holds_in_force(scene, time);
   for (Array& array : vertex_rows)
     if (array.name == "hold")
       for (std::uint64_t& bits : array.values<std::uint64_t>())
@@ -66,7 +64,7 @@ void forget_released(const Scene& scene, double time, std::vector<Array>& vertex
 } // namespace
 
 EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
-    : mesh_(frame.vertices, triangles(frame)), directors_(frame) {
+    : scene_(scene), mesh_(frame.vertices, triangles(frame)), directors_(frame) {
   const auto x = sheet::positions(frame);
   position_.assign(x.begin(), x.end());
   const auto u = velocities(frame);
@@ -86,11 +84,8 @@ EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
   }
   for (const std::uint64_t bits : masks(frame, "inlet"))
     at_inlet_.push_back(bits != 0);
-  if (scene != nullptr) {
-    for (const scene::Hold& hold : scene->holds)
-      hold_axes_.push_back(hold.axes);
+  if (scene != nullptr)
     forget_released(*scene, frame.time, vertex_rows_);
-  }
   const bool any_grip = std::any_of(vertex_rows_.begin(), vertex_rows_.end(),
                                     [](const Array& array) { return array.transfer == Transfer::common; });
   for (std::uint32_t v = 0; any_grip && v < position_.size(); ++v)
@@ -112,23 +107,19 @@ std::uint32_t EditableSheet::grip_of(std::uint32_t v) {
 
 // A [[hold]] holds its axes; what else holds a vertex holds it in all.
 Axes EditableSheet::axes_of(std::uint32_t v) {
-  Axes axes = {false, false, false};
-  for (Array& array : vertex_rows_) {
-    if (array.transfer != Transfer::common)
-      continue;
-    const std::byte* row = row_at(array, v);
-    if (array.name != "hold") {
+  for (Array& array : vertex_rows_)
+    if (array.transfer == Transfer::common && (scene_ == nullptr || array.name != "hold")) {
+      const std::byte* row = row_at(array, v);
       if (std::any_of(row, row + row_size(array), [](std::byte b) { return b != std::byte{0}; }))
-        axes.fill(true);
-      continue;
+        return all_axes;
     }
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, row, sizeof bits);
-    for (std::size_t i = 0; i < 64; ++i)
-      for (std::size_t axis = 0; axis < 3 && (bits >> i & 1) != 0; ++axis)
-        axes[axis] = axes[axis] || i >= hold_axes_.size() || hold_axes_[i][axis];
-  }
-  return axes;
+  for (Array& array : vertex_rows_)
+    if (scene_ != nullptr && array.name == "hold") {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, row_at(array, v), sizeof bits);
+      return scene::held_axes(*scene_, bits);
+    }
+  return 0;
 }
 
 bool EditableSheet::held_within(std::uint32_t u, std::uint32_t v) const {
@@ -145,7 +136,7 @@ void EditableSheet::put(Frame& frame) {
   if (edits_ == 0)
     return;
   const EdgeRows edges(frame);
-  ContactSprings springs(frame);
+  CarriedSprings springs(frame);
   const auto [vertices, kept, number] = numbering(mesh_, position_);
   if (!springs.empty()) {
     std::vector<std::uint32_t> successor(frame.vertices);
@@ -181,7 +172,7 @@ void EditableSheet::put(Frame& frame) {
       frame.arrays.push_back(std::move(made));
     } else if (array.name == swept_name)
       continue; // put below
-    else if (ContactSprings::has(array.name))
+    else if (CarriedSprings::has(array.name))
       frame.arrays.push_back(std::move(array)); // keeps its place in the order; its rows are put below
     else if (array.transfer == Transfer::drop)
       continue;
@@ -192,8 +183,7 @@ void EditableSheet::put(Frame& frame) {
     else
       frame.arrays.push_back(std::move(array));
   }
-  const Array ledger = formats::make_array(swept_name, Place::vertex, formats::Type::float64, 1, "m^3",
-                                           Transfer::conserve, vertices.size());
+  const Array ledger = formats::make_standard_array(swept_name, vertices.size());
   frame.put(made_like(ledger, vertices, swept_));
   springs.put(frame);
   edges.put(frame);

@@ -82,7 +82,7 @@ void spread(const Mesh& mesh, std::vector<double>& value, std::vector<bool>& kno
   for (bool more = true; more;) {
     std::vector<std::pair<std::uint32_t, double>> found;
     for (std::uint32_t v = 0; v < value.size(); ++v) {
-      if (known[v] || mesh.side_at(v) == none)
+      if (known[v] || mesh.side_at(v) == no_index)
         continue;
       double sum = 0, count = 0;
       mesh.for_neighbours(v, [&](std::uint32_t w) {
@@ -176,7 +176,7 @@ FlowError flow_error(const EditableSheet& sheet, const std::vector<TriangleRates
   std::vector<double> sum = result.gradient, around = weight;
   std::vector<bool> known(count);
   for (std::uint32_t v = 0; v < count; ++v) {
-    if (mesh.side_at(v) == none)
+    if (mesh.side_at(v) == no_index)
       continue;
     mesh.for_neighbours(v, [&](std::uint32_t w) {
       sum[v] += result.gradient[w];

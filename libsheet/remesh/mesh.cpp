@@ -9,7 +9,7 @@
 namespace sheet::remesh {
 
 Mesh::Mesh(std::size_t vertices, std::span<const Corners> triangles)
-    : corners_(triangles.begin(), triangles.end()), twin_(3 * triangles.size(), none), side_at_(vertices, none),
+    : corners_(triangles.begin(), triangles.end()), twin_(3 * triangles.size(), no_index), side_at_(vertices, no_index),
       lives_(vertices, true), triangles_(triangles.size()) {
   const Connectivity connected = connect(vertices, triangles);
   const auto side_of = [&](std::uint32_t t, const Edge& edge) {
@@ -20,7 +20,7 @@ Mesh::Mesh(std::size_t vertices, std::span<const Corners> triangles)
   };
   for (std::size_t e = 0; e < connected.edges.size(); ++e) {
     const auto [left, right] = connected.edge_triangles[e];
-    if (left == none || right == none)
+    if (left == no_index || right == no_index)
       continue;
     const std::uint32_t a = side_of(left, connected.edges[e]), b = side_of(right, connected.edges[e]);
     twin_[a] = b;
@@ -30,7 +30,7 @@ Mesh::Mesh(std::size_t vertices, std::span<const Corners> triangles)
   for (std::uint32_t side = 0; side < twin_.size(); ++side) {
     const std::uint32_t v = from(side);
     ++corner_count[v];
-    if (side_at_[v] == none || twin_[side] == none)
+    if (side_at_[v] == no_index || twin_[side] == no_index)
       side_at_[v] = side;
   }
   for (std::uint32_t v = 0; v < vertices; ++v)
@@ -43,7 +43,7 @@ Mesh::Mesh(std::size_t vertices, std::span<const Corners> triangles)
 }
 
 std::uint32_t Mesh::find_side(std::uint32_t a, std::uint32_t b) const {
-  std::uint32_t found = none;
+  std::uint32_t found = no_index;
   for_fan(a, [&](std::uint32_t side) {
     if (to(side) == b)
       found = side;
@@ -52,7 +52,7 @@ std::uint32_t Mesh::find_side(std::uint32_t a, std::uint32_t b) const {
 }
 
 bool Mesh::adjacent(std::uint32_t a, std::uint32_t b) const {
-  return find_side(a, b) != none || find_side(b, a) != none;
+  return find_side(a, b) != no_index || find_side(b, a) != no_index;
 }
 
 std::size_t Mesh::degree(std::uint32_t v) const {
@@ -62,14 +62,14 @@ std::size_t Mesh::degree(std::uint32_t v) const {
 }
 
 std::uint32_t Mesh::add_vertex() {
-  side_at_.push_back(none);
+  side_at_.push_back(no_index);
   lives_.push_back(true);
   return static_cast<std::uint32_t>(side_at_.size() - 1);
 }
 
 void Mesh::remove_vertex(std::uint32_t v) {
   lives_[v] = false;
-  side_at_[v] = none;
+  side_at_[v] = no_index;
 }
 
 void Mesh::replace(std::span<const std::uint32_t> removed, std::span<const Corners> added,
@@ -78,13 +78,13 @@ void Mesh::replace(std::span<const std::uint32_t> removed, std::span<const Corne
   for (const std::uint32_t t : removed)
     for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side) {
       const std::uint32_t twin = twin_[side];
-      if (twin != none && std::find(removed.begin(), removed.end(), triangle_of(twin)) == removed.end())
+      if (twin != no_index && std::find(removed.begin(), removed.end(), triangle_of(twin)) == removed.end())
         open_.push_back({from(side), to(side), twin});
-      if (side_at_[from(side)] != none && triangle_of(side_at_[from(side)]) == t)
-        side_at_[from(side)] = none;
+      if (side_at_[from(side)] != no_index && triangle_of(side_at_[from(side)]) == t)
+        side_at_[from(side)] = no_index;
     }
   for (const std::uint32_t t : removed) {
-    corners_[t].fill(none);
+    corners_[t].fill(no_index);
     free_triangles_.push_back(t);
   }
   slots.clear();
@@ -100,7 +100,7 @@ void Mesh::replace(std::span<const std::uint32_t> removed, std::span<const Corne
     corners_[t] = corners;
     slots.push_back(t);
     for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side) {
-      twin_[side] = none;
+      twin_[side] = no_index;
       const auto meets = [&](const Open& other) { return other.from == from(side) && other.to == to(side); };
       const auto it = std::find_if(open_.begin(), open_.end(), meets);
       if (it == open_.end()) {
@@ -115,11 +115,11 @@ void Mesh::replace(std::span<const std::uint32_t> removed, std::span<const Corne
   }
   // An old neighbour that found no new one is on the rim now.
   for (const Open& left : open_)
-    twin_[left.twin] = none;
+    twin_[left.twin] = no_index;
   triangles_ += added.size() - removed.size();
   const auto look_at = [&](std::uint32_t side) {
     std::uint32_t& at = side_at_[from(side)];
-    if (at == none || twin_[side] == none)
+    if (at == no_index || twin_[side] == no_index)
       at = side;
   };
   for (const std::uint32_t t : slots)
@@ -128,7 +128,7 @@ void Mesh::replace(std::span<const std::uint32_t> removed, std::span<const Corne
   for (const Open& left : open_) {
     look_at(left.twin);
     // The vertex at its end has lost triangles; what is left of its fan still hangs on this side.
-    if (side_at_[to(left.twin)] == none)
+    if (side_at_[to(left.twin)] == no_index)
       side_at_[to(left.twin)] = next(left.twin);
   }
 }

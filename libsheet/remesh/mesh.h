@@ -14,8 +14,6 @@
 
 namespace sheet::remesh {
 
-inline constexpr std::uint32_t none = 0xffffffffU;
-
 class Mesh {
 public:
   // Errors: bad_input for indices out of range, repeated corners, edges of three or more triangles, triangles of
@@ -26,7 +24,7 @@ public:
   [[nodiscard]] std::size_t triangle_slots() const { return corners_.size(); }
   [[nodiscard]] std::size_t triangle_count() const { return triangles_; }
   // False: the slot is free. A vertex without triangles lives until it is removed.
-  [[nodiscard]] bool has_triangle(std::uint32_t t) const { return corners_[t][0] != none; }
+  [[nodiscard]] bool has_triangle(std::uint32_t t) const { return corners_[t][0] != no_index; }
   [[nodiscard]] bool has_vertex(std::uint32_t v) const { return lives_[v]; }
 
   [[nodiscard]] const Corners& corners(std::uint32_t t) const { return corners_[t]; }
@@ -38,14 +36,14 @@ public:
   [[nodiscard]] std::uint32_t apex(std::uint32_t side) const { return from(previous(side)); }
   [[nodiscard]] std::uint32_t twin(std::uint32_t side) const { return twin_[side]; } // none on a rim
   [[nodiscard]] std::uint32_t side_at(std::uint32_t v) const { return side_at_[v]; } // none: v has no triangle
-  [[nodiscard]] bool on_rim(std::uint32_t v) const { return side_at_[v] != none && twin_[side_at_[v]] == none; }
+  [[nodiscard]] bool on_rim(std::uint32_t v) const { return side_at_[v] != no_index && twin_[side_at_[v]] == no_index; }
 
   // The next side out of the same vertex, counter-clockwise; none behind the last at a rim.
   [[nodiscard]] std::uint32_t turn(std::uint32_t side) const { return twin_[previous(side)]; }
   // visit(side) for each side out of v, counter-clockwise.
   template <class Visit> void for_fan(std::uint32_t v, Visit visit) const {
     const std::uint32_t start = side_at_[v];
-    for (std::uint32_t side = start; side != none;) {
+    for (std::uint32_t side = start; side != no_index;) {
       visit(side);
       side = turn(side);
       if (side == start)
@@ -56,7 +54,7 @@ public:
   template <class Visit> void for_neighbours(std::uint32_t v, Visit visit) const {
     for_fan(v, [&](std::uint32_t side) {
       visit(to(side));
-      if (twin_[previous(side)] == none)
+      if (twin_[previous(side)] == no_index)
         visit(from(previous(side)));
     });
   }

@@ -66,7 +66,7 @@ void order_along_curve(const Mesh& mesh, std::span<const Vector3> positions, Num
 
 Numbering numbering(const Mesh& mesh, std::span<const Vector3> positions) {
   Numbering n;
-  n.number.assign(mesh.vertex_slots(), none);
+  n.number.assign(mesh.vertex_slots(), no_index);
   for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v)
     if (mesh.has_vertex(v)) {
       n.number[v] = static_cast<std::uint32_t>(n.vertices.size());

@@ -25,8 +25,8 @@ struct RimNeighbours {
 // The edge of `side` gets a vertex in its middle; children keep their parent's thickness.
 void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 
-// The edge becomes the other diagonal of its two triangles. False on a rim, where the
-// diagonal exists elsewhere, between two vertices that are held alike.
+// The edge becomes the other diagonal of its two triangles. False on a rim, where the diagonal exists elsewhere,
+// between two vertices that are held alike.
 [[nodiscard]] bool propose_flip(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 
 // The edge becomes a point. Within the sheet, where it is nearest to the planes of the triangles around [Garland,
@@ -36,9 +36,8 @@ void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 // differently, at corners.
 [[nodiscard]] bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit);
 
-// A free inner vertex moves along the sheet to the middle of its triangles, weighted by `weight` of each triangle's
-// area. The movement sweeps no volume, but what the ledger owes, up to
-// `pay`.
+// A free inner vertex moves along the sheet to the middle of its triangles, weighted by their areas. The movement
+// sweeps no volume, but what the ledger owes, up to `pay`.
 [[nodiscard]] bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edit& edit);
 
 // The triangle of a rim side goes and its apex, an inner vertex, moves onto the side: cures triangles that are flat

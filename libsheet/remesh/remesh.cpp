@@ -64,9 +64,9 @@ private:
   [[nodiscard]] double ratio(std::uint32_t a, std::uint32_t b) const { return length(a, b) / size_.along(a, b); }
   [[nodiscard]] std::uint32_t edge(std::uint32_t a, std::uint32_t b) const {
     if (!mesh_.has_vertex(a) || !mesh_.has_vertex(b))
-      return none;
+      return no_index;
     const std::uint32_t side = mesh_.find_side(a, b);
-    return side != none ? side : mesh_.find_side(b, a);
+    return side != no_index ? side : mesh_.find_side(b, a);
   }
   template <class Visit> void for_triangles(Visit visit) const {
     for (std::uint32_t t = 0; t < mesh_.triangle_slots(); ++t)
@@ -75,7 +75,7 @@ private:
   }
   template <class Visit> void for_edges(Visit visit) const {
     for (std::uint32_t side = 0; side < 3 * mesh_.triangle_slots(); ++side)
-      if (mesh_.has_triangle(Mesh::triangle_of(side)) && (mesh_.twin(side) == none || side < mesh_.twin(side)))
+      if (mesh_.has_triangle(Mesh::triangle_of(side)) && (mesh_.twin(side) == no_index || side < mesh_.twin(side)))
         visit(side);
   }
   bool within_budget() {
@@ -126,7 +126,7 @@ private:
   // The diagonal is turned only if that enlarges the smallest angle of the two triangles.
   bool flip(std::uint32_t side, double least_facing, double thickness) {
     const std::uint32_t twin = mesh_.twin(side);
-    if (twin == none)
+    if (twin == no_index)
       return false;
     const TriangleShape one = sheet_.shape(Mesh::triangle_of(side)), two = sheet_.shape(Mesh::triangle_of(twin));
     const double sharpest = std::max(one.sharpest, two.sharpest);
@@ -175,7 +175,7 @@ private:
       const std::uint32_t a = mesh_.from(s), b = mesh_.to(s), c = mesh_.apex(s);
       return ratio(b, c) > own || ratio(c, a) > own;
     };
-    return longer(side) || (mesh_.twin(side) != none && longer(mesh_.twin(side)));
+    return longer(side) || (mesh_.twin(side) != no_index && longer(mesh_.twin(side)));
   }
 
   void split_long() {
@@ -189,7 +189,7 @@ private:
       const Candidate longest = queue.top();
       queue.pop();
       const std::uint32_t side = edge(longest.a, longest.b);
-      if (side == none || beside_longer(side) || !split(side))
+      if (side == no_index || beside_longer(side) || !split(side))
         continue;
       const std::uint32_t m = edit_.vertex;
       mesh_.for_neighbours(m, [&](std::uint32_t w) { push(m, w); });
@@ -207,7 +207,7 @@ private:
       const Candidate shortest = queue.top();
       queue.pop();
       const std::uint32_t side = edge(shortest.a, shortest.b);
-      if (side == none || ratio(shortest.a, shortest.b) >= collapse_below)
+      if (side == no_index || ratio(shortest.a, shortest.b) >= collapse_below)
         continue;
       if (!collapse(side, limits(cosine_22, 0.3, 1.1), split_above))
         continue;
@@ -219,7 +219,7 @@ private:
   void flip_all() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> stack;
     for_edges([&](std::uint32_t side) {
-      if (mesh_.twin(side) != none)
+      if (mesh_.twin(side) != no_index)
         stack.emplace_back(mesh_.from(side), mesh_.to(side));
     });
     std::reverse(stack.begin(), stack.end());
@@ -227,7 +227,7 @@ private:
       const auto [a, b] = stack.back();
       stack.pop_back();
       const std::uint32_t side = mesh_.find_side(a, b);
-      if (side == none || !flip(side, 0.94, 1.1)) // 20 degrees
+      if (side == no_index || !flip(side, 0.94, 1.1)) // 20 degrees
         continue;
       for (const Corners& t : edit_.added)
         for (std::size_t i = 0; i < 3; ++i)
@@ -237,7 +237,7 @@ private:
 
   void smooth_sharp() {
     for (std::uint32_t v = 0; v < mesh_.vertex_slots() && within_budget(); ++v) {
-      if (!mesh_.has_vertex(v) || mesh_.side_at(v) == none || mesh_.on_rim(v))
+      if (!mesh_.has_vertex(v) || mesh_.side_at(v) == no_index || mesh_.on_rim(v))
         continue;
       double sharpest = 0;
       mesh_.for_fan(v, [&](std::uint32_t side) {
@@ -277,7 +277,7 @@ private:
     for (const std::uint32_t side : sides)
       if (collapse(side, limits(cosine_22, 0, repair_thickness, least_gain), 1.3 * split_above))
         return true;
-    if (mesh_.twin(sides[2]) == none && absorb(sides[2]))
+    if (mesh_.twin(sides[2]) == no_index && absorb(sides[2]))
       return true;
     bool moved = false;
     for (const std::uint32_t v : corners)

@@ -23,9 +23,8 @@ struct Report {
 inline constexpr double split_above = 1.4, collapse_below = 0.6;
 
 // Works in place; the frame stays as it is, bit for bit, if its mesh needs nothing. Arrays go by their rules
-// (formats/sheet.md, section 4). `scene` may be null: then
-// nothing is known of buckling, and holds hold all axes. Errors: usage (options,
-// more than 10^8 triangles), bad_input (no oriented manifold, pinched vertices).
+// (formats/sheet.md, section 4). `scene` may be null: then nothing is known of buckling, and holds hold all axes.
+// Errors: usage (options, more than 10^8 triangles), bad_input (no oriented manifold, pinched vertices).
 Report remesh(formats::Frame& frame, const Scene* scene, const Options& options);
 
 } // namespace sheet::remesh

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/remesh/remesh_stage.h"
 
-#include <chrono>
-
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
+#include "libsheet/base/stopwatch.h"
 
 namespace sheet::remesh {
 
@@ -47,9 +46,9 @@ void RemeshStage::remesh(formats::Frame& frame) {
         scene != nullptr && scene->sheet.edge_length ? *scene->sheet.edge_length : own_edge_length(frame);
   }
   const std::uint64_t vertices = frame.vertices;
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   const Report report = remesh::remesh(frame, scene, options_.remeshing);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = watch.lap();
   log::detail("step {}: {} splits, {} collapses, {} flips, {} moved, {} absorbed; {} to {} vertices, {:.1f} ms",
               frame.step, report.splits, report.collapses, report.flips, report.smoothed, report.absorbed, vertices,
               frame.vertices, 1e3 * seconds);

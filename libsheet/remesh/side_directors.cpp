@@ -9,7 +9,7 @@ namespace sheet::remesh {
 
 namespace {
 
-constexpr double kOpposed = 0.1; // length of a mean of unit vectors that point to too different sides to have a meaning
+constexpr double opposed = 0.1; // length of a mean of unit vectors that point to too different sides to have a meaning
 
 double twice_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
@@ -27,18 +27,18 @@ Vector3 barycentric(const FlatTriangle& t, const Eigen::Vector2d& x) {
 Vector3 across(const Vector3& n, const Vector3& edge) {
   const Vector3 t = edge.normalized(), rest = n - n.dot(t) * t;
   const double length = rest.norm();
-  return length > kOpposed ? Vector3(rest / length) : Vector3(Vector3::Zero());
+  return length > opposed ? Vector3(rest / length) : Vector3(Vector3::Zero());
 }
 
 // The removed triangle's side from one vertex to another that stays as it was; none where there is no such.
 std::uint32_t kept_side(const Mesh& mesh, const Edit& edit, std::uint32_t from, std::uint32_t to) {
   if (from == edit.vertex || to == edit.vertex)
-    return none;
+    return no_index;
   for (const std::uint32_t t : edit.removed)
     for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side)
       if (mesh.from(side) == from && mesh.to(side) == to)
         return side;
-  return none;
+  return no_index;
 }
 
 } // namespace
@@ -86,7 +86,7 @@ void SideDirectors::prepare(const Mesh& mesh, const Edit& edit, std::span<const 
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t next = (i + 1) % 3;
       const std::uint32_t a = edit.added[k][i], b = edit.added[k][next];
-      if (const std::uint32_t side = kept_side(mesh, edit, a, b); side != none)
+      if (const std::uint32_t side = kept_side(mesh, edit, a, b); side != no_index)
         found_.push_back(directors_[side]);
       else
         found_.push_back(across(interpolated(edit, old_flat, 0.5 * (new_flat[k][i] + new_flat[k][next])),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <queue>
 
 #include <Eigen/Eigenvalues>
@@ -16,7 +17,7 @@ namespace sheet::remesh {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double jump_tolerance = 0.2; // τ: of thickness, from triangle to triangle
 constexpr double even_enough = 1.5;    // of the flow's mean over the sheet's size: gradients below make no difference
 constexpr double edges_in_a_wave = 8;  // of a buckle
@@ -46,7 +47,7 @@ std::vector<double> curvatures(const EditableSheet& sheet, const std::vector<Tri
   for (std::uint32_t side = 0; side < 3 * mesh.triangle_slots(); ++side) {
     const std::uint32_t twin = mesh.twin(side), t = Mesh::triangle_of(side);
     area[mesh.from(side)] += rates[t].shape.area / 3;
-    if (twin == none || twin < side)
+    if (twin == no_index || twin < side)
       continue;
     const Vector3 edge = sheet.at(mesh.to(side)) - sheet.at(mesh.from(side));
     const double length = edge.norm();
@@ -60,7 +61,7 @@ std::vector<double> curvatures(const EditableSheet& sheet, const std::vector<Tri
   }
   std::vector<double> curvature(count, 0);
   for (std::uint32_t v = 0; v < count; ++v) {
-    if (mesh.side_at(v) == none)
+    if (mesh.side_at(v) == no_index)
       continue;
     Matrix3 sum = tensor[v];
     double around = area[v];
@@ -127,7 +128,7 @@ void limit_by_thickness(const EditableSheet& sheet, const std::vector<TriangleRa
   const Mesh& mesh = sheet.mesh();
   for (std::uint32_t side = 0; side < 3 * mesh.triangle_slots(); ++side) {
     const std::uint32_t twin = mesh.twin(side);
-    if (twin == none || twin < side)
+    if (twin == no_index || twin < side)
       continue;
     const std::uint32_t one = Mesh::triangle_of(side), two = Mesh::triangle_of(twin);
     const double length = (sheet.at(mesh.to(side)) - sheet.at(mesh.from(side))).norm();

@@ -46,7 +46,7 @@ void find_parents(const EditableSheet& sheet, const Vector3& x, Edit& edit) {
 
 bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edit& edit) {
   const Mesh& mesh = sheet.mesh();
-  if (mesh.on_rim(v) || sheet.fixed(v) || mesh.side_at(v) == none)
+  if (mesh.on_rim(v) || sheet.fixed(v) || mesh.side_at(v) == no_index)
     return false;
   edit.clear();
   edit.kind = Edit::Kind::smooth;
@@ -76,7 +76,7 @@ bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edi
   const double owed = std::clamp(3 * sheet.swept(v) / length, -pay, pay);
   step -= owed * normal;
   for (int axis = 0; axis < 3; ++axis)
-    if (sheet.held_axes(v)[static_cast<std::size_t>(axis)])
+    if (has_axis(sheet.held_axes(v), axis))
       step[axis] = 0;
   const double rise = normal.dot(step);
   find_parents(sheet, x + step - rise * normal, edit);
@@ -87,7 +87,7 @@ bool propose_smooth(const EditableSheet& sheet, std::uint32_t v, double pay, Edi
 
 bool propose_absorb(const EditableSheet& sheet, std::uint32_t rim_side, Edit& edit) {
   const Mesh& mesh = sheet.mesh();
-  if (mesh.twin(rim_side) != none)
+  if (mesh.twin(rim_side) != no_index)
     return false;
   const std::uint32_t a = mesh.from(rim_side), b = mesh.to(rim_side), c = mesh.apex(rim_side);
   const std::uint32_t flat = Mesh::triangle_of(rim_side);

@@ -19,7 +19,7 @@ void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit) {
     volume += sheet.volume(t);
   };
   halve(side);
-  if (mesh.twin(side) != none)
+  if (mesh.twin(side) != no_index)
     halve(mesh.twin(side));
   const std::size_t old_count = edit.removed.size();
   for (std::size_t i = 0; i < edit.added.size(); ++i)
@@ -33,7 +33,7 @@ void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit) {
 bool propose_flip(const EditableSheet& sheet, std::uint32_t side, Edit& edit) {
   const Mesh& mesh = sheet.mesh();
   const std::uint32_t twin = mesh.twin(side);
-  if (twin == none)
+  if (twin == no_index)
     return false;
   const std::uint32_t a = mesh.from(side), b = mesh.to(side), c = mesh.apex(side), d = mesh.apex(twin);
   if (c == d || mesh.adjacent(c, d) || (sheet.held_alike(a, b) && sheet.fixed(a)))

@@ -2,6 +2,7 @@
 // Area, normal and angles of a triangle, without trigonometric functions: angles are compared by their cosines.
 #pragma once
 #include <algorithm>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -35,6 +36,6 @@ struct TriangleShape {
   }
 };
 
-inline double cosine_of_degrees(double degrees) { return std::cos(degrees * 3.14159265358979323846 / 180); }
+inline double cosine_of_degrees(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 } // namespace sheet::remesh

@@ -22,7 +22,7 @@ void restore_flow(const Flow& before, std::span<const MovingVertex> vertices) {
   const auto for_free = [&](auto visit) {
     for (const MovingVertex& v : vertices)
       for (int axis = 0; axis < 3; ++axis)
-        if (!v.held[static_cast<std::size_t>(axis)])
+        if (!has_axis(v.held, axis))
           visit(v.volume, (*v.velocity)[axis], axis);
   };
   for_free([&](double volume, double, int axis) { free_volume[axis] += volume; });

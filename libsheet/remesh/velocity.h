@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 
+#include "libsheet/geometry/axes.h"
 #include "libsheet/geometry/types.h"
 
 namespace sheet::remesh {
@@ -19,8 +20,6 @@ struct Flow {
     energy += 0.5 * volume * u.squaredNorm();
   }
 };
-
-using Axes = std::array<bool, 3>; // of the coordinates x, y, z
 
 struct MovingVertex {
   double volume;     // that the vertex carries after the edit [m³]

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "libsheet/geometry/types.h"
+#include "libsheet/geometry/box.h"
 #include "libsheet/render/sampler.h"
 #include "libsheet/render/types.h"
 
@@ -15,22 +15,6 @@ struct CameraOptions {
   std::optional<Vector3> eye, target;  // [m]; absent: found so that everything is in the picture
   double field_of_view = 28;           // from the picture's lower to its upper edge [degrees]
   double azimuth = 30, elevation = 25; // [degrees] of the camera as seen from what it looks at, if it is found
-};
-
-struct Box {
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
-  void add(const Vector3& x) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  void add(const Box& other) {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-  }
-  [[nodiscard]] bool empty() const { return !(low.array() <= high.array()).all(); }
-  [[nodiscard]] Vector3 center() const { return 0.5 * (low + high); }
-  [[nodiscard]] double diagonal() const { return empty() ? 0 : (high - low).norm(); }
 };
 
 class Camera {

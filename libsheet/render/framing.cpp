@@ -47,7 +47,7 @@ Vector3 up_of(const Scene* scene) {
 Plane ground_below(const Box& subject, const Vector3& up) {
   const Vector3 half = 0.5 * (subject.high - subject.low);
   const double reach = half.cwiseProduct(up.cwiseAbs()).sum() + 0.02 * subject.diagonal();
-  return {ground_id, subject.center() - reach * up, up};
+  return {ground_id, subject.middle() - reach * up, up};
 }
 
 Plane bath_surface(double level, const Box& subject, const Vector3& up) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "libsheet/geometry/box.h"
 #include "libsheet/render/looks.h"
 #include "libsheet/render/solids.h"
 

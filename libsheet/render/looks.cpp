@@ -62,7 +62,7 @@ std::vector<double> mean_curvature(const formats::Frame& frame) {
   const Connectivity mesh = connect(frame.vertices, sheet::triangles(frame));
   std::vector<double> area(x.size(), 0), bend(x.size(), 0);
   std::vector<bool> rim(x.size(), false);
-  for (const Triangle& t : mesh.triangles)
+  for (const Corners& t : mesh.triangles)
     for (const std::uint32_t v : t)
       area[v] += (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm() / 6;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {

@@ -168,16 +168,16 @@ struct RenderStage::Impl {
            "what there is to see measures {:.3g} m across, more than {:g} m: the sheet has blown up, or a triangle has "
            "next to no area, so that it is thick without bound (sheet-check tells which)",
            subject.diagonal(), largest);
-    if (options.camera.eye && !((options.camera.target.value_or(subject.center()) - *options.camera.eye).norm() > 0))
+    if (options.camera.eye && !((options.camera.target.value_or(subject.middle()) - *options.camera.eye).norm() > 0))
       fail(ExitCode::usage, "--eye is the middle of what there is to see: give --target too");
-    if (const double away = options.camera.eye ? (subject.center() - *options.camera.eye).norm() : 0;
+    if (const double away = options.camera.eye ? (subject.middle() - *options.camera.eye).norm() : 0;
         !(away < farthest * subject.diagonal()))
       fail(ExitCode::usage,
            "--eye is {:.3g} m away from what there is to see, which measures {:.3g} m: nothing of it "
            "would be seen",
            away, subject.diagonal());
     const double growth = surveyed ? 0 : unknown_growth;
-    const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.center();
+    const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.middle();
     subject = {middle - reach, middle + reach};
     const Camera camera = extent.view.camera(middle, 2 * growth);
     const Vec toward = -camera.axis(), upward = up.cast<float>();

@@ -9,7 +9,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/named_files.h"
-#include "libsheet/scene/overloaded.h"
+#include "libsheet/base/overloaded.h"
 
 namespace sheet::render {
 namespace {

@@ -95,7 +95,7 @@ World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
              const std::vector<Eigen::Isometry3d>& motions, const std::vector<Plane>& planes, const Box& box)
     : impl_(std::make_unique<Impl>()) {
   impl_->surface = surface;
-  impl_->center = box.center();
+  impl_->center = box.middle();
   impl_->unit = box.diagonal() > 0 ? box.diagonal() : 1;
   // Not threads=1: that would hold the whole program to one thread as long as the device lives.
   impl_->device = rtcNewDevice("set_affinity=0");

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "libsheet/geometry/box.h"
 #include "libsheet/render/image.h"
 #include "libsheet/render/solids.h"
 #include "libsheet/render/surface.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "libsheet/scene/overloaded.h"
+#include "libsheet/base/overloaded.h"
 #include "libsheet/scene/scales.h"
 
 namespace sheet::scene {

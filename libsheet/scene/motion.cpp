@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libsheet/scene/overloaded.h"
+#include "libsheet/base/overloaded.h"
 
 namespace sheet::scene {
 namespace {

@@ -41,6 +41,28 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
                  "pressure: this law needs a shape that encloses a volume, or a mesh");
 }
 
+// The tables [[key]], at most so many.
+std::vector<TableReader> tables_of(const Node* node, std::string_view key, std::size_t most, Problems& problems) {
+  std::vector<TableReader> tables;
+  if (!node)
+    return tables;
+  if (node->type != Node::Type::list) {
+    problems.add(node->place, fmt::format("{0}: expected tables [[{0}]], got {1}", key, describe(node->type)));
+    return tables;
+  }
+  if (node->items.size() > most)
+    problems.add(node->items[most].place,
+                 fmt::format("{0}: {1} tables [[{0}]]; a scene may have {2}", key, node->items.size(), most));
+  for (const Node& item : node->items) {
+    if (item.type == Node::Type::table)
+      tables.emplace_back(item, fmt::format("[[{}]]", key), problems);
+    else
+      problems.add(item.place,
+                   fmt::format("{0}: expected tables [[{0}]], got {1} in the list", key, describe(item.type)));
+  }
+  return tables;
+}
+
 Scene read_document(const Node& document, Problems& problems, const Files& files) {
   static const Node nothing{};
   TableReader top(document, "the scene", problems);
@@ -60,25 +82,7 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     return named(key, *node);
   };
   const auto list = [&](std::string_view key, std::size_t most) {
-    std::vector<TableReader> tables;
-    const Node* node = top.take(key);
-    if (!node)
-      return tables;
-    if (node->type != Node::Type::list) {
-      problems.add(node->place, fmt::format("{0}: expected tables [[{0}]], got {1}", key, describe(node->type)));
-      return tables;
-    }
-    if (node->items.size() > most)
-      problems.add(node->items[most].place,
-                   fmt::format("{0}: {1} tables [[{0}]]; a scene may have {2}", key, node->items.size(), most));
-    for (const Node& item : node->items) {
-      if (item.type == Node::Type::table)
-        tables.emplace_back(item, fmt::format("[[{}]]", key), problems);
-      else
-        problems.add(item.place,
-                     fmt::format("{0}: expected tables [[{0}]], got {1} in the list", key, describe(item.type)));
-    }
-    return tables;
+    return tables_of(top.take(key), key, most, problems);
   };
 
   Scene scene;

@@ -61,18 +61,18 @@ std::optional<Region> read_region(TableReader& hold, const SheetTable& sheet) {
   return result;
 }
 
-std::array<bool, 3> read_axes(TableReader& table) {
+Axes read_axes(TableReader& table) {
   const auto text = table.text("axes");
   if (!text)
-    return {true, true, true};
-  std::array<bool, 3> axes{};
+    return all_axes;
+  Axes axes = 0;
   for (const char c : *text) {
     const std::size_t axis = c == 'x' ? 0 : c == 'y' ? 1 : c == 'z' ? 2 : 3;
-    if (axis == 3 || axes[axis]) {
+    if (axis == 3 || has_axis(axes, axis)) {
       table.wrong("axes", "expected some of the letters x, y, z, such as \"y\" or \"xz\"");
-      return {true, true, true};
+      return all_axes;
     }
-    axes[axis] = true;
+    axes |= axis_bit(axis);
   }
   return axes;
 }
@@ -135,12 +135,11 @@ Hold read_hold(TableReader table, const SheetTable& sheet, const Model& model) {
   hold.axes = read_axes(table);
   hold.motion = read_motion(table, sheet.center);
   hold.until = table.quantity("until", quantity::time, Bound::positive);
-  const bool all_axes = hold.axes == std::array{true, true, true};
   if (hold.clamped && !model.bending)
     table.wrong("kind", "a clamped hold needs bending, which [model] switches off; use \"pinned\"");
-  if (hold.clamped && !all_axes)
+  if (hold.clamped && hold.axes != all_axes)
     table.wrong("axes", "a clamped hold holds all axes; use kind = \"pinned\"");
-  if (std::holds_alternative<Rotating>(hold.motion) && !all_axes)
+  if (std::holds_alternative<Rotating>(hold.motion) && hold.axes != all_axes)
     table.wrong("axes", "a rotating hold holds all axes");
   table.finish();
   return hold;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libsheet/scene/overloaded.h"
+#include "libsheet/base/overloaded.h"
 
 namespace sheet::scene {
 namespace {

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include "libsheet/geometry/axes.h"
 #include "libsheet/scene/motion.h"
 
 namespace sheet::scene {
@@ -185,8 +186,8 @@ using Region = std::variant<Border, BoxRegion, SphereRegion>;
 
 struct Hold {
   Region region = Border::rim;
-  bool clamped = false;                          // position and slope; else position only
-  std::array<bool, 3> axes = {true, true, true}; // the coordinates that are held
+  bool clamped = false; // position and slope; else position only
+  Axes axes = all_axes; // the coordinates that are held
   Motion motion;
   std::optional<double> until; // released at this time [s]
   bool operator==(const Hold&) const = default;

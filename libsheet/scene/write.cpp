@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/write.h"
 
+#include "libsheet/base/overloaded.h"
 #include "libsheet/base/units.h"
 #include "libsheet/scene/document.h"
-#include "libsheet/scene/overloaded.h"
 #include "libsheet/scene/words.h"
 
 namespace sheet::scene {
@@ -173,10 +173,10 @@ void write_hold(Writer& out, const Hold& hold) {
                                            }},
                                 hold.region));
   out.line("kind", word(words::holds, hold.clamped ? 1UL : 0UL));
-  if (hold.axes != std::array{true, true, true}) {
+  if (hold.axes != all_axes) {
     std::string axes;
     for (std::size_t i = 0; i < 3; ++i)
-      if (hold.axes[i])
+      if (has_axis(hold.axes, i))
         axes += "xyz"[i];
     out.line("axes", toml_text(axes));
   }

@@ -2,10 +2,11 @@
 #include "libsheet/shape/build.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
-#include "libsheet/scene/overloaded.h"
+#include "libsheet/base/overloaded.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/mesh_file.h"
 #include "libsheet/shape/mesh_measure.h"
@@ -21,7 +22,6 @@ namespace sheet {
 namespace {
 
 using Eigen::Vector3d;
-using scene::Overloaded;
 
 MeshOptions mesh_options(const scene::SheetTable& table) {
   MeshOptions options;
@@ -70,11 +70,11 @@ Field wave_field(const scene::Perturbation& perturbation, const scene::Wave& wav
     const Vector3d axis = Vector3d::Unit(scene::axes_of(table.plane).normal);
     const double start = annulus == nullptr ? 0 : annulus->inner_radius;
     return radial_wave(perturbation.amplitude, wave.wavelength, axis, Vector3d::Zero(),
-                       start - wave.phase / (2 * M_PI) * wave.wavelength);
+                       start - wave.phase / (2 * std::numbers::pi) * wave.wavelength);
   }
   const Vector3d direction = Vector3d::Unit(static_cast<int>(wave.direction));
   return plane_wave(perturbation.amplitude, wave.wavelength, direction,
-                    -wave.phase / (2 * M_PI) * wave.wavelength * direction);
+                    -wave.phase / (2 * std::numbers::pi) * wave.wavelength * direction);
 }
 
 // The sheet stands in its plane around the origin, not yet rotated: perturbations and named borders are meant so.
@@ -143,9 +143,7 @@ void add_inlet(const TriangleMesh& mesh, const VertexSet& inlet, formats::Frame&
   const auto bits = put_masks(frame, "inlet");
   for (const std::uint32_t v : inlet)
     bits[v] = in_inlet | at_inlet_border;
-  formats::Array& origins =
-      frame.put(formats::make_array("inlet_origin", formats::Place::vertex, formats::Type::float64, 3, "m",
-                                    formats::Transfer::interpolate, frame.vertices));
+  formats::Array& origins = frame.put(formats::make_standard_array("inlet_origin", frame.vertices));
   std::copy(mesh.positions.begin(), mesh.positions.end(), origins.values<Vector3d>().begin());
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/types.h"
 #include "libsheet/shape/mesh_measure.h"
 
 namespace sheet {
@@ -49,8 +50,7 @@ VertexSet extreme_loop(const TriangleMesh& mesh, double sign, const char* name) 
 } // namespace
 
 std::vector<std::vector<std::uint32_t>> boundary_loops(const TriangleMesh& mesh) {
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> next(mesh.positions.size(), none);
+  std::vector<std::uint32_t> next(mesh.positions.size(), no_index);
   for (const MeshEdge& edge : mesh_edges(mesh.triangles)) {
     if (edge.up > 1 || edge.down > 1)
       fail(ExitCode::bad_input, "the mesh is no oriented manifold: {} triangles meet at the edge of vertices {} and {}",
@@ -58,19 +58,19 @@ std::vector<std::vector<std::uint32_t>> boundary_loops(const TriangleMesh& mesh)
     if (edge.up + edge.down == 2)
       continue;
     const std::uint32_t from = edge.up == 1 ? edge.a : edge.b, to = edge.up == 1 ? edge.b : edge.a;
-    if (next[from] != none)
+    if (next[from] != no_index)
       fail(ExitCode::bad_input, "the mesh is pinched at vertex {}: it is on the boundary more than once", from);
     next[from] = to;
   }
   std::vector<std::vector<std::uint32_t>> loops;
   for (std::uint32_t start = 0; start < next.size(); ++start) {
-    if (next[start] == none)
+    if (next[start] == no_index)
       continue;
     loops.emplace_back();
-    for (std::uint32_t v = start; next[v] != none;) {
+    for (std::uint32_t v = start; next[v] != no_index;) {
       loops.back().push_back(v);
       const std::uint32_t after = next[v];
-      next[v] = none;
+      next[v] = no_index;
       v = after;
     }
   }

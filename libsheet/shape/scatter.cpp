@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/types.h"
 #include "libsheet/shape/mesh_measure.h"
 
 namespace sheet {
@@ -25,7 +26,7 @@ public:
   explicit NearbyPoints(double cube) : cube_(cube) {}
 
   void add(const Eigen::Vector3d& point) {
-    const auto [place, is_new] = first_.try_emplace(key(cell(point)), none);
+    const auto [place, is_new] = first_.try_emplace(key(cell(point)), no_index);
     next_.push_back(place->second);
     place->second = static_cast<std::uint32_t>(points_.size());
     points_.push_back(point);
@@ -38,7 +39,7 @@ public:
       for (std::int64_t dy = -1; dy <= 1; ++dy)
         for (std::int64_t dz = -1; dz <= 1; ++dz) {
           const auto place = first_.find(key({c[0] + dx, c[1] + dy, c[2] + dz}));
-          for (std::uint32_t i = place == first_.end() ? none : place->second; i != none; i = next_[i])
+          for (std::uint32_t i = place == first_.end() ? no_index : place->second; i != no_index; i = next_[i])
             if ((points_[i] - point).squaredNorm() < distance * distance)
               return true;
         }
@@ -47,7 +48,6 @@ public:
 
 private:
   using Cell = std::array<std::int64_t, 3>;
-  static constexpr std::uint32_t none = 0xFFFFFFFF;
 
   [[nodiscard]] Cell cell(const Eigen::Vector3d& p) const {
     return {static_cast<std::int64_t>(std::floor(p.x() / cube_)), static_cast<std::int64_t>(std::floor(p.y() / cube_)),
@@ -178,8 +178,7 @@ TriangleMesh irregular_mesh(const ScatterSurface& surface, Points fixed, double 
   if (bad > 0)
     fail(ExitCode::bad_input,
          "the irregular pattern finds no good triangles at edge_length = {:g} m (seed {}): the shape is only a few "
-         "edges "
-         "wide; use a smaller edge_length, another seed or another pattern",
+         "edges wide; use a smaller edge_length, another seed or another pattern",
          edge_length, seed);
   TriangleMesh mesh;
   mesh.triangles = surface.triangulate(points);

@@ -13,7 +13,7 @@ using formats::Place;
 
 namespace {
 
-constexpr std::string_view kName = "director_angle";
+constexpr std::string_view array_name = "director_angle";
 
 std::uint64_t key_of(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
@@ -26,15 +26,14 @@ std::uint32_t heaviest(std::span<const Parent> parents) {
 } // namespace
 
 void put_director_angles(std::span<const double> angles, Frame& frame) {
-  frame.erase(kName);
+  frame.erase(array_name);
   if (angles.empty()) {
     if (std::none_of(frame.arrays.begin(), frame.arrays.end(),
                      [](const Array& array) { return array.place == Place::edge; }))
       frame.edges = 0;
     return;
   }
-  Array array =
-      formats::make_array(kName, Place::edge, formats::Type::float64, 1, "rad", formats::Transfer::drop, angles.size());
+  Array array = formats::make_standard_array(array_name, angles.size());
   std::copy(angles.begin(), angles.end(), array.values<double>().begin());
   frame.edges = angles.size();
   frame.put(std::move(array));
@@ -42,7 +41,7 @@ void put_director_angles(std::span<const double> angles, Frame& frame) {
 
 std::vector<Vector3> directors_of(const Frame& frame, const Connectivity& mesh) {
   std::vector<Vector3> directors;
-  const Array* angles = frame.find(kName);
+  const Array* angles = frame.find(array_name);
   if (angles == nullptr)
     return directors;
   for (const EdgeFrame& edge : director_frames(mesh, positions(frame), angles->values<double>()))
@@ -60,7 +59,7 @@ void put_directors(std::span<const Vector3> directors, const Connectivity& mesh,
 }
 
 Directors::Directors(const Frame& frame) {
-  if (frame.find(kName) == nullptr)
+  if (frame.find(array_name) == nullptr)
     return;
   const Connectivity mesh = connect(frame.vertices, triangles(frame));
   const std::vector<Vector3> directors = directors_of(frame, mesh);

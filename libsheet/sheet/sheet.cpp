@@ -43,15 +43,9 @@ Frame make_frame(std::span<const Eigen::Vector3d> positions, std::span<const Cor
   Frame frame;
   frame.vertices = positions.size();
   frame.triangles = triangles.size();
-  fill(frame.put(formats::make_array("position", Place::vertex, Type::float64, 3, "m", Transfer::interpolate,
-                                     positions.size())),
-       positions);
-  fill(frame.put(
-           formats::make_array("triangle", Place::triangle, Type::uint32, 3, "1", Transfer::drop, triangles.size())),
-       triangles);
-  fill(frame.put(
-           formats::make_array("volume", Place::triangle, Type::float64, 1, "m^3", Transfer::conserve, volumes.size())),
-       volumes);
+  fill(frame.put(formats::make_standard_array("position", positions.size())), positions);
+  fill(frame.put(formats::make_standard_array("triangle", triangles.size())), triangles);
+  fill(frame.put(formats::make_standard_array("volume", volumes.size())), volumes);
   return frame;
 }
 
@@ -66,8 +60,7 @@ std::span<const double> volumes(const Frame& frame) { return required(frame, "vo
 std::span<Eigen::Vector3d> velocities(Frame& frame) {
   Array* array = frame.find("velocity");
   if (array == nullptr) {
-    array = &frame.put(
-        formats::make_array("velocity", Place::vertex, Type::float64, 3, "m/s", Transfer::interpolate, frame.vertices));
+    array = &frame.put(formats::make_standard_array("velocity", frame.vertices));
     for (Eigen::Vector3d& v : array->values<Eigen::Vector3d>())
       v.setZero();
   }
@@ -85,9 +78,7 @@ std::span<const std::uint64_t> masks(const Frame& frame, std::string_view name) 
 }
 
 std::span<std::uint64_t> put_masks(Frame& frame, std::string_view name) {
-  const auto bits =
-      frame.put(formats::make_array(name, Place::vertex, Type::uint64, 1, "1", Transfer::common, frame.vertices))
-          .values<std::uint64_t>();
+  const auto bits = frame.put(formats::make_standard_array(name, frame.vertices)).values<std::uint64_t>();
   std::fill(bits.begin(), bits.end(), 0);
   return bits;
 }
@@ -112,11 +103,8 @@ std::vector<std::int32_t> touched_solids(const Frame& frame) {
 
 void put_touched_solids(Frame& frame, std::span<const std::int32_t> touch, std::size_t solids) {
   const std::size_t count = std::max<std::size_t>(1, (solids + word_bits - 1) / word_bits);
-  const auto words =
-      frame
-          .put(formats::make_array("touch", Place::vertex, Type::uint64, static_cast<std::uint32_t>(count), "1",
-                                   Transfer::common, frame.vertices))
-          .values<std::uint64_t>();
+  const auto words = frame.put(formats::make_standard_array("touch", frame.vertices, static_cast<std::uint32_t>(count)))
+                         .values<std::uint64_t>();
   std::fill(words.begin(), words.end(), 0);
   for (std::size_t v = 0; v < touch.size(); ++v)
     if (touch[v] != no_solid) {
@@ -125,10 +113,21 @@ void put_touched_solids(Frame& frame, std::span<const std::int32_t> touch, std::
     }
 }
 
-void put_number(Frame& frame, std::string_view name, std::string_view unit, double value) {
-  Array array = formats::make_array(name, Place::frame, Type::float64, 1, unit, Transfer::copy, 1);
+namespace {
+
+void put_value(Frame& frame, Array array, double value) {
   array.values<double>()[0] = value;
   frame.put(std::move(array));
+}
+
+} // namespace
+
+void put_number(Frame& frame, std::string_view name, double value) {
+  put_value(frame, formats::make_standard_array(name, 1), value);
+}
+
+void put_number(Frame& frame, std::string_view name, std::string_view unit, double value) {
+  put_value(frame, formats::make_array(name, Place::frame, Type::float64, 1, unit, Transfer::copy, 1), value);
 }
 
 double number(const Frame& frame, std::string_view name, double otherwise) {

@@ -8,10 +8,9 @@
 #include <Eigen/Core>
 
 #include "formats/cpp/stream_frame.h"
+#include "libsheet/geometry/types.h"
 
 namespace sheet {
-
-using Corners = std::array<std::uint32_t, 3>; // vertex indices of a triangle, counter-clockwise from its positive side
 
 // A new frame at rest at time 0, its arrays in the standard order. `volumes` [m³] one a triangle.
 [[nodiscard]] formats::Frame make_frame(std::span<const Eigen::Vector3d> positions, std::span<const Corners> triangles,
@@ -45,7 +44,8 @@ void put_touched_solids(formats::Frame& frame, std::span<const std::int32_t> tou
 inline constexpr std::uint64_t in_inlet = 1;        // moves at the inflow's velocity
 inline constexpr std::uint64_t at_inlet_border = 2; // where liquid enters
 
-// Adds or replaces a float64 array of one row at place frame.
+// Adds or replaces a float64 array of one row at place frame: a standard one, or one of the caller's.
+void put_number(formats::Frame& frame, std::string_view name, double value);
 void put_number(formats::Frame& frame, std::string_view name, std::string_view unit, double value);
 // Its value, or `otherwise` where there is no such array.
 [[nodiscard]] double number(const formats::Frame& frame, std::string_view name, double otherwise);

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "libsheet/sheet/contact_springs.h"
+#include "libsheet/sheet/carried_springs.h"
 #include "libsheet/sheet/edge_rows.h"
 
 namespace sheet {
@@ -66,7 +66,7 @@ void common_row(const Array& from, std::span<const Parent> parents, std::byte* t
 
 // The new vertex that has the largest share of each old one.
 std::vector<std::uint32_t> successors(const Lineage& vertices, std::size_t old_count) {
-  std::vector<std::uint32_t> successor(old_count, ContactSprings::no_vertex);
+  std::vector<std::uint32_t> successor(old_count, no_index);
   std::vector<double> largest(old_count, 0);
   for (std::uint32_t v = 0; v < vertices.size(); ++v)
     for (const Parent& p : vertices[v])
@@ -112,7 +112,7 @@ void Lineage::add(std::span<const Parent> parents) {
 
 void transfer_frame(Frame& frame, const Lineage& vertices, const Lineage& triangles, std::span<const Corners> corners) {
   const EdgeRows old_edges(frame);
-  ContactSprings springs(frame);
+  CarriedSprings springs(frame);
   if (!springs.empty())
     springs.move(successors(vertices, frame.vertices));
   std::vector<Array> arrays = std::move(frame.arrays);
@@ -126,7 +126,7 @@ void transfer_frame(Frame& frame, const Lineage& vertices, const Lineage& triang
       if (!corners.empty())
         std::memcpy(made.data.data(), corners.data(), corners.size_bytes());
       frame.arrays.push_back(std::move(made));
-    } else if (ContactSprings::has(array.name)) {
+    } else if (CarriedSprings::has(array.name)) {
       frame.arrays.push_back(std::move(array)); // its place in the order; the rows are put below
     } else if (array.transfer == Transfer::drop) {
       continue;

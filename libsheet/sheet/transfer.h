@@ -42,7 +42,7 @@ private:
 
 // The frame with new vertices, triangles and connectivity. Vertex and triangle arrays go by their rule (`position`,
 // `velocity` and `volume` too: a caller with a better rule overwrites them); arrays whose rule is drop go, at every
-// place; arrays at place edge go along (edge_rows.h), contact springs too (contact_springs.h): a spring's vertex
+// place; arrays at place edge go along (edge_rows.h), contact springs too (carried_springs.h): a spring's vertex
 // becomes the new vertex that has the largest share of it, the first of them if several.
 void transfer_frame(formats::Frame& frame, const Lineage& vertices, const Lineage& triangles,
                     std::span<const Corners> corners);

@@ -72,8 +72,8 @@ const Library& library() {
 
 // Parts of fewer vertices are not dissected further: METIS takes longer for them than the minimum degree does, and the
 // factorisation is as fast (docs/speed-error.md).
-constexpr std::size_t kLeastDissected = 20000;
-constexpr int kCsymamd = 2;
+constexpr std::size_t least_dissected = 20000;
+constexpr int csymamd = 2;
 
 void quiet(int, const char*, int, const char*) {}
 
@@ -130,8 +130,8 @@ std::vector<std::uint32_t> nested_dissection(std::size_t vertices, std::span<con
     a.rows.push_back(0);
   cholmod_common common = started();
   common.current = 0;
-  common.method[0].nd_small = kLeastDissected;
-  common.method[0].nd_camd = kCsymamd;
+  common.method[0].nd_small = least_dissected;
+  common.method[0].nd_camd = csymamd;
   common.method[0].nd_compress = 0; // no two vertices of a sheet have the same neighbours
   cholmod_sparse s = view(a, false);
   std::vector<int> order(vertices), parents(vertices), parts(vertices);
@@ -182,8 +182,6 @@ bool Cholesky::factorize(const SparseLower& a, double shift) {
     fail(ExitCode::io, "out of memory while factorising {} unknowns", a.size);
   return impl_->common.status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
 }
-
-double Cholesky::reciprocal_condition() const { return library().rcond(impl_->factor, &impl_->common); }
 
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const {
   cholmod_dense rhs{};

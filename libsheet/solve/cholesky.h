@@ -35,8 +35,6 @@ public:
   void analyze(const SparseLower& structure);
   // Factorises A + shift I. False if that is not positive definite (to working precision).
   [[nodiscard]] bool factorize(const SparseLower& a, double shift);
-  // Squared ratio of the smallest to the largest pivot.
-  [[nodiscard]] double reciprocal_condition() const;
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
   [[nodiscard]] double flops() const; // of the last factorisation's structure

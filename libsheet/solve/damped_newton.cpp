@@ -7,11 +7,11 @@
 namespace sheet {
 
 namespace {
-constexpr double kFirst = 1e-3, kLeast = 1e-12; // damping, of a matrix with a unit diagonal
-constexpr int kTries = 30;                      // of dampings, an iteration
-constexpr double kFactor = 8;
-constexpr double kGood = 0.75, kPoor = 0.25, kAccepted = 1e-3; // gain over the predicted one
-constexpr double kRoundOff = 1e-14;                            // of the sum of the magnitudes of the energies
+constexpr double first_damping = 1e-3, least_damping = 1e-12; // damping, of a matrix with a unit diagonal
+constexpr int most_tries = 30;                                // of dampings, an iteration
+constexpr double damping_factor = 8;
+constexpr double good = 0.75, poor = 0.25, accepted = 1e-3; // gain over the predicted one
+constexpr double round_off = 1e-14;                         // of the sum of the magnitudes of the energies
 } // namespace
 
 NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale,
@@ -19,23 +19,23 @@ NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eig
   NewtonReport report;
   const double floor = system.floor();
   Eigen::VectorXd gradient;
-  double damping = kFirst, start = 0, previous_step = 0;
+  double damping = first_damping, start = 0, previous_step = 0;
   while (report.iterations < options.iterations) {
     const EnergySum energy = system.hessian(terms, u, false, gradient);
     if (!std::isfinite(energy.value) || !gradient.allFinite())
       return report;
     if (report.iterations == 0)
       start = energy.value;
-    const double noise = kRoundOff * energy.magnitude;
+    const double noise = round_off * energy.magnitude;
     ++report.iterations;
     double used = 0;
     bool moved = false;
-    for (int tries = 0; tries < kTries && !moved; ++tries) {
+    for (int tries = 0; tries < most_tries && !moved; ++tries) {
       used = std::max(floor, damping);
       ++report.factorizations;
       report.shifted += used > floor;
       if (!system.factorize(used, Precision::full)) {
-        damping = std::max(kLeast, kFactor * damping);
+        damping = std::max(least_damping, damping_factor * damping);
         continue;
       }
       const Eigen::VectorXd rows = -system.solve(system.to_rows(gradient));
@@ -49,22 +49,23 @@ NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eig
       report.gained = start - energy.value;
       report.promised = predicted;
       const double ratio = predicted <= noise ? 1 : gain / predicted;
-      if (!(ratio > kAccepted)) { // also where the gain is no number
-        damping = std::max(kLeast, kFactor * damping);
+      if (!(ratio > accepted)) { // also where the gain is no number
+        damping = std::max(least_damping, damping_factor * damping);
         ++report.halvings;
         continue;
       }
       u += step;
       moved = true;
-      if (ratio > kGood)
-        damping = damping > kLeast ? damping / kFactor : 0;
-      else if (ratio < kPoor)
-        damping *= kFactor;
+      if (ratio > good)
+        damping = damping > least_damping ? damping / damping_factor : 0;
+      else if (ratio < poor)
+        damping *= damping_factor;
     }
     if (!moved)
       return report;
     const double rate = previous_step > 0 ? report.last_step / previous_step : 1;
-    if (used <= std::max(floor, kLeast) && rate < 0.5 && report.last_step * rate / (1 - rate) <= options.tolerance) {
+    if (used <= std::max(floor, least_damping) && rate < 0.5 &&
+        report.last_step * rate / (1 - rate) <= options.tolerance) {
       report.converged = true;
       return report;
     }

@@ -10,15 +10,15 @@ namespace sheet {
 
 namespace {
 
-constexpr int kBlock = 128;       // pivots eliminated before the rest is updated by them
-constexpr int kDepth = 384;       // columns of a product at once
-constexpr int kRowGroup = 256;    // rows of a task
-constexpr int kColumnGroup = 256; // columns of a task
-constexpr double kParallel = 5e5; // products below which a task is not worth its start
+constexpr int block = 128;             // pivots eliminated before the rest is updated by them
+constexpr int depth_at_once = 384;     // columns of a product at once
+constexpr int row_group = 256;         // rows of a task
+constexpr int column_group = 256;      // columns of a task
+constexpr double least_parallel = 5e5; // products below which a task is not worth its start
 
 // Calls run(0) ... run(tasks - 1), in parallel if there is enough to do.
 template <class Run> void each_task(int tasks, double products, const Run& run) {
-  if (tasks > 1 && products > kParallel)
+  if (tasks > 1 && products > least_parallel)
     tbb::parallel_for(0, tasks, run);
   else
     for (int task = 0; task < tasks; ++task)
@@ -27,7 +27,7 @@ template <class Run> void each_task(int tasks, double products, const Run& run) 
 
 // Calls body(first, last) on groups of the strips [t0, t1).
 template <class Real, class Body> void each_group(int t0, int t1, double products, const Body& body) {
-  constexpr int size = kRowGroup / kStrip<Real>;
+  constexpr int size = row_group / strip_rows<Real>;
   each_task((t1 - t0 + size - 1) / size, products,
             [&](int g) { body(t0 + g * size, std::min(t1, t0 + (g + 1) * size)); });
 }
@@ -38,8 +38,8 @@ template <class Real, class End, class Start>
 void subtract_block(const FrontShape<Real>& shape, const Real* panel, int t0, int t1, int j0, int j1, int depth,
                     bool fresh, const End& end, const Start& start) {
   const auto& kernels = front_kernels<Real>();
-  for (int k = 0; k < depth; k += kDepth) {
-    const int last = std::min(depth, k + kDepth);
+  for (int k = 0; k < depth; k += depth_at_once) {
+    const int last = std::min(depth, k + depth_at_once);
     for (int t = t0; t < t1; t += 2) {
       const int count = std::min(2, t1 - t);
       Real* const to[2] = {start(t), start(t + count - 1)};
@@ -55,11 +55,11 @@ void subtract_block(const FrontShape<Real>& shape, const Real* panel, int t0, in
 } // namespace
 
 template <class Real> bool factor_panel(const FrontShape<Real>& shape, Real* panel) {
-  constexpr int S = kStrip<Real>;
+  constexpr int S = strip_rows<Real>;
   const auto& kernels = front_kernels<Real>();
   const int strips = shape.strips();
-  for (int p = 0; p < shape.pivots; p += kBlock) {
-    const int q = std::min(p + kBlock, shape.pivots), below = (q + S - 1) / S;
+  for (int p = 0; p < shape.pivots; p += block) {
+    const int q = std::min(p + block, shape.pivots), below = (q + S - 1) / S;
     const double entries = static_cast<double>(shape.rows - p) * (q - p);
     if (p > 0)
       each_group<Real>(p / S, strips, entries * p, [&](int t0, int t1) {
@@ -79,17 +79,17 @@ template <class Real> bool factor_panel(const FrontShape<Real>& shape, Real* pan
 }
 
 template <class Real> void form_update(const FrontShape<Real>& shape, const Real* panel, Real* update) {
-  constexpr int size = kRowGroup / kStrip<Real>;
+  constexpr int size = row_group / strip_rows<Real>;
   const int first = shape.first_update_column(), first_strip = shape.first_update_strip(), strips = shape.strips();
   const int rows = (strips - first_strip + size - 1) / size;
-  const int columns = (shape.rows - first + kColumnGroup - 1) / kColumnGroup;
+  const int columns = (shape.rows - first + column_group - 1) / column_group;
   const auto end = [&](int t) { return shape.update_columns_end(t); };
   const auto start = [&](int t) { return update + shape.update_strip(t); };
   const auto run = [&](int tile) {
     const int t0 = first_strip + tile / columns * size, t1 = std::min(strips, t0 + size);
-    const int j = first + tile % columns * kColumnGroup;
+    const int j = first + tile % columns * column_group;
     if (j < end(t1 - 1))
-      subtract_block(shape, panel, t0, t1, j, j + kColumnGroup, shape.pivots, true, end, start);
+      subtract_block(shape, panel, t0, t1, j, j + column_group, shape.pivots, true, end, start);
   };
   each_task(rows * columns, 0.5 * shape.pivots * (shape.rows - first) * (shape.rows - first), run);
 }

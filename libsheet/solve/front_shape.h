@@ -10,15 +10,15 @@
 
 namespace sheet {
 
-constexpr int kColumnsAtOnce = 8; // columns of the product kernel's tile
+constexpr int columns_at_once = 8; // columns of the product kernel's tile
 
-template <class Real> inline constexpr int kStrip = static_cast<int>(64 / sizeof(Real));
+template <class Real> inline constexpr int strip_rows = static_cast<int>(64 / sizeof(Real));
 
 // Always inlined: sources for different instruction sets share it.
 template <class Real> struct FrontShape {
   int pivots = 0, rows = 0;
 
-  static constexpr int S = kStrip<Real>;
+  static constexpr int S = strip_rows<Real>;
   [[gnu::always_inline]] int strips() const { return (rows + S - 1) / S; }
   [[gnu::always_inline]] int first_update_strip() const { return pivots / S; }
 
@@ -30,9 +30,9 @@ template <class Real> struct FrontShape {
   [[gnu::always_inline]] std::ptrdiff_t panel_size() const { return panel_strip(strips()); }
 
   // Columns of the update matrix, counted in the front; the first ones may still be pivots, and mean nothing.
-  [[gnu::always_inline]] int first_update_column() const { return pivots / kColumnsAtOnce * kColumnsAtOnce; }
+  [[gnu::always_inline]] int first_update_column() const { return pivots / columns_at_once * columns_at_once; }
   [[gnu::always_inline]] int update_columns_end(int t) const {
-    const int end = (rows + kColumnsAtOnce - 1) / kColumnsAtOnce * kColumnsAtOnce, diagonal = S * (t + 1);
+    const int end = (rows + columns_at_once - 1) / columns_at_once * columns_at_once, diagonal = S * (t + 1);
     return end < diagonal ? end : diagonal;
   }
   // Where column 0 of strip t of the update matrix would be; column j is S j numbers further.

@@ -33,7 +33,7 @@ public:
       return;
     if (bytes_ > 0)
       wanted += wanted / 4; // a mesh that grows does so again
-    wanted = (wanted + kHuge - 1) / kHuge * kHuge;
+    wanted = (wanted + huge_page - 1) / huge_page * huge_page;
     void* got = data_
                     ? mremap(data_, bytes_, wanted, MREMAP_MAYMOVE)
                     : mmap(nullptr, wanted, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -47,7 +47,7 @@ public:
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
 private:
-  static constexpr std::size_t kHuge = std::size_t{1} << 21;
+  static constexpr std::size_t huge_page = std::size_t{1} << 21;
   T* data_ = nullptr;
   std::size_t bytes_ = 0;
 };

@@ -14,9 +14,9 @@
 namespace sheet {
 
 namespace {
-constexpr double kResponse = 0.1; // what respond() leaves
-constexpr int kResponseProducts = 10;
-constexpr double kSpreadShift = 1e-6; // for a starting point only
+constexpr double response = 0.1; // what respond() leaves
+constexpr int response_products = 10;
+constexpr double spread_shift = 1e-6; // for a starting point only
 } // namespace
 
 void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles) {
@@ -180,7 +180,7 @@ Eigen::VectorXd LinearSystem::respond(Eigen::VectorXd force) const {
   const Eigen::VectorXd rows = to_rows(force);
   const auto product = [&](const Eigen::VectorXd& x) { return multiply(x); };
   const auto precondition = [&](const Eigen::VectorXd& b) { return solve(b); };
-  return to_unknowns(conjugate_gradients(product, precondition, rows, solve(rows), kResponse, kResponseProducts).x);
+  return to_unknowns(conjugate_gradients(product, precondition, rows, solve(rows), response, response_products).x);
 }
 
 bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target, Unknowns& u) {
@@ -211,7 +211,7 @@ bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target
     if (held_[permutation[static_cast<std::size_t>(k)]])
       rhs[k] = move[k];
   scale_to_unit_diagonal();
-  if (!factorize_scaled(kSpreadShift, Precision::single))
+  if (!factorize_scaled(spread_shift, Precision::single))
     return false;
   const Eigen::VectorXd step = single_.solve(rhs.cwiseProduct(scale_));
   for (Eigen::Index k = 0; k < u.size(); ++k) {

@@ -11,22 +11,22 @@ namespace sheet {
 
 namespace {
 
-constexpr double kLeastShift = 1e-14; // the first one tried when the positive form cannot be factorised, times 100 each
-constexpr double kGreatestShift = 1e2;
-constexpr double kShiftOfFree = 1e-3; // of the positive form where motions are free that the potential does not see
-constexpr double kSufficient = 1e-4;  // of the predicted decrease [Armijo]
-constexpr double kRoundOff = 1e-14;   // of the sum of the magnitudes of the elements' energies
-constexpr int kHalvings = 40;
-constexpr double kSlopeKept = 0.5;     // of the slope that may remain after a step accepted for its slope
-constexpr double kSmall = 1e-3;        // steps below this are done if the potential has no more to gain
-constexpr double kNothing = 1e-13;     // of an edge: a step that is lost in the rounding of positions
-constexpr double kFirstForcing = 0.03; // part of the residual that conjugate gradients leave
-constexpr double kLeastForcing = 1e-6;
-constexpr double kGreatestForcing = 0.1;
-constexpr int kProducts = 60;     // with the Hessian, a direction
-constexpr int kFewProducts = 8;   // as many a direction takes if the factor is close to the Hessian
-constexpr int kManyProducts = 5;  // then the factor is made anew
-constexpr double kLargest = 1e-2; // of the step error's rule, of an edge, what may remain at most
+constexpr double least_shift = 1e-14; // the first one tried when the positive form cannot be factorised, times 100 each
+constexpr double greatest_shift = 1e2;
+constexpr double shift_of_free = 1e-3; // of the positive form where motions are free that the potential does not see
+constexpr double sufficient = 1e-4;    // of the predicted decrease [Armijo]
+constexpr double round_off = 1e-14;    // of the sum of the magnitudes of the elements' energies
+constexpr int most_halvings = 40;
+constexpr double slope_kept = 0.5;     // of the slope that may remain after a step accepted for its slope
+constexpr double small_step = 1e-3;    // steps below this are done if the potential has no more to gain
+constexpr double lost_step = 1e-13;    // of an edge: a step that is lost in the rounding of positions
+constexpr double first_forcing = 0.03; // part of the residual that conjugate gradients leave
+constexpr double least_forcing = 1e-6;
+constexpr double greatest_forcing = 0.1;
+constexpr int most_products = 60; // with the Hessian, a direction
+constexpr int few_products = 8;   // as many a direction takes if the factor is close to the Hessian
+constexpr int many_products = 5;  // then the factor is made anew
+constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what may remain at most
 
 class Minimizer {
 public:
@@ -68,7 +68,7 @@ private:
       ++report_.iterations;
       if (!std::isfinite(report_.last_step))
         return;
-      if (report_.last_step <= kNothing) {
+      if (report_.last_step <= lost_step) {
         report_.converged = true;
         return;
       }
@@ -118,8 +118,8 @@ private:
       return system_.factorize(shift, with);
     };
     bool good = !free && attempt(0, Precision::single);
-    for (double shift = free ? kShiftOfFree : 0; !good && shift <= kGreatestShift;
-         shift = std::max(kLeastShift, 100 * shift))
+    for (double shift = free ? shift_of_free : 0; !good && shift <= greatest_shift;
+         shift = std::max(least_shift, 100 * shift))
       good = attempt(shift, Precision::full);
     report_.seconds_factor += watch.lap();
     return good;
@@ -159,10 +159,10 @@ private:
   bool converged() {
     const bool strict = trusted() && remains_ <= options_.tolerance;
     const bool lenient = options_.of_step_error > 0 && trusted() && norm_ <= options_.of_step_error * first_norm_ &&
-                         positions_remain_ <= std::min(kLargest, options_.of_step_error * way_);
+                         positions_remain_ <= std::min(largest, options_.of_step_error * way_);
     const bool nothing_to_gain =
-        report_.iterations > 0 && full_ && remains_ <= kSmall && norm_ * norm_ <= kRoundOff * energy_.magnitude;
-    report_.converged = remains_ <= kNothing || strict || lenient || nothing_to_gain;
+        report_.iterations > 0 && full_ && remains_ <= small_step && norm_ * norm_ <= round_off * energy_.magnitude;
+    report_.converged = remains_ <= lost_step || strict || lenient || nothing_to_gain;
     return report_.converged;
   }
 
@@ -175,30 +175,31 @@ private:
   // Whether the preconditioner tells what remains: it does if it is the Hessian's, or served well for the last
   // direction.
   bool trusted() const {
-    return report_.iterations == 0 ? fresh_ && exact_ : full_ && !negative_ && products_ <= kFewProducts;
+    return report_.iterations == 0 ? fresh_ && exact_ : full_ && !negative_ && products_ <= few_products;
   }
 
   // Eisenstat and Walker's second choice, no sharper than what ends the iterations.
   double forcing() const {
     if (report_.iterations == 0)
-      return kFirstForcing;
+      return first_forcing;
     const double ratio = norm_ / previous_norm_;
     const double enough = std::max(options_.of_step_error * first_norm_ / norm_, options_.tolerance / remains_);
-    return std::clamp(std::max(0.9 * ratio * ratio, 0.3 * enough), kLeastForcing, kGreatestForcing);
+    return std::clamp(std::max(0.9 * ratio * ratio, 0.3 * enough), least_forcing, greatest_forcing);
   }
 
   void find_direction() {
     Stopwatch watch;
     const auto multiply = [&](const Eigen::VectorXd& x) { return system_.multiply(x); };
     const auto precondition = [&](const Eigen::VectorXd& b) { return system_.solve(b); };
-    ConjugateGradients cg = conjugate_gradients(multiply, precondition, force_, preconditioned_, forcing(), kProducts);
+    ConjugateGradients cg =
+        conjugate_gradients(multiply, precondition, force_, preconditioned_, forcing(), most_products);
     if (!cg.negative)
       system_.balance(force_, cg.x);
     step_ = system_.to_unknowns(cg.x);
     slope_ = gradient_.dot(step_);
     products_ = cg.products;
     negative_ = cg.negative;
-    if (products_ > kManyProducts && !fresh_)
+    if (products_ > many_products && !fresh_)
       stale_ = true;
     report_.products += products_;
     report_.last_step = step_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
@@ -210,16 +211,17 @@ private:
   // Takes the step, as much of it as lowers the potential enough; returns that part, or 0.
   double search() {
     Stopwatch watch;
-    const double noise = kRoundOff * energy_.magnitude;
+    const double noise = round_off * energy_.magnitude;
     double length = 1, taken = 0;
-    for (int halvings = 0; halvings <= kHalvings && taken == 0; ++halvings, length *= 0.5) {
+    for (int halvings = 0; halvings <= most_halvings && taken == 0; ++halvings, length *= 0.5) {
       const Unknowns there = u_ + length * step_;
       const EnergySum energy = system_.gradient(terms_, there, trial_);
       const bool finite = std::isfinite(energy.value) && trial_.allFinite();
-      const bool lower = energy.value <= energy_.value + kSufficient * length * slope_ + noise;
+      const bool lower = energy.value <= energy_.value + sufficient * length * slope_ + noise;
       // A small step may gain less than the potential's own round-off, which strains that nearly cancel make large;
       // then the slope decides [as in Hager and Zhang 2005].
-      const bool flatter = report_.last_step <= kSmall && std::abs(trial_.dot(step_)) <= kSlopeKept * std::abs(slope_);
+      const bool flatter =
+          report_.last_step <= small_step && std::abs(trial_.dot(step_)) <= slope_kept * std::abs(slope_);
       if (finite && (lower || flatter)) {
         taken = length;
         report_.monotone = report_.monotone && (energy.value <= energy_.value + noise || !lower);

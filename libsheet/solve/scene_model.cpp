@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "libsheet/base/error.h"
-#include "libsheet/scene/overloaded.h"
+#include "libsheet/base/overloaded.h"
+#include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -18,21 +19,30 @@ using formats::Frame;
 
 PressureLaw pressure_law(const scene::Pressure& pressure) {
   PressureLaw law;
-  std::visit(scene::Overloaded{[&](const scene::ConstantPressure& p) { law.value = p.value; },
-                               [&](const scene::InverseSquarePressure& p) {
-                                 law.kind = PressureLaw::Kind::inverse_square;
-                                 law.value = p.value;
-                                 law.reference_radius = p.reference_radius;
-                               },
-                               [&](const scene::DrainingPressure& p) {
-                                 law.kind = PressureLaw::Kind::draining;
-                                 law.conductance = p.conductance;
-                               }},
+  std::visit(Overloaded{[&](const scene::ConstantPressure& p) { law.value = p.value; },
+                        [&](const scene::InverseSquarePressure& p) {
+                          law.kind = PressureLaw::Kind::inverse_square;
+                          law.value = p.value;
+                          law.reference_radius = p.reference_radius;
+                        },
+                        [&](const scene::DrainingPressure& p) {
+                          law.kind = PressureLaw::Kind::draining;
+                          law.conductance = p.conductance;
+                        }},
              pressure);
   return law;
 }
 
-RigidMotion rigid(const Eigen::Isometry3d& motion) { return {motion.linear(), motion.translation()}; }
+// By a scene's motion, and by that of a belt's surface [m/s].
+void move(Hold& hold, const scene::Motion& motion, const Vector3& surface_velocity = Vector3::Zero()) {
+  hold.motion = [=](double from, double to) {
+    const Eigen::Isometry3d moved = scene::motion_between(motion, from, to);
+    return RigidMotion{moved.linear(), moved.translation() + (to - from) * surface_velocity};
+  };
+  hold.velocity = [=](double t, const Vector3& x) -> Vector3 {
+    return scene::velocity_at(motion, t, x) + surface_velocity;
+  };
+}
 
 // Vertices whose mask has bit i.
 std::vector<std::uint32_t> with_bit(std::span<const std::uint64_t> masks, std::size_t i) {
@@ -47,7 +57,7 @@ void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   const auto masks = sheet::masks(frame, "hold");
   for (std::size_t i = 0; i < scene.holds.size(); ++i) {
     const scene::Hold& table = scene.holds[i];
-    if (table.until && frame.time >= *table.until)
+    if (!in_force(table, frame.time))
       continue;
     Hold hold;
     hold.vertices = with_bit(masks, i);
@@ -59,9 +69,7 @@ void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh,
         if (((masks[mesh.edges[e][0]] & masks[mesh.edges[e][1]]) >> i & 1) != 0)
           hold.clamped_edges.push_back(e);
     if (!std::holds_alternative<scene::Fixed>(table.motion))
-      hold.motion = [motion = table.motion](double from, double to) {
-        return rigid(scene::motion_between(motion, from, to));
-      };
+      move(hold, table.motion);
     model.holds.push_back(std::move(hold));
   }
 }
@@ -80,11 +88,7 @@ bool add_touching(const Scene& scene, const Frame& frame, Model& model) {
     any = true;
     Hold hold;
     hold.vertices = std::move(touching[i]);
-    hold.motion = [solid = scene.solids[i]](double from, double to) {
-      RigidMotion motion = rigid(scene::motion_between(solid.motion, from, to));
-      motion.shift += (to - from) * solid.surface_velocity;
-      return motion;
-    };
+    move(hold, scene.solids[i].motion, scene.solids[i].surface_velocity);
     model.holds.push_back(std::move(hold));
   }
   return any;
@@ -93,7 +97,7 @@ bool add_touching(const Scene& scene, const Frame& frame, Model& model) {
 // What is in the inlet moves at the inflow's velocity, and does not turn.
 void add_inlet(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
   const auto masks = sheet::masks(frame, "inlet");
-  if (!scene.inflow || (scene.inflow->until && frame.time >= *scene.inflow->until))
+  if (!scene.inflow || !in_force(*scene.inflow, frame.time))
     return;
   Hold hold;
   hold.vertices = with_bit(masks, 0);
@@ -102,33 +106,8 @@ void add_inlet(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
     if ((masks[mesh.edges[e][0]] & masks[mesh.edges[e][1]] & in_inlet) != 0)
       hold.clamped_edges.push_back(e);
-  hold.motion = [velocity = scene.inflow->velocity](double from, double to) {
-    return RigidMotion{.shift = scene::integral(velocity, from, to)};
-  };
+  move(hold, scene::Translating{scene.inflow->velocity});
   model.holds.push_back(std::move(hold));
-}
-
-// Springs between near features of the sheet, as sheet-collide has set them up.
-void add_contacts(const Scene& scene, const Frame& frame, Model& model) {
-  const Array* vertices = frame.find("contact_vertex");
-  if (vertices == nullptr)
-    return;
-  const auto column = [&](std::string_view name) { return frame.find(name)->values<double>(); };
-  const auto weight = column("contact_weight"), normal = column("contact_normal"), rest = column("contact_rest"),
-             anchor = column("contact_anchor"), stiffness = column("contact_stiffness");
-  const auto v = vertices->values<std::array<std::uint32_t, 4>>();
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    ContactSpring spring;
-    spring.vertices = v[i];
-    std::copy_n(weight.begin() + 4 * i, 4, spring.weights.begin());
-    spring.normal = Vector3(normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]);
-    spring.rest = rest[i];
-    spring.anchor = Vector3(anchor[3 * i], anchor[3 * i + 1], anchor[3 * i + 2]);
-    spring.normal_stiffness = stiffness[2 * i];
-    spring.tangential_stiffness = stiffness[2 * i + 1];
-    spring.adhesion = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
-    model.contacts.push_back(spring);
-  }
 }
 
 } // namespace
@@ -153,11 +132,10 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
 }
 
 void put_state(const State& state, Frame& frame) {
-  Array start = formats::make_array("start_position", formats::Place::vertex, formats::Type::float64, 3, "m",
-                                    formats::Transfer::drop, frame.vertices);
+  Array start = formats::make_standard_array("start_position", frame.vertices);
   std::copy_n(positions(frame).begin(), frame.vertices, start.values<Vector3>().begin());
   frame.put(std::move(start));
-  put_number(frame, "start_time", "s", frame.time);
+  put_number(frame, "start_time", frame.time);
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   put_director_angles(state.director_angles, frame);
@@ -169,8 +147,7 @@ void put_reactions(std::span<const Vector3> reactions, Frame& frame) {
   frame.erase("touch_force");
   if (reactions.empty())
     return;
-  Array force = formats::make_array("touch_force", formats::Place::vertex, formats::Type::float64, 3, "N",
-                                    formats::Transfer::conserve, frame.vertices);
+  Array force = formats::make_standard_array("touch_force", frame.vertices);
   const auto touched = touched_solids(frame);
   for (std::size_t v = 0; v < reactions.size(); ++v)
     force.values<Vector3>()[v] = touched[v] != no_solid ? reactions[v] : Vector3(Vector3::Zero());
@@ -196,7 +173,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
       add_touching(scene, frame, model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
   add_inlet(scene, frame, mesh, model);
-  add_contacts(scene, frame, model);
+  model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
+  model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
   model.reactions = scene.contact && scene.contact->adhesion && touching;
   return model;
 }
@@ -208,15 +186,15 @@ double next_event(const Scene& scene, double t) {
       next = std::min(next, event);
   };
   const auto consider_motion = [&](const scene::Motion& motion) {
-    std::visit(scene::Overloaded{[](const scene::Fixed&) {},
-                                 [&](const scene::Translating& m) {
-                                   for (const auto& entry : m.velocity.entries)
-                                     consider(entry.time);
-                                 },
-                                 [&](const scene::Rotating& m) {
-                                   for (const auto& entry : m.rate.entries)
-                                     consider(entry.time);
-                                 }},
+    std::visit(Overloaded{[](const scene::Fixed&) {},
+                          [&](const scene::Translating& m) {
+                            for (const auto& entry : m.velocity.entries)
+                              consider(entry.time);
+                          },
+                          [&](const scene::Rotating& m) {
+                            for (const auto& entry : m.rate.entries)
+                              consider(entry.time);
+                          }},
                motion);
   };
   for (const scene::Hold& hold : scene.holds) {

@@ -10,8 +10,8 @@
 namespace sheet {
 
 namespace {
-constexpr double kUnfinished = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
-constexpr double kFarBehind = 0.1;   // of an edge: held unknowns that are this far from where inertia takes them
+constexpr double unfinished_gain = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
+constexpr double far_behind = 0.1;       // of an edge: held unknowns that are this far from where inertia takes them
 } // namespace
 
 StageSolve::StageSolve(LinearSystem& system, const Terms& terms, const std::vector<Hold>& holds,
@@ -42,7 +42,7 @@ Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, c
     place_held(holds_, stage, stage.end_time, trial);
     consider(trial);
   }
-  if (left_behind >= kFarBehind) {
+  if (left_behind >= far_behind) {
     trial = safe;
     if (system_.spread_held_motion(terms_, target, trial))
       consider(trial);
@@ -65,7 +65,7 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
   if (r.converged || demand_ == Demand::converged)
     return r.converged;
   double gained = r.gained;
-  const auto good_enough = [&] { return gained > 0 && r.promised <= kUnfinished * gained; };
+  const auto good_enough = [&] { return gained > 0 && r.promised <= unfinished_gain * gained; };
   if (good_enough())
     return true;
   r = minimize_damped(system_, terms_, scale_, newton, u);

@@ -12,13 +12,13 @@ namespace sheet {
 
 namespace {
 
-const double kGamma = 1 - std::sqrt(0.5);
+const double sdirk_gamma = 1 - std::sqrt(0.5);
 
-constexpr double kFloor = 1e-10; // shift of the scaled matrix where motions are free
+constexpr double smallest_floor = 1e-10; // shift of the scaled matrix where motions are free
 
 // Whether every triangle still has an area beyond round-off.
 bool sound(const State& s) {
-  for (const Triangle& t : s.mesh->triangles) {
+  for (const Corners& t : s.mesh->triangles) {
     const Vector3 q = squared_lengths(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]);
     const double longest = q.maxCoeff();
     if (!(TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area > 1e-9 * longest))
@@ -53,6 +53,7 @@ struct Stepper::Cache {
   std::vector<std::uint32_t> signature;
   Terms terms;
   LinearSystem system;
+  Stage stage; // lives as long as the terms that refer to it; what it refers to itself does so only during an attempt
 };
 
 Stepper::Stepper(Model model, StepOptions options) : model_(std::move(model)), options_(options) {}
@@ -101,13 +102,14 @@ void Stepper::set_model(Model model) {
 Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end,
                                   StepReport& report) {
   const bool two = scheme == Scheme::sdirk2;
-  const double gamma = two ? kGamma : 1;
-  Stage stage = first_stage(state, gamma * dt, state.time + gamma * dt, model_.has_angles());
+  const double gamma = two ? sdirk_gamma : 1;
+  Stage& stage = cache_->stage;
+  stage = first_stage(state, gamma * dt, state.time + gamma * dt, model_.has_angles());
   const Eigen::VectorXd scale = step_scale(state, stage.begin.size());
   const std::vector<char> held = held_unknowns(model_.holds, stage);
   // Without inertia a sheet that is not held is free to move rigidly, and a flat membrane to leave its plane.
   const bool determined = model_.has_inertia() || (fully_held(model_.holds) >= 3 && model_.bending != Bending::none);
-  cache_->system.hold(held, determined ? 0 : kFloor);
+  cache_->system.hold(held, determined ? 0 : smallest_floor);
   StageSolve solver(cache_->system, cache_->terms, model_.holds, scale, options_.newton, demand);
   const auto solve = [&](const Unknowns& guess, const Unknowns& safe, Unknowns& u) {
     if (options_.thickness == Thickness::as_started)
@@ -151,7 +153,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   }
   estimate_error(state, dt, stage, first, last, end, scale, report);
   end.director_angles = director_angles(stage, last);
-  set_held_velocities(model_.holds, end.time, dt, end);
+  set_held_velocities(model_.holds, end.time, end);
   if (model_.reactions) {
     // What is held does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
     for (std::size_t i = 0; i < 3 * n && !held.empty(); ++i)

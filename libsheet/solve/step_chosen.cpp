@@ -12,8 +12,8 @@ namespace sheet {
 
 namespace {
 
-constexpr double kSafety = 0.9, kLeast = 0.2, kGreatest = 4; // factors from one step to the next
-constexpr double kMuchShorter = 1e-3, kHelped = 0.3; // a step that much shorter shall have that part of the error
+constexpr double safety = 0.9, least_factor = 0.2, greatest_factor = 4; // factors from one step to the next
+constexpr double much_shorter = 1e-3, helped = 0.3; // a step that much shorter shall have that part of the error
 
 // Steps chosen by their error are not shorter: the time in which the sheet crosses 1e-4 of an edge, or a thousandth of
 // what is left [s].
@@ -58,12 +58,12 @@ public:
 
   // The next step to try.
   [[nodiscard]] double next() const {
-    const double factor = report_.unfinished > 0 || jumps_
-                              ? 1
-                              : std::clamp(kSafety * std::sqrt(tolerance_ / best_->error), kLeast, kGreatest);
+    const double factor = report_.unfinished > 0 || jumps_ ? 1
+                                                           : std::clamp(safety * std::sqrt(tolerance_ / best_->error),
+                                                                        least_factor, greatest_factor);
     // A step that was cut to land says nothing against the longer one that was wanted.
     return std::max(std::max(shortest_, best_->dt * factor),
-                    factor >= 1 ? std::min(wanted_, kGreatest * best_->dt) : 0.0);
+                    factor >= 1 ? std::min(wanted_, greatest_factor * best_->dt) : 0.0);
   }
 
   [[nodiscard]] bool lands() const { return best_->dt >= remaining_; }
@@ -93,7 +93,7 @@ private:
       report_.error = 0;
       if (stepper_.attempt_either(state_, trial.dt, trial.end, trial.flat, report_) != Outcome::done) {
         ++report_.failed;
-        trial.dt *= kLeast;
+        trial.dt *= least_factor;
         continue;
       }
       note(trial);
@@ -102,12 +102,12 @@ private:
         best_ = trial;
       if (!longest)
         longest = trial;
-      if (trial.dt <= kMuchShorter * longest->dt && trial.error > kHelped * longest->error) {
+      if (trial.dt <= much_shorter * longest->dt && trial.error > helped * longest->error) {
         best_ = longest;
         jumps_ = true;
         return;
       }
-      trial.dt *= std::clamp(kSafety * std::sqrt(tolerance_ / trial.error), kLeast, kSafety);
+      trial.dt *= std::clamp(safety * std::sqrt(tolerance_ / trial.error), least_factor, safety);
     }
   }
 
@@ -129,7 +129,7 @@ private:
     while (last.attempt(state_, trial.dt, Scheme::backward_euler, Demand::lower_potential, trial.end, report_) !=
            Outcome::done) {
       ++report_.failed;
-      trial.dt *= kLeast;
+      trial.dt *= least_factor;
       report_.error = 0;
       if (report_.newton.iterations >= stepper_.hopeless_iterations() || leads_nowhere(trial.dt))
         fail(ExitCode::not_converged, "the step at t = {} s did not converge ({} Newton iterations, last tried {} s)",

@@ -12,7 +12,7 @@ namespace sheet {
 
 namespace {
 
-constexpr int kHalvingsBeforeEuler = 1;
+constexpr int halvings_before_euler = 1;
 
 } // namespace
 
@@ -46,7 +46,7 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   const bool exhausted = report.newton.iterations >= options_.iterations;
-  if (!exhausted && options_.scheme != Scheme::backward_euler && depth >= kHalvingsBeforeEuler &&
+  if (!exhausted && options_.scheme != Scheme::backward_euler && depth >= halvings_before_euler &&
       attempt(state, dt, Scheme::backward_euler, Demand::converged, end, report) == Outcome::done) {
     ++report.substeps;
     ++report.euler_fallbacks;

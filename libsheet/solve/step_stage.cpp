@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/solve/step_stage.h"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -12,8 +11,10 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
+#include "libsheet/base/stopwatch.h"
 #include "libsheet/base/whole_file.h"
 #include "libsheet/scene/frame_scene.h"
+#include "libsheet/sheet/frame_mesh.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/scene_model.h"
 
@@ -54,11 +55,11 @@ struct Totals {
 };
 
 // Of the error of a step, what Newton's iterations may add (docs/speed-error.md).
-constexpr double kOfStepError = 0.05;
+constexpr double part_of_step_error = 0.05;
 
 void check_mesh(const Connectivity& mesh) {
   std::vector<bool> used(mesh.vertices);
-  for (const Triangle& t : mesh.triangles)
+  for (const Corners& t : mesh.triangles)
     for (const std::uint32_t v : t)
       used[v] = true;
   const auto lonely = std::find(used.begin(), used.end(), false);
@@ -92,19 +93,9 @@ double fixed_step(double t, double until, double dt) {
 struct StepStage::Impl {
   StepStageOptions options;
   FrameScene scenes;
-  std::shared_ptr<const Connectivity> mesh;
+  FrameMesh mesh;
   std::optional<Stepper> stepper;
   Totals totals;
-
-  void connect_mesh(const Frame& frame) {
-    const auto corners = triangles(frame);
-    if (mesh && mesh->vertices == frame.vertices &&
-        std::equal(corners.begin(), corners.end(), mesh->triangles.begin(), mesh->triangles.end()))
-      return;
-    auto connected = std::make_shared<Connectivity>(connect(frame.vertices, corners));
-    check_mesh(*connected);
-    mesh = std::move(connected);
-  }
 
   [[nodiscard]] static double end_of_step(const Scene& scene, const Frame& frame) {
     double until = next_event(scene, frame.time);
@@ -118,12 +109,14 @@ struct StepStage::Impl {
   Model prepare(const Frame& frame) {
     check_magnitudes(frame);
     const Scene& scene = scenes.of(frame);
-    connect_mesh(frame);
-    check_edges(frame, *mesh);
-    if (mesh->triangles.empty())
+    if (mesh.follow(frame))
+      check_mesh(*mesh.mesh());
+    check_edges(frame, *mesh.mesh());
+    if (mesh.mesh()->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
     // Arcs reduce locking where the sheet bends by directors (docs/hard-cases.md says what they cost).
-    return model_of(scene, frame, *mesh, options.bending, use_arcs);
+    constexpr bool arcs = true;
+    return model_of(scene, frame, *mesh.mesh(), options.bending, arcs);
   }
 
   void step(Frame& frame) {
@@ -134,13 +127,13 @@ struct StepStage::Impl {
     } else {
       StepOptions step_options;
       step_options.scheme = options.scheme;
-      step_options.newton.of_step_error = kOfStepError;
+      step_options.newton.of_step_error = part_of_step_error;
       if (options.tolerance) // of a step's error Newton's iterations add a hundredth at most
         step_options.newton.tolerance = std::min(step_options.newton.tolerance, 0.01 * *options.tolerance);
       stepper.emplace(std::move(model), step_options);
     }
-    State state = state_of(frame, mesh);
-    const auto start = std::chrono::steady_clock::now();
+    State state = state_of(frame, mesh.mesh());
+    Stopwatch watch;
     StepReport report;
     if (options.dt) {
       const double dt = fixed_step(frame.time, until, *options.dt);
@@ -156,9 +149,9 @@ struct StepStage::Impl {
              "without --dt the frame must say how far to go: let sheet-loop stamp it (--until, --fps), "
              "or give --dt");
       report = stepper->step_within(state, until, control);
-      put_number(frame, "step_size", "s", control.dt);
+      put_number(frame, "step_size", control.dt);
     }
-    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double elapsed = watch.lap();
     totals.add(report, elapsed);
     log::detail("step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge, {:.1f} ms",
                 frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error,
@@ -181,8 +174,6 @@ struct StepStage::Impl {
         "{:.4g}) m: no step from t = {:.6g} s keeps to it; remeshing helps",
         frame.step + 1, report.error, report.worst, x.x(), x.y(), x.z(), frame.time);
   }
-
-  static constexpr bool use_arcs = true;
 };
 
 StepStage::StepStage(StepStageOptions options) : impl_(std::make_unique<Impl>()) {
@@ -199,7 +190,7 @@ StepStage::~StepStage() = default;
 
 void StepStage::check(const Frame& frame) {
   const Model model = impl_->prepare(frame);
-  (void)make_terms(model, impl_->mesh);
+  (void)make_terms(model, impl_->mesh.mesh());
 }
 
 void StepStage::step(Frame& frame) {
@@ -229,9 +220,8 @@ void StepStage::report() const {
   const Totals& t = impl_->totals;
   if (t.steps == 0)
     return;
-  log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs, {} unfinished, {} "
-              "above the "
-              "tolerance), {} Newton iterations, {:.3g} s",
+  log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs, {} unfinished, "
+              "{} above the tolerance), {} Newton iterations, {:.3g} s",
               t.steps, t.substeps, t.failed, t.rejected, t.fallbacks, t.flat, t.unfinished, t.inaccurate,
               t.newton.iterations, t.seconds);
   log::detail(

@@ -19,31 +19,31 @@
 namespace sheet {
 
 namespace {
-constexpr double kTaskPart = 1.0 / 48;  // of all products: subtrees below it are one task
-constexpr double kLeastTask = 2e6;      // products of a subtree that is never divided
-constexpr std::size_t kAhead = 1 << 14; // bytes of the next front that a solution asks for
-constexpr int kFrontsAtOnce = 64;       // of a task that only places entries
+constexpr double task_part = 1.0 / 48; // of all products: subtrees below it are one task
+constexpr double least_task = 2e6;     // products of a subtree that is never divided
+constexpr std::size_t ahead = 1 << 14; // bytes of the next front that a solution asks for
+constexpr int fronts_at_once = 64;     // of a task that only places entries
 
 // Numbers too small for full precision count as zero while it lives: processors are slow with them, and the factors of
 // matrices with a strong diagonal are full of them in float. TBB carries this setting to the threads of a context.
 class FlushToZero {
 public:
-  FlushToZero() : saved_(__builtin_ia32_stmxcsr()) { __builtin_ia32_ldmxcsr(saved_ | kResults | kInputs); }
+  FlushToZero() : saved_(__builtin_ia32_stmxcsr()) { __builtin_ia32_ldmxcsr(saved_ | results | inputs); }
   ~FlushToZero() { __builtin_ia32_ldmxcsr(saved_); }
   FlushToZero(const FlushToZero&) = delete;
   FlushToZero& operator=(const FlushToZero&) = delete;
 
 private:
-  static constexpr unsigned kResults = 0x8000, kInputs = 0x0040;
+  static constexpr unsigned results = 0x8000, inputs = 0x0040;
   unsigned saved_;
 };
 
-constexpr auto kCarrySetting = tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings;
+constexpr auto carry_setting = tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings;
 } // namespace
 
 template <class Real> struct SupernodalFactor<Real>::Impl {
   using Shape = FrontShape<Real>;
-  static constexpr int S = kStrip<Real>;
+  static constexpr int S = strip_rows<Real>;
 
   // Where a front's numbers lie.
   struct Place {
@@ -119,7 +119,7 @@ template <class Real> void SupernodalFactor<Real>::Impl::divide_into_tasks() {
     if (fronts[s].parent != -1)
       work[fronts[s].parent] += work[s];
   }
-  const double most = std::max(kLeastTask, kTaskPart * all);
+  const double most = std::max(least_task, task_part * all);
   tasks.clear();
   task_first.clear();
   int begin = 0; // of the subtree that the next task would have
@@ -265,7 +265,7 @@ template <class Real> void SupernodalFactor<Real>::Impl::place_front(int s, std:
 }
 
 template <class Real> void SupernodalFactor<Real>::Impl::place_entries() {
-  tbb::parallel_for(tbb::blocked_range<int>(0, count(), kFrontsAtOnce), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, count(), fronts_at_once), [&](const auto& range) {
     std::vector<RowPlace>& rows = row_places.local();
     if (rows.size() < symbolic.node_at.size())
       rows.resize(symbolic.node_at.size());
@@ -318,7 +318,7 @@ bool SupernodalFactor<Real>::Impl::eliminate(const SparseLower& a, Real shift, i
 template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::upwards(const Front& front) const {
   const auto& fronts = symbolic.fronts;
   const FlushToZero flush;
-  tbb::task_group_context context(tbb::task_group_context::bound, kCarrySetting);
+  tbb::task_group_context context(tbb::task_group_context::bound, carry_setting);
   for (int s = 0; s < count(); ++s)
     if (place[s].above)
       waiting[s].store(fronts[s].children, std::memory_order_relaxed);
@@ -342,7 +342,7 @@ template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::
     if (fronts[s].parent == -1)
       roots.push_back(s);
   const FlushToZero flush;
-  tbb::task_group_context context(tbb::task_group_context::bound, kCarrySetting);
+  tbb::task_group_context context(tbb::task_group_context::bound, carry_setting);
   const auto descend = [&](int s, tbb::feeder<int>& feeder) {
     for (int k = s, end = first_of[s] == -1 ? s : first_of[s]; k >= end; --k)
       front(k);
@@ -356,7 +356,7 @@ template <class Real> template <class Front> void SupernodalFactor<Real>::Impl::
 // The beginning of a panel from memory, while another front is solved.
 template <class Real> void SupernodalFactor<Real>::Impl::ask_for(int s) const {
   const char* const panel = reinterpret_cast<const char*>(panels.data() + place[s].panel);
-  const std::size_t bytes = std::min(kAhead, sizeof(Real) * static_cast<std::size_t>(shape(s).panel_size()));
+  const std::size_t bytes = std::min(ahead, sizeof(Real) * static_cast<std::size_t>(shape(s).panel_size()));
   for (std::size_t at = 0; at < bytes; at += 64)
     __builtin_prefetch(panel + at);
 }

@@ -11,12 +11,13 @@ namespace {
 
 // Nanoseconds that eliminating a supernode takes and its factor costs in the solutions after: to start a front, for
 // each of its rows, for each entry of its panel and of its update matrix, and for a product of the dense kernels.
-constexpr double kFront = 250, kRow = 4, kPanelEntry = 0.2, kUpdateEntry = 0.3, kProduct = 0.03;
+constexpr double front_cost = 250, row_cost = 4, panel_entry_cost = 0.2, update_entry_cost = 0.3, product_cost = 0.03;
 
 double seconds_of(double pivots, double rows) {
   const double below = rows - pivots;
   const double products = pivots * (below * (below + pivots) / 2 + pivots * pivots / 6);
-  return kFront + kRow * rows + kPanelEntry * pivots * rows + kUpdateEntry * below * below / 2 + kProduct * products;
+  return front_cost + row_cost * rows + panel_entry_cost * pivots * rows + update_entry_cost * below * below / 2 +
+         product_cost * products;
 }
 
 } // namespace

@@ -7,7 +7,7 @@
 namespace sheet {
 
 namespace {
-constexpr int kRowsAtOnce = 512;
+constexpr int rows_at_once = 512;
 }
 
 void SymmetricProduct::analyze(const SparseLower& a) {
@@ -33,7 +33,7 @@ void SymmetricProduct::multiply(const SparseLower& a, const Eigen::VectorXd& x, 
   y.resize(a.size);
   const double* values = a.values.data();
   const int* rows = a.rows.data();
-  tbb::parallel_for(tbb::blocked_range<int>(0, a.size, kRowsAtOnce), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, a.size, rows_at_once), [&](const auto& range) {
     for (int r = range.begin(); r < range.end(); ++r) {
       const auto row = static_cast<std::size_t>(r);
       double left = 0, below = 0;

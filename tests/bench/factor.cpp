@@ -24,7 +24,7 @@ using namespace sheet;
 
 namespace {
 
-constexpr int kSolutions = 3; // after each factorisation
+constexpr int solutions = 3; // after each factorisation
 
 struct Time {
   double processor = 0, elapsed = 0; // [ms]
@@ -119,7 +119,7 @@ template <class Solver> Result measure(Solver& solver, const SparseLower& a, int
     analysis.push_back(t);
     first.push_back(f);
     next.push_back(time_of([&] { good = solver.factorize(a, 0) && good; }));
-    for (int i = 0; i < kSolutions; ++i)
+    for (int i = 0; i < solutions; ++i)
       solve.push_back(time_of([&] { x = solver.solve(b); }));
   }
   result.analysis = median(analysis);

@@ -10,13 +10,14 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/solve/step.h"
+#include "tests/support/holds.h"
 #include "tests/support/meshes.h"
 
 using namespace sheet;
 
 namespace {
 
-constexpr int kGreatestSteps = 100; // chosen by their error
+constexpr int greatest_steps = 100; // chosen by their error
 
 std::string wanted; // part of the names of the cases to run
 
@@ -50,7 +51,7 @@ void run_one(const std::string& name, State s, const Model& m, double dt, int st
     if (chosen) {
       StepControl control;
       for (int k = 1; k <= steps; ++k)
-        while (s.time < k * dt && done < kGreatestSteps) {
+        while (s.time < k * dt && done < greatest_steps) {
           add(sum, stepper.step_within(s, k * dt, control));
           ++done;
         }
@@ -168,11 +169,7 @@ int main(int argc, char** argv) {
     Model m = sag(flat);
     m.holds = {where(flat, [](const Vector3& x) { return x.x() == 0; }),
                where(flat, [](const Vector3& x) { return x.x() == 1; })};
-    m.holds[1].motion = [=](double from, double to) {
-      RigidMotion r;
-      r.shift = Vector3(left - 1, 0, 0) * (to - from) / 0.1;
-      return r;
-    };
+    test::move_steadily(m.holds[1], Vector3::Zero(), {(left - 1) / 0.1, 0, 0});
     run("ends brought to " + std::to_string(left) + " of their distance in a step", flat, m, 0.1, 1);
   }
   for (const double ratio : {0.1, 0.5, 1.0, 2.0, 5.0}) { // gamma dt/(mu h) at free edges

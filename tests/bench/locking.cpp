@@ -30,11 +30,11 @@ test::Mesh bricks(int nx, int ny) {
     const std::uint32_t narrow = start[j + odd], wide = start[j + !odd];
     for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(nx); ++i) {
       // each narrow vertex over its wide edge, each narrow edge over its wide vertex
-      mesh.triangles.push_back(odd ? Triangle{wide + i, wide + i + 1, narrow + i}
-                                   : Triangle{wide + i + 1, wide + i, narrow + i});
+      mesh.triangles.push_back(odd ? Corners{wide + i, wide + i + 1, narrow + i}
+                                   : Corners{wide + i + 1, wide + i, narrow + i});
       if (i < static_cast<std::uint32_t>(nx))
-        mesh.triangles.push_back(odd ? Triangle{narrow + i + 1, narrow + i, wide + i + 1}
-                                     : Triangle{narrow + i, narrow + i + 1, wide + i + 1});
+        mesh.triangles.push_back(odd ? Corners{narrow + i + 1, narrow + i, wide + i + 1}
+                                     : Corners{narrow + i, narrow + i + 1, wide + i + 1});
     }
   }
   return mesh;
@@ -54,7 +54,7 @@ double power_ratio(double thickness, double k, bool arcs, Bending bending, doubl
   m.arcs = arcs;
   const double step = 1e-4 * k, dt = 1;
   Hold sides;
-  sides.axes = {false, true, false};
+  sides.axes = axis_bit(1);
   for (const double end : {-0.5 * nx, 0.5 * nx}) {
     Hold hold;
     for (std::uint32_t v = 0; v < flat.positions.size(); ++v)
@@ -70,6 +70,7 @@ double power_ratio(double thickness, double k, bool arcs, Bending bending, doubl
       r.shift = on_arc(end, 0, k + step) - r.rotation * on_arc(end, 0, k);
       return r;
     };
+    hold.velocity = [](double, const Vector3&) -> Vector3 { return Vector3::Zero(); }; // where it starts and ends
     m.holds.push_back(hold);
   }
   for (std::uint32_t v = 0; v < flat.positions.size(); ++v)

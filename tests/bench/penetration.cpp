@@ -15,14 +15,14 @@
 #include "formats/cpp/stream_reader.h"
 #include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
-#include "libsheet/collide/solids.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
 
 namespace {
 
 using namespace sheet;
-using namespace sheet::collide;
+using namespace sheet::solid;
 
 struct Depth {
   std::size_t near = 0;

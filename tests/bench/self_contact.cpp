@@ -36,7 +36,7 @@ template <class Work> double median_cpu_ms(Work&& work) {
 
 struct Pile {
   std::vector<Vector3> start, end;
-  std::vector<Triangle> triangles;
+  std::vector<Corners> triangles;
   static constexpr double thickness = 0.01, edge = 0.02;
 
   Pile(int layers, int cells) {
@@ -46,7 +46,7 @@ struct Pile {
       for (const Vector3& x : mesh.positions)
         start.push_back(x + Vector3(0.3 * edge * layer, 0.2 * edge * layer,
                                     0.8 * thickness * layer + 0.05 * std::sin(10 * x.x()) * std::cos(8 * x.y())));
-      for (const Triangle& t : mesh.triangles)
+      for (const Corners& t : mesh.triangles)
         triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
     std::mt19937_64 random(1);

@@ -16,14 +16,15 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/parallel.h"
-#include "libsheet/collide/distance_field.h"
-#include "libsheet/collide/solid_check.h"
 #include "libsheet/collide/solid_contact.h"
-#include "libsheet/collide/triangle_tree.h"
+#include "libsheet/solid/check.h"
+#include "libsheet/solid/distance_field.h"
+#include "libsheet/solid/triangle_tree.h"
 #include "tests/support/falling_sheet.h"
 
 using namespace sheet;
 using namespace sheet::collide;
+using namespace sheet::solid;
 
 namespace {
 

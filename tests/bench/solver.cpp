@@ -28,11 +28,11 @@ struct Choice {
   Bending bending;
   bool gravity, tension;
 };
-constexpr Choice kChoices[] = {{"membrane", Bending::none, true, false},
-                               {"hinge", Bending::hinge, true, false},
-                               {"mid-edge", Bending::mid_edge, true, false},
-                               {"mid-edge without weight", Bending::mid_edge, false, false},
-                               {"mid-edge with tension", Bending::mid_edge, true, true}};
+constexpr Choice choices[] = {{"membrane", Bending::none, true, false},
+                              {"hinge", Bending::hinge, true, false},
+                              {"mid-edge", Bending::mid_edge, true, false},
+                              {"mid-edge without weight", Bending::mid_edge, false, false},
+                              {"mid-edge with tension", Bending::mid_edge, true, true}};
 
 // A square sheet of edge length 1 that sags between two held sides.
 State sheet_of(int vertices) {
@@ -66,7 +66,7 @@ double peak_megabytes(int who) {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-constexpr double kStep = 0.02; // [s]
+constexpr double step_length = 0.02; // [s]
 
 // In a process of its own: peak memory of a step, less what the mesh alone needs.
 double step_megabytes(const Choice& choice, int vertices) {
@@ -79,7 +79,7 @@ double step_megabytes(const Choice& choice, int vertices) {
     State s = sheet_of(vertices);
     const double before = peak_megabytes(RUSAGE_SELF);
     Stepper stepper(model_of(choice, s), {});
-    stepper.step(s, kStep);
+    stepper.step(s, step_length);
     const double used = peak_megabytes(RUSAGE_SELF) - before;
     const bool told = write(channel[1], &used, sizeof used) == sizeof used;
     _exit(told ? 0 : 1);
@@ -102,15 +102,15 @@ void bench(int vertices, int steps, const std::vector<double>& memory) {
   };
   std::vector<Stepper> steppers;
   std::vector<State> states;
-  std::vector<Sample> samples(std::size(kChoices));
-  for (const Choice& choice : kChoices) {
+  std::vector<Sample> samples(std::size(choices));
+  for (const Choice& choice : choices) {
     states.push_back(sheet_of(vertices));
     steppers.emplace_back(model_of(choice, states.back()), StepOptions{});
   }
   for (int k = 0; k <= steps; ++k)
     for (std::size_t c = 0; c < steppers.size(); ++c) {
       const auto before = std::chrono::steady_clock::now();
-      const StepReport r = steppers[c].step(states[c], kStep);
+      const StepReport r = steppers[c].step(states[c], step_length);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
       Sample& s = samples[c];
       if (k == 0) {
@@ -137,14 +137,14 @@ void bench(int vertices, int steps, const std::vector<double>& memory) {
   for (std::size_t c = 0; c < steppers.size(); ++c) {
     const Sample& s = samples[c];
     std::printf("%zu,%s,%.1f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.1f,%.3f,%.1f,%.1f\n", states[c].positions.size(),
-                kChoices[c].name, static_cast<double>(s.iterations) / steps, 1e3 * median(s.assembly),
+                choices[c].name, static_cast<double>(s.iterations) / steps, 1e3 * median(s.assembly),
                 1e3 * median(s.factor), 1e3 * median(s.solve), 1e3 * median(s.search), median(s.over_factor),
                 median(s.analysis) / median(s.factor), s.later_analysis, 1e3 * median(s.step),
                 median(s.step) / median(samples[1].step), memory[c],
                 1024 * memory[c] / static_cast<double>(states[c].positions.size()));
     std::fflush(stdout);
   }
-  std::printf("# shares of a step's element work, %s:", kChoices[4].name);
+  std::printf("# shares of a step's element work, %s:", choices[4].name);
   double sum = 0;
   for (const TermTime& t : samples[4].terms)
     sum += t.seconds;
@@ -177,7 +177,7 @@ int main(int argc, char** argv) {
               "analysis_over_factor,analysis_later_s,step_ms,step_over_hinge_step,peak_MB,kB_per_vertex\n");
   std::vector<std::vector<double>> memory; // first, while this process is small: a child starts with its parent's peak
   for (const int n : sizes)
-    for (auto* of_size = &memory.emplace_back(); const Choice& choice : kChoices)
+    for (auto* of_size = &memory.emplace_back(); const Choice& choice : choices)
       of_size->push_back(step_megabytes(choice, n));
   for (std::size_t k = 0; k < sizes.size(); ++k)
     bench(sizes[k], steps, memory[k]);

@@ -11,7 +11,7 @@ using namespace sheet;
 
 namespace {
 
-constexpr int kCells = 20;
+constexpr int cells = 20;
 
 State run(State s, const Model& m, double until, int steps, double tolerance, int* iterations) {
   StepOptions options;
@@ -25,7 +25,7 @@ State run(State s, const Model& m, double until, int steps, double tolerance, in
 double difference(const State& a, const State& b) {
   double worst = 0;
   for (std::size_t v = 0; v < a.positions.size(); ++v)
-    worst = std::max(worst, (a.positions[v] - b.positions[v]).norm() * kCells);
+    worst = std::max(worst, (a.positions[v] - b.positions[v]).norm() * cells);
   return worst;
 }
 
@@ -33,7 +33,7 @@ double difference(const State& a, const State& b) {
 
 int main() {
   // A viscous catenary: 1 m, clamped ends, until it hangs by about 0.4 m.
-  const State start = test::at_rest(test::rectangle(1, 1, kCells, kCells, 0.2), 0.06);
+  const State start = test::at_rest(test::rectangle(1, 1, cells, cells, 0.2), 0.06);
   Model m;
   m.viscosity = 0.0333;
   m.density = 0.1;

@@ -38,3 +38,8 @@ check() { "$BATS_TEST_DIRNAME/includes" "$PWD"; }
   run check
   [[ $status == 1 && $output == *"not known"* ]]
 }
+@test "a header without a guard" {
+  echo '#include <vector>' > libsheet/measure/a.h
+  run check
+  [[ $status == 1 && $output == *"libsheet/measure/a.h: without #pragma once"* ]]
+}

@@ -65,6 +65,50 @@ interrupted() {
   interrupted INT run folding 0.025 0.4
 }
 
+@test "ice cream: killed and resumed = straight" {
+  interrupted KILL run ice-cream 0.02 0.1
+}
+
+@test "enrobing: interrupted and resumed = straight" {
+  interrupted INT run enrobing 0.04 0.15
+}
+
+@test "tearing: interrupted and resumed = straight" {
+  interrupted INT run tearing 0.05 0.06
+}
+
+@test "curtain: killed and resumed = straight" {
+  interrupted KILL run curtain 0.12 0.4
+}
+
+@test "rupture: interrupted and resumed = straight" {
+  interrupted INT fine rupture 0.002 2
+}
+
+@test "bubble: killed and resumed = straight" {
+  interrupted KILL sideways bubble 0.0025 0.15
+}
+
+@test "drape: interrupted and resumed = straight" {
+  interrupted INT run drape 0.1 0.25
+}
+
+@test "gallery: a scene that is ended ends it, it goes on from there, and what is done is not done again" {
+  export OUT=$BATS_TEST_TMPDIR/gallery SHEET_BIN=$BATS_TEST_TMPDIR/bin
+  mkdir "$SHEET_BIN"
+  printf '#!/bin/sh\nexit 6\n' > "$SHEET_BIN/sheet-emit"
+  chmod +x "$SHEET_BIN/sheet-emit"
+  run pipelines/gallery --short rupture ice-cream
+  [[ $status != 0 && -e $OUT/rupture/done && ! -e $OUT/ice-cream/done && $output == *"pipelines/ice-cream/run ended with"* ]]
+  rm "$SHEET_BIN/sheet-emit"
+  run -0 pipelines/gallery --short rupture ice-cream
+  [[ $output != *"== rupture"* && $output == *"== ice-cream"* && $(wc -l < "$OUT/gallery.csv") == 5 ]]
+  OUT=$BATS_TEST_TMPDIR/straight pipelines/ice-cream/run 0.02 0.05
+  cmp "$BATS_TEST_TMPDIR/straight/run.sheet" "$OUT/ice-cream/run.sheet"
+  run -2 pipelines/gallery nonesuch
+  [[ $output == *"there is no scene nonesuch"* ]]
+}
+
 @test "a stream that was made with other options is not gone on with" {
   export OUT=$BATS_TEST_TMPDIR/run
   pipelines/bunny/run 0.3 0.1

@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "libsheet/collide/solid_mesh.h"
-#include "libsheet/collide/solids.h"
 #include "libsheet/collide/step_path.h"
+#include "libsheet/solid/mesh.h"
+#include "libsheet/solid/solids.h"
 #include "tests/support/meshes.h"
 
 namespace sheet::test {
@@ -59,7 +59,7 @@ struct FallingSheet {
 
 // The least signed distance over a triangle, to within `spacing`: parts that cannot hide anything less are passed over,
 // since the distance changes no faster than 1.
-inline void lower_to_least(const collide::SolidDistance& shape, const collide::Triangle3& x, double spacing,
+inline void lower_to_least(const solid::SolidDistance& shape, const solid::Triangle3& x, double spacing,
                            double& least) {
   const Vector3 center = (x[0] + x[1] + x[2]) / 3;
   const double size = std::max({(x[0] - center).norm(), (x[1] - center).norm(), (x[2] - center).norm()});
@@ -77,14 +77,14 @@ inline void lower_to_least(const collide::SolidDistance& shape, const collide::T
 
 // The least signed distance of the sheet from a solid while its vertices go straight from start to end [m], at
 // `times` + 1 times. Independent of the sweeps under test.
-inline double least_distance(const collide::StepPath& path, const collide::Solids& solids, std::size_t solid,
+inline double least_distance(const collide::StepPath& path, const solid::Solids& solids, std::size_t solid,
                              double spacing, int times) {
   double least = 1e3;
   for (int k = times; k >= 0; --k) {
     const double s = static_cast<double>(k) / times;
     const Eigen::Isometry3d own = solids.pose(solid, path.start_time + s * path.length()).inverse();
     for (const Corners& corners : path.triangles) {
-      collide::Triangle3 x;
+      solid::Triangle3 x;
       for (std::size_t c = 0; c < 3; ++c)
         x[c] = own * ((1 - s) * path.start[corners[c]] + s * path.end[corners[c]]);
       lower_to_least(solids.shape(solid), x, spacing, least);
@@ -94,8 +94,8 @@ inline double least_distance(const collide::StepPath& path, const collide::Solid
 }
 
 // A pyramid of many sides that stands on y = 0 with its tip at the height: a needle where it is slender.
-inline collide::SolidSurface needle(double radius, double height, std::uint32_t sides) {
-  collide::SolidSurface surface;
+inline solid::SolidSurface needle(double radius, double height, std::uint32_t sides) {
+  solid::SolidSurface surface;
   for (std::uint32_t i = 0; i < sides; ++i) {
     const double angle = 2 * std::numbers::pi * i / sides;
     surface.points.emplace_back(radius * std::cos(angle), 0, radius * std::sin(angle));

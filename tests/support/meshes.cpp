@@ -50,7 +50,7 @@ Mesh icosphere(int level) {
       for (std::uint32_t c = b + 1; c < 12; ++c)
         if (near(a, b) && near(b, c) && near(a, c)) {
           const bool out = m.positions[a].dot(m.positions[b].cross(m.positions[c])) > 0;
-          m.triangles.push_back(out ? Triangle{a, b, c} : Triangle{a, c, b});
+          m.triangles.push_back(out ? Corners{a, b, c} : Corners{a, c, b});
         }
   for (int l = 0; l < level; ++l) {
     std::map<Edge, std::uint32_t> middles;
@@ -61,8 +61,8 @@ Mesh icosphere(int level) {
         m.positions.push_back((m.positions[a] + m.positions[b]).normalized());
       return it->second;
     };
-    std::vector<Triangle> finer;
-    for (const Triangle& t : m.triangles) {
+    std::vector<Corners> finer;
+    for (const Corners& t : m.triangles) {
       const auto a = middle(t[1], t[2]), b = middle(t[2], t[0]), c = middle(t[0], t[1]);
       finer.insert(finer.end(), {{t[0], c, b}, {t[1], a, c}, {t[2], b, a}, {a, b, c}});
     }
@@ -116,7 +116,7 @@ State at_rest(const Mesh& mesh, double thickness) {
   s.mesh = std::make_shared<const Connectivity>(connect(mesh.positions.size(), mesh.triangles));
   s.positions = mesh.positions;
   s.velocities.assign(mesh.positions.size(), Vector3::Zero());
-  for (const Triangle& t : mesh.triangles)
+  for (const Corners& t : mesh.triangles)
     s.volumes.push_back(thickness *
                         TriangleArea(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).area);
   return s;

@@ -9,7 +9,7 @@ namespace sheet::test {
 
 struct Mesh {
   std::vector<Vector3> positions;
-  std::vector<Triangle> triangles;
+  std::vector<Corners> triangles;
 };
 
 // Radius 1, the icosahedron's edges cut into 2^level; normals outwards. 10 * 4^level + 2 vertices.

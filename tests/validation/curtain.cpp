@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "libsheet/remesh/emit.h"
+#include "libsheet/flow/emit.h"
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/build.h"
@@ -100,7 +100,7 @@ Result v18(const Settings& s) {
     stage.step(frame);
     if (s.set == 2)
       static_cast<void>(remesh::remesh(frame, &scene, remeshing));
-    emit(frame, scene);
+    flow::emit(frame, scene);
   }
   Result result;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

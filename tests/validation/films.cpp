@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // V7, V8, V9, V16, V17: films without bending.
+#include "tests/support/holds.h"
 #include "tests/validation/instant.h"
 
 namespace sheet::validation {
 
 namespace {
 
-Hold all(const State& s, std::array<bool, 3> axes) {
+Hold all(const State& s, Axes axes) {
   return hold(
       s, [](const Vector3&) { return true; }, axes, false);
 }
@@ -30,7 +31,7 @@ Result v7(const Settings& s) {
   m.bending = Bending::none;
   m.pressure = PressureLaw{PressureLaw::Kind::constant, p, 1, 1};
   m.holds.push_back(hold(
-      start, [](const Vector3& x) { return std::abs(x.z()) > length / 2 - 1e-9; }, {false, false, true}, false));
+      start, [](const Vector3& x) { return std::abs(x.z()) > length / 2 - 1e-9; }, axis_bit(2), false));
   for (std::size_t v = 0; v < start.positions.size(); ++v)
     start.velocities[v] = p / (4 * mu * h) * Vector3(start.positions[v].x(), start.positions[v].y(), 0);
   Run run(std::move(start), m, s, 1);
@@ -49,7 +50,7 @@ Result v8(const Settings& s) {
   Model m = viscous(mu, s);
   m.bending = Bending::none;
   m.surface_tension = tension;
-  m.holds.push_back(all(start, {false, false, true}));
+  m.holds.push_back(all(start, axis_bit(2)));
   for (std::size_t v = 0; v < start.positions.size(); ++v)
     start.velocities[v] = -tension / (3 * mu * h) * start.positions[v];
   const double area = sheet_area(start);
@@ -58,8 +59,8 @@ Result v8(const Settings& s) {
   return run.result(2 * std::sqrt(sheet_area(run.state()) / area));
 }
 
-// V9: a hole opens. Sets: 1 outer rim held at Ro = 1, Ṙ = γ R (1-s²)/(μ h (1+3s²)), s = R/Ro,
-// h = h0 (Ro²-R0²)/(Ro²-R²), from R0 = 0.3 to about 0.42; 2 the rim at Ro = 1 far from R0 = 0.1, the same equation.
+// V9: a hole opens. Sets: 1 outer rim held at Ro = 1, Ṙ = γ R (1-s²)/(μ h (1+3s²)), s = R/Ro, h = h0
+// (Ro²-R0²)/(Ro²-R²), from R0 = 0.3 to about 0.42; 2 the rim at Ro = 1 far from R0 = 0.1, the same equation.
 Result v9(const Settings& s) {
   constexpr double mu = 1, h0 = 0.05, tension = 0.1;
   const double r0 = s.set == 1 ? 0.3 : 0.1, until = (s.set == 1 ? 0.3 : 0.4) * mu * h0 / tension;
@@ -67,12 +68,12 @@ Result v9(const Settings& s) {
   Model m = viscous(mu, s);
   m.bending = Bending::none;
   m.surface_tension = tension;
-  m.holds.push_back(all(start, {false, false, true}));
+  m.holds.push_back(all(start, axis_bit(2)));
   m.holds.push_back(hold(
-      start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, {true, true, true}, false));
+      start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, all_axes, false));
   const std::vector<std::uint32_t> ring =
       hold(
-          start, [&](const Vector3& x) { return x.norm() < r0 + 1e-9; }, {true, true, true}, false)
+          start, [&](const Vector3& x) { return x.norm() < r0 + 1e-9; }, all_axes, false)
           .vertices;
   using Y = Eigen::Matrix<double, 1, 1>;
   const double exact = runge_kutta(Y(r0), 0, until, 20000, [&](double, const Y& y) {
@@ -93,16 +94,12 @@ Result v16(const Settings& s) {
   State start = film(make_annulus(ri, 1, mesh_options(s, 1)), h);
   Model m = viscous(mu, s);
   m.bending = Bending::none;
-  m.holds.push_back(all(start, {false, false, true}));
+  m.holds.push_back(all(start, axis_bit(2)));
   m.holds.push_back(hold(
-      start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, {true, true, true}, false));
+      start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, all_axes, false));
   Hold inner = hold(
-      start, [](const Vector3& x) { return x.norm() < ri + 1e-9; }, {true, true, true}, false);
-  inner.motion = [](double from, double to) {
-    RigidMotion motion;
-    motion.rotation = Eigen::AngleAxisd(spin * (to - from), Vector3::UnitZ()).toRotationMatrix();
-    return motion;
-  };
+      start, [](const Vector3& x) { return x.norm() < ri + 1e-9; }, all_axes, false);
+  test::move_steadily(inner, {0, 0, spin});
   m.holds.push_back(inner);
   const Instant i = solve_instant(start, m, dt);
   double torque = 0, worst = 0;
@@ -141,10 +138,10 @@ Result v17(const Settings& s) {
   const auto shape = [](const Vector3& x) { return std::cos(pi * x.x()) * std::cos(pi * x.y()); };
   for (std::size_t v = 0; v < start.positions.size(); ++v)
     start.velocities[v].z() = a * omega * shape(start.positions[v]);
-  m.holds.push_back(all(start, {true, true, false}));
+  m.holds.push_back(all(start, axis_bit(0) | axis_bit(1)));
   m.holds.push_back(hold(
-      start, [](const Vector3& x) { return std::max(std::abs(x.x()), std::abs(x.y())) > 0.5 - 1e-9; },
-      {true, true, true}, false));
+      start, [](const Vector3& x) { return std::max(std::abs(x.x()), std::abs(x.y())) > 0.5 - 1e-9; }, all_axes,
+      false));
   double worst = 0;
   Run run(std::move(start), m, s, 1);
   run.advance(2 * pi / omega, s.steps, [&](const State& at) {

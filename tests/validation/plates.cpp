@@ -9,14 +9,15 @@ namespace sheet::validation {
 
 namespace {
 
-constexpr double kMu = 100, kH = 0.02, kRho = 1000, kG = 9.81;
-const double kD = kMu * kH * kH * kH / 3, kQ = kRho * kG * kH;
-constexpr double kMove = 1e-5; // how far the step moves what is measured, in lengths
+constexpr double mu = 100, plate_thickness = 0.02, rho = 1000, standard_gravity = 9.81;
+const double flexural = mu * plate_thickness * plate_thickness * plate_thickness / 3,
+             load_q = rho * standard_gravity * plate_thickness;
+constexpr double wanted_move = 1e-5; // how far the step moves what is measured, in lengths
 
 Model plate(const Settings& s) {
-  Model m = viscous(kMu, s);
-  m.density = kRho;
-  m.gravity = {0, 0, -kG};
+  Model m = viscous(mu, s);
+  m.density = rho;
+  m.gravity = {0, 0, -standard_gravity};
   return m;
 }
 
@@ -65,9 +66,9 @@ std::vector<Eigen::Vector2d> arch(bool both_ends) {
       // Weight beyond φ: q ∫ (x(ψ) - x(φ)) r dψ = q r² (cosφ - (π/2 - φ) sinφ).
       const double rest = pi / 2 - phi;
       const double moment =
-          m + arm[0] * f[1] - arm[1] * f[0] - load * kQ * r * r * (std::cos(phi) - rest * std::sin(phi));
-      const V force = f + V(0, -load * kQ * r * rest);
-      const double bend = moment / kD, stretch = force.dot(t) / (4 * kMu * kH);
+          m + arm[0] * f[1] - arm[1] * f[0] - load * load_q * r * r * (std::cos(phi) - rest * std::sin(phi));
+      const V force = f + V(0, -load * load_q * r * rest);
+      const double bend = moment / flexural, stretch = force.dot(t) / (4 * mu * plate_thickness);
       const double middle = turn + 0.5 * ds * bend;
       velocity[static_cast<std::size_t>(k) + 1] =
           velocity[static_cast<std::size_t>(k)] + ds * (middle * V(-t[1], t[0]) + stretch * t);
@@ -91,19 +92,19 @@ std::vector<Eigen::Vector2d> arch(bool both_ends) {
 
 // Sets: 1 clamped, w = q (R² - r²)²/(64 D); 2 simply supported, w = q (R² - r²)((5+ν)/(1+ν) R² - r²)/(64 D).
 Result v11(const Settings& s) {
-  State start = film(make_disk(1, mesh_options(s, 1)), kH);
+  State start = film(make_disk(1, mesh_options(s, 1)), plate_thickness);
   const Where rim = [](const Vector3& x) { return x.head<2>().norm() > 1 - 1e-9; };
   Model m = plate(s);
   const std::vector<Vector3> disk = start.positions;
-  m.holds.push_back(s.set == 1 ? clamp(start, s, rim) : hold(start, rim, {true, true, true}, false));
-  const double ratio = s.set == 1 ? 1 : 5.5 / 1.5, centre = kQ * ratio / (64 * kD), dt = kMove / centre;
+  m.holds.push_back(s.set == 1 ? clamp(start, s, rim) : hold(start, rim, all_axes, false));
+  const double ratio = s.set == 1 ? 1 : 5.5 / 1.5, centre = load_q * ratio / (64 * flexural), dt = wanted_move / centre;
   Run run(std::move(start), m, s, 1);
   run.advance(dt, 1);
   const double radius = 2 * s.edge;
   const double moved = height_at(run.state(), disk, Vector3::Zero(), radius);
   const double exact = exact_at(disk, Vector3::Zero(), radius, [&](const Vector3& x) {
     const double r2 = x.squaredNorm();
-    return -dt * kQ / (64 * kD) * (1 - r2) * (ratio - r2);
+    return -dt * load_q / (64 * flexural) * (1 - r2) * (ratio - r2);
   });
   Result r = run.result(moved / exact);
   r.more = {{"centre_speed", centre}};
@@ -124,11 +125,11 @@ Result v12(const Settings& s) {
       x = {r * std::sin(phi), x.y(), r * (1 - std::cos(phi))};
     }
   // Volumes of the flat sheet: thickness h along the arc.
-  State start = film(mesh, kH);
+  State start = film(mesh, plate_thickness);
   if (curved) {
     TriangleMesh unrolled = mesh;
     unrolled.positions = flat;
-    start.volumes = film(unrolled, kH).volumes;
+    start.volumes = film(unrolled, plate_thickness).volumes;
   }
   Model m = plate(s);
   const auto near = [&](double a, double b) { return std::abs(a - b) < 1e-9; };
@@ -138,26 +139,26 @@ Result v12(const Settings& s) {
   };
   const Where sides = [&](const Vector3& x) { return near(x.y(), 0) || near(x.y(), width); };
   // A side's edge lies along a side; the short ends' edges must not be taken for it.
-  Hold side = hold(start, sides, {false, true, false}, false);
+  Hold side = hold(start, sides, axis_bit(1), false);
   for (std::uint32_t e = 0; e < start.mesh->edges.size(); ++e) {
     const Vector3 &a = start.positions[start.mesh->edges[e][0]], &b = start.positions[start.mesh->edges[e][1]];
     if (start.mesh->on_rim(e) && sides(a) && near(a.y(), b.y()))
       side.clamped_edges.push_back(e);
   }
   m.holds.push_back(side);
-  m.holds.push_back(s.set == 2 ? hold(start, ends, {true, true, true}, false) : clamp(start, s, ends));
+  m.holds.push_back(s.set == 2 ? hold(start, ends, all_axes, false) : clamp(start, s, ends));
 
   const std::vector<Eigen::Vector2d> beam = curved ? arch(both) : std::vector<Eigen::Vector2d>{};
   const auto speed = [&](double x) { // vertical, at the arc length x
     if (curved)
       return beam[static_cast<std::size_t>(std::lround(x * static_cast<double>(beam.size() - 1)))][1];
     const double y = 1 - x;
-    return -kQ / (24 * kD) *
+    return -load_q / (24 * flexural) *
            (s.set == 1   ? x * x * y * y
             : s.set == 2 ? x * (1 - 2 * x * x + x * x * x)
                          : x * x * (6 - 4 * x + x * x));
   };
-  const double where = both ? 0.5 : 1, dt = kMove / std::abs(speed(where));
+  const double where = both ? 0.5 : 1, dt = wanted_move / std::abs(speed(where));
   Run run(std::move(start), m, s, 1);
   const std::vector<Vector3> before = run.state().positions;
   run.advance(dt, 1);

@@ -27,7 +27,7 @@ State film(const TriangleMesh& mesh, double thickness) {
   s.mesh = std::make_shared<const Connectivity>(connect(mesh.positions.size(), mesh.triangles));
   s.positions = mesh.positions;
   s.velocities.assign(mesh.positions.size(), Vector3::Zero());
-  for (const Triangle& t : mesh.triangles)
+  for (const Corners& t : mesh.triangles)
     s.volumes.push_back(thickness * TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area);
   return s;
 }
@@ -44,7 +44,7 @@ Model viscous(double viscosity, const Settings& s) {
   return m;
 }
 
-Hold hold(const State& s, const Where& at, std::array<bool, 3> axes, bool clamped) {
+Hold hold(const State& s, const Where& at, Axes axes, bool clamped) {
   Hold h;
   h.axes = axes;
   for (std::uint32_t v = 0; v < s.positions.size(); ++v)
@@ -58,11 +58,11 @@ Hold hold(const State& s, const Where& at, std::array<bool, 3> axes, bool clampe
 }
 
 Hold clamp_by_ears(State& s, const Where& at) {
-  Hold h = hold(s, at, {true, true, true}, false);
-  std::vector<Triangle> triangles = s.mesh->triangles;
+  Hold h = hold(s, at, all_axes, false);
+  std::vector<Corners> triangles = s.mesh->triangles;
   for (std::size_t t = 0; t < s.mesh->triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Triangle v = s.mesh->triangles[t];
+      const Corners v = s.mesh->triangles[t];
       const auto a = v[(k + 1) % 3], b = v[(k + 2) % 3];
       if (!s.mesh->on_rim(s.mesh->triangle_edges[t][k]) || !at(s.positions[a]) || !at(s.positions[b]))
         continue;
@@ -81,7 +81,7 @@ Hold clamp_by_ears(State& s, const Where& at) {
 Hold clamp(State& s, const Settings& settings, const Where& at) {
   if (settings.bending == Shell::hinge || settings.bending == Shell::hinge_paper)
     return clamp_by_ears(s, at);
-  return hold(s, at, {true, true, true}, true);
+  return hold(s, at, all_axes, true);
 }
 
 // Of this process: the same on a machine that has other work to do, nearly.
@@ -148,7 +148,7 @@ double radial_speed(const State& s) {
 
 double sheet_area(const State& s) {
   double sum = 0;
-  for (const Triangle& t : s.mesh->triangles)
+  for (const Corners& t : s.mesh->triangles)
     sum += TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area;
   return sum;
 }

@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 using Where = std::function<bool(const Vector3&)>;
 // Vertices where `at` holds; with clamped, also rim edges whose two ends do.
-[[nodiscard]] Hold hold(const State& s, const Where& at, std::array<bool, 3> axes, bool clamped);
+[[nodiscard]] Hold hold(const State& s, const Where& at, Axes axes, bool clamped);
 // A clamp for hinges, which have no director: a held triangle beyond each rim edge whose two ends are `at`, the mirror
 // image of the edge's own triangle. Its volume is the mirrored one's.
 [[nodiscard]] Hold clamp_by_ears(State& s, const Where& at);

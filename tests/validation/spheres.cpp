@@ -10,23 +10,23 @@ namespace {
 struct Balloon {
   double thickness, pressure;
 };
-constexpr double kViscosity = 0.1;
-constexpr double kPart = 0.8; // of the blow-up time
+constexpr double viscosity = 0.1;
+constexpr double part_of_blow_up = 0.8; // of the blow-up time
 
 Result balloon(const Settings& s, const Balloon& b, PressureLaw::Kind kind, double until, double exact) {
   State start = film(make_sphere(1, mesh_options(s, 1)), b.thickness);
-  Model m = viscous(kViscosity, s);
+  Model m = viscous(viscosity, s);
   m.bending = Bending::none; // of relative size (h/r)²/12, and not in the closed form
   m.pressure = PressureLaw{kind, b.pressure, 1, 1};
   // The flow at the start, so that the first step's prediction is as good as the others'.
   for (std::size_t v = 0; v < start.positions.size(); ++v)
-    start.velocities[v] = b.pressure / (12 * kViscosity * b.thickness) * start.positions[v];
+    start.velocities[v] = b.pressure / (12 * viscosity * b.thickness) * start.positions[v];
   Run run(std::move(start), m, s, 1);
   std::vector<std::vector<double>> series;
   run.advance(until, s.steps, [&](const State& at) {
     const double r = mean_radius(at), speed = radial_speed(at), h = b.thickness / (r * r);
     const double p = kind == PressureLaw::Kind::constant ? b.pressure : b.pressure / (r * r);
-    series.push_back({at.time, r, speed, p * r * r / kViscosity, h * speed});
+    series.push_back({at.time, r, speed, p * r * r / viscosity, h * speed});
   });
   Result result = run.result(mean_radius(run.state()) / exact);
   result.series = std::move(series);
@@ -38,15 +38,15 @@ Result balloon(const Settings& s, const Balloon& b, PressureLaw::Kind kind, doub
 // ṙ = p r²/(12 μ h): r = (1 - p t/(4 μ h0))^(-1/3) at constant pressure.
 Result v1(const Settings& s) {
   const Balloon b = s.set == 1 ? Balloon{0.1, 0.1} : Balloon{0.3, 0.15};
-  const double until = kPart * 4 * kViscosity * b.thickness / b.pressure;
-  return balloon(s, b, PressureLaw::Kind::constant, until, std::pow(1 - kPart, -1.0 / 3));
+  const double until = part_of_blow_up * 4 * viscosity * b.thickness / b.pressure;
+  return balloon(s, b, PressureLaw::Kind::constant, until, std::pow(1 - part_of_blow_up, -1.0 / 3));
 }
 
 // p = p0/r²: r = 1/(1 - p0 t/(12 μ h0)).
 Result v2(const Settings& s) {
   constexpr double part = 0.5; // of the blow-up time: the radius doubles
   const Balloon b = s.set == 1 ? Balloon{0.1, 0.2} : Balloon{0.3, 0.3};
-  const double until = part * 12 * kViscosity * b.thickness / b.pressure;
+  const double until = part * 12 * viscosity * b.thickness / b.pressure;
   return balloon(s, b, PressureLaw::Kind::inverse_square, until, 1 / (1 - part));
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // V5, V6: a strip pulled by a constant force. V13: the viscous catenary. V15: a strip compressed on a bath.
+#include "tests/support/holds.h"
 #include "tests/validation/instant.h"
 
 namespace sheet::validation {
 
 namespace {
 
-constexpr double kWidth = 0.25;
+constexpr double strip_width = 0.25;
 
 bool near(double a, double b) { return std::abs(a - b) < 1e-9; }
 
@@ -14,14 +15,14 @@ bool near(double a, double b) { return std::abs(a - b) < 1e-9; }
 void clamp_sides(const State& s, Hold& side) {
   for (std::uint32_t e = 0; e < s.mesh->edges.size(); ++e) {
     const double a = s.positions[s.mesh->edges[e][0]].y(), b = s.positions[s.mesh->edges[e][1]].y();
-    if (s.mesh->on_rim(e) && near(a, b) && (near(a, 0) || near(a, kWidth)))
+    if (s.mesh->on_rim(e) && near(a, b) && (near(a, 0) || near(a, strip_width)))
       side.clamped_edges.push_back(e);
   }
 }
 
 Hold sides_across(const State& s) {
   Hold side = hold(
-      s, [](const Vector3& x) { return near(x.y(), 0) || near(x.y(), kWidth); }, {false, true, false}, false);
+      s, [](const Vector3& x) { return near(x.y(), 0) || near(x.y(), strip_width); }, axis_bit(1), false);
   clamp_sides(s, side);
   return side;
 }
@@ -29,21 +30,21 @@ Hold sides_across(const State& s) {
 // The load is a very long, soft spring k (d - L) between each vertex of the moving end and one of the held end, in
 // proportion to the edges beside it; the reference is told so: L' = k (d - L) L²/(c μ V), c = 3 free, 4 planar.
 Result pulled(const Settings& s, bool planar) {
-  constexpr double mu = 100, h = 0.01, rest = 1e3, pull = 1.2;                                // N
-  const double c = planar ? 4 : 3, volume = kWidth * h, until = 0.5 * c * mu * volume / pull; // the length doubles
-  State start = film(strip_mesh(s, 1, kWidth), h);
+  constexpr double mu = 100, h = 0.01, rest = 1e3, pull = 1.2;                                     // N
+  const double c = planar ? 4 : 3, volume = strip_width * h, until = 0.5 * c * mu * volume / pull; // the length doubles
+  State start = film(strip_mesh(s, 1, strip_width), h);
   Model m = viscous(mu, s);
   m.bending = Bending::none;
   m.holds.push_back(hold(
-      start, [](const Vector3& x) { return near(x.x(), 0); }, {true, false, false}, false));
+      start, [](const Vector3& x) { return near(x.x(), 0); }, axis_bit(0), false));
   m.holds.push_back(planar ? sides_across(start)
                            : hold(
-                                 start, [](const Vector3& x) { return x.norm() < 1e-9; }, {true, true, true}, false));
+                                 start, [](const Vector3& x) { return x.norm() < 1e-9; }, all_axes, false));
   m.holds.push_back(hold(
-      start, [](const Vector3&) { return true; }, {false, false, true}, false));
+      start, [](const Vector3&) { return true; }, axis_bit(2), false));
   const auto at_end = [&](std::uint32_t v) { return near(start.positions[v].x(), 1); };
   std::uint32_t anchor = 0;
-  std::array<std::uint32_t, 2> idle{kNone, kNone}; // fill the spring's four places with weight 0
+  std::array<std::uint32_t, 2> idle{no_index, no_index}; // fill the spring's four places with weight 0
   for (std::uint32_t v = 0; v < start.positions.size(); ++v)
     if (near(start.positions[v].x(), 0)) {
       anchor = start.positions[v].norm() < 1e-9 ? v : anchor;
@@ -54,7 +55,7 @@ Result pulled(const Settings& s, bool planar) {
   for (const Edge& e : start.mesh->edges)
     if (at_end(e[0]) && at_end(e[1]))
       for (const auto v : e)
-        share[v] += (start.positions[e[1]] - start.positions[e[0]]).norm() / (2 * kWidth);
+        share[v] += (start.positions[e[1]] - start.positions[e[0]]).norm() / (2 * strip_width);
   for (std::uint32_t v = 0; v < share.size(); ++v)
     if (share[v] > 0) {
       ContactSpring spring;
@@ -62,7 +63,7 @@ Result pulled(const Settings& s, bool planar) {
       spring.weights = {1, -1, 0, 0};
       spring.normal = Vector3::UnitX();
       spring.rest = rest;
-      spring.normal_stiffness = share[v] * pull / (rest - 1);
+      spring.stiffness[0] = share[v] * pull / (rest - 1);
       m.contacts.push_back(spring);
     }
   using Y = Eigen::Matrix<double, 1, 1>;
@@ -89,7 +90,7 @@ Result v6(const Settings& s) { return pulled(s, true); }  // width held: 4 μ
 Result v13(const Settings& s) {
   constexpr double mu = 100, rho = 1000, g = 9.81, h = 2.5e-5, first = 0.0025, last = 0.005;
   const auto when = [](double sag) { return 512 * mu * sag * sag * sag / (9 * rho * g); };
-  State start = film(strip_mesh(s, 1, kWidth), h);
+  State start = film(strip_mesh(s, 1, strip_width), h);
   for (std::size_t v = 0; v < start.positions.size(); ++v) {
     Vector3& x = start.positions[v];
     const double shape = -4 * x.x() * (1 - x.x());
@@ -102,7 +103,7 @@ Result v13(const Settings& s) {
   m.gravity = {0, 0, -g};
   m.holds.push_back(sides_across(start));
   m.holds.push_back(hold(
-      start, [](const Vector3& x) { return near(x.x(), 0) || near(x.x(), 1); }, {true, true, true}, false));
+      start, [](const Vector3& x) { return near(x.x(), 0) || near(x.x(), 1); }, all_axes, false));
   Run run(std::move(start), m, s, 1);
   run.advance(when(last) - when(first), s.steps);
   // The parabola of least squares.
@@ -128,7 +129,7 @@ Result v15(const Settings& s) {
   const double amplitude = 1e-4 * h;
   Settings scaled = s;
   scaled.edge = s.edge * wave;
-  TriangleMesh mesh = make_rectangle(length, kWidth * wave, mesh_options(scaled, 1));
+  TriangleMesh mesh = make_rectangle(length, strip_width * wave, mesh_options(scaled, 1));
   State start = film(mesh, h);
   const std::vector<Vector3> flat = start.positions;
   for (std::size_t v = 0; v < flat.size(); ++v) {
@@ -140,9 +141,9 @@ Result v15(const Settings& s) {
   m.surface_tension = tension;
   m.gravity = {0, 0, -gravity};
   m.bath = BathModel{bath, 0, true};
-  const double half = kWidth * wave / 2;
+  const double half = strip_width * wave / 2;
   Hold side = hold(
-      start, [&](const Vector3& x) { return near(std::abs(x.y()), half); }, {false, true, false}, false);
+      start, [&](const Vector3& x) { return near(std::abs(x.y()), half); }, axis_bit(1), false);
   for (std::uint32_t e = 0; e < start.mesh->edges.size(); ++e) {
     const double a = flat[start.mesh->edges[e][0]].y(), b = flat[start.mesh->edges[e][1]].y();
     if (start.mesh->on_rim(e) && near(a, b) && near(std::abs(a), half))
@@ -151,12 +152,8 @@ Result v15(const Settings& s) {
   m.holds.push_back(side);
   for (const double end : {-0.5, 0.5}) {
     Hold h_end = hold(
-        start, [&](const Vector3& x) { return near(x.x(), end * length); }, {true, false, false}, true);
-    h_end.motion = [=](double from, double to) {
-      RigidMotion motion;
-      motion.shift = {-end * length * rate * (to - from), 0, 0};
-      return motion;
-    };
+        start, [&](const Vector3& x) { return near(x.x(), end * length); }, axis_bit(0), true);
+    test::move_steadily(h_end, Vector3::Zero(), {-end * length * rate, 0, 0});
     m.holds.push_back(h_end);
   }
   const double dt = 2e-3 / sigma(km);

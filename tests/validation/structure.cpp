@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "libsheet/energy/stage_setup.h"
+#include "tests/support/holds.h"
 #include "tests/validation/instant.h"
 
 namespace sheet::validation {
@@ -43,18 +44,14 @@ Result v19(const Settings& s) {
   constexpr double mu = 3, h = 0.05, dt = 0.1;
   State start = bumpy(s, h);
   Model m = viscous(mu, s);
-  const auto motion = [](double from, double to) {
-    RigidMotion r;
-    r.rotation = Eigen::AngleAxisd(pi / 2 * (to - from) / dt, Vector3(1, 2, 2) / 3).toRotationMatrix();
-    return r;
-  };
+  const Vector3 spin = pi / 2 / dt * (Vector3(1, 2, 2) / 3);
   const double edge = mean_edge(start);
   if (s.set == 1) {
     Hold whole = hold(
-        start, [](const Vector3&) { return true; }, {true, true, true}, false);
+        start, [](const Vector3&) { return true; }, all_axes, false);
     for (std::uint32_t e = 0; e < start.mesh->edges.size(); ++e)
       whole.clamped_edges.push_back(e);
-    whole.motion = motion;
+    test::move_steadily(whole, spin);
     m.holds.push_back(whole);
     const Instant i = solve_instant(start, m, dt);
     double volume = 0;
@@ -72,11 +69,11 @@ Result v19(const Settings& s) {
     return r;
   }
   Hold rim = hold(
-      start, [](const Vector3& x) { return x.head<2>().norm() > 1 - 1e-9; }, {true, true, true}, true);
-  rim.motion = motion;
+      start, [](const Vector3& x) { return x.head<2>().norm() > 1 - 1e-9; }, all_axes, true);
+  test::move_steadily(rim, spin);
   if (s.set == 2)
     for (std::size_t v = 0; v < start.positions.size(); ++v)
-      start.velocities[v] = pi / 2 / dt * (Vector3(1, 2, 2) / 3).cross(start.positions[v]);
+      start.velocities[v] = spin.cross(start.positions[v]);
   m.holds.push_back(rim);
   Run run(start, m, s, 1);
   run.advance(dt, 1);
@@ -125,7 +122,7 @@ Result v20(const Settings& s) {
     constexpr double d = 1e-6;
     Model flow = viscous(mu, s);
     flow.holds.push_back(hold(
-        at, [](const Vector3&) { return true; }, {true, true, true}, false));
+        at, [](const Vector3&) { return true; }, all_axes, false));
     return 2 / d * solve_instant(at, flow, d, [&](const Stage& stage, Unknowns& u) {
                      for (std::size_t v = 0; v < stage.vertices(); ++v)
                        u.segment<3>(static_cast<Eigen::Index>(3 * v)) += d * at.velocities[v];

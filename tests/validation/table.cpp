@@ -14,14 +14,14 @@ namespace {
 
 template <class T> using Names = std::vector<std::pair<const char*, T>>;
 
-const Names<Scheme> kSchemes{{"sdirk2", Scheme::sdirk2}, {"backward-euler", Scheme::backward_euler}};
-const Names<Thickness> kThicknesses{{"coupled", Thickness::coupled}, {"explicit", Thickness::as_started}};
-const Names<Shell> kShells{{"mid-edge", Shell::mid_edge},
-                           {"arcs", Shell::arcs},
-                           {"hinge", Shell::hinge},
-                           {"hinge-paper", Shell::hinge_paper},
-                           {"none", Shell::none}};
-const Names<Pattern> kPatterns{
+const Names<Scheme> schemes{{"sdirk2", Scheme::sdirk2}, {"backward-euler", Scheme::backward_euler}};
+const Names<Thickness> thicknesses{{"coupled", Thickness::coupled}, {"explicit", Thickness::as_started}};
+const Names<Shell> shells{{"mid-edge", Shell::mid_edge},
+                          {"arcs", Shell::arcs},
+                          {"hinge", Shell::hinge},
+                          {"hinge-paper", Shell::hinge_paper},
+                          {"none", Shell::none}};
+const Names<Pattern> patterns{
     {"structured", Pattern::structured}, {"equilateral", Pattern::equilateral}, {"irregular", Pattern::irregular}};
 
 template <class T> T parse(const Names<T>& names, const std::string& option, const std::string& word) {
@@ -61,13 +61,13 @@ void assign(Settings& s, const std::string& option, const std::string& word) {
   else if (option == "seed")
     s.seed = static_cast<std::uint64_t>(number(option, word));
   else if (option == "scheme")
-    s.scheme = parse(kSchemes, option, word);
+    s.scheme = parse(schemes, option, word);
   else if (option == "thickness")
-    s.thickness = parse(kThicknesses, option, word);
+    s.thickness = parse(thicknesses, option, word);
   else if (option == "bending")
-    s.bending = parse(kShells, option, word);
+    s.bending = parse(shells, option, word);
   else if (option == "pattern")
-    s.pattern = parse(kPatterns, option, word);
+    s.pattern = parse(patterns, option, word);
   else
     fail(ExitCode::usage, "there is no option --{}", option);
 }
@@ -81,8 +81,8 @@ std::string header(bool times) {
 std::string row(const Case& c, const Settings& s, const Result& r, bool times) {
   std::string line =
       fmt::format("{}\t{}\t{:.6g}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.4g}\t{:.9g}\t{:.4e}\t{}\t{}", c.name, s.set, s.edge,
-                  r.steps, print(kSchemes, s.scheme), print(kThicknesses, s.thickness), print(kShells, s.bending),
-                  print(kPatterns, s.pattern), s.seed, r.vertices, r.edge, r.value, r.error, r.iterations, r.failed);
+                  r.steps, print(schemes, s.scheme), print(thicknesses, s.thickness), print(shells, s.bending),
+                  print(patterns, s.pattern), s.seed, r.vertices, r.edge, r.value, r.error, r.iterations, r.failed);
   if (times)
     line += fmt::format("\t{:.4g}", r.seconds);
   line += '\t';

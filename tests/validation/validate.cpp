@@ -14,7 +14,7 @@ using namespace sheet::validation;
 
 namespace {
 
-constexpr const char* kUsage =
+constexpr const char* usage_text =
     "validate --list                      the cases, their sets and default sizes\n"
     "validate CASE... [options]           rows of results; lists (1,2,3) are swept, each combination\n"
     "  --set N  --edge X (over the case's length)  --steps N  --scheme sdirk2|backward-euler\n"
@@ -96,7 +96,7 @@ int run_tool(const std::vector<std::string>& arguments) {
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     const std::string& a = arguments[k];
     if (a == "--help" || a == "--list") {
-      a == "--help" ? void(std::fputs(kUsage, stdout)) : list_cases();
+      a == "--help" ? void(std::fputs(usage_text, stdout)) : list_cases();
       return 0;
     }
     if (a == "--no-times")

@@ -25,7 +25,7 @@ class Camera {
 
   fit(center, radius) {
     this.target = center;
-    this.distance = 0.8 * radius / Math.sin(Camera.fieldOfView / 2);
+    this.distance = 0.92 * radius / Math.sin(Camera.fieldOfView / 2);
   }
 
   turn(x, y) {

@@ -93,7 +93,8 @@ class Canvas {
     this.cutting = Boolean(cut);
   }
 
-  // how: side (1, -1, 0), colour (if it is one for all, 0 to 1), lines, cut, shine, lit, reach, cull
+  // how: side (1, -1, 0), colour (if it is one for all, 0 to 1), lines, cut, shine, lit, reach, cull, behind (what
+  // lies in the same place)
   draw(uploaded, how) {
     if (!uploaded || uploaded.count === 0)
       return;
@@ -110,7 +111,7 @@ class Canvas {
     see ? gl.enable(gl.BLEND) : gl.disable(gl.BLEND);
     gl.depthMask(!see);
     how.lines ? gl.disable(gl.POLYGON_OFFSET_FILL) : gl.enable(gl.POLYGON_OFFSET_FILL);
-    gl.polygonOffset(1, 1);
+    gl.polygonOffset(...(how.behind ? [3, 6] : [1, 1]));
     how.cull ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
     gl.cullFace(how.cull === "front" ? gl.FRONT : gl.BACK);
     gl.drawElements(how.lines ? gl.LINES : gl.TRIANGLES, uploaded.count, gl.UNSIGNED_INT, 0);

@@ -108,7 +108,7 @@ function drawStream(i) {
   if (state.solids)
     for (const {kind, number, uploaded} of kept.around)
       if (kind === "solid")
-        canvas.draw(uploaded, {colour: [...solidColours[number % 4], 1], cut: true});
+        canvas.draw(uploaded, {colour: [...solidColours[number % 4], 1], behind: true});
   canvas.draw(kept.sheet, {side: 1, cull: state.cut ? null : "back", shine});
   canvas.draw(kept.sheet, {side: -1, cull: state.cut ? null : "front", shine});
   canvas.draw(kept.wall, {shine});
@@ -120,7 +120,7 @@ function drawStream(i) {
   if (state.solids)
     for (const {kind, uploaded} of kept.around)
       if (kind !== "solid")
-        canvas.draw(uploaded, {colour: aroundColours[kind], reach: 2.2 * radius, cut: false});
+        canvas.draw(uploaded, {colour: aroundColours[kind], reach: 2.2 * radius, cut: false, behind: true});
 }
 
 function draw() {

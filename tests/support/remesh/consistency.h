@@ -11,7 +11,6 @@ namespace sheet::test {
 
 inline void expect_consistent(const remesh::Mesh& mesh) {
   using remesh::Mesh;
-  using remesh::none;
   std::vector<std::size_t> corner_count(mesh.vertex_slots(), 0);
   std::set<std::pair<std::uint32_t, std::uint32_t>> directed;
   std::size_t triangles = 0;
@@ -25,7 +24,7 @@ inline void expect_consistent(const remesh::Mesh& mesh) {
       EXPECT_TRUE(mesh.has_vertex(from)) << from;
       EXPECT_NE(from, to);
       EXPECT_TRUE(directed.insert({from, to}).second) << from << " to " << to << " twice";
-      if (twin == none)
+      if (twin == no_index)
         continue;
       EXPECT_EQ(mesh.twin(twin), side);
       EXPECT_EQ(mesh.from(twin), to);
@@ -36,7 +35,8 @@ inline void expect_consistent(const remesh::Mesh& mesh) {
   EXPECT_EQ(mesh.triangle_count(), triangles);
   for (const auto& [from, to] : directed)
     if (directed.contains({to, from})) {
-      EXPECT_NE(mesh.twin(mesh.find_side(from, to)), none) << from << ", " << to << " is open though both sides exist";
+      EXPECT_NE(mesh.twin(mesh.find_side(from, to)), no_index)
+          << from << ", " << to << " is open though both sides exist";
     }
   for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
     if (!mesh.has_vertex(v))
@@ -45,7 +45,7 @@ inline void expect_consistent(const remesh::Mesh& mesh) {
     bool rim = false;
     mesh.for_fan(v, [&](std::uint32_t side) {
       EXPECT_EQ(mesh.from(side), v);
-      rim = rim || mesh.twin(side) == none;
+      rim = rim || mesh.twin(side) == no_index;
     });
     EXPECT_EQ(mesh.on_rim(v), rim) << v;
   }

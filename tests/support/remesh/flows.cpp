@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "libsheet/shape/shapes.h"
@@ -13,7 +14,7 @@ namespace sheet::test {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 Vector3 runge_kutta(const Flow& flow, const Vector3& x, double t, double dt) {
   const Vector3 a = flow.velocity(x, t), b = flow.velocity(x + dt / 2 * a, t + dt / 2),

@@ -64,9 +64,9 @@ double stiffness_by_hinges(const State& s, std::uint32_t vertex) {
 
 TEST(FlatCaps, ResistPoppingOutAsHingesDo) {
   test::Mesh mesh = test::rectangle(1, 1, 8, 8, 0);
-  const std::uint32_t apex = 41;    // of four triangles, each with its longest edge opposite
-  constexpr double kHeight = 0.004; // over an edge of 0.18
-  const double shift = (std::sqrt(0.5) / 8 - kHeight) * std::sqrt(0.5);
+  const std::uint32_t apex = 41;   // of four triangles, each with its longest edge opposite
+  constexpr double height = 0.004; // over an edge of 0.18
+  const double shift = (std::sqrt(0.5) / 8 - height) * std::sqrt(0.5);
   mesh.positions[apex] += Vector3(shift, shift, 0);
   const State s = test::at_rest(mesh, 0.01);
   // Without what the shell adds for caps: 0.0007.
@@ -82,7 +82,7 @@ State folded(double degrees) {
 
 bool on_rim(const State& s, std::size_t edge) {
   const auto& sides = s.mesh->edge_triangles[edge];
-  return sides[0] == kNone || sides[1] == kNone;
+  return sides[0] == no_index || sides[1] == no_index;
 }
 
 TEST(Folds, HoldTheirDirector) {

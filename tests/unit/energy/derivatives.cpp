@@ -206,7 +206,7 @@ TEST(Pressure, ActsAlongTheNormalsOfAnOpenSheet) {
   pressure.begin(stage);
   std::vector<Vector3> force(s.positions.size(), Vector3::Zero()), expected = force;
   for (std::size_t t = 0; t < s.mesh->triangles.size(); ++t) {
-    const Triangle& v = s.mesh->triangles[t];
+    const Corners& v = s.mesh->triangles[t];
     VectorN<9> u, g;
     MatrixN<9> h;
     u << s.positions[v[0]], s.positions[v[1]], s.positions[v[2]];
@@ -308,10 +308,9 @@ TEST(Derivatives, Contact) {
                        random.vector(1).normalized(),
                        0.1,
                        random.vector(0.1),
-                       3,
-                       2,
-                       true});
-  check(Contact(springs), {true, false});
+                       {3, 2}});
+  check(Contact(springs, true), {true, false});
+  check(Contact(springs, false), {true, false});
 }
 
 } // namespace

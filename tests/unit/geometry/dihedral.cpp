@@ -34,7 +34,7 @@ TEST(Metric, DissipationIsTraceOfSquarePlusSquareOfTrace) {
 }
 
 TEST(Connectivity, TwoTriangles) {
-  const std::vector<Triangle> triangles{{0, 1, 2}, {2, 1, 3}};
+  const std::vector<Corners> triangles{{0, 1, 2}, {2, 1, 3}};
   const Connectivity c = connect(4, triangles);
   ASSERT_EQ(c.edges.size(), 5U);
   EXPECT_EQ(c.edges[0], (Edge{0, 1}));
@@ -47,7 +47,7 @@ TEST(Connectivity, TwoTriangles) {
 }
 
 TEST(Connectivity, RefusesWhatIsNoSurface) {
-  const auto refused = [](std::vector<Triangle> t) {
+  const auto refused = [](std::vector<Corners> t) {
     try {
       (void)connect(5, t);
     } catch (const Error& e) {

@@ -86,10 +86,10 @@ TEST(Check, ShapesThatTheFormatRefuses) {
       formats::make_array("volume", formats::Place::frame, formats::Type::text, 1, "1", formats::Transfer::copy, 0));
   EXPECT_EQ(kinds(frame), Kinds{"rule"});
   frame = triangle();
-  put_number(frame, "step_size", "s", -1);
+  put_number(frame, "step_size", -1);
   put_number(frame, "next_output_time", "m", 1);
   EXPECT_EQ(check(frame, {})[0].count, 2);
-  put_number(frame, "next_output_time", "s", std::numeric_limits<double>::infinity());
+  put_number(frame, "next_output_time", std::numeric_limits<double>::infinity());
   EXPECT_EQ(kinds(frame), (Kinds{"rule", "not_finite"}));
 }
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-target_link_libraries(unit_remesh PRIVATE remesh_support)
+target_link_libraries(unit_remesh PRIVATE remesh_support sheet_flow)

@@ -51,7 +51,7 @@ struct TwoSides {
   }
 };
 
-TEST(Smooth, takes_noise_away_and_keeps_edges_between_surfaces) {
+TEST(Smooth, TakesNoiseAwayAndKeepsEdgesBetweenSurfaces) {
   TwoSides sides(0.3F, [](int x) { return x < width / 2 ? 1U : 2U; });
   const double before = sides.error(0, width);
   smooth(sides.light, sides.points, sides.samples, width);
@@ -59,7 +59,7 @@ TEST(Smooth, takes_noise_away_and_keeps_edges_between_surfaces) {
   EXPECT_LT(sides.error(width / 2 - 1, width / 2 + 1), before / 4);
 }
 
-TEST(Smooth, keeps_an_edge_of_the_light_that_stands_out_of_the_noise) {
+TEST(Smooth, KeepsAnEdgeOfTheLightThatStandsOutOfTheNoise) {
   TwoSides sides(0.05F, [](int) { return 1U; });
   const double before = sides.error(0, width);
   smooth(sides.light, sides.points, sides.samples, width);
@@ -67,7 +67,7 @@ TEST(Smooth, keeps_an_edge_of_the_light_that_stands_out_of_the_noise) {
   EXPECT_LT(sides.error(width / 2 - 1, width / 2 + 1), before);
 }
 
-TEST(Smooth, leaves_light_alone_that_has_no_noise_or_no_surface) {
+TEST(Smooth, LeavesLightAloneThatHasNoNoiseOrNoSurface) {
   TwoSides sure(0, [](int) { return 1U; }), nothing(0.3F, [](int) { return 0U; });
   const std::vector<Halves> before = nothing.light;
   smooth(sure.light, sure.points, sure.samples, width);
@@ -129,7 +129,7 @@ double distance(const Picture& a, const Picture& b) { // in levels of 255
   return std::sqrt(squares / static_cast<double>(a.light.pixels.size()));
 }
 
-TEST(Denoised, is_nearer_to_the_truth_than_six_times_the_samples) {
+TEST(Denoised, IsNearerToTheTruthThanSixTimesTheSamples) {
   for (const std::size_t material : {0, 2, 4, 5}) { // chocolate, honey, glass, film
     const Still still(material, studio());
     const Picture truth = still.plain(128), rough = still.plain(24), denoised = still.denoised(4);
@@ -138,7 +138,7 @@ TEST(Denoised, is_nearer_to_the_truth_than_six_times_the_samples) {
   }
 }
 
-TEST(Denoised, neither_takes_nor_adds_light) {
+TEST(Denoised, NeitherTakesNorAddsLight) {
   for (std::size_t material = 0; material < liquid_names().size(); ++material) {
     const Still still(material, studio());
     const auto mean = [](const Picture& picture) {
@@ -151,7 +151,7 @@ TEST(Denoised, neither_takes_nor_adds_light) {
   }
 }
 
-TEST(Denoised, the_same_bits_for_any_number_of_threads) {
+TEST(Denoised, TheSameBitsForAnyNumberOfThreads) {
   const Still still(2, studio());
   std::vector<Colour> first;
   for (const int threads : {1, 2, 5}) {

@@ -17,7 +17,7 @@ Box box(const Vector3& low, const Vector3& high) {
   return b;
 }
 
-TEST(Camera, the_box_is_in_the_picture_and_fills_it) {
+TEST(Camera, TheBoxIsInThePictureAndFillsIt) {
   for (const double aspect : {0.5, 1.0, 16.0 / 9})
     for (const double azimuth : {-100.0, 0.0, 30.0})
       for (const double elevation : {-90.0, 0.0, 25.0, 90.0})
@@ -39,7 +39,7 @@ TEST(Camera, the_box_is_in_the_picture_and_fills_it) {
         }
 }
 
-TEST(Camera, grows_about_the_middle_and_looks_at_its_target) {
+TEST(Camera, GrowsAboutTheMiddleAndLooksAtItsTarget) {
   CameraOptions o;
   ViewFit fit(o, {0, 1, 0}, 1, {});
   fit.add({0, 0, 0}, 1);
@@ -56,14 +56,14 @@ TEST(Camera, grows_about_the_middle_and_looks_at_its_target) {
 }
 
 // A margin at one side moves the subject to the other, and no more.
-TEST(Camera, margins_are_kept_free_at_each_side) {
+TEST(Camera, MarginsAreKeptFreeAtEachSide) {
   const Box b = box({-1, -1, -1}, {1, 1, 1});
   for (const double aspect : {0.6, 2.0}) {
     const Margins margins{0.3, 0.02, 0.05, 0.1};
     ViewFit fit({}, Vector3::UnitY(), aspect, margins);
     for (int c = 0; c < 8; ++c)
       fit.add({(c & 1) != 0 ? 1.0 : -1, (c & 2) != 0 ? 1.0 : -1, (c & 4) != 0 ? 1.0 : -1}, 0);
-    const Camera camera = fit.camera(b.center(), 0);
+    const Camera camera = fit.camera(b.middle(), 0);
     const auto at_depth_1 = [&](double x, double y) {
       const Vector3 d = camera.direction(x, y).cast<double>();
       return Vector3(d / d.dot(camera.axis().cast<double>()));
@@ -89,7 +89,7 @@ TEST(Camera, margins_are_kept_free_at_each_side) {
   }
 }
 
-TEST(Camera, directions_are_upright) {
+TEST(Camera, DirectionsAreUpright) {
   const Camera camera({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 40, 2);
   const Vec middle = camera.direction(0.5, 0.5), upper = camera.direction(0.5, 0), right = camera.direction(1, 0.5);
   EXPECT_NEAR((middle - Vec(0, 0, -1)).norm(), 0, 1e-6);
@@ -100,7 +100,7 @@ TEST(Camera, directions_are_upright) {
   EXPECT_TRUE(camera.sees({0, 0, 1}));
 }
 
-TEST(Survey, solids_count_unless_they_are_large) {
+TEST(Survey, SolidsCountUnlessTheyAreLarge) {
   const formats::Frame frame = test::flat(2, 0.01);
   Scene scene;
   scene.solids.resize(1);
@@ -118,7 +118,7 @@ TEST(Survey, solids_count_unless_they_are_large) {
   EXPECT_TRUE(empty.scale().empty());
 }
 
-TEST(Survey, moving_solids_are_seen_where_they_are) {
+TEST(Survey, MovingSolidsAreSeenWhereTheyAre) {
   formats::Frame frame = test::flat(2, 0.01);
   frame.time = 2;
   Scene scene;
@@ -132,7 +132,7 @@ TEST(Survey, moving_solids_are_seen_where_they_are) {
   EXPECT_NEAR(survey.subject().box.high.y(), 1.1, 1e-4);
 }
 
-TEST(Ground, lies_below) {
+TEST(Ground, LiesBelow) {
   const Plane ground = ground_below(box({0, -1, 0}, {1, 1, 1}), {0, 0, 1});
   EXPECT_LT(ground.point.z(), 0);
   EXPECT_GT(ground.point.z(), -0.1);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-TEST(Sampler, each_pair_of_dimensions_is_a_net) {
+TEST(Sampler, EachPairOfDimensionsIsANet) {
   // 16 points: one in each of 16 columns, rows and 4 x 4 cells, in every pair, for every pixel.
   for (std::uint32_t pixel = 0; pixel < 20; ++pixel)
     for (int pair = 0; pair < 5; ++pair) {
@@ -34,7 +34,7 @@ TEST(Sampler, each_pair_of_dimensions_is_a_net) {
     }
 }
 
-TEST(Sampler, pixels_and_dimensions_are_unlike) {
+TEST(Sampler, PixelsAndDimensionsAreUnlike) {
   double correlation_pixels = 0, correlation_pairs = 0;
   constexpr int n = 4096;
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -62,7 +62,7 @@ std::vector<Lighting> lights() {
           Lighting::surroundings(bright_spot(), toward, Vec::UnitZ())};
 }
 
-TEST(Lighting, density_is_one_over_the_sphere_and_samples_follow_it) {
+TEST(Lighting, DensityIsOneOverTheSphereAndSamplesFollowIt) {
   for (const Lighting& light : lights()) {
     // Mean over the sphere of density, and of radiance by samples of the density and by an even grid.
     double whole = 0, grid = 0;
@@ -92,7 +92,7 @@ TEST(Lighting, density_is_one_over_the_sphere_and_samples_follow_it) {
   }
 }
 
-TEST(Lighting, an_image_stands_upright) {
+TEST(Lighting, AnImageStandsUpright) {
   Image image(64, 32);
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 64; ++x) // above red, right of the middle green
@@ -107,7 +107,7 @@ TEST(Lighting, an_image_stands_upright) {
   EXPECT_NEAR(down_left[1], 0, 1e-5);
 }
 
-TEST(Lighting, softened_light_keeps_its_amount) {
+TEST(Lighting, SoftenedLightKeepsItsAmount) {
   const Lighting light = Lighting::studio(Vec(0, 0.3F, 1).normalized(), Vec::UnitY());
   double sharp = 0, soft = 0, brightest = 0;
   constexpr int n = 1 << 18;

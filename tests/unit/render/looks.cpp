@@ -13,7 +13,7 @@
 namespace sheet::render {
 namespace {
 
-TEST(FalseColours, grow_lighter_and_stay_apart) {
+TEST(FalseColours, GrowLighterAndStayApart) {
   float before = -1;
   for (int i = 0; i <= 100; ++i) {
     const Colour c = false_colour(static_cast<float>(i) / 100, Look::thickness);
@@ -23,7 +23,7 @@ TEST(FalseColours, grow_lighter_and_stay_apart) {
   }
 }
 
-TEST(FalseColours, a_picture_tells_the_thickness_of_each_triangle) {
+TEST(FalseColours, APictureTellsTheThicknessOfEachTriangle) {
   // A sheet whose thickness grows in steps, seen from above: the colour of each pixel belongs to the triangle there.
   formats::Frame frame = test::flat(4, 0.01);
   for (std::size_t t = 0; t < frame.triangles; ++t)
@@ -54,7 +54,7 @@ TEST(FalseColours, a_picture_tells_the_thickness_of_each_triangle) {
   }
 }
 
-TEST(Curvature, of_a_ball_and_a_trough) {
+TEST(Curvature, OfABallAndATrough) {
   const auto middle_of = [](const formats::Frame& frame) {
     const Values v = values_of(frame, Look::curvature);
     return v.values[v.values.size() / 2];
@@ -64,7 +64,7 @@ TEST(Curvature, of_a_ball_and_a_trough) {
   EXPECT_NEAR(middle_of(test::flat(4, 0.01)), 0, 1e-12);
 }
 
-TEST(Ruler, round_values_in_fitting_units) {
+TEST(Ruler, RoundValuesInFittingUnits) {
   const Ruler thickness = make_ruler({0.00133, 0.00271}, Look::thickness, 5);
   EXPECT_EQ(thickness.title, "thickness [mm]");
   ASSERT_EQ(thickness.ticks.size(), 3U);
@@ -78,7 +78,7 @@ TEST(Ruler, round_values_in_fitting_units) {
   EXPECT_EQ(make_ruler({0, 3e-6}, Look::speed, 4).title, "speed [\xb5m/s]");
 }
 
-TEST(Scale, is_never_without_width) {
+TEST(Scale, IsNeverWithoutWidth) {
   for (const Look look : {Look::thickness, Look::curvature, Look::speed, Look::contacts})
     for (const Scale& scale : {Scale{0, 0}, Scale{0.02, 0.02 * (1 + 1e-12)}, Scale::nothing()}) {
       const Scale wide = widened(scale, look);
@@ -87,7 +87,7 @@ TEST(Scale, is_never_without_width) {
     }
 }
 
-TEST(ScaleBar, stands_beside_the_subject) {
+TEST(ScaleBar, StandsBesideTheSubject) {
   for (const auto& [w, h] : {std::pair{320, 180}, {640, 360}, {1280, 720}, {500, 900}}) {
     Bitmap bitmap(w, h);
     ASSERT_TRUE(has_room_for_scale(w, h));
@@ -108,7 +108,7 @@ TEST(ScaleBar, stands_beside_the_subject) {
   EXPECT_FALSE(has_room_for_scale(128, 72));
 }
 
-TEST(ScaleBar, is_drawn_into_small_pictures_without_harm) {
+TEST(ScaleBar, IsDrawnIntoSmallPicturesWithoutHarm) {
   for (const auto& [w, h] : {std::pair{1, 1}, {30, 20}, {640, 360}}) {
     Bitmap bitmap(w, h);
     draw_scale(bitmap, {0.001, 0.002}, Look::thickness, 0.25);

@@ -69,7 +69,7 @@ SolidMesh matte_ball(double radius) {
   return make_solids(scene)[0];
 }
 
-TEST(WhiteFurnace, every_material_without_absorption_is_invisible) {
+TEST(WhiteFurnace, EveryMaterialWithoutAbsorptionIsInvisible) {
   for (std::size_t i = 0; i < liquid_names().size(); ++i) {
     Liquid liquid = preset(i);
     liquid.absorption.setZero();
@@ -78,7 +78,7 @@ TEST(WhiteFurnace, every_material_without_absorption_is_invisible) {
   }
 }
 
-TEST(WhiteFurnace, also_on_a_matte_solid_and_as_a_film) {
+TEST(WhiteFurnace, AlsoOnAMatteSolidAndAsAFilm) {
   for (const std::size_t i : {2, 3}) { // honey, batter
     Liquid liquid = preset(i);
     liquid.absorption.setZero();
@@ -89,7 +89,7 @@ TEST(WhiteFurnace, also_on_a_matte_solid_and_as_a_film) {
   }
 }
 
-TEST(BeerLambert, light_through_a_flat_slab) {
+TEST(BeerLambert, LightThroughAFlatSlab) {
   // Under even light what is seen of a clear slab is R + T; absorption 100 / m over 10 mm, straight and slanted.
   Liquid liquid{1.5F, {0, 100, 400}, Colour::Zero()};
   for (const double elevation : {90.0, 40.0}) {
@@ -109,7 +109,7 @@ TEST(BeerLambert, light_through_a_flat_slab) {
   }
 }
 
-TEST(Draw, the_same_bits_for_any_number_of_threads) {
+TEST(Draw, TheSameBitsForAnyNumberOfThreads) {
   std::vector<Colour> first;
   for (const int threads : {1, 2, 5}) {
     const ThreadLimit limit(threads);
@@ -122,7 +122,7 @@ TEST(Draw, the_same_bits_for_any_number_of_threads) {
   }
 }
 
-TEST(Draw, noise_is_what_another_picture_differs_by) {
+TEST(Draw, NoiseIsWhatAnotherPictureDiffersBy) {
   // The noise that a picture states against its distance from one with 64 times the samples.
   const Furnace f{test::trough(12, 0.03), {matte_ball(0.2)}};
   const Picture rough = draw_furnace(f, preset(3), 48, 16), fine = draw_furnace(f, preset(3), 48, 1024);

@@ -23,7 +23,7 @@ Image ramp(int w, int h) {
   return image;
 }
 
-TEST(Display, tone_curve) {
+TEST(Display, ToneCurve) {
   for (int i = 0; i < 256; ++i) {
     const float x = static_cast<float>(i) / 255;
     EXPECT_NEAR(encode_srgb(decode_srgb(x)), x, 1e-5);
@@ -34,7 +34,7 @@ TEST(Display, tone_curve) {
   EXPECT_LE(shoulder(1e6F), 1);
 }
 
-TEST(Png, goes_round) {
+TEST(Png, GoesRound) {
   const Image image = ramp(37, 20);
   const Bitmap bitmap = to_bitmap(image, Tone::plain);
   const Image again = decode_png(encode_png(bitmap), "ramp");
@@ -43,7 +43,7 @@ TEST(Png, goes_round) {
   EXPECT_EQ(same.bytes, bitmap.bytes);
 }
 
-TEST(Exr, goes_round_with_layers) {
+TEST(Exr, GoesRoundWithLayers) {
   Picture picture;
   picture.light = ramp(19, 30);
   const std::size_t n = picture.light.pixels.size();
@@ -58,7 +58,7 @@ TEST(Exr, goes_round_with_layers) {
     EXPECT_LT((again.pixels[i] - picture.light.pixels[i]).abs().maxCoeff(), 1e-3);
 }
 
-TEST(Decoders, refuse_what_is_no_picture) {
+TEST(Decoders, RefuseWhatIsNoPicture) {
   Picture picture;
   picture.light = ramp(8, 8);
   const std::string png = encode_png(to_bitmap(picture.light, Tone::plain)), exr = encode_exr(picture);
@@ -71,7 +71,7 @@ TEST(Decoders, refuse_what_is_no_picture) {
   EXPECT_THROW(static_cast<void>(read_picture("sky.jpg")), Error);
 }
 
-TEST(Y4m, knows_the_colours_of_the_standard) {
+TEST(Y4m, KnowsTheColoursOfTheStandard) {
   // 75 % bars of BT.601: R'G'B' 191 to Y' 180, and red to Cr 212 [ITU-R BT.801].
   Bitmap bitmap(3, 3);
   const auto fill_with = [&](std::uint8_t r, std::uint8_t g, std::uint8_t b) {
@@ -94,7 +94,7 @@ TEST(Y4m, knows_the_colours_of_the_standard) {
   EXPECT_EQ(y4m_header(640, 360, 29.97), "YUV4MPEG2 W640 H360 F29970:1000 Ip A1:1 C420jpeg\n");
 }
 
-TEST(WriteWhole, leaves_a_whole_file_or_none) {
+TEST(WriteWhole, LeavesAWholeFileOrNone) {
   const auto folder = std::filesystem::temp_directory_path() / "sheet_write_whole_test";
   std::filesystem::remove_all(folder);
   const std::string path = (folder / "deep" / "a.png").string();

@@ -68,7 +68,7 @@ inline Camera frame_box(const Box& box, const CameraOptions& options, const V& u
     fit.add(V((corner & 1) != 0 ? box.high.x() : box.low.x(), (corner & 2) != 0 ? box.high.y() : box.low.y(),
               (corner & 4) != 0 ? box.high.z() : box.low.z()),
             0);
-  return fit.camera(box.center(), 0);
+  return fit.camera(box.middle(), 0);
 }
 
 } // namespace sheet::render::test

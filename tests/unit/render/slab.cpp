@@ -12,7 +12,7 @@ Liquid liquid(float index, float absorption, float scattering) {
   return {index, Colour::Constant(absorption), Colour::Constant(scattering)};
 }
 
-TEST(Fresnel, known_angles) {
+TEST(Fresnel, KnownAngles) {
   for (const float n : {1.33F, 1.5F, 2.4F}) {
     const float normal = (n - 1) * (n - 1) / ((n + 1) * (n + 1));
     EXPECT_NEAR(fresnel(1, n).perpendicular, normal, 1e-6);
@@ -23,7 +23,7 @@ TEST(Fresnel, known_angles) {
   }
 }
 
-TEST(Fresnel, diffuse_internal_reflection) {
+TEST(Fresnel, DiffuseInternalReflection) {
   // Tabulated for n = 1.5 [Egan and Hilgeman 1979]: 0.5964 (external 0.0918).
   EXPECT_NEAR(internal_reflection(1.5F), 1 - (1 - 0.0918) / 2.25, 1e-4);
 }
@@ -42,7 +42,7 @@ std::pair<double, double> bounces(double face, double tau) {
   return {reflected, transmitted};
 }
 
-TEST(Slab, straight_light_is_beer_lambert_with_all_reflections) {
+TEST(Slab, StraightLightIsBeerLambertWithAllReflections) {
   for (const double n : {1.1, 1.5})
     for (const double mu : {1.0, 0.7, 0.3, 0.1})
       for (const double sigma : {0.0, 40.0, 600.0}) {
@@ -58,7 +58,7 @@ TEST(Slab, straight_light_is_beer_lambert_with_all_reflections) {
       }
 }
 
-TEST(Slab, without_absorption_all_light_leaves) {
+TEST(Slab, WithoutAbsorptionAllLightLeaves) {
   for (const float scattering : {0.0F, 1.0F, 300.0F, 2e4F, 1e7F})
     for (const float h : {1e-7F, 1e-4F, 3e-3F, 0.1F, 2.0F})
       for (const float mu : {1.0F, 0.5F, 0.05F, 1e-4F}) {
@@ -70,7 +70,7 @@ TEST(Slab, without_absorption_all_light_leaves) {
       }
 }
 
-TEST(Slab, gains_nothing_and_absorbs_more_where_it_is_thicker) {
+TEST(Slab, GainsNothingAndAbsorbsMoreWhereItIsThicker) {
   const Slab slab(preset(1));
   double before = 2;
   for (const float h : {1e-5F, 1e-4F, 1e-3F, 1e-2F, 1e-1F}) {
@@ -115,7 +115,7 @@ std::pair<double, double> two_stream_by_cells(double sigma_a, double sigma_s, do
   return {(1 - r) * start, (1 - r) * (i0 + start * i1)};
 }
 
-TEST(Slab, scattered_light_solves_the_two_stream_equations) {
+TEST(Slab, ScatteredLightSolvesTheTwoStreamEquations) {
   const double r = internal_reflection(1.5F);
   for (const double sigma_a : {0.0, 0.3, 5.0, 50.0, 200.0})
     for (const double sigma_s : {1.0, 80.0, 700.0})
@@ -128,7 +128,7 @@ TEST(Slab, scattered_light_solves_the_two_stream_equations) {
       }
 }
 
-TEST(Slab, mean_coupling) {
+TEST(Slab, MeanCoupling) {
   const Slab slab(preset(2));
   double sum = 0;
   constexpr int n = 20000;
@@ -139,7 +139,7 @@ TEST(Slab, mean_coupling) {
   EXPECT_NEAR(slab.diffuse(0.004F).mean_coupled[1], sum, 1e-4 * sum);
 }
 
-TEST(DiffuseTable, agrees_between_its_entries) {
+TEST(DiffuseTable, AgreesBetweenItsEntries) {
   const Slab slab(preset(2));
   const DiffuseTable table(slab, 1e-4F, 1e-2F);
   for (float h = 1e-4F; h <= 1e-2F; h *= 1.37F) {

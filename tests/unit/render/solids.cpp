@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-TEST(Solids, have_their_volume_and_face_outwards) {
+TEST(Solids, HaveTheirVolumeAndFaceOutwards) {
   const std::pair<scene::SolidShape, double> cases[] = {{scene::Sphere{0.5}, 4 * pi / 3 * 0.125},
                                                         {scene::SolidBox{{1, 2, 3}}, 6},
                                                         {scene::Capsule{0.5, 2}, 4 * pi / 3 * 0.125 + pi * 0.25 * 2},
@@ -38,7 +38,7 @@ TEST(Solids, have_their_volume_and_face_outwards) {
   }
 }
 
-TEST(Solids, planes_move_with_their_motion) {
+TEST(Solids, PlanesMoveWithTheirMotion) {
   Scene scene;
   scene.solids.resize(2);
   scene.solids[1].shape = scene::HalfSpace{{0, 0, 2}};
@@ -55,7 +55,7 @@ TEST(Solids, planes_move_with_their_motion) {
 }
 
 // A cube's faces are flat, what is only a facet of something round is smooth.
-TEST(Solids, meshes_have_creases) {
+TEST(Solids, MeshesHaveCreases) {
   const std::string file = testing::TempDir() + "creases.obj";
   std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
                          "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\n"
@@ -84,7 +84,7 @@ TEST(Solids, meshes_have_creases) {
   EXPECT_EQ(ridge, 2);
 }
 
-TEST(Solids, a_missing_file_is_named) {
+TEST(Solids, AMissingFileIsNamed) {
   Scene scene;
   scene.solids.resize(2);
   scene.solids[1].shape = scene::SolidMesh{"nowhere.off", 1, {}};

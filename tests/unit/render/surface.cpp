@@ -32,7 +32,7 @@ bool is_closed(const Surface& s) {
   return true;
 }
 
-TEST(Surface, a_flat_sheet_has_its_volume_and_half_a_rod_for_a_rim) {
+TEST(Surface, AFlatSheetHasItsVolumeAndHalfARodForARim) {
   const double h = 0.02;
   const Surface s = make_surface(test::flat(8, h), 1e-4);
   EXPECT_TRUE(s.closed);
@@ -45,12 +45,12 @@ TEST(Surface, a_flat_sheet_has_its_volume_and_half_a_rod_for_a_rim) {
     EXPECT_NEAR(x, h, 1e-8);
 }
 
-TEST(Surface, curved_sheets_are_closed_too) {
+TEST(Surface, CurvedSheetsAreClosedToo) {
   for (const formats::Frame& frame : {test::trough(10, 0.05), test::ball(16, 0.03), test::flat(1, 0.1)})
     EXPECT_TRUE(is_closed(make_surface(frame, 1e-4)));
 }
 
-TEST(Surface, normals_point_out_of_the_triangles) {
+TEST(Surface, NormalsPointOutOfTheTriangles) {
   const Surface s = make_surface(test::trough(24, 0.01), 1e-4);
   for (const Corners& t : s.triangles) {
     const Vector3 n = (s.positions[t[1]] - s.positions[t[0]]).cross(s.positions[t[2]] - s.positions[t[0]]).normalized();
@@ -59,13 +59,13 @@ TEST(Surface, normals_point_out_of_the_triangles) {
   }
 }
 
-TEST(Surface, thin_sheets_are_drawn_as_their_middle) {
+TEST(Surface, ThinSheetsAreDrawnAsTheirMiddle) {
   const Surface s = make_surface(test::flat(4, 1e-6), 1e-4);
   EXPECT_FALSE(s.closed);
   EXPECT_EQ(s.triangles.size(), 32U);
 }
 
-TEST(Surface, triangles_without_area_and_pinches_do_no_harm) {
+TEST(Surface, TrianglesWithoutAreaAndPinchesDoNoHarm) {
   using V = Vector3;
   // Two triangles that meet at one vertex, and one without area.
   const std::vector<V> x = {V(0, 0, 0), V(1, 0, 0), V(0, 1, 0), V(-1, 0, 0), V(0, -1, 0), V(2, 0, 0)};

@@ -2,6 +2,7 @@
 #include "libsheet/scene/explain.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ TEST(Explain, NumbersByTheirFormulas) {
   EXPECT_DOUBLE_EQ(scale(e, "t_f"), std::sqrt(0.1));
   EXPECT_DOUBLE_EQ(scale(e, "t_c"), 100 * 0.02 / 0.05);
   EXPECT_DOUBLE_EQ(scale(e, "t_p"), 0);
-  EXPECT_DOUBLE_EQ(scale(e, "lambda"), 2 * M_PI * std::sqrt((4 * 100 * 0.02 * V - 0.1) / (2 * 2000 * 10)));
+  EXPECT_DOUBLE_EQ(scale(e, "lambda"), 2 * std::numbers::pi * std::sqrt((4 * 100 * 0.02 * V - 0.1) / (2 * 2000 * 10)));
   EXPECT_DOUBLE_EQ(number(e, "thickness to length")->value, 0.02);
   EXPECT_DOUBLE_EQ(number(e, "bending to stretching")->value, 0.0004);
   EXPECT_DOUBLE_EQ(number(e, "Reynolds")->value, 1000 * V / 100);
@@ -74,7 +75,7 @@ TEST(Explain, NumbersByTheirFormulas) {
   EXPECT_DOUBLE_EQ(number(e, "Bond")->value, 1000 * 10 / 0.05);
   EXPECT_DOUBLE_EQ(number(e, "Bond of the bath")->value, 2000 * 10 / 0.05);
   EXPECT_DOUBLE_EQ(number(e, "density to the bath's")->value, 0.5);
-  EXPECT_NEAR(number(e, "buckling")->value, 12 * 2500 / (M_PI * M_PI), 1e-9);
+  EXPECT_NEAR(number(e, "buckling")->value, 12 * 2500 / (std::numbers::pi * std::numbers::pi), 1e-9);
   EXPECT_EQ(number(e, "capillary")->meaning,
             "In the sheet viscous stress rules over surface tension. (mu V h / (gamma L) = 130)");
   EXPECT_EQ(number(e, "Bond")->meaning, "In the sheet weight rules over surface tension. (rho g L h / gamma = 4e+03)");

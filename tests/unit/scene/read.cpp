@@ -37,7 +37,7 @@ TEST(Read, EveryTable) {
   const auto& turning = std::get<Rotating>(s.holds[0].motion);
   EXPECT_EQ(turning.center, Vector3d(0, 1, 0)); // the sheet's
   EXPECT_EQ(turning.rate.entries[1], (Timed<double>::Entry{5, 0.3}));
-  EXPECT_EQ(s.holds[1].axes, (std::array{true, false, true}));
+  EXPECT_EQ(s.holds[1].axes, axis_bit(0) | axis_bit(2));
   EXPECT_EQ(s.holds[1].until, 2);
   EXPECT_EQ(std::get<Translating>(s.holds[1].motion).velocity.entries[1].value, Vector3d(0, 0, 0.4));
   EXPECT_EQ(std::get<SphereRegion>(s.holds[2].region).radius, 0.01);

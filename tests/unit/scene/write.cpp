@@ -182,7 +182,7 @@ private:
     if (s.model.bending && below(2))
       h.clamped = true;
     else if (!std::holds_alternative<Rotating>(h.motion))
-      h.axes = {true, below(2) == 1, below(2) == 1};
+      h.axes = static_cast<Axes>(axis_bit(0) | below(2) * axis_bit(1) | below(2) * axis_bit(2));
     h.until = maybe_positive();
     return h;
   }

@@ -14,7 +14,7 @@ namespace {
 
 double area(const State& s) {
   double sum = 0;
-  for (const Triangle& t : s.mesh->triangles)
+  for (const Corners& t : s.mesh->triangles)
     sum += 0.5 * std::sqrt(form_determinant(squared_lengths(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]])));
   return sum;
 }
@@ -119,7 +119,7 @@ TEST(Strip, SagsInPlaneStrain) {
       m.inertia = false;
       m.bending = Bending::mid_edge;
       Hold sides, ends;
-      sides.axes = {false, true, false};
+      sides.axes = axis_bit(1);
       for (std::uint32_t v = 0; v < s.positions.size(); ++v) {
         const Vector3& x = s.positions[v];
         if (x.y() == 0 || x.y() == 0.125)

@@ -9,6 +9,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/parallel.h"
 #include "libsheet/solve/step.h"
+#include "tests/support/holds.h"
 #include "tests/support/meshes.h"
 
 namespace sheet {
@@ -30,13 +31,7 @@ Hold turning(const State& s, double rate) {
   for (std::uint32_t v = 0; v < s.positions.size(); ++v)
     if (s.positions[v].x() == 0)
       hold.vertices.push_back(v);
-  const Vector3 axis = Vector3(1, 2, -0.5).normalized();
-  hold.motion = [=](double from, double to) {
-    RigidMotion m;
-    m.rotation = Eigen::AngleAxisd(rate * (to - from), axis).toRotationMatrix();
-    m.shift = Vector3(0.1, 0.2, 0.3) * (to - from);
-    return m;
-  };
+  test::move_steadily(hold, rate * Vector3(1, 2, -0.5).normalized(), {0.1, 0.2, 0.3});
   return hold;
 }
 
@@ -130,7 +125,7 @@ TEST(Units, MicrometresAndKilometres) {
     State s = dome(12);
     Model m = sagging();
     m.holds.push_back(turning(s, 0));
-    m.holds[0].motion = nullptr;
+    test::move_steadily(m.holds[0], Vector3::Zero());
     for (Vector3& x : s.positions)
       x *= l;
     for (double& v : s.volumes)

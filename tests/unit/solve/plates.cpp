@@ -26,14 +26,14 @@ Hold rim(const State& s, bool clamped) {
   return hold;
 }
 
-constexpr double kViscosity = 100, kThickness = 0.02, kDensity = 1000, kGravity = 9.81;
-const double kD = kViscosity * std::pow(kThickness, 3) / 3, kLoad = kDensity * kGravity * kThickness;
+constexpr double mu = 100, plate_thickness = 0.02, rho = 1000, standard_gravity = 9.81;
+const double flexural = mu * std::pow(plate_thickness, 3) / 3, load = rho * standard_gravity * plate_thickness;
 
 Model plate(Bending bending) {
   Model m;
-  m.viscosity = kViscosity;
-  m.density = kDensity;
-  m.gravity = {0, 0, -kGravity};
+  m.viscosity = mu;
+  m.density = rho;
+  m.gravity = {0, 0, -standard_gravity};
   m.inertia = false;
   m.bending = bending;
   return m;
@@ -41,11 +41,11 @@ Model plate(Bending bending) {
 
 // Velocity of the disk's centre over the exact one.
 double disk_ratio(int rings, bool clamped, Bending bending, bool arcs = false) {
-  State s = test::at_rest(test::disk(1, rings, 0.2), kThickness);
+  State s = test::at_rest(test::disk(1, rings, 0.2), plate_thickness);
   Model m = plate(bending);
   m.arcs = arcs;
   m.holds.push_back(rim(s, clamped));
-  const double exact = kLoad / (64 * kD) * (clamped ? 1 : 5.5 / 1.5);
+  const double exact = load / (64 * flexural) * (clamped ? 1 : 5.5 / 1.5);
   const double dt = 1e-5 / exact; // moves by 1e-5 of the radius
   Stepper stepper(m, {});
   const StepReport r = stepper.step(s, dt);

@@ -10,6 +10,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/solve/step.h"
+#include "tests/support/holds.h"
 #include "tests/support/meshes.h"
 
 namespace sheet {
@@ -115,11 +116,7 @@ TEST(HardCases, CompressedInOneStep) {
     Model m = sagging(s);
     m.holds = {held(s, [](const Vector3& x) { return x.x() == 0; }),
                held(s, [](const Vector3& x) { return x.x() == 1; })};
-    m.holds[1].motion = [=](double from, double to) {
-      RigidMotion r;
-      r.shift = Vector3(left - 1, 0, 0) * (to - from) / 0.1;
-      return r;
-    };
+    test::move_steadily(m.holds[1], Vector3::Zero(), {(left - 1) / 0.1, 0, 0});
     State end = s;
     Stepper stepper(m, {});
     const StepReport r = stepper.step(end, 0.1);
@@ -136,7 +133,7 @@ TEST(HardCases, NothingToDo) {
   Model m = sagging(s);
   m.viscosity = m.density = 1;
   m.gravity.setZero();
-  m.holds[0].motion = [](double from, double to) { return RigidMotion{.shift = {0, from - to, 0}}; };
+  test::move_steadily(m.holds[0], Vector3::Zero(), {0, -1, 0});
   EXPECT_LE(expect_done(s, m, 0.25, 20), 20 * 4);
 }
 
@@ -267,7 +264,7 @@ TEST(HardCases, FreeDiskInStepsOfFiveTimesItsOwnTime) {
   const StepReport r = Stepper(m, {}).step(s, 10);
   EXPECT_GT(r.substeps, 1);
   double area = 0;
-  for (const Triangle& t : s.mesh->triangles)
+  for (const Corners& t : s.mesh->triangles)
     area += TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area;
   EXPECT_GT(area, 0.15 * std::numbers::pi); // exact: 0.23 (V8)
 }
@@ -289,7 +286,7 @@ TEST(Contact, CarriesTheWeight) {
   const auto triangles = mesh.triangles;
   for (std::size_t v = 0; v < n; ++v)
     mesh.positions.push_back(mesh.positions[v] + Vector3(0, 0, 0.1));
-  for (Triangle t : triangles) {
+  for (Corners t : triangles) {
     for (auto& v : t)
       v += static_cast<std::uint32_t>(n);
     mesh.triangles.push_back(t);
@@ -301,12 +298,12 @@ TEST(Contact, CarriesTheWeight) {
   m.gravity = {0, 0, -10};
   m.holds.push_back(held(s, [](const Vector3& x) { return x.z() == 0; }));
   constexpr double stiffness = 1e4;
-  for (const Triangle& t : triangles)
+  for (const Corners& t : triangles)
     for (const auto v : t)
       m.contacts.push_back({.vertices = {v + static_cast<std::uint32_t>(n), t[0], t[1], t[2]},
                             .weights = {1, v == t[0] ? -1.0 : 0.0, v == t[1] ? -1.0 : 0.0, v == t[2] ? -1.0 : 0.0},
                             .rest = 0.1,
-                            .normal_stiffness = stiffness});
+                            .stiffness = {stiffness, 0}});
   Model free = m;
   free.contacts.clear();
   Stepper stepper(free, {});

@@ -53,16 +53,16 @@ struct SchemeCase {
   int steps; // of the coarsest of three runs, each with twice the steps
   double least_order;
 };
-const SchemeCase kSchemes[] = {{Scheme::sdirk2, 20, 1.9}, {Scheme::backward_euler, 160, 0.95}};
+const SchemeCase schemes[] = {{Scheme::sdirk2, 20, 1.9}, {Scheme::backward_euler, 160, 0.95}};
 
-constexpr double kBlowUp = 4 * 0.1 * 0.1 / 0.1; // 4 μ h0/(p r0) [s]
+constexpr double blow_up = 4 * 0.1 * 0.1 / 0.1; // 4 μ h0/(p r0) [s]
 
 TEST(Balloon, TimeOrder) {
   for (const auto kind : {PressureLaw::Kind::constant, PressureLaw::Kind::inverse_square})
-    for (const SchemeCase& c : kSchemes) {
+    for (const SchemeCase& c : schemes) {
       double r[3];
       for (int k = 0; k < 3; ++k)
-        r[k] = run(balloon(kind), c.scheme, sphere(1, 0.1), 0.8 * kBlowUp, c.steps << k);
+        r[k] = run(balloon(kind), c.scheme, sphere(1, 0.1), 0.8 * blow_up, c.steps << k);
       EXPECT_GE(order(r[0], r[1], r[2]), c.least_order);
     }
 }
@@ -71,7 +71,7 @@ TEST(Balloon, TimeOrder) {
 TEST(Balloon, ExplicitThicknessIsOfFirstOrder) {
   double r[3];
   for (int k = 0; k < 3; ++k)
-    r[k] = run(balloon(PressureLaw::Kind::constant), Scheme::sdirk2, sphere(1, 0.1), 0.8 * kBlowUp, 40 << k,
+    r[k] = run(balloon(PressureLaw::Kind::constant), Scheme::sdirk2, sphere(1, 0.1), 0.8 * blow_up, 40 << k,
                Thickness::as_started);
   EXPECT_LT(order(r[0], r[1], r[2]), 1.3);
   EXPECT_GT(order(r[0], r[1], r[2]), 0.8);
@@ -84,7 +84,7 @@ TEST(Balloon, SpaceOrderAndRadius) {
     const double exact = constant ? std::pow(1 - 0.5, -1.0 / 3) : 1 / (1 - 0.5 / 3);
     double e[3];
     for (int l = 1; l <= 3; ++l)
-      e[l - 1] = run(balloon(kind), Scheme::sdirk2, sphere(l, 0.1), 0.5 * kBlowUp, 40) / exact - 1;
+      e[l - 1] = run(balloon(kind), Scheme::sdirk2, sphere(l, 0.1), 0.5 * blow_up, 40) / exact - 1;
     std::printf("V%d levels 1 2 3: errors %.5f %.5f %.5f\n", constant ? 1 : 2, e[0], e[1], e[2]);
     EXPECT_LT(std::abs(e[2]), 0.006); // 642 vertices
     EXPECT_GE(std::log2(std::abs(e[1] / e[2])), 1.85);
@@ -114,7 +114,7 @@ TEST(Balloon, DrainsThroughAHole) {
   std::printf("draining: r %.4f, levels 2 3: errors %.5f %.5f\n", low, e[0], e[1]);
   EXPECT_LT(std::abs(e[1]), 0.005);
   EXPECT_GE(std::log2(std::abs(e[0] / e[1])), 1.85);
-  for (const SchemeCase& c : kSchemes) {
+  for (const SchemeCase& c : schemes) {
     double r[3];
     for (int k = 0; k < 3; ++k)
       r[k] = run(m, c.scheme, sphere(1, h), until, c.steps << k);
@@ -139,7 +139,7 @@ TEST(Sphere, ContractsUnderSurfaceTension) {
     }
   }
   m.mass = Mass::lumped;
-  for (const SchemeCase& c : kSchemes) {
+  for (const SchemeCase& c : schemes) {
     double r[3];
     for (int k = 0; k < 3; ++k)
       r[k] = run(m, c.scheme, sphere(1, h), period, c.steps << k);

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/flow/emit.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/log.h"
+#include "libsheet/base/magnitudes.h"
+#include "libsheet/flow/inlet.h"
+#include "libsheet/flow/inlet_checks.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/scene/prescribed.h"
+#include "libsheet/sheet/account.h"
+#include "libsheet/sheet/carried_springs.h"
+#include "libsheet/sheet/directors.h"
+#include "libsheet/sheet/transfer.h"
+
+namespace sheet::flow {
+
+using formats::Frame;
+
+namespace {
+
+constexpr double shortest_strip = 0.5;  // rows
+constexpr double rounding = 1e-12;      // of a row: a strip that is that much too short is not
+constexpr double most_triangles = 1e7;  // that may enter at once
+constexpr double least_thickness = 0.2; // of a new triangle, over the strip's mean
+
+using Row = std::vector<std::uint32_t>; // a vertex for each of the border's
+
+class Emission {
+public:
+  Emission(Frame& frame, const scene::Inflow& inflow, const std::vector<InletChain>& chains)
+      : frame_(frame), old_(frame), inflow_(inflow), chains_(chains) {
+    const auto x = positions(old_);
+    const auto origins = frame.find("inlet_origin")->values<Vector3>();
+    const auto bits = masks(frame, "inlet");
+    x_.assign(x.begin(), x.end());
+    origins_.assign(origins.begin(), origins.end());
+    bits_.assign(bits.begin(), bits.end());
+    for (std::uint32_t v = 0; v < x_.size(); ++v)
+      vertices_.keep(v);
+    stays_.assign(frame.triangles, true);
+  }
+
+  Emitted run() {
+    const double row = row_length();
+    for (const InletChain& chain : chains_)
+      enter(chain, row);
+    release_others();
+    if (made_.empty() && !moved_)
+      return {};
+    put();
+    add_to_account(frame_, "emit.volume", "m^3", {&grown_, 1});
+    return {.volume = grown_, .rows = rows_};
+  }
+
+private:
+  struct Made {
+    Corners corners;
+    double volume = 0;
+    std::vector<Parent> parents = {};
+  };
+
+  [[nodiscard]] double row_length() const {
+    double length = 0;
+    std::size_t edges = 0;
+    for (const InletChain& chain : chains_)
+      for (std::size_t i = 0; i < chain.edges(); ++i, ++edges)
+        length += (origins_[chain.border[chain.after(i)]] - origins_[chain.border[i]]).norm();
+    return length / static_cast<double>(edges);
+  }
+
+  [[nodiscard]] static const Row& lowest(const InletChain& chain) {
+    return chain.row.empty() ? chain.border : chain.row;
+  }
+
+  // From where the border belongs to the lowest row.
+  [[nodiscard]] Vector3 way(const InletChain& chain, std::size_t i) const {
+    return x_[lowest(chain)[i]] - origins_[chain.border[i]];
+  }
+
+  // Its length, measured across the border: area over width.
+  [[nodiscard]] double gone(const InletChain& chain) const {
+    double area = 0, width = 0;
+    for (std::size_t i = 0; i < chain.edges(); ++i) {
+      const std::size_t j = chain.after(i);
+      const Vector3 edge = origins_[chain.border[j]] - origins_[chain.border[i]];
+      area += edge.cross(0.5 * (way(chain, i) + way(chain, j))).norm();
+      width += edge.norm();
+    }
+    return area / width;
+  }
+
+  void enter(const InletChain& chain, double row) {
+    const double length = gone(chain) / row;
+    const bool has_strip = !chain.row.empty();
+    if (!has_strip && length < shortest_strip - rounding)
+      return;
+    const double count = std::max(0.0, std::floor(length - shortest_strip + rounding));
+    if (2 * count * static_cast<double>(chain.edges()) > most_triangles)
+      fail(ExitCode::bad_input,
+           "the inlet has moved by {:.3g} rows of {:.3g} m since liquid last entered: take smaller steps, or a coarser "
+           "sheet",
+           length, row);
+    // The border's new vertices before those of the rows between: as if the rows had come one by one.
+    const Row border = has_strip ? chain.border : new_row(chain, 0);
+    std::vector<Row> rows = {lowest(chain)};
+    for (double k = 1; k <= count; ++k)
+      rows.push_back(new_row(chain, (length - k) / length));
+    rows.push_back(border);
+    if (has_strip)
+      put_back(chain);
+    if (rows.size() == 2 && has_strip)
+      return lengthen(chain);
+    mark(chain, rows);
+    fill(chain, rows);
+  }
+
+  void put_back(const InletChain& chain) {
+    for (const std::uint32_t v : chain.border) {
+      moved_ = moved_ || x_[v] != origins_[v];
+      x_[v] = origins_[v];
+    }
+  }
+
+  // What has entered through an edge of the border: the area that it has swept, thickness h.
+  [[nodiscard]] double entered(const InletChain& chain, std::size_t edge) const {
+    const std::uint32_t a = chain.border[edge], b = chain.border[chain.after(edge)];
+    const auto now = positions(old_);
+    return inflow_.thickness *
+           (TriangleArea(origins_[a], origins_[b], now[b]).area + TriangleArea(origins_[a], now[b], now[a]).area);
+  }
+
+  // The strip takes up what has entered.
+  void lengthen(const InletChain& chain) {
+    for (std::size_t i = 0; i < chain.edges(); ++i) {
+      const double enters = entered(chain, i);
+      if (!(enters > 0))
+        continue;
+      double area = 0, volume = enters;
+      for (const std::uint32_t t : chain.strip[i]) {
+        area += area_of(triangles(old_)[t]);
+        volume += volumes(old_)[t];
+      }
+      for (const std::uint32_t t : chain.strip[i])
+        lengthened_.emplace_back(t, volume / area * area_of(triangles(old_)[t]));
+      grown_ += enters;
+    }
+  }
+
+  // `part` of the way from the border's place to the lowest row.
+  Row new_row(const InletChain& chain, double part) {
+    Row row;
+    for (std::size_t i = 0; i < chain.border.size(); ++i) {
+      const Parent parent{chain.border[i], 1, 0};
+      const Vector3 origin = origins_[parent.row];
+      row.push_back(static_cast<std::uint32_t>(x_.size()));
+      vertices_.add({&parent, 1});
+      x_.emplace_back(origin + part * way(chain, i));
+      origins_.push_back(origin);
+      bits_.push_back(0);
+    }
+    ++rows_;
+    return row;
+  }
+
+  // The last row is the border, that before it the first one behind it.
+  void mark(const InletChain& chain, const std::vector<Row>& rows) {
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      for (std::size_t i = 0; i < chain.border.size(); ++i) {
+        const std::size_t from_border = rows.size() - 1 - r;
+        bits_[rows[r][i]] = from_border == 0 ? in_inlet | at_inlet_border : from_border == 1 ? behind_inlet : 0;
+      }
+  }
+
+  void fill(const InletChain& chain, const std::vector<Row>& rows) {
+    // The diagonals of neighbouring cells lean to and fro, going on from those of the strip.
+    const bool other_way = !chain.strip.empty() && !has_corner(triangles(old_)[chain.strip[0][0]], chain.row[1]);
+    const std::size_t first = made_.size();
+    for (std::size_t r = 0; r + 1 < rows.size(); ++r)
+      for (std::size_t i = 0; i < chain.edges(); ++i) {
+        const std::size_t j = chain.after(i);
+        const std::uint32_t a = rows[r][i], b = rows[r][j], above = rows[r + 1][i], above_next = rows[r + 1][j];
+        const double one = (x_[b] - x_[above]).norm(), other = (x_[a] - x_[above_next]).norm();
+        const bool alike = std::abs(one - other) < 1e-6 * one; // else the shorter one
+        if (alike ? ((i + r) % 2 == 0) != other_way : one < other) {
+          made_.push_back({{b, a, above}});
+          made_.push_back({{b, above, above_next}});
+        } else {
+          made_.push_back({{a, above, above_next}});
+          made_.push_back({{a, above_next, b}});
+        }
+      }
+    for (std::size_t i = 0; i < chain.edges(); ++i) {
+      std::vector<Made*> behind;
+      for (std::size_t k = first + 2 * i; k < made_.size(); k += 2 * chain.edges())
+        behind.insert(behind.end(), {&made_[k], &made_[k + 1]});
+      give_volumes(chain, i, behind);
+    }
+  }
+
+  // Volumes of the new triangles behind an edge of the border, and where the rest of what they carry comes from.
+  // Without a strip all have entered; else they share what the strip has and what has entered: thickness changes in
+  // proportion to the way from the border, where it is the inflow's.
+  void give_volumes(const InletChain& chain, std::size_t edge, std::span<Made* const> made) {
+    double sum = 0, left = 1;
+    if (chain.strip.empty()) {
+      for (Made* m : made) {
+        sum += m->volume = inflow_.thickness * area_of(m->corners);
+        m->parents = {{chain.behind[edge], 1, 0}};
+      }
+      grown_ += sum;
+      return;
+    }
+    const double enters = entered(chain, edge);
+    double volume = enters, area = 0, moment = 0;
+    for (const std::uint32_t t : chain.strip[edge]) {
+      volume += volumes(old_)[t];
+      stays_[t] = false;
+    }
+    std::vector<double> areas, ways;
+    for (const Made* m : made) {
+      areas.push_back(area_of(m->corners));
+      ways.push_back(way_of(chain, edge, m->corners));
+      area += areas.back();
+      moment += areas.back() * ways.back();
+    }
+    const double slope = (volume - inflow_.thickness * area) / moment;
+    for (std::size_t k = 0; k < made.size(); ++k)
+      sum += made[k]->volume =
+          areas[k] * std::max(inflow_.thickness + slope * ways[k], least_thickness * volume / area);
+    double others = 0;
+    for (Made* m : made) {
+      m->volume = m == made.back() ? volume - others : m->volume * (volume / sum);
+      others += m->volume;
+      const double share = m == made.back() ? left : m->volume / volume;
+      left -= share;
+      for (const std::uint32_t t : chain.strip[edge])
+        m->parents.push_back({t, 0.5, share});
+    }
+    grown_ += enters;
+  }
+
+  // Of a triangle's middle from the border, across it.
+  [[nodiscard]] double way_of(const InletChain& chain, std::size_t edge, const Corners& c) const {
+    const Vector3 a = origins_[chain.border[edge]], b = origins_[chain.border[chain.after(edge)]];
+    return (b - a).cross((x_[c[0]] + x_[c[1]] + x_[c[2]]) / 3 - a).norm() / (b - a).norm();
+  }
+
+  [[nodiscard]] double area_of(const Corners& c) const {
+    const double area = TriangleArea(x_[c[0]], x_[c[1]], x_[c[2]]).area;
+    if (!(area > 0))
+      fail(ExitCode::bad_input, "at the inlet, the triangle ({}, {}, {}) would get the area {} m^2", c[0], c[1], c[2],
+           area);
+    return area;
+  }
+
+  static bool has_corner(const Corners& c, std::uint32_t v) { return c[0] == v || c[1] == v || c[2] == v; }
+
+  // What is marked but belongs to no strip: somebody has remeshed it.
+  void release_others() {
+    std::vector<bool> keeps(frame_.vertices, false);
+    for (const InletChain& chain : chains_)
+      for (const Row* row : {&chain.border, &chain.row})
+        for (const std::uint32_t v : *row)
+          keeps[v] = true;
+    const auto bits = frame_.find("inlet")->values<std::uint64_t>();
+    for (std::size_t v = 0; v < bits.size(); ++v)
+      if (!keeps[v])
+        bits[v] = bits_[v] = 0;
+  }
+
+  void put() {
+    const CarriedSprings springs(frame_);
+    const Directors directors(frame_);
+    for (const auto& [t, volume] : lengthened_)
+      volumes(frame_)[t] = volume;
+    if (!made_.empty())
+      rebuild();
+    std::copy(x_.begin(), x_.end(), positions(frame_).begin());
+    frame_.erase("start_position"); // it was another border's
+    springs.put(frame_);
+    if (!made_.empty())
+      directors.put(vertices_, frame_);
+  }
+
+  void rebuild() {
+    const std::span<const Corners> old_corners = triangles(old_);
+    Lineage lineage;
+    std::vector<Corners> corners;
+    for (std::uint32_t t = 0; t < old_corners.size(); ++t)
+      if (stays_[t]) {
+        lineage.keep(t);
+        corners.push_back(old_corners[t]);
+      }
+    const std::size_t kept = corners.size();
+    for (const Made& made : made_) {
+      lineage.add(made.parents);
+      corners.push_back(made.corners);
+    }
+    const auto old_vertices = static_cast<std::ptrdiff_t>(frame_.vertices);
+    transfer_frame(frame_, vertices_, lineage, corners);
+    for (std::size_t k = 0; k < made_.size(); ++k)
+      volumes(frame_)[kept + k] = made_[k].volume;
+    std::copy(bits_.begin(), bits_.end(), frame_.find("inlet")->values<std::uint64_t>().begin());
+    std::copy(origins_.begin(), origins_.end(), frame_.find("inlet_origin")->values<Vector3>().begin());
+    const auto v = velocities(frame_);
+    std::fill(v.begin() + old_vertices, v.end(), scene::value_at(inflow_.velocity, frame_.time));
+  }
+
+  Frame& frame_;
+  const Frame& old_; // the same, to read
+  const scene::Inflow& inflow_;
+  const std::vector<InletChain>& chains_;
+  std::vector<Vector3> x_, origins_;
+  std::vector<std::uint64_t> bits_;
+  Lineage vertices_;
+  std::vector<bool> stays_; // for each old triangle
+  std::vector<Made> made_;
+  std::vector<std::pair<std::uint32_t, double>> lengthened_; // triangles and their new volumes
+  double grown_ = 0;
+  std::size_t rows_ = 0;
+  bool moved_ = false;
+};
+
+} // namespace
+
+Emitted emit(Frame& frame, const Scene& scene) {
+  const scene::Inflow& inflow = *scene.inflow;
+  const bool ended = !scene::in_force(inflow, frame.time);
+  if (frame.find("inlet") == nullptr) {
+    if (ended)
+      return {};
+    fail(ExitCode::bad_input, "the frame does not say where its inlet is (array \"inlet\"): make it with sheet-init");
+  }
+  const std::vector<InletChain> chains = find_inlet(frame);
+  Emitted result;
+  if (!ended)
+    check_inlet(frame, scene, chains);
+  if (!chains.empty())
+    result = Emission(frame, inflow, chains).run();
+  else if (!ended)
+    fail(ExitCode::bad_input, "the inlet is gone, so nothing can flow in: no edge of the sheet's border has both ends "
+                              "marked in the array \"inlet\"");
+  if (ended) {
+    frame.erase("inlet");
+    frame.erase("inlet_origin");
+  }
+  return result;
+}
+
+void EmitStage::emit(Frame& frame) {
+  check_magnitudes(frame);
+  const Scene& scene = scenes_.of(frame);
+  if (!scene.inflow)
+    return;
+  const Emitted emitted = flow::emit(frame, scene);
+  log::detail("step {}: {} m^3 entered, {} new rows of vertices", frame.step, emitted.volume, emitted.rows);
+}
+
+} // namespace sheet::flow

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/flow/inlet_checks.h"
+
+#include <Eigen/Geometry>
+
+#include "libsheet/base/error.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/scene/prescribed.h"
+
+namespace sheet::flow {
+
+using Eigen::Vector3d;
+using formats::Frame;
+
+namespace {
+
+constexpr double most_outward = 0.1; // of the speed: a border that is a little uneven may lean so much
+constexpr double least_across = 1e-6;
+
+void check_velocity(const Frame& frame, const InletChain& chain, double time, const Vector3d& velocity) {
+  const double speed = velocity.norm();
+  if (!(speed > 0))
+    return;
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  for (std::size_t i = 0; i < chain.edges(); ++i) {
+    const std::uint32_t a = chain.border[i], b = chain.border[chain.after(i)];
+    const Corners& c = corners[chain.behind[i]];
+    const Vector3d edge = x[b] - x[a];
+    const Vector3d outward = edge.cross(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).normal);
+    if (velocity.dot(outward) > most_outward * speed * outward.norm())
+      fail(ExitCode::bad_input,
+           "the inflow's velocity at {} s, ({}, {}, {}) m/s, points out of the sheet at the inlet's edge ({}, {}): "
+           "liquid cannot be drawn back; choose the border at the other side, or end the inflow with `until`",
+           time, velocity[0], velocity[1], velocity[2], a, b);
+    if (!(edge.cross(velocity).norm() > least_across * edge.norm() * speed))
+      fail(ExitCode::bad_input,
+           "the inflow's velocity at {} s, ({}, {}, {}) m/s, runs along the inlet's edge ({}, {}): nothing would enter",
+           time, velocity[0], velocity[1], velocity[2], a, b);
+  }
+}
+
+// The bits that all vertices of the border have.
+std::uint64_t common_holds(const Frame& frame, std::span<const InletChain> chains) {
+  const auto masks = holds(frame);
+  if (masks.empty() || chains.empty())
+    return 0;
+  std::uint64_t common = ~std::uint64_t{0};
+  for (const InletChain& chain : chains)
+    for (const std::uint32_t v : chain.border)
+      common &= masks[v];
+  return common;
+}
+
+bool moves_along(const scene::Inflow& inflow, std::size_t axis) {
+  for (const auto& entry : inflow.velocity.entries)
+    if (entry.value[static_cast<Eigen::Index>(axis)] != 0)
+      return true;
+  return false;
+}
+
+} // namespace
+
+void check_inlet(const Frame& frame, const Scene& scene, std::span<const InletChain> chains) {
+  const scene::Inflow& inflow = *scene.inflow;
+  for (const InletChain& chain : chains) {
+    check_velocity(frame, chain, frame.time, scene::value_at(inflow.velocity, frame.time));
+    if (chain.row.empty())
+      for (const auto& entry : inflow.velocity.entries)
+        if (entry.time > frame.time)
+          check_velocity(frame, chain, entry.time, entry.value);
+  }
+  const std::uint64_t common = common_holds(frame, chains) & scene::holds_in_force(scene, frame.time);
+  for (std::size_t i = 0; i < scene.holds.size(); ++i) {
+    const scene::Hold& hold = scene.holds[i];
+    if ((common >> i & 1) == 0)
+      continue;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (has_axis(hold.axes, axis) && moves_along(inflow, axis))
+        fail(ExitCode::bad_input,
+             "[[hold]] number {} (from 0) holds the whole inlet along {}, so what flows in would hang there for ever: "
+             "give it a region that leaves the inlet out",
+             i, "xyz"[axis]);
+  }
+}
+
+} // namespace sheet::flow

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The frames of a stream as mesh files, one each.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "formats/cpp/mesh_export.h"
+
+namespace sheet {
+
+struct ExportOptions {
+  std::string input = "-", output; // output: a name, with %d or %04d for the number of the frame if there are several
+  std::optional<formats::MeshFormat> format; // absent: by the ending of the name
+  bool solidify = false;                     // the closed outer surface of the liquid instead of the mid-surface
+};
+
+// Errors: usage (no name, an ending that is no format, several frames for one name), those of reading and writing.
+void export_frames(const ExportOptions& options);
+
+} // namespace sheet

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solid/solids.h"
+
+#include <fmt/core.h>
+
+#include "libsheet/base/overloaded.h"
+#include "libsheet/scene/words.h"
+#include "libsheet/solid/mesh.h"
+#include "libsheet/solid/shapes.h"
+
+namespace sheet::solid {
+
+Solids::Solids(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    const scene::Solid& solid = scene.solids[i];
+    Entry entry{solid, fmt::format("solid {} ({})", i, scene::words::solid_shapes[solid.shape.index()]), {}, nullptr};
+    entry.placed = Eigen::Translation3d(solid.center) * Eigen::Isometry3d(scene::matrix(solid.rotation));
+    entry.shape = std::visit(Overloaded{[&](const scene::SolidMesh& mesh) {
+                                          entry.name = fmt::format("solid {} ({})", i, mesh.file);
+                                          return make_distance(mesh, entry.name);
+                                        },
+                                        [](const auto& exact) { return make_distance(exact); }},
+                             solid.shape);
+    solids_.push_back(std::move(entry));
+  }
+}
+
+Eigen::Isometry3d Solids::pose(std::size_t solid, double t) const {
+  return scene::motion_between(solids_[solid].scene.motion, 0, t) * solids_[solid].placed;
+}
+
+Vector3 Solids::surface_velocity(std::size_t solid, const Vector3& x, double t) const {
+  return scene::velocity_at(solids_[solid].scene.motion, t, x) + solids_[solid].scene.surface_velocity;
+}
+
+SolidPoint Solids::at(std::size_t solid, const Vector3& x, double t) const {
+  const Eigen::Isometry3d place = pose(solid, t);
+  const Near near = solids_[solid].shape->nearest(place.inverse() * x);
+  return {near.distance, place.linear() * near.normal, surface_velocity(solid, x, t)};
+}
+
+} // namespace sheet::solid

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The solids of a scene in their places: signed distance, outward normal and surface velocity at any point and time.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libsheet/scene/scene.h"
+#include "libsheet/solid/distance.h"
+
+namespace sheet::solid {
+
+// What a solid is at a point x and a time.
+struct SolidPoint {
+  double distance;  // signed, negative inside [m]
+  Vector3 normal;   // unit, outward, at the nearest point of the surface
+  Vector3 velocity; // of what sticks to the surface there: the solid's motion and its belt's [m/s]
+};
+
+class Solids {
+public:
+  // Reads the meshes and fields that the scene names. Throws Error (io, bad_input) where one of them is missing or is
+  // not the surface of a solid (solid_mesh.h).
+  explicit Solids(const Scene& scene);
+
+  [[nodiscard]] std::size_t size() const { return solids_.size(); }
+  [[nodiscard]] bool empty() const { return solids_.empty(); }
+
+  // For messages: its number in the scene, its shape, its file.
+  [[nodiscard]] const std::string& name(std::size_t solid) const { return solids_[solid].name; }
+  [[nodiscard]] const scene::Solid& scene(std::size_t solid) const { return solids_[solid].scene; }
+  [[nodiscard]] const SolidDistance& shape(std::size_t solid) const { return *solids_[solid].shape; }
+
+  // From the solid's own frame to the world at time t [s].
+  [[nodiscard]] Eigen::Isometry3d pose(std::size_t solid, double t) const;
+
+  // At the point x [m] of the world, at time t [s].
+  [[nodiscard]] SolidPoint at(std::size_t solid, const Vector3& x, double t) const;
+
+  // Velocity at time t of what sticks to the solid at x [m/s].
+  [[nodiscard]] Vector3 surface_velocity(std::size_t solid, const Vector3& x, double t) const;
+
+private:
+  struct Entry {
+    scene::Solid scene;
+    std::string name;
+    Eigen::Isometry3d placed; // from its own frame to the world at time 0
+    std::unique_ptr<const SolidDistance> shape;
+  };
+  std::vector<Entry> solids_;
+};
+
+} // namespace sheet::solid

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What resolve_solids promises.
+#include "libsheet/collide/solid_contact.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "libsheet/base/error.h"
+#include "libsheet/base/parallel.h"
+#include "tests/unit/solid/solid_support.h"
+
+namespace sheet::collide {
+namespace {
+
+using test::FallingSheet;
+
+scene::Solid solid(scene::SolidShape shape, const Vector3& center = Vector3::Zero()) {
+  scene::Solid result;
+  result.shape = std::move(shape);
+  result.center = center;
+  return result;
+}
+
+solid::Solids solids_of(std::vector<scene::Solid> list) {
+  Scene scene;
+  scene.solids = std::move(list);
+  return solid::Solids(scene);
+}
+
+scene::Solid lying_rod(double radius) {
+  scene::Solid rod = solid(scene::Capsule{radius, 1});
+  rod.rotation = scene::Rotation{Vector3::UnitX(), std::numbers::pi / 2};
+  return rod;
+}
+
+// 10 cm wide, 2 mm thick, edges of 1 cm, 1 mm above y = 0.
+constexpr double thickness_of_sheet = 2e-3, step_length = 1.0 / 24;
+FallingSheet falling(double speed, double height = 2e-3, const Vector3& across = Vector3::Zero()) {
+  return {0.1, 10, thickness_of_sheet, height, Vector3(0, -speed, 0) + across, step_length};
+}
+
+double distance_at_end(const FallingSheet& sheet, const solid::Solids& solids, std::size_t v, std::size_t i = 0) {
+  return solids.at(i, sheet.path.end[v], sheet.path.end_time).distance;
+}
+
+TEST(SolidContact, NothingToDo) {
+  FallingSheet sheet = falling(1), far = falling(1);
+  const auto end = sheet.path.end;
+  EXPECT_EQ(resolve_solids(sheet.path, solids_of({})).touching, 0U);
+  EXPECT_EQ(resolve_solids(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).touching, 0U);
+  EXPECT_EQ(sheet.path.end, end);
+  EXPECT_EQ(far.path.end, end);
+  EXPECT_TRUE(unsafe_triangles(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).empty());
+}
+
+// Everything falls on the ground: it lies there, half its thickness up, at rest, where it was above.
+TEST(SolidContact, OnTheGround) {
+  for (const double speed : {0.1, 10.0, 1000.0}) {
+    const solid::Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
+    FallingSheet sheet = falling(speed);
+    EXPECT_FALSE(unsafe_triangles(sheet.path, ground).empty());
+    const SolidReport report = resolve_solids(sheet.path, ground);
+    EXPECT_EQ(report.touching, sheet.start.size());
+    EXPECT_EQ(report.caught, sheet.start.size());
+    EXPECT_EQ(report.pushed, 0U);
+    for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+      EXPECT_NEAR(sheet.path.end[v].y(), thickness_of_sheet / 2, 1e-12);
+      EXPECT_NEAR(sheet.path.end[v].x(), sheet.start[v].x(), 1e-12);
+      EXPECT_EQ(sheet.path.velocity[v], Vector3(0, 0, 0));
+      EXPECT_EQ(sheet.path.touch[v], 0);
+      EXPECT_EQ(sheet.path.fixed[v], all_axes);
+    }
+    EXPECT_TRUE(unsafe_triangles(sheet.path, ground).empty());
+  }
+}
+
+// Every shape, every speed: the guaranteed clearance is kept all along the way, and nothing is left unresolved.
+TEST(SolidContact, NothingGetsThrough) {
+  std::vector<std::pair<const char*, scene::Solid>> targets;
+  targets.emplace_back("sphere", solid(scene::Sphere{0.03}, {0, -0.03, 0}));
+  targets.emplace_back("rod", lying_rod(1e-4));
+  targets.emplace_back("pin", solid(scene::Capsule{1e-4, 0.1}, {1e-3, -0.0501, 2e-3}));
+  scene::Solid corner = solid(scene::SolidBox{{0.02, 0.02, 0.02}}, {0, -0.01 * std::sqrt(3.0), 0});
+  corner.rotation = scene::Rotation{Vector3(1, 0, -1), std::acos(1 / std::sqrt(3.0))};
+  targets.emplace_back("corner", corner);
+  for (const auto& [name, target] : targets)
+    for (const double speed : {1.0, 10.0, 100.0}) {
+      const solid::Solids solids = solids_of({target});
+      FallingSheet sheet = falling(speed);
+      const SolidReport report = resolve_solids(sheet.path, solids);
+      EXPECT_EQ(report.unresolved, 0U) << name << speed;
+      EXPECT_EQ(report.started_across, 0U) << name << speed;
+      EXPECT_GE(test::least_distance(sheet.path, solids, 0, 1e-4, 10), thickness_of_sheet / 8 - 1e-9) << name << speed;
+      EXPECT_LT(test::least_distance(sheet.path, solids, 0, 1e-4, 10), thickness_of_sheet) << name << speed;
+      EXPECT_TRUE(unsafe_triangles(sheet.path, solids).empty()) << name << speed;
+      for (std::size_t v = 0; v < sheet.start.size(); ++v)
+        if (sheet.path.touch[v] != no_solid && report.pushed == 0) {
+          EXPECT_NEAR(distance_at_end(sheet, solids, v), thickness_of_sheet / 2, 1e-9) << name << speed;
+        }
+    }
+}
+
+// A mesh is as sharp as it is, however coarse the field: a needle whose tip no voxel sees.
+TEST(SolidContact, Needle) {
+  const auto shape = make_distance(test::needle(1e-4, 0.05, 6), 5e-3);
+  EXPECT_NEAR(shape->nearest({0, 0.06, 0}).distance, 0.01, 1e-12);
+  FallingSheet sheet = falling(50, 0.052);
+  solid::MovingTriangle over{};
+  for (const Corners& c : sheet.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      over.start[i] = sheet.start[c[i]];
+      over.end[i] = sheet.path.end[c[i]];
+    }
+    const solid::Triangle3& t = over.start; // the one right above the tip
+    const auto side = [](const Vector3& a, const Vector3& b) { return a.z() * b.x() - a.x() * b.z() > 0; };
+    if (side(t[0], t[1]) && side(t[1], t[2]) && side(t[2], t[0]))
+      break;
+  }
+  const auto hit = shape->first_hit(over, 2e-4, 1e-4);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->s * 50 * step_length, 0.002, 4e-4);
+}
+
+TEST(SolidContact, SticksToAMovingBelt) {
+  scene::Solid belt = solid(scene::HalfSpace{{0, 1, 0}});
+  belt.surface_velocity = {0.4, 0, 0};
+  const solid::Solids solids = solids_of({belt});
+  FallingSheet sheet = falling(0.048); // touches after half of the step
+  resolve_solids(sheet.path, solids);
+  for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+    EXPECT_NEAR(sheet.path.end[v].x() - sheet.start[v].x(), 0.4 * step_length / 2, 0.05 * 0.4 * step_length);
+    EXPECT_EQ(sheet.path.velocity[v], Vector3(0.4, 0, 0));
+  }
+}
+
+TEST(SolidContact, IsCarriedByAMovingSolid) {
+  scene::Solid plate = solid(scene::SolidBox{{1, 0.2, 1}}, {0, -0.1, 0});
+  plate.motion = scene::Translating{{{{0, {0, 0.5, 0.25}}}}};
+  const solid::Solids solids = solids_of({plate});
+  FallingSheet sheet = falling(0, thickness_of_sheet / 2); // lies on it
+  for (int step = 0; step < 5; ++step) {
+    resolve_solids(sheet.path, solids);
+    for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+      EXPECT_NEAR(distance_at_end(sheet, solids, v), thickness_of_sheet / 2, 1e-12);
+      EXPECT_LT((sheet.path.velocity[v] - Vector3(0, 0.5, 0.25)).norm(), 1e-15);
+      EXPECT_LT((sheet.path.end[v] - sheet.start[v] - step_length * Vector3(0, 0.5, 0.25)).norm(), 1e-12);
+    }
+    sheet.go_on();
+  }
+}
+
+// A bar turns two thirds round in one step and meets the sheet, which stands still, in the course of it.
+TEST(SolidContact, MetByATurningBar) {
+  scene::Solid bar = solid(scene::Capsule{2e-3, 0.4}, {0, -0.02, 0});
+  bar.motion = scene::Rotating{Vector3::UnitX(), {0, -0.02, 0}, {{{0, 100}}}};
+  bar.rotation = scene::Rotation{Vector3::UnitX(), 1.8}; // on its way to the sheet from below
+  const solid::Solids solids = solids_of({bar});
+  FallingSheet sheet = falling(0, 0.1);
+  EXPECT_FALSE(unsafe_triangles(sheet.path, solids).empty());
+  const SolidReport report = resolve_solids(sheet.path, solids);
+  EXPECT_GT(report.caught, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  EXPECT_TRUE(unsafe_triangles(sheet.path, solids).empty());
+  for (std::size_t v = 0; v < sheet.start.size(); ++v)
+    if (sheet.path.touch[v] != no_solid) {
+      const Vector3 arm = sheet.path.end[v] - Vector3(0, -0.02, 0);
+      EXPECT_LT((sheet.path.velocity[v] - 100 * Vector3::UnitX().cross(arm)).norm(), 1e-9);
+    }
+}
+
+TEST(SolidContact, WhatLeavesIsLetGo) {
+  const solid::Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
+  FallingSheet sheet = falling(-0.01, thickness_of_sheet / 2);
+  EXPECT_EQ(resolve_solids(sheet.path, ground).touching, 0U);
+  FallingSheet stuck = falling(-0.01, thickness_of_sheet / 2);
+  stuck.path.touch.assign(stuck.start.size(), 0);
+  EXPECT_EQ(resolve_solids(stuck.path, ground).touching, stuck.start.size());
+  EXPECT_NEAR(stuck.path.end[0].y(), thickness_of_sheet / 2, 1e-12);
+}
+
+TEST(SolidContact, HoldsAreLeftAlone) {
+  const solid::Solids ball = solids_of({solid(scene::Sphere{0.03}, {0, -0.03, 0})});
+  FallingSheet sheet = falling(1);
+  sheet.path.fixed[0] = sheet.path.fixed[60] = all_axes;
+  const Vector3 corner = sheet.path.end[0], middle = sheet.path.end[60];
+  const SolidReport report = resolve_solids(sheet.path, ball);
+  EXPECT_EQ(sheet.path.end[0], corner);
+  EXPECT_EQ(sheet.path.end[60], middle);
+  EXPECT_EQ(sheet.path.touch[60], no_solid);
+  EXPECT_GT(report.unresolved, 0U); // the held middle goes through the ball, and the report says so
+}
+
+// What is held altogether cannot be kept out, but it is told; where it starts in the solid, as in a clamp, it is meant
+// so.
+TEST(SolidContact, WhatHoldsDriveIntoASolidIsTold) {
+  const solid::Solids ball = solids_of({solid(scene::Sphere{0.03}, {0, -0.03, 0})});
+  FallingSheet sheet = falling(1);
+  std::ranges::fill(sheet.path.fixed, all_axes);
+  const std::vector<Vector3> end = sheet.path.end;
+  EXPECT_GT(resolve_solids(sheet.path, ball).unresolved, 0U);
+  EXPECT_EQ(sheet.path.end, end);
+  FallingSheet clamped = falling(0, -0.02);
+  std::ranges::fill(clamped.path.fixed, all_axes);
+  EXPECT_EQ(resolve_solids(clamped.path, ball).unresolved, 0U);
+}
+
+TEST(SolidContact, BetweenTwoSolids) {
+  const solid::Solids solids =
+      solids_of({solid(scene::HalfSpace{{0, 1, 0}}), solid(scene::Sphere{0.02}, {0, 0.01, 0})});
+  FallingSheet sheet = falling(1, 0.035);
+  const SolidReport report = resolve_solids(sheet.path, solids);
+  EXPECT_EQ(report.unresolved, 0U);
+  bool ground = false, ball = false;
+  for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+    ground = ground || sheet.path.touch[v] == 0;
+    ball = ball || sheet.path.touch[v] == 1;
+    EXPECT_GE(distance_at_end(sheet, solids, v, 0), thickness_of_sheet / 8);
+    EXPECT_GE(distance_at_end(sheet, solids, v, 1), thickness_of_sheet / 8);
+  }
+  EXPECT_TRUE(ground);
+  EXPECT_TRUE(ball);
+  EXPECT_GE(test::least_distance(sheet.path, solids, 0, 1e-4, 10), thickness_of_sheet / 8 - 1e-9);
+  EXPECT_GE(test::least_distance(sheet.path, solids, 1, 1e-4, 10), thickness_of_sheet / 8 - 1e-9);
+}
+
+TEST(SolidContact, StartingInsideIsRefused) {
+  const solid::Solids ball = solids_of({solid(scene::Sphere{0.03})});
+  FallingSheet sheet = falling(1, 0.01);
+  try {
+    resolve_solids(sheet.path, ball);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("m inside solid 0 (sphere)"),
+                                             testing::HasSubstr("vertex"), testing::HasSubstr("start apart")));
+  }
+}
+
+// As a change of the mesh on a curved solid may leave them: a little inside, by more than half the thickness and less
+// than half an edge.
+TEST(SolidContact, StartingALittleInsideIsBroughtOut) {
+  const solid::Solids ball = solids_of({solid(scene::Sphere{0.03})});
+  FallingSheet sheet = falling(0, 0.03 - 0.8 * thickness_of_sheet);
+  const SolidReport report = resolve_solids(sheet.path, ball);
+  EXPECT_GT(report.brought_out, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  for (std::size_t v = 0; v < sheet.path.end.size(); ++v)
+    EXPECT_GT(distance_at_end(sheet, ball, v), 0.49 * thickness_of_sheet);
+}
+
+// A rod that runs through the sheet from the start is brought to one side of it.
+TEST(SolidContact, StartingAcrossIsBroughtOut) {
+  const solid::Solids rod = solids_of({lying_rod(1e-4)});
+  FallingSheet sheet = falling(0, 1e-5);
+  const SolidReport report = resolve_solids(sheet.path, rod);
+  EXPECT_GT(report.started_across, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  sheet.path.start = sheet.path.end;
+  EXPECT_GE(test::least_distance(sheet.path, rod, 0, 1e-4, 1), thickness_of_sheet / 8 - 1e-5);
+}
+
+TEST(SolidContact, SameBitsForAnyNumberOfThreads) {
+  std::vector<Vector3> first;
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    const solid::Solids solids = solids_of({lying_rod(1e-3), solid(scene::Sphere{0.02}, {0.03, -0.02, 0})});
+    FallingSheet sheet = falling(30);
+    resolve_solids(sheet.path, solids);
+    if (first.empty())
+      first = sheet.path.end;
+    EXPECT_EQ(sheet.path.end, first);
+  }
+}
+
+// Many steps of falling onto a ball and hanging there.
+TEST(SolidContact, ManySteps) {
+  const solid::Solids ball = solids_of({solid(scene::Sphere{0.03}, {0, -0.03, 0})});
+  FallingSheet sheet(0.1, 16, thickness_of_sheet, 2e-3, {0, -0.2, 0}, 2e-3);
+  for (int step = 0; step < 60; ++step) {
+    const SolidReport report = resolve_solids(sheet.path, ball);
+    ASSERT_EQ(report.unresolved, 0U) << step;
+    ASSERT_EQ(report.started_across, 0U) << step;
+    ASSERT_GE(test::least_distance(sheet.path, ball, 0, 2e-4, 1), 0.999 * thickness_of_sheet / 8) << step;
+    sheet.go_on();
+  }
+}
+
+// A symmetry plane: held along x, vertices come to lie on a slope like the others, and do not leave the plane.
+TEST(SolidContact, HeldAlongOneAxis) {
+  const solid::Solids slope = solids_of({solid(scene::HalfSpace{Vector3(1, 2, 0)}, {0, -0.06, 0})});
+  FallingSheet sheet = falling(3);
+  for (std::size_t v = 0; v < sheet.start.size(); ++v)
+    if (sheet.start[v].x() < -0.0499)
+      sheet.path.fixed[v] = 1;
+  const SolidReport report = resolve_solids(sheet.path, slope);
+  EXPECT_EQ(report.touching, sheet.start.size());
+  EXPECT_EQ(report.unresolved, 0U);
+  std::size_t held = 0;
+  for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+    EXPECT_NEAR(distance_at_end(sheet, slope, v), thickness_of_sheet / 2, 1e-11);
+    if (sheet.start[v].x() >= -0.0499)
+      continue;
+    ++held;
+    EXPECT_EQ(sheet.path.end[v].x(), sheet.start[v].x());
+    EXPECT_EQ(sheet.path.fixed[v], all_axes);
+  }
+  EXPECT_EQ(held, 11U);
+}
+
+// A touch bit far from the solid, as remeshing over a hollow makes it, holds nothing.
+TEST(SolidContact, WhatTouchesNothingIsLetGo) {
+  const solid::Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
+  FallingSheet sheet = falling(0, 3 * thickness_of_sheet);
+  sheet.path.touch.assign(sheet.start.size(), 0);
+  const auto end = sheet.path.end;
+  EXPECT_EQ(resolve_solids(sheet.path, ground).touching, 0U);
+  EXPECT_EQ(sheet.path.end, end);
+  EXPECT_EQ(sheet.path.touch, std::vector<std::int32_t>(end.size(), no_solid));
+}
+
+// A pin stops a triangle at a point far from its lightest corner, which is not thrown.
+TEST(SolidContact, NoLeverThrowsALightCorner) {
+  const solid::Solids pin = solids_of({solid(scene::Capsule{1e-5, 0.1}, {0, -0.05, 0})});
+  FallingSheet sheet = falling(0.05);
+  sheet.triangles = {{0, 1, 2}};
+  sheet.path.triangles = sheet.triangles;
+  sheet.start = {{-2e-4, 1e-3, -5e-3}, {-2e-4, 1e-3, 5e-3}, {1e-2, 1e-3, 0}};
+  sheet.path.start = sheet.start;
+  sheet.path.end = sheet.start;
+  for (auto* list : {&sheet.path.thickness, &sheet.path.mass})
+    list->assign(3, thickness_of_sheet);
+  sheet.path.mass[2] *= 1e-6;
+  sheet.path.touch.assign(3, no_solid);
+  sheet.path.fixed.assign(3, 0);
+  const double way = 2e-3;
+  sheet.path.velocity.assign(3, Vector3(0, -way / step_length, 0));
+  for (Vector3& x : sheet.path.end)
+    x.y() -= way;
+  const SolidReport report = resolve_solids(sheet.path, pin);
+  EXPECT_GT(report.pushed, 0U);
+  EXPECT_EQ(report.unresolved, 0U);
+  EXPECT_LT((sheet.path.end[2] - sheet.start[2]).norm(), 4 * way);
+  EXPECT_GE(test::least_distance(sheet.path, pin, 0, 1e-5, 10), thickness_of_sheet / 8 - 1e-5);
+}
+
+// What is brought out is not thrown.
+TEST(SolidContact, BroughtOutWithoutSpeed) {
+  const solid::Solids rod = solids_of({lying_rod(1e-4)});
+  FallingSheet sheet = falling(0, 1e-5);
+  EXPECT_GT(resolve_solids(sheet.path, rod).started_across, 0U);
+  double moved = 0;
+  for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+    EXPECT_LT(sheet.path.velocity[v].norm(), 1e-12);
+    moved = std::max(moved, (sheet.path.end[v] - sheet.start[v]).norm());
+  }
+  EXPECT_GT(moved, thickness_of_sheet / 8);
+}
+
+} // namespace
+} // namespace sheet::collide

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Inflow without physics: sheets that move as one.
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "libsheet/flow/emit.h"
+#include "libsheet/flow/inlet.h"
+#include "libsheet/geometry/connectivity.h"
+#include "libsheet/remesh/remesh.h"
+#include "libsheet/sheet/transfer.h"
+#include "tests/unit/remesh/sheets.h"
+
+namespace sheet::flow {
+namespace {
+
+using formats::Frame;
+using test::error_of;
+using test::volume_of;
+using testing::HasSubstr;
+
+constexpr double thickness = 0.25;
+
+Scene scene_of(const std::string& velocity, const std::string& more = "") {
+  return parse_scene("[sheet]\nshape = \"rectangle\"\nsize = [4, 2]\nsegments = [4, 2]\npattern = \"structured\"\n"
+                     "thickness = 0.25\n[material]\nviscosity = 1\ndensity = 1\n[inflow]\nregion = \"z_max\"\n"
+                     "velocity = " +
+                         velocity + "\n" + more,
+                     "scene");
+}
+
+void mark_inlet(Frame& frame, const std::vector<std::uint32_t>& border) {
+  const auto bits = put_masks(frame, "inlet");
+  for (const std::uint32_t v : border)
+    bits[v] = in_inlet | at_inlet_border;
+  formats::Array& origins =
+      frame.put(formats::make_array("inlet_origin", formats::Place::vertex, formats::Type::float64, 3, "m",
+                                    formats::Transfer::interpolate, frame.vertices));
+  std::ranges::copy(positions(frame), origins.values<Vector3>().begin());
+}
+
+// 4 x 2 squares of 1 m, liquid enters at the upper border, y = 2.
+Frame curtain() {
+  Frame frame = test::grid(4, 2, 1, thickness);
+  mark_inlet(frame, {10, 11, 12, 13, 14});
+  return frame;
+}
+
+// A tube along z around the z axis, liquid enters at its upper end.
+Frame tube(std::uint32_t around) {
+  std::vector<Vector3> x;
+  std::vector<Corners> t;
+  std::vector<std::uint32_t> border;
+  for (std::uint32_t j = 0; j < 2; ++j)
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const double angle = 2 * std::numbers::pi * i / around;
+      x.emplace_back(std::cos(angle), std::sin(angle), j);
+    }
+  for (std::uint32_t i = 0; i < around; ++i) {
+    const std::uint32_t next = (i + 1) % around;
+    t.push_back({i, next, around + i});
+    t.push_back({next, around + next, around + i});
+    border.push_back(around + i);
+  }
+  Frame frame = make_frame(x, t, std::vector<double>(t.size(), 0.1));
+  mark_inlet(frame, border);
+  return frame;
+}
+
+// The whole sheet moves with what is in the inlet.
+void move(Frame& frame, const Scene& scene, double dt) {
+  const Vector3 way = scene::integral(scene.inflow->velocity, frame.time, frame.time + dt);
+  for (Vector3& x : positions(frame))
+    x += way;
+  frame.time += dt;
+}
+
+double account(const Frame& frame) { return number(frame, "emit.volume", 0); }
+
+std::string value_error(const Frame& frame) {
+  const std::string form = formats::find_form_error(frame);
+  return form.empty() ? formats::find_value_error(frame) : form;
+}
+
+// Vertices that are in the inlet, by what they are.
+std::size_t count(const Frame& frame, std::uint64_t bits) {
+  return static_cast<std::size_t>(std::ranges::count(masks(frame, "inlet"), bits));
+}
+
+TEST(Emit, VolumeIsThicknessTimesWidthTimesWay) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  Frame frame = curtain();
+  const double start = volume_of(frame);
+  double entered = 0;
+  for (const double dt : {0.3, 0.3, 0.3, 0.01, 0.7, 0.2, 0.9, 0.45, 1e-9, 0.6}) {
+    move(frame, scene, dt);
+    entered += emit(frame, scene).volume;
+    ASSERT_EQ(value_error(frame), "");
+    if (frame.time > 0.5) {
+      EXPECT_NEAR(volume_of(frame), start + thickness * 4 * frame.time, 1e-14 * start) << frame.time;
+      EXPECT_EQ(count(frame, in_inlet | at_inlet_border), 5);
+      EXPECT_EQ(count(frame, behind_inlet), 5);
+      for (std::size_t v = 0; v < frame.vertices; ++v)
+        if (masks(frame, "inlet")[v] == 3) {
+          EXPECT_EQ(positions(frame)[v][1], 2);
+        }
+    } else {
+      EXPECT_EQ(volume_of(frame), start); // half a row has not yet gone by
+    }
+  }
+  EXPECT_NEAR(account(frame), thickness * 4 * frame.time, 1e-14);
+  EXPECT_NEAR(entered, account(frame), 1e-14);
+  for (std::size_t t = 0; t < frame.triangles; ++t)
+    EXPECT_NEAR(volumes(frame)[t] / test::area(frame, t), thickness, 1e-14);
+}
+
+TEST(Emit, RowsAreThoseOfAnyOtherStep) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  const auto run = [&](double dt) {
+    Frame frame = curtain();
+    for (double t = 0; t < 8; t += dt) {
+      move(frame, scene, dt);
+      emit(frame, scene);
+    }
+    return frame;
+  };
+  const Frame fine = run(1.0 / 64); // binary fractions: no rounding
+  EXPECT_EQ(fine, run(1.0 / 4));
+  EXPECT_EQ(fine, run(2));
+}
+
+TEST(Emit, SeveralRowsMayBeDueAtOnce) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  Frame frame = curtain();
+  move(frame, scene, 4.75);
+  EXPECT_EQ(emit(frame, scene).rows, 5); // one row a metre, the strip has 0.75 rows
+  EXPECT_NEAR(volume_of(frame), thickness * (8 + 4 * 4.75), 1e-14);
+  std::vector<double> heights; // of the new rows, the border first
+  for (std::size_t v = 15; v < frame.vertices; v += 5)
+    heights.push_back(positions(frame)[v][1]);
+  EXPECT_THAT(heights, testing::ElementsAre(2, -1.75, -0.75, 0.25, 1.25));
+  EXPECT_EQ(value_error(frame), "");
+}
+
+TEST(Emit, TheSecondTimeNothingEnters) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  Frame frame = curtain();
+  for (const double dt : {0.7, 0.2, 0.9}) {
+    move(frame, scene, dt);
+    emit(frame, scene);
+    const Frame once = frame;
+    EXPECT_EQ(emit(frame, scene).volume, 0);
+    EXPECT_EQ(frame, once);
+  }
+}
+
+TEST(Emit, NoVelocityNoInflow) {
+  const Scene scene = scene_of("[[0, 0, 0, 0], [1, 0, 0, 0], [2, 0, -1, 0]]");
+  Frame frame = curtain();
+  const Frame before = frame;
+  emit(frame, scene);
+  EXPECT_EQ(frame, before);
+  move(frame, scene, 1);
+  emit(frame, scene);
+  EXPECT_EQ(frame.vertices, before.vertices);
+  move(frame, scene, 2); // 0.5 m while it quickens, then 1 m
+  emit(frame, scene);
+  EXPECT_NEAR(account(frame), thickness * 4 * 1.5, 1e-14);
+}
+
+TEST(Emit, SlantedAlongTheBorder) {
+  const Scene scene = scene_of("[0.5, -1, 0]");
+  Frame frame = curtain();
+  for (int i = 0; i < 40; ++i) {
+    move(frame, scene, 0.11);
+    emit(frame, scene);
+  }
+  EXPECT_NEAR(volume_of(frame), thickness * (8 + 4 * frame.time), 1e-13);
+  EXPECT_EQ(value_error(frame), "");
+  (void)connect(frame.vertices, triangles(frame)); // a manifold, or an Error
+}
+
+TEST(Emit, SlantedOutOfTheSheetsPlane) {
+  const Scene scene = scene_of("[0, -1, 1]");
+  Frame frame = curtain();
+  for (int i = 0; i < 40; ++i) {
+    move(frame, scene, 0.11);
+    emit(frame, scene);
+  }
+  EXPECT_NEAR(volume_of(frame), thickness * (8 + 4 * std::numbers::sqrt2 * frame.time), 1e-13);
+}
+
+TEST(Emit, ClosedTubeStraightAndSlanted) {
+  for (const auto& [velocity, across] : {std::pair("[0, 0, -1]", 1.0), std::pair("[0.3, 0, -1]", 1.0)}) {
+    const Scene scene = scene_of(velocity);
+    for (const std::uint32_t around : {3U, 8U, 9U}) {
+      Frame frame = tube(around);
+      const double start = volume_of(frame);
+      double width = 0; // of each edge, across the velocity, per speed
+      const Vector3 v = scene.inflow->velocity.entries[0].value;
+      for (std::uint32_t i = 0; i < around; ++i)
+        width += (positions(frame)[(i + 1) % around] - positions(frame)[i]).cross(v).norm();
+      for (int i = 0; i < 60; ++i) {
+        move(frame, scene, 0.1);
+        emit(frame, scene);
+      }
+      EXPECT_NEAR(volume_of(frame), start + thickness * width * frame.time, 1e-12) << around << velocity;
+      EXPECT_EQ(value_error(frame), "");
+      const Connectivity mesh = connect(frame.vertices, triangles(frame));
+      std::size_t rim = 0;
+      for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+        rim += mesh.on_rim(e) ? 1 : 0;
+      EXPECT_EQ(rim, 2 * around);
+      EXPECT_EQ(frame.vertices - mesh.edges.size() + frame.triangles, 0); // a tube
+    }
+  }
+}
+
+TEST(Emit, OpenAndClosedPiecesTogether) {
+  Frame frame = tube(6);
+  // A square behind the tube, its upper border in the inlet, too.
+  std::vector<Vector3> x(positions(frame).begin(), positions(frame).end());
+  std::vector<Corners> t(triangles(frame).begin(), triangles(frame).end());
+  const auto n = static_cast<std::uint32_t>(x.size());
+  for (const Vector3& p : {Vector3(5, 0, 0), Vector3(6, 0, 0), Vector3(6, 0, 1), Vector3(5, 0, 1)})
+    x.push_back(p);
+  t.push_back({n, n + 1, n + 2});
+  t.push_back({n, n + 2, n + 3});
+  frame = make_frame(x, t, std::vector<double>(t.size(), 0.1));
+  mark_inlet(frame, {6, 7, 8, 9, 10, 11, n + 2, n + 3});
+  const Scene scene = scene_of("[0, 0, -1]");
+  const double start = volume_of(frame);
+  for (int i = 0; i < 30; ++i) {
+    move(frame, scene, 0.1);
+    emit(frame, scene);
+  }
+  EXPECT_NEAR(volume_of(frame), start + thickness * (6 + 1) * frame.time, 1e-12); // a hexagon of side 1, and 1
+  EXPECT_EQ(value_error(frame), "");
+}
+
+TEST(Emit, OneTriangle) {
+  const std::vector<Vector3> x{{0, 0, 0}, {1, 0, 0}, {0.5, -1, 0}};
+  const std::vector<Corners> t{{0, 2, 1}};
+  Frame frame = make_frame(x, t, std::vector<double>{1});
+  mark_inlet(frame, {0, 1});
+  const Scene scene = scene_of("[0, -1, 0]");
+  move(frame, scene, 10);
+  emit(frame, scene);
+  EXPECT_NEAR(volume_of(frame), 1 + thickness * 10, 1e-14);
+  EXPECT_EQ(value_error(frame), "");
+}
+
+TEST(Emit, TheSameAtAnyScale) {
+  for (const double scale : {1e-6, 1e3}) {
+    Frame small = curtain(), large = curtain();
+    for (Vector3& x : positions(large))
+      x *= scale;
+    for (Vector3& x : large.find("inlet_origin")->values<Vector3>())
+      x *= scale;
+    const Scene slow = scene_of("[0, -1, 0]"), fast = scene_of("[0, " + std::to_string(-scale) + ", 0]");
+    for (int i = 0; i < 40; ++i) {
+      move(small, slow, 0.125);
+      move(large, fast, 0.125);
+      emit(small, slow);
+      emit(large, fast);
+    }
+    EXPECT_EQ(small.vertices, large.vertices);
+    EXPECT_NEAR(account(large) / (scale * scale) / account(small), 1, 1e-12);
+  }
+}
+
+TEST(Emit, WhatCannotFlowInIsRefused) {
+  Frame frame = curtain();
+  const auto refusal = [&](const std::string& velocity) { return error_of([&] { emit(frame, scene_of(velocity)); }); };
+  EXPECT_THAT(refusal("[0, 1, 0]"), HasSubstr("points out of the sheet at the inlet's edge"));
+  EXPECT_THAT(refusal("[[0, 0, -1, 0], [5, 0, 1, 0]]"), HasSubstr("at 5 s"));
+  EXPECT_THAT(refusal("[1, 0, 0]"), HasSubstr("runs along the inlet's edge"));
+  EXPECT_EQ(frame, curtain());
+  // A ring in the plane of flow: half of it would flow out.
+  Frame ring = tube(8);
+  EXPECT_THAT(error_of([&] { emit(ring, scene_of("[0, 0, 1]")); }), HasSubstr("points out of the sheet"));
+}
+
+TEST(Emit, AnInletThatIsNotThereIsSaidSo) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  Frame frame = test::grid(4, 2, 1, thickness);
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("make it with sheet-init"));
+  mark_inlet(frame, {});
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("the inlet is gone"));
+  mark_inlet(frame, {10}); // no edge
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("the inlet is gone"));
+  mark_inlet(frame, {5, 6, 7}); // inside
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("the inlet is gone"));
+  frame.erase("inlet_origin");
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("inlet_origin"));
+  Frame empty = make_frame({}, {}, {});
+  mark_inlet(empty, {});
+  EXPECT_THAT(error_of([&] { emit(empty, scene); }), HasSubstr("the inlet is gone"));
+}
+
+TEST(Emit, ABowTieAtTheInletIsRefused) {
+  const std::vector<Vector3> x{{0, 0, 0}, {1, -1, 0}, {2, 0, 0}, {3, -1, 0}, {4, 0, 0}};
+  const std::vector<Corners> t{{0, 1, 2}, {2, 3, 4}};
+  Frame frame = make_frame(x, t, std::vector<double>{1, 1});
+  mark_inlet(frame, {0, 2, 4}); // one line: 4 -> 2 -> 0
+  const Scene scene = scene_of("[0, -1, 0]");
+  move(frame, scene, 3);
+  emit(frame, scene);
+  EXPECT_NEAR(volume_of(frame), 2 + thickness * 4 * 3, 1e-13);
+  // Two sheets that hang from one vertex.
+  const std::vector<Vector3> y{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0.5, -1, 0}, {1.5, -1, 0}, {1, 0, 1}, {1, -1, 1}};
+  const std::vector<Corners> s{{1, 0, 3}, {2, 1, 4}, {1, 5, 6}};
+  frame = make_frame(y, s, std::vector<double>{1, 1, 1});
+  mark_inlet(frame, {0, 1, 2, 5});
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("pinched"));
+}
+
+TEST(Emit, AHeldInletIsRefusedAHeldSideGoesOn) {
+  const std::string hold = "[[hold]]\nregion = \"rim\"\n";
+  Frame frame = curtain();
+  const auto bits = put_masks(frame, "hold");
+  std::ranges::fill(bits, 1);
+  EXPECT_THAT(error_of([&] { emit(frame, scene_of("[0, -1, 0]", hold)); }),
+              HasSubstr("[[hold]] number 0 (from 0) holds the whole inlet along y"));
+  EXPECT_EQ(error_of([&] { emit(frame, scene_of("[0, -1, 0]", hold + "axes = \"xz\"\n")); }), "");
+  const Scene late = scene_of("[0, -1, 0]", hold + "until = 1\n");
+  frame.time = 1;
+  EXPECT_EQ(error_of([&] { emit(frame, late); }), "");
+  // One side is a guide: the new vertices at that side are in it.
+  std::ranges::fill(bits, 0);
+  bits[10] = bits[5] = bits[0] = 1;
+  frame.time = 0;
+  const Scene guided = scene_of("[0, -1, 0]", hold);
+  move(frame, guided, 2.75);
+  emit(frame, guided);
+  EXPECT_EQ(frame.vertices, 15 + 3 * 5);
+  EXPECT_EQ(std::ranges::count(masks(frame, "hold"), 1), 3 + 3);
+}
+
+TEST(Emit, UntilItEnds) {
+  const Scene scene = scene_of("[0, -1, 0]", "until = 2.25\n");
+  Frame frame = curtain();
+  for (const double dt : {0.75, 0.75, 0.75}) {
+    move(frame, scene, dt);
+    emit(frame, scene);
+  }
+  EXPECT_NEAR(volume_of(frame), thickness * (8 + 4 * 2.25), 1e-14);
+  EXPECT_EQ(frame.find("inlet"), nullptr);
+  EXPECT_EQ(frame.find("inlet_origin"), nullptr);
+  const Frame end = frame;
+  emit(frame, scene);
+  EXPECT_EQ(frame, end);
+}
+
+TEST(Emit, GoesOnWhereSomebodyHasRemeshedTheStrip) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  Frame frame = curtain();
+  const double start = volume_of(frame);
+  move(frame, scene, 1);
+  emit(frame, scene);
+  // The first edge of the border is split in the middle, as a remesher would.
+  const auto old = triangles(static_cast<const Frame&>(frame));
+  const auto bits = masks(frame, "inlet");
+  std::uint32_t t = 0;
+  std::size_t i = 0;
+  for (std::uint32_t k = 0; k < old.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (bits[old[k][c]] == 3 && bits[old[k][(c + 1) % 3]] == 3) {
+        t = k;
+        i = c;
+      }
+  const std::uint32_t a = old[t][i], b = old[t][(i + 1) % 3], c = old[t][(i + 2) % 3];
+  std::vector<Corners> corners(old.begin(), old.end());
+  corners[t] = {a, static_cast<std::uint32_t>(frame.vertices), c};
+  corners.push_back({static_cast<std::uint32_t>(frame.vertices), b, c});
+  Lineage vertices, kept;
+  for (std::uint32_t v = 0; v < frame.vertices; ++v)
+    vertices.keep(v);
+  const std::vector<Parent> ends{{a, 0.5, 0}, {b, 0.5, 0}};
+  vertices.add(ends);
+  for (std::uint32_t k = 0; k < frame.triangles; ++k) {
+    const Parent half{k, 1, k == t ? 0.5 : 1};
+    kept.add({&half, 1});
+  }
+  const Parent half{t, 1, 0.5};
+  kept.add({&half, 1});
+  transfer_frame(frame, vertices, kept, corners);
+  ASSERT_EQ(value_error(frame), "");
+  for (int k = 0; k < 30; ++k) {
+    move(frame, scene, 0.1);
+    emit(frame, scene);
+    EXPECT_EQ(value_error(frame), "");
+    EXPECT_NEAR(volume_of(frame), start + account(frame), 1e-13);
+  }
+  EXPECT_NEAR(account(frame), thickness * 4 * 4, 1e-13);
+  EXPECT_EQ(count(frame, in_inlet | at_inlet_border), 6);
+  EXPECT_EQ(count(frame, behind_inlet), 6);
+}
+
+// Before there is a strip, it may remesh the border: then rows are as long as its edges.
+TEST(Emit, TheRemesherLeavesTheStripAlone) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  for (const double edge : {0.25, 1.0, 4.0}) {
+    Frame frame = curtain();
+    const double start = volume_of(frame);
+    std::size_t border = 0;
+    for (int k = 1; k <= 60; ++k) {
+      move(frame, scene, 0.1);
+      emit(frame, scene);
+      const bool has_strip = count(frame, behind_inlet) > 0;
+      remesh::Options options;
+      options.size.edge_length = edge;
+      remesh::remesh(frame, nullptr, options);
+      ASSERT_EQ(value_error(frame), "");
+      EXPECT_NEAR(volume_of(frame), start + (has_strip ? thickness * 4 * frame.time : 0), 1e-12) << edge << " " << k;
+      if (border == 0 && has_strip)
+        border = count(frame, behind_inlet);
+      EXPECT_EQ(count(frame, behind_inlet), border);
+      if (has_strip) {
+        EXPECT_EQ(count(frame, in_inlet | at_inlet_border), border);
+      }
+    }
+    EXPECT_EQ(border, edge < 1 ? 17 : edge > 1 ? 2 : 5) << edge;
+  }
+}
+
+TEST(Emit, AmountsStayWithTheOldLiquid) {
+  const Scene scene = scene_of("[0, -1, 0]");
+  Frame frame = curtain();
+  formats::Array dye = formats::make_array("dye", formats::Place::triangle, formats::Type::float64, 1, "kg",
+                                           formats::Transfer::conserve, frame.triangles);
+  std::ranges::fill(dye.values<double>(), 1.0);
+  frame.put(dye);
+  formats::Array mass = formats::make_array("mass", formats::Place::vertex, formats::Type::float64, 1, "kg",
+                                            formats::Transfer::conserve, frame.vertices);
+  std::ranges::fill(mass.values<double>(), 1.0);
+  frame.put(mass);
+  for (int k = 0; k < 30; ++k) {
+    move(frame, scene, 0.1);
+    emit(frame, scene);
+    if (k == 7) // something falls into the strip
+      std::ranges::fill(frame.find("dye")->values<double>(), 2.0);
+    EXPECT_NEAR(test::total(frame.find("dye")->values<double>()), k < 7 ? 16 : 2 * (16 + 8), 1e-12) << k;
+  }
+  EXPECT_EQ(test::total(frame.find("mass")->values<double>()), 15);
+}
+
+TEST(Emit, HugeStepsAreRefusedNotTried) {
+  const Scene scene = scene_of("[0, -1e9, 0]");
+  Frame frame = curtain();
+  move(frame, scene, 1);
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("smaller steps"));
+}
+
+} // namespace
+} // namespace sheet::flow

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes that are hardly meshes: a right result or a clear error, never a hang.
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/base/error.h"
+#include "libsheet/measure/intersections.h"
+#include "libsheet/remesh/remesh.h"
+#include "libsheet/remesh/triangle_shape.h"
+#include "libsheet/shape/shapes.h"
+#include "tests/support/remesh/consistency.h"
+#include "tests/support/remesh/cycles.h"
+#include "tests/support/remesh/flows.h"
+
+namespace sheet::remesh {
+namespace {
+
+Options options(double edge_length) {
+  Options o;
+  o.size.edge_length = edge_length;
+  o.smooth = true;
+  return o;
+}
+
+formats::Frame frame_of(const std::vector<Vector3>& x, const std::vector<Corners>& t, double volume = 0.01) {
+  return make_frame(x, t, std::vector<double>(t.size(), volume));
+}
+
+// Remeshes to fine and coarse lengths; volume stays, the result is a valid manifold of at least one triangle.
+void expect_right(const formats::Frame& start, double edge_length) {
+  const double volume = test::account_of(start).volume;
+  for (const double factor : {0.3, 1.0, 4.0}) {
+    formats::Frame frame = start;
+    for (int i = 0; i < 3; ++i)
+      static_cast<void>(remesh(frame, nullptr, options(factor * edge_length)));
+    EXPECT_EQ(formats::find_form_error(frame), "");
+    EXPECT_EQ(formats::find_value_error(frame), "") << factor;
+    EXPECT_GE(frame.triangles, 1U);
+    EXPECT_NEAR(test::account_of(frame).volume, volume, 1e-14 * volume) << factor;
+    test::expect_consistent(Mesh(frame.vertices, triangles(std::as_const(frame))));
+    for (const Vector3& x : positions(std::as_const(frame)))
+      EXPECT_TRUE(x.allFinite());
+  }
+}
+
+std::uint64_t holes(const formats::Frame& frame) {
+  const Mesh mesh(frame.vertices, triangles(frame));
+  std::set<std::uint32_t> seen;
+  std::uint64_t loops = 0;
+  for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+    if (!mesh.on_rim(v) || seen.contains(v))
+      continue;
+    ++loops;
+    for (std::uint32_t w = v; !seen.contains(w); w = mesh.to(mesh.side_at(w)))
+      seen.insert(w);
+  }
+  return loops;
+}
+
+TEST(CornerCase, EmptyMesh) {
+  formats::Frame frame = frame_of({}, {});
+  EXPECT_EQ(remesh(frame, nullptr, options(0.1)).edits(), 0U);
+}
+
+TEST(CornerCase, OneTriangle) { expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), 1); }
+
+TEST(CornerCase, TwoTriangles) {
+  expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}), 1);
+}
+
+TEST(CornerCase, Tetrahedron) {
+  const formats::Frame frame =
+      frame_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  expect_right(frame, 1);
+  formats::Frame coarse = frame; // nothing of it can go
+  static_cast<void>(remesh(coarse, nullptr, options(10)));
+  EXPECT_EQ(coarse.triangles, 4U);
+}
+
+TEST(CornerCase, Ear) {
+  // a square with a triangle that hangs on one edge
+  expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1.5, 0.5, 0}}, {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}}),
+               0.5);
+}
+
+TEST(CornerCase, Spike) {
+  TriangleMesh mesh = make_disk(1, [] {
+    MeshOptions o;
+    o.edge_length = 0.3;
+    return o;
+  }());
+  std::size_t middle = 0;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (mesh.positions[v].norm() < mesh.positions[middle].norm())
+      middle = v;
+  mesh.positions[middle][2] += 3;
+  expect_right(test::frame_of(mesh, 0.01), 0.3);
+}
+
+TEST(CornerCase, StripOneTriangleWide) {
+  std::vector<Vector3> x;
+  std::vector<Corners> t;
+  for (std::uint32_t i = 0; i <= 20; ++i) {
+    x.emplace_back(0.1 * i, 0, 0);
+    x.emplace_back(0.1 * i, 0.1, 0);
+    if (i > 0) {
+      t.push_back({2 * i - 2, 2 * i, 2 * i + 1});
+      t.push_back({2 * i - 2, 2 * i + 1, 2 * i - 1});
+    }
+  }
+  expect_right(frame_of(x, t), 0.1);
+  formats::Frame frame = frame_of(x, t); // it must not be eaten from its ends
+  static_cast<void>(remesh(frame, nullptr, options(0.4)));
+  double low = 1, high = 0;
+  for (const Vector3& p : positions(std::as_const(frame))) {
+    low = std::min(low, p[0]);
+    high = std::max(high, p[0]);
+  }
+  EXPECT_NEAR(high - low, 2, 0.1);
+}
+
+TEST(CornerCase, BowTieIsAnError) {
+  formats::Frame frame = frame_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
+  try {
+    static_cast<void>(remesh(frame, nullptr, options(1)));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_NE(std::string(error.what()).find("vertex 0"), std::string::npos);
+  }
+}
+
+TEST(CornerCase, AnnulusWithAHoleOfThreeEdges) {
+  // the hole's corners turn by more than 45 degrees, so it stays, however coarse the mesh
+  MeshOptions mesh_options;
+  mesh_options.edge_length = 0.2;
+  TriangleMesh mesh = make_disk(1, mesh_options);
+  std::size_t middle = 0;
+  const auto distance = [&](std::size_t t) {
+    const TriangleIndices& c = mesh.triangles[t];
+    return (mesh.positions[c[0]] + mesh.positions[c[1]] + mesh.positions[c[2]]).norm();
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (distance(t) < distance(middle))
+      middle = t;
+  mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(middle));
+  const formats::Frame frame = test::frame_of(mesh, 0.01);
+  ASSERT_EQ(holes(frame), 2U);
+  expect_right(frame, 0.2);
+  formats::Frame coarse = frame;
+  static_cast<void>(remesh(coarse, nullptr, options(0.8)));
+  EXPECT_EQ(holes(coarse), 2U);
+}
+
+TEST(CornerCase, ClosedAndOpenComponentsTogether) {
+  MeshOptions mesh_options;
+  mesh_options.edge_length = 0.2;
+  TriangleMesh mesh = make_sphere(0.5, mesh_options);
+  const TriangleMesh other = make_rectangle(1, 1, mesh_options);
+  mesh = test::joined(mesh, other, Vector3(0, 0, 2));
+  const formats::Frame frame = test::frame_of(mesh, 0.01);
+  expect_right(frame, 0.2);
+  EXPECT_EQ(holes(frame), 1U);
+}
+
+TEST(CornerCase, DuplicateVertices) {
+  // an edge without length in the middle of a square
+  expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}, {0.5, 0.5, 0}},
+                        {{0, 1, 4}, {1, 5, 4}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {3, 0, 4}}),
+               0.5);
+}
+
+TEST(CornerCase, TriangleWithoutArea) {
+  // vertex 4 lies on the edge 0-2
+  expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                        {{0, 1, 2}, {0, 2, 4}, {0, 4, 3}, {4, 2, 3}}),
+               0.7);
+}
+
+TEST(CornerCase, InvertedTriangle) {
+  // vertex 4 is drawn over the edge 0-1: that triangle lies upside down on the others
+  expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, -0.2, 0}},
+                        {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}),
+               0.7);
+}
+
+TEST(CornerCase, ThicknessContrastOfAMillion) {
+  MeshOptions mesh_options;
+  mesh_options.edge_length = 0.2;
+  formats::Frame frame = test::frame_of(make_disk(1, mesh_options), 0.01);
+  for (std::size_t t = 0; t < frame.triangles; t += 2)
+    volumes(frame)[t] *= 1e-6;
+  expect_right(frame, 0.2);
+  static_cast<void>(remesh(frame, nullptr, options(0.1)));
+  const test::Account now = test::account_of(frame);
+  EXPECT_GT(now.thickness_min, 1e-8 * 0.9);
+  EXPECT_LT(now.thickness_max, 1e-2 * 1.1);
+}
+
+TEST(CornerCase, CollinearCaps) {
+  // many points on one line: triangles of almost no height along an edge
+  std::vector<Vector3> x = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}};
+  std::vector<Corners> t;
+  for (int i = 1; i < 10; ++i)
+    x.emplace_back(0.1 * i, 1e-9 * i * (10 - i), 0);
+  t.push_back({0, 1, 3});
+  for (std::uint32_t i = 3; i < 11; ++i) {
+    t.push_back({i, 1, i + 1});
+    t.push_back({i, i + 1, 2});
+  }
+  t.push_back({0, 3, 2});
+  t.push_back({11, 1, 2});
+  const formats::Frame frame = frame_of(x, t, 1e-12);
+  expect_right(frame, 0.3);
+  formats::Frame good = frame;
+  for (int i = 0; i < 3; ++i)
+    static_cast<void>(remesh(good, nullptr, options(0.3)));
+  EXPECT_GT(test::angles_of(good, 0.3).smallest, 15);
+}
+
+// The first triangle is an inlet's strip, which stays as it is. The one beside it was once halved towards their long
+// edge until it had no area.
+TEST(CornerCase, LongEdgeThatMayNotBeSplit) {
+  formats::Frame frame = frame_of({{0, 0, 0}, {2.7, 0, 0}, {1.35, -1, 0}, {1.35, 0.9, 0}}, {{0, 2, 1}, {0, 1, 3}});
+  formats::Array inlet = formats::make_array("inlet", formats::Place::vertex, formats::Type::uint64, 1, "1",
+                                             formats::Transfer::common, frame.vertices);
+  for (std::size_t v = 0; v < 3; ++v)
+    inlet.values<std::uint64_t>()[v] = 4;
+  frame.put(std::move(inlet));
+  const Report report = remesh(frame, nullptr, options(1));
+  EXPECT_LE(report.splits, 2U);
+  const auto x = positions(frame);
+  for (const Corners& t : triangles(frame))
+    EXPECT_LT(TriangleShape(x[t[0]], x[t[1]], x[t[2]]).sharpest, cosine_of_degrees(10));
+}
+
+TEST(CornerCase, InnerVertexOfDegreeThree) {
+  expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.3, 0}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}), 0.6);
+}
+
+TEST(CornerCase, OppositeEdgeExists) {
+  // Turning 0-1 would make a second edge 2-3: a tetrahedron without one face.
+  expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.4, 0.01}}, {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}), 0.6);
+}
+
+TEST(CornerCase, ConcaveRim) {
+  MeshOptions mesh_options;
+  mesh_options.edge_length = 0.1;
+  TriangleMesh mesh = make_rectangle(1, 1, mesh_options);
+  std::erase_if(mesh.triangles, [&](const TriangleIndices& t) { // an L
+    const Vector3 c = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+    return c[0] > 0 && c[1] > 0;
+  });
+  std::vector<std::uint32_t> number(mesh.positions.size(), no_index);
+  std::vector<Vector3> used;
+  for (TriangleIndices& t : mesh.triangles)
+    for (std::uint32_t& v : t) {
+      if (number[v] == no_index) {
+        number[v] = static_cast<std::uint32_t>(used.size());
+        used.push_back(mesh.positions[v]);
+      }
+      v = number[v];
+    }
+  mesh.positions = used;
+  expect_right(test::frame_of(mesh, 0.01), 0.1);
+}
+
+TEST(CornerCase, CoplanarSheetsThatTouch) {
+  // Two squares side by side, meeting in an edge without sharing it: they touch before and after; remeshing must end.
+  MeshOptions mesh_options;
+  mesh_options.edge_length = 0.2;
+  TriangleMesh mesh = make_rectangle(1, 1, mesh_options);
+  const TriangleMesh other = mesh;
+  mesh = test::joined(mesh, other, Vector3(1, 0, 0));
+  expect_right(test::frame_of(mesh, 0.01), 0.2);
+}
+
+TEST(CornerCase, UpperBoundBelowTwiceTheLowerIsAnError) {
+  formats::Frame frame = frame_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  Options o = options(1);
+  o.size.chord_error = 0.01;
+  o.size.min_edge = 1;
+  o.size.max_edge = 1.5;
+  try {
+    static_cast<void>(remesh(frame, nullptr, o));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("--max-edge"), std::string::npos);
+  }
+}
+
+TEST(CornerCase, ImpossibleLengthsAreErrors) {
+  const formats::Frame frame = frame_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  for (const double length : {0.0, -1.0, std::nan(""), static_cast<double>(INFINITY), 1e-9}) {
+    formats::Frame work = frame;
+    EXPECT_THROW(static_cast<void>(remesh(work, nullptr, options(length))), Error) << length;
+    EXPECT_TRUE(work == frame);
+  }
+}
+
+TEST(CornerCase, BudgetReachedIsToldAndTheNextCallGoesOn) {
+  // An edge that no triangle's area shows: a needle 1000 long and 1e-6 wide.
+  formats::Frame frame = frame_of({{0, 0, 0}, {1000, 0, 0}, {1000, 1e-6, 0}}, {{0, 1, 2}}, 1e-9);
+  const Report first = remesh(frame, nullptr, options(0.1));
+  EXPECT_TRUE(first.budget_reached);
+  const std::uint64_t triangles_then = frame.triangles;
+  static_cast<void>(remesh(frame, nullptr, options(0.1)));
+  EXPECT_GT(frame.triangles, triangles_then);
+}
+
+} // namespace
+} // namespace sheet::remesh

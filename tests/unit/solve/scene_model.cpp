@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From frame and scene to the model: holds, their release and motion, vertices that touch solids, contact springs.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/base/error.h"
+#include "libsheet/scene/read.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/scene_model.h"
+#include "libsheet/solve/step_stage.h"
+
+namespace sheet {
+namespace {
+
+using formats::Array;
+using formats::Frame;
+using formats::make_array;
+using formats::Place;
+using formats::Transfer;
+using formats::Type;
+
+constexpr const char* scene_text = R"(
+[sheet]
+shape = "rectangle"
+size = [2, 1]
+edge_length = 0.5
+thickness = 0.1
+[material]
+viscosity = 10
+density = 1000
+[[hold]]
+region = "x_min"
+kind = "clamped"
+until = 0.5
+[[hold]]
+region = "x_max"
+motion = {kind = "translating", velocity = [[0, 0, 0, 0], [0.25, 2, 0, 0]]}
+[[solid]]
+shape = "plane"
+normal = [0, 1, 0]
+surface_velocity = [0, 0, 3]
+)";
+
+// Two squares side by side: vertices 0 1 2 at z = 0, 3 4 5 at z = -1.
+Frame two_squares() {
+  const std::vector<Vector3> x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, -1}, {1, 0, -1}, {2, 0, -1}};
+  const std::vector<Corners> t{{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  Frame frame = make_frame(x, t, std::vector<double>(4, 0.05));
+  frame.put_text("scene", scene_text);
+  return frame;
+}
+
+void put_masks(Frame& frame, const char* name, std::vector<std::uint64_t> masks) {
+  Array array = make_array(name, Place::vertex, Type::uint64, 1, "1", Transfer::common, frame.vertices);
+  std::copy(masks.begin(), masks.end(), array.values<std::uint64_t>().begin());
+  frame.put(std::move(array));
+}
+
+void put_column(Frame& frame, const char* name, const char* unit, std::uint32_t components,
+                std::vector<double> values) {
+  Array array =
+      make_array(name, Place::frame, Type::float64, components, unit, Transfer::drop, values.size() / components);
+  std::copy(values.begin(), values.end(), array.values<double>().begin());
+  frame.put(std::move(array));
+}
+
+// Vertex 2 hangs on the point between vertices 0 and 1, one metre to the side at rest.
+void put_spring(Frame& frame) {
+  Array vertices = make_array("contact_vertex", Place::frame, Type::uint32, 4, "1", Transfer::drop, 1);
+  const std::array<std::uint32_t, 4> v{2, 0, 1, 3};
+  std::copy(v.begin(), v.end(), vertices.values<std::uint32_t>().begin());
+  frame.put(std::move(vertices));
+  put_column(frame, "contact_weight", "1", 4, {1, -0.5, -0.5, 0});
+  put_column(frame, "contact_normal", "1", 3, {1, 0, 0});
+  put_column(frame, "contact_rest", "m", 1, {1.75});
+  put_column(frame, "contact_anchor", "m", 3, {1.5, 0, 0});
+  put_column(frame, "contact_stiffness", "N/m", 2, {7, 5});
+}
+
+TEST(SceneModel, HoldsAreInForceUntilTheirTime) {
+  Frame frame = two_squares();
+  put_masks(frame, "hold", {1, 0, 2, 1, 0, 2});
+  const Scene scene = parse_scene(scene_text, "test");
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  Model model = model_of(scene, frame, mesh, Bending::mid_edge, false);
+  ASSERT_EQ(model.holds.size(), 2u);
+  EXPECT_EQ(model.holds[0].vertices, (std::vector<std::uint32_t>{0, 3}));
+  ASSERT_EQ(model.holds[0].clamped_edges.size(), 1u);
+  EXPECT_EQ(mesh.edges[model.holds[0].clamped_edges[0]], (Edge{0, 3}));
+  EXPECT_TRUE(model.holds[1].clamped_edges.empty());
+  // Velocity 8 t until 0.25 s, then 2 m/s.
+  EXPECT_NEAR(model.holds[1].moved(0, 0.25).shift.x(), 0.25, 1e-15);
+  EXPECT_NEAR(model.holds[1].moved(0.25, 1.25).shift.x(), 2, 1e-15);
+  frame.time = 0.5;
+  model = model_of(scene, frame, mesh, Bending::mid_edge, false);
+  ASSERT_EQ(model.holds.size(), 1u);
+  EXPECT_EQ(model.holds[0].vertices, (std::vector<std::uint32_t>{2, 5}));
+}
+
+TEST(SceneModel, EventsAreKinksAndReleases) {
+  const Scene scene = parse_scene(scene_text, "test");
+  EXPECT_EQ(next_event(scene, 0), 0.25);
+  EXPECT_EQ(next_event(scene, 0.25), 0.5);
+  EXPECT_TRUE(std::isinf(next_event(scene, 0.5)));
+}
+
+TEST(SceneModel, WhatTouchesASolidMovesWithItsSurface) {
+  Frame frame = two_squares();
+  put_masks(frame, "touch", {1, 1, 0, 1, 1, 0});
+  frame.put_text("scene", scene_text);
+  StepStageOptions options;
+  options.dt = 0.125;
+  StepStage stage(options);
+  stage.step(frame);
+  const auto x = positions(static_cast<const Frame&>(frame));
+  for (const int v : {0, 1, 3, 4})
+    EXPECT_NEAR(x[v].z() - (v < 3 ? 0 : -1), 0.375, 1e-12);
+  const auto velocity = velocities(static_cast<const Frame&>(frame));
+  EXPECT_NEAR(velocity[0].z(), 3, 1e-9);
+  EXPECT_EQ(frame.time, 0.125);
+  EXPECT_EQ(frame.step, 1u);
+}
+
+// A plate that speeds up by 4 m/s² carries the sheet upwards: what it gives each vertex is its mass times (g + 4 m/s²).
+TEST(SceneModel, TheForceOfASolidIsWrittenWhereTheSheetMayComeOff) {
+  const std::string text = std::string(scene_text) +
+                           "motion = {kind = \"translating\", velocity = [[0, 0, 0, 0], [1, 0, 4, "
+                           "0]]}\n[environment]\ngravity = [0, -9.81, 0]\n[contact]\nself = false\n";
+  for (const bool releases : {true, false})
+    for (const Scheme scheme : {Scheme::sdirk2, Scheme::backward_euler}) {
+      Frame frame = two_squares();
+      put_masks(frame, "touch", {1, 1, 1, 1, 1, 1});
+      frame.put_text("scene", text + (releases ? "adhesion = 5\n" : ""));
+      for (Vector3& v : velocities(frame))
+        v = Vector3(0, 0, 3); // the belt's
+      StepStageOptions options;
+      options.dt = 0.125;
+      options.scheme = scheme;
+      StepStage(options).step(frame);
+      const Array* force = frame.find("touch_force");
+      ASSERT_EQ(force != nullptr, releases);
+      if (!releases)
+        continue;
+      EXPECT_EQ(formats::find_value_error(frame), "");
+      std::vector<double> mass(6, 0);
+      for (const Corners& c : triangles(frame))
+        for (const auto corner : c)
+          mass[corner] += 1000 * 0.05 / 3;
+      for (std::size_t v = 0; v < 6; ++v)
+        EXPECT_LT((force->values<Vector3>()[v] - mass[v] * Vector3(0, 13.81, 0)).norm(), 1e-9 * mass[v]) << v;
+    }
+  Frame free = two_squares();
+  put_masks(free, "touch", {1, 1, 0, 1, 1, 0});
+  free.put_text("scene", text + "adhesion = 5\n");
+  StepStageOptions options;
+  options.dt = 0.125;
+  StepStage stage(options);
+  stage.step(free);
+  EXPECT_EQ(free.find("touch_force")->values<Vector3>()[2], Vector3(0, 0, 0));
+  put_masks(free, "touch", {0, 0, 0, 0, 0, 0});
+  stage.step(free);
+  EXPECT_EQ(free.find("touch_force"), nullptr); // nor is the old one left
+}
+
+// Where a [[hold]] prescribes an axis of what touches, the solid has the others.
+TEST(SceneModel, AHoldCountsBeforeASolid) {
+  Frame frame = two_squares();
+  put_masks(frame, "touch", {1, 1, 1, 1, 1, 1});
+  put_masks(frame, "hold", {4, 4, 4, 4, 4, 4});
+  frame.put_text("scene", std::string(scene_text) + "[[hold]]\nregion = \"rim\"\naxes = \"z\"\n");
+  StepStageOptions options;
+  options.dt = 0.125;
+  StepStage(options).step(frame);
+  EXPECT_EQ(positions(static_cast<const Frame&>(frame))[0].z(), 0);
+  EXPECT_EQ(velocities(static_cast<const Frame&>(frame))[0].z(), 0);
+}
+
+TEST(SceneModel, WhatIsInTheInletMovesAtTheInflowsVelocityUntilItEnds) {
+  Frame frame = two_squares();
+  put_masks(frame, "inlet", {3, 3, 3, 1, 1, 0});
+  const std::string text = std::string(scene_text) +
+                           "[inflow]\nregion = \"z_max\"\nvelocity = [[0, 0, 0, 0], [2, 0, -1, -4]]\nuntil = 1.5\n";
+  frame.put_text("scene", text);
+  const Scene scene = parse_scene(text, "test");
+  EXPECT_EQ(next_event(scene, 0.5), 1.5);
+  EXPECT_EQ(next_event(scene, 1.5), 2);
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  const Model model = model_of(scene, frame, mesh, Bending::mid_edge, false);
+  ASSERT_EQ(model.holds.size(), 1u);
+  EXPECT_EQ(model.holds[0].vertices, (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(model.holds[0].clamped_edges.size(), 6u); // (0,1) (0,3) (0,4) (1,2) (1,4) (3,4)
+  const std::vector<Vector3> before(positions(frame).begin(), positions(frame).end());
+  StepStageOptions options;
+  options.dt = 0.25;
+  StepStage stage(options); // it ends at the kink of a hold, too
+  stage.step(frame);
+  const auto x = positions(static_cast<const Frame&>(frame));
+  for (int v = 0; v < 5; ++v) // the velocity is t (0, -1/2, -2)
+    EXPECT_LT((x[v] - before[v] - 0.5 * 0.25 * 0.25 * Vector3(0, -0.5, -2)).norm(), 1e-15) << v;
+  EXPECT_LT((velocities(static_cast<const Frame&>(frame))[3] - 0.25 * Vector3(0, -0.5, -2)).norm(), 1e-12);
+  frame.time = 1.5;
+  EXPECT_TRUE(model_of(scene, frame, mesh, Bending::mid_edge, false).holds.empty());
+}
+
+TEST(SceneModel, ContactSpringsPush) {
+  Frame frame = two_squares();
+  put_spring(frame);
+  ASSERT_EQ(formats::find_value_error(frame), "");
+  const Scene scene = parse_scene(scene_text, "test");
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  const Model model = model_of(scene, frame, mesh, Bending::none, false);
+  ASSERT_EQ(model.contacts.size(), 1u);
+  const ContactSpring& spring = model.contacts[0];
+  EXPECT_EQ(spring.vertices[0], 2u);
+  EXPECT_EQ(spring.stiffness[0], 7);
+  EXPECT_EQ(spring.stiffness[1], 5);
+  EXPECT_FALSE(model.contacts_adhere);
+  // Compressed by 0.25 m at rest: it pushes vertex 2 along +x, and all momentum stays zero.
+  StepStageOptions options;
+  options.dt = 0.01;
+  StepStage stage(options);
+  stage.step(frame);
+  Vector3 momentum = Vector3::Zero();
+  const auto v = velocities(static_cast<const Frame&>(frame));
+  std::vector<double> mass(6, 0);
+  for (const Corners& c : triangles(frame))
+    for (const auto corner : c)
+      mass[corner] += 1000 * 0.05 / 3;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    momentum += mass[i] * v[i];
+  EXPECT_GT(v[2].x(), 0);
+  EXPECT_LT(v[0].x(), 0);
+  // Round-off of positions of 2 m, seen as velocities over the step of 0.01 s.
+  const double total = 1000 * 4 * 0.05, round_off = std::numeric_limits<double>::epsilon() * 2 / 0.01;
+  EXPECT_LT(momentum.norm(), total * round_off);
+  EXPECT_GT(mass[2] * v[2].norm(), 1e6 * total * round_off);
+}
+
+TEST(StepStage, LandsOnOutputTimesAndEvents) {
+  Frame frame = two_squares();
+  put_masks(frame, "hold", {1, 0, 2, 1, 0, 2});
+  put_number(frame, "next_output_time", 0.3);
+  StepStageOptions options;
+  options.dt = 0.1;
+  StepStage stage(options);
+  std::vector<double> times;
+  while (frame.time < 0.3) {
+    stage.step(frame);
+    times.push_back(frame.time);
+  }
+  ASSERT_EQ(times.size(), 4u); // three equal steps to the kink at 0.25, one to 0.3
+  EXPECT_NEAR(times[0], 0.25 / 3, 1e-15);
+  EXPECT_EQ(times[2], 0.25);
+  EXPECT_EQ(times[3], 0.3);
+}
+
+TEST(StepStage, RefusesWhatItCannotStep) {
+  const auto message = [](Frame frame, StepStageOptions options) {
+    StepStage stage(options);
+    try {
+      stage.step(frame);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  StepStageOptions fixed;
+  fixed.dt = 0.1;
+  Frame frame = two_squares();
+  frame.erase("scene");
+  EXPECT_NE(message(frame, fixed).find("make it with sheet-init"), std::string::npos);
+  Frame endless = two_squares();
+  endless.time = 1; // behind all events
+  EXPECT_NE(message(endless, {}).find("let sheet-loop stamp it"), std::string::npos);
+  const std::vector<Vector3> x{{0, 0, 0}, {1, 0, 0}, {0, 0, -1}, {5, 5, 5}};
+  Frame lonely = make_frame(x, std::vector<Corners>{{0, 1, 2}}, std::vector<double>{0.1});
+  lonely.put_text("scene", scene_text);
+  EXPECT_NE(message(lonely, fixed).find("vertex 3 belongs to no triangle"), std::string::npos);
+  fixed.tolerance = 1e-3;
+  EXPECT_THROW(StepStage{fixed}, Error);
+  fixed.tolerance.reset();
+  fixed.dt = -1;
+  EXPECT_THROW(StepStage{fixed}, Error);
+}
+
+} // namespace
+} // namespace sheet
