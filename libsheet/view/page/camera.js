@@ -23,9 +23,12 @@ class Camera {
   }
   get eye() { return add(this.target, this.toward, this.distance); }
 
-  fit(center, radius) {
+  // So far away that all corners (relative to the center) are in a picture of that size.
+  fit(center, corners, width, height) {
+    const [right, up, back] = this.axes, [sx, sy] = this.scales(width, height);
     this.target = center;
-    this.distance = 0.92 * radius / Math.sin(Camera.fieldOfView / 2);
+    this.distance = 1.06 * Math.max(...corners.map(
+      c => dot(c, back) + Math.max(sx * Math.abs(dot(c, right)), sy * Math.abs(dot(c, up)))));
   }
 
   turn(x, y) {

@@ -8,7 +8,7 @@ const state = {
   moment: 0, playing: false, colour: "plain", mesh: false, solids: true, measuring: false, ends: [], asked: null, cut: null,
 };
 const shown = streams.map(() => ({})); // what is on the graphics card for each stream
-let origin = [0, 0, 0], radius = 1, waiting = false;
+let origin = [0, 0, 0], corners = [], radius = 1, waiting = false; // corners of all there is, relative to the origin
 
 // --- what there is to see
 
@@ -35,6 +35,16 @@ function findExtent() {
     });
   origin = low.map((x, i) => (x + high[i]) / 2);
   radius = Math.max(length(subtract(high, low)) / 2, 1e-12);
+  corners = cornersOf({low, high}).map(c => subtract(c, origin));
+}
+
+const cornersOf = ({low, high}) => Array.from({length: 8}, (_, k) => low.map((x, i) => k >> i & 1 ? high[i] : x));
+
+// The sheet displaces a bath: its surface is drawn below the sheet where that lies deeper.
+function loweredBath(stream, surface) {
+  const heights = stream.descriptions.filter(d => d.triangles > 0).flatMap(cornersOf).map(c => dot(c, surface.normal));
+  const level = dot(surface.point, surface.normal), lowest = Math.min(...heights) - 0.01 * radius;
+  return lowest < level ? {...surface, point: add(surface.point, surface.normal, lowest - level)} : surface;
 }
 
 const now = () => times[state.moment];
@@ -75,7 +85,8 @@ function refresh(i) {
     kept.around = [
       ...stream.solids.map((solid, k) => ({kind: "solid", number: solid.number, uploaded: canvas.upload(
         {...moved(solid.shape, motions[k], origin), corners: solid.corners})})),
-      ...surfaces.map(s => ({kind: s.kind, uploaded: canvas.upload(surfaceShape(s, origin, radius))})),
+      ...surfaces.map(s => ({kind: s.kind, uploaded: canvas.upload(
+        surfaceShape(s.kind === "bath" ? loweredBath(stream, s) : s, origin, radius))})),
     ];
     kept.placement = frame.placement;
   }
@@ -407,7 +418,8 @@ function play() {
 }
 
 function fit() {
-  camera.fit(origin, radius);
+  const {width, height} = part(0);
+  camera.fit(origin, corners, width, height);
   show(true);
 }
 
@@ -495,7 +507,7 @@ async function start() {
     ++done;
   }
   findExtent();
-  camera.fit(origin, radius);
+  fit();
   $("time").max = times.length - 1;
   listen();
   document.body.dataset.state = "unpacking";
