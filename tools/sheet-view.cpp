@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
               "file to write; - for standard output. Its folder is made if it is missing");
   tool.option("--title", o.title, "TEXT", "title of the page; without it, the names of the streams");
   tool.example("sheet-view run.sheet -o run.html", "then open run.html by a double click");
-  tool.example("sheet-view coarse.sheet fine.sheet -o compare.html", "two runs side by side, with one clock");
+  tool.example("sheet-view a.sheet b.sheet -o compare.html", "two runs side by side, with one clock");
   tool.example("sheet-select --every 4 run.sheet | sheet-view > run.html", "every fourth frame: a smaller file");
   return tool.run(argc, argv, [&] {
     if (o.inputs.empty())

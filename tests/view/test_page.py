@@ -6,6 +6,7 @@ import math
 import os
 import subprocess
 import tempfile
+import time
 import unittest
 import urllib.parse
 
@@ -76,6 +77,7 @@ class Page(unittest.TestCase):
         return self.browser.js(f"document.querySelector('#panel dd[data-of=\"{word}\"]')?.dataset.value")
 
     def address(self):
+        time.sleep(0.5)  # it is written now and then
         return dict(urllib.parse.parse_qsl(self.browser.js("location.hash.slice(1)")))
 
     def go(self, address):
@@ -167,6 +169,8 @@ class Page(unittest.TestCase):
         self.assertEqual((seen["colour"], seen["mesh"], seen["solids"]), ("thickness", "1", "0"))
         self.open("both.html", self.browser.js("location.hash"))
         self.assertEqual(self.address(), seen)
+        self.browser.key("t")
+        self.assertEqual(self.address(), {**seen, "theme": "dark"})
         self.browser.key("Home")
         self.browser.key(" ")
         self.browser.until("location.hash.includes('t=0.1&')", 10)

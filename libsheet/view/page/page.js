@@ -236,10 +236,20 @@ function tell() {
     streams.forEach((stream, i) => sections.push(cutSection(stream, shown[i].cutLines || [])));
   showPanel(sections);
   if (document.body.dataset.state === "ready") // before, it says what is wanted
-    writeAddress();
+    writeAddressSoon();
 }
 
 // --- the address
+
+// Browsers take no more than 100 addresses in 30 seconds.
+let addressAt = 0, addressTimer = 0;
+function writeAddressSoon() {
+  clearTimeout(addressTimer);
+  addressTimer = setTimeout(() => {
+    addressAt = performance.now();
+    writeAddress();
+  }, Math.max(0, addressAt + 400 - performance.now()));
+}
 
 function writeAddress() {
   const brief = numbers => numbers.map(x => Number(x.toPrecision(7))).join();
@@ -259,12 +269,9 @@ function writeAddress() {
   if (document.documentElement.dataset.theme)
     words.set("theme", document.documentElement.dataset.theme);
   const hash = "#" + words.toString().replaceAll("%2C", ",");
-  if (hash !== location.hash) {
-    written = hash;
+  if (hash !== location.hash)
     history.replaceState(null, "", hash);
-  }
 }
-let written = "";
 
 // What makes no sense is passed over.
 function readAddress() {
@@ -392,6 +399,8 @@ function goTo(moment) {
   moment = Math.max(0, Math.min(times.length - 1, moment));
   while (moment > 0 && times[moment] > ready)
     --moment;
+  if (moment === state.moment)
+    return;
   state.moment = moment;
   show(true);
 }
@@ -409,8 +418,10 @@ function play() {
     began ??= clock;
     const time = from + rate * (clock - began) / 1000;
     goTo(Math.max(0, times.findLastIndex(t => t <= time)));
-    if (time >= times.at(-1))
+    if (time >= times.at(-1)) {
       state.playing = false;
+      show(true);
+    }
     requestAnimationFrame(go);
   };
   requestAnimationFrame(go);
@@ -477,11 +488,10 @@ function listen() {
   });
   window.addEventListener("resize", () => show(true));
   window.addEventListener("hashchange", () => {
-    if (location.hash !== written) {
-      Object.assign(state, {asked: null, ends: [], cut: null, colour: "plain"});
-      readAddress();
-      show(true);
-    }
+    clearTimeout(addressTimer);
+    Object.assign(state, {asked: null, ends: [], cut: null, colour: "plain"});
+    readAddress();
+    show(true);
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => show(true));
   $("time").addEventListener("input", event => goTo(Number(event.target.value)));
