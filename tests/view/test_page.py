@@ -159,8 +159,8 @@ class Page(unittest.TestCase):
         self.browser.key("End")
         self.assertEqual(float(self.address()["t"]), 0.1)
         labels = self.browser.js("[...document.querySelectorAll('#labels div')].map(d => d.textContent).join()")
-        self.assertIn("fixed.sheet frame 5", labels)
-        self.assertIn("remeshed.sheet frame 3", labels)
+        self.assertIn("fixed.sheet frame 5, 0.100 s", labels)
+        self.assertIn("remeshed.sheet frame 3, 0.100 s", labels)
         for key in "2wo":
             self.browser.key(key)
         x, y, _ = self.middle()
@@ -177,6 +177,27 @@ class Page(unittest.TestCase):
         self.browser.key("?")
         self.assertTrue(self.browser.js("document.getElementById('keys').open"))
         self.assertEqual(self.browser.complaints(), [])
+
+    def test_fingers_turn_and_pinch(self):
+        self.open("first.html")
+        x, y, _ = self.middle()
+        def touch(kind, *places):
+            points = [{"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(places)]
+            self.browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+        def eye():
+            return [float(c) for c in self.address()["eye"].split(",")]
+        before = eye()
+        touch("touchStart", (0, 0))
+        touch("touchMove", (60, 0))
+        touch("touchEnd")
+        turned = eye()
+        self.assertNotAlmostEqual(turned[0], before[0], delta=0.1)
+        self.assertEqual(turned[2:], before[2:])
+        touch("touchStart", (-50, 0), (50, 0))
+        touch("touchMove", (-100, 0), (100, 0))
+        touch("touchEnd")
+        self.assertAlmostEqual(eye()[2] / turned[2], 0.5, delta=0.02)
+        self.assertEqual(eye()[:2], turned[:2])
 
     def test_an_address_that_makes_no_sense_is_passed_over(self):
         for address in ("#t=soon&eye=1,2&cut=q,1&ask=7,8,9&ends=a", "#%%%&&=&t=-1e999&eye=0,0,-1,0,0,0", "#ask=0,0,99999"):

@@ -195,10 +195,13 @@ function drawMarks() {
   marks.replaceChildren(...made);
 }
 
+// With as many decimals as tell a thousandth of the run.
+const seconds = time => `${time.toFixed(Math.max(3, -Math.floor(Math.log10(times.at(-1) - times[0] || 1)) + 2))} s`;
+
 function tellLabels() {
   const made = streams.map((stream, i) => {
     const frame = stream.frameAt(now()), {x, y, width} = part(i), label = element("div");
-    label.append(element("b", stream.name), ` frame ${frame.number}, step ${frame.step}, ` +
+    label.append(element("b", stream.name), ` frame ${frame.number}, ${seconds(frame.time)}, step ${frame.step}, ` +
                  `${frame.triangles.toLocaleString("en")} triangles`);
     Object.assign(label.style, {left: `${x}px`, top: `${y}px`, maxWidth: `${width}px`});
     label.title = stream.scene;
@@ -211,7 +214,7 @@ function tell() {
   tellLater = false;
   tellLabels();
   $("time").value = state.moment;
-  $("clock").textContent = `${now().toFixed(Math.max(3, -Math.floor(Math.log10(times.at(-1) - times[0] || 1)) + 2))} s`;
+  $("clock").textContent = seconds(now());
   $("play").textContent = state.playing ? "❚❚" : "▶";
   $("colour").value = state.colour;
   for (const name of ["mesh", "solids"])
