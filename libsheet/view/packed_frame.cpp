@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/view/packed_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "libsheet/render/looks.h"
+#include "libsheet/view/packed_numbers.h"
+
+namespace sheet::view {
+namespace {
+
+using Vectors = std::span<const Eigen::Vector3d>;
+
+// The largest power of two that is not above `most`.
+double power_of_two(double most) { return std::exp2(std::floor(std::log2(most))); }
+
+double largest(Vectors vectors) {
+  double most = 0;
+  for (const Eigen::Vector3d& v : vectors)
+    most = std::max(most, v.cwiseAbs().maxCoeff());
+  return most;
+}
+
+// The value that so large a part of the values are below; 0 of none.
+double quantile(std::vector<double> values, double part) {
+  if (values.empty())
+    return 0;
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+Range most_of(const std::vector<double>& values) { return {quantile(values, 0.01), quantile(values, 0.99)}; }
+
+double short_edge(const formats::Frame& frame) {
+  const Vectors x = positions(frame);
+  std::vector<double> lengths;
+  for (const Corners& t : sheet::triangles(frame))
+    for (std::size_t i = 0; i < 3; ++i)
+      lengths.push_back((x[t[(i + 1) % 3]] - x[t[i]]).norm());
+  return quantile(std::move(lengths), 0.1);
+}
+
+// A step as long as `kept`, if that is no longer than `most` and not much shorter: differences then stay small.
+double choose_step(double most, double largest_value, double kept) {
+  constexpr double least_step = 1e-300, range = 0x1p30;
+  const double least = std::max(largest_value / range, least_step), limit = std::max(most, 2 * least);
+  return kept <= limit && kept >= std::max(least, limit / 8) ? kept : power_of_two(limit);
+}
+
+void set_box(Vectors places, FrameDescription& d) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      const double x = places[v][static_cast<Eigen::Index>(axis)];
+      d.low[axis] = v == 0 ? x : std::min(d.low[axis], x);
+      d.high[axis] = v == 0 ? x : std::max(d.high[axis], x);
+    }
+}
+
+std::vector<std::int32_t> in_steps(Vectors vectors, double step) {
+  std::vector<std::int32_t> numbers;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Eigen::Vector3d& v : vectors)
+      numbers.push_back(static_cast<std::int32_t>(std::lround(v[axis] / step)));
+  return numbers;
+}
+
+std::vector<std::int32_t> in_steps(const std::vector<double>& values, double step) {
+  std::vector<std::int32_t> numbers;
+  for (const double value : values)
+    numbers.push_back(static_cast<std::int32_t>(std::lround(value / step)));
+  return numbers;
+}
+
+std::vector<std::int32_t> indices(std::span<const Corners> corners) {
+  std::vector<std::int32_t> numbers;
+  for (const Corners& t : corners)
+    numbers.insert(numbers.end(), t.begin(), t.end());
+  return numbers;
+}
+
+// Triangles without area are thick beyond all numbers.
+std::vector<double> logarithms(const std::vector<double>& thickness) {
+  constexpr double widest = 700;
+  std::vector<double> logs;
+  for (const double h : thickness)
+    logs.push_back(std::clamp(std::log(h), -widest, widest));
+  return logs;
+}
+
+std::vector<std::uint8_t> contacts(const formats::Frame& frame) {
+  std::vector<std::uint8_t> kinds;
+  for (const double kind : render::values_of(frame, render::Look::contacts).values)
+    kinds.push_back(static_cast<std::uint8_t>(kind));
+  return kinds;
+}
+
+} // namespace
+
+bool FramePacker::replace(Numbers& kept, Numbers next, bool same_mesh, PackedNumbers& packed) {
+  const bool follows = same_mesh && kept.step == next.step && kept.numbers.size() == next.numbers.size();
+  if (follows)
+    packed.add(next.numbers, kept.numbers);
+  else
+    packed.add(next.numbers);
+  kept = std::move(next);
+  return follows;
+}
+
+PackedFrame FramePacker::pack(const formats::Frame& frame) {
+  const auto corners = sheet::triangles(frame);
+  const Vectors x = positions(frame), v = velocities(frame);
+  const std::vector<double> h = render::values_of(frame, render::Look::thickness).values,
+                            speed = render::values_of(frame, render::Look::speed).values,
+                            curvature = render::values_of(frame, render::Look::curvature).values;
+  PackedNumbers packed;
+  FrameDescription d{.time = frame.time,
+                     .step = frame.step,
+                     .vertices = frame.vertices,
+                     .triangles = frame.triangles,
+                     .same_mesh = !first_ && vertices_ == frame.vertices && std::ranges::equal(corners_, corners),
+                     .moves = !v.empty(),
+                     .thickness = most_of(h),
+                     .speed = most_of(speed),
+                     .curvature = most_of(curvature)};
+  for (const double volume : volumes(frame))
+    d.volume += volume;
+  set_box(x, d);
+  if (!d.same_mesh) {
+    packed.add(indices(corners));
+    corners_.assign(corners.begin(), corners.end());
+    vertices_ = frame.vertices;
+    first_ = false;
+  }
+  d.position_step = choose_step(short_edge(frame) / 512, largest(x), positions_.step);
+  d.position_follows = replace(positions_, {d.position_step, in_steps(x, d.position_step)}, d.same_mesh, packed);
+  replace(thickness_, {thickness_step, in_steps(logarithms(h), thickness_step)}, d.same_mesh, packed);
+  if (!d.moves) {
+    velocities_ = {};
+  } else {
+    const double most = speed.empty() ? 0 : *std::ranges::max_element(speed);
+    d.velocity_step = choose_step(most / 16384, most, velocities_.step);
+    d.velocity_follows = replace(velocities_, {d.velocity_step, in_steps(v, d.velocity_step)}, d.same_mesh, packed);
+  }
+  double bend = 0;
+  for (const double k : curvature)
+    bend = std::max(bend, std::abs(k));
+  d.curvature_step = choose_step(bend / 4096, bend, curvature_.step);
+  d.curvature_follows =
+      replace(curvature_, {d.curvature_step, in_steps(curvature, d.curvature_step)}, d.same_mesh, packed);
+  packed.add_bytes(contacts(frame));
+  return {d, packed.text()};
+}
+
+} // namespace sheet::view

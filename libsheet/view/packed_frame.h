@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A frame as the page holds it: whole numbers of steps, whose sizes the description says. Half a step is the error:
+//   positions  one step for all coordinates of a frame, a power of two, at most 1/512 of the edge that a tenth of the
+//              edges are shorter than: less than a thousandth of that edge is the error
+//   thickness  steps of a ten-thousandth of the logarithm: the error is 0.005 % of the thickness
+//   velocity   a power of two, at most 1/16384 of the frame's greatest speed
+//   curvature  a power of two, at most 1/4096 of the frame's greatest
+// (Coordinates beyond 2^30 steps get a larger one.)
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::view {
+
+class PackedNumbers;
+
+struct Range {
+  double low = 0, high = 0;
+};
+
+struct FrameDescription {
+  double time = 0; // [s]
+  std::uint64_t step = 0, vertices = 0, triangles = 0;
+  bool same_mesh = false; // as the frame before; numbers are differences from that where the step is the same, too
+  double position_step = 0, velocity_step = 0, curvature_step = 0;                    // [m], [m/s], [1/m]
+  bool position_follows = false, velocity_follows = false, curvature_follows = false; // the frame before
+  bool moves = false;                                                                 // it has velocities
+  Range thickness, speed, curvature;   // what all but the lowest and the highest hundredth have, SI
+  std::array<double, 3> low{}, high{}; // of positions [m]
+  double volume = 0;                   // [m³]
+};
+
+inline constexpr double thickness_step = 1e-4; // of its logarithm
+
+struct PackedFrame {
+  FrameDescription description;
+  // triangles (unless same_mesh), positions (all x, then y, z), thickness of triangles, velocities, curvature, contacts
+  std::string text;
+};
+
+// Packs the frames of a stream, one after the other. Precondition: frames obey the format's rules.
+class FramePacker {
+public:
+  [[nodiscard]] PackedFrame pack(const formats::Frame& frame);
+
+private:
+  struct Numbers {
+    double step = 0;
+    std::vector<std::int32_t> numbers;
+  };
+  // Packs and keeps them; whether they are packed as differences from those kept before.
+  bool replace(Numbers& kept, Numbers next, bool same_mesh, PackedNumbers& packed);
+
+  std::vector<Corners> corners_;
+  std::uint64_t vertices_ = 0;
+  bool first_ = true;
+  Numbers positions_, thickness_, velocities_, curvature_;
+};
+
+} // namespace sheet::view

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/view/page.h"
+
+#include <exception>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "formats/cpp/printable.h"
+#include "formats/cpp/stream_reader.h"
+#include "libsheet/base/error.h"
+#include "libsheet/base/file_roles.h"
+#include "libsheet/base/files.h"
+#include "libsheet/base/log.h"
+#include "libsheet/base/whole_file.h"
+#include "libsheet/render/framing.h"
+#include "libsheet/scene/frame_scene.h"
+#include "libsheet/view/packed_frame.h"
+#include "libsheet/view/page_parts.h"
+#include "libsheet/view/surroundings.h"
+
+namespace sheet::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// For a text or an attribute of HTML.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    switch (c) {
+    case '<':
+      out += "&lt;";
+      break;
+    case '>':
+      out += "&gt;";
+      break;
+    case '&':
+      out += "&amp;";
+      break;
+    case '"':
+      out += "&quot;";
+      break;
+    case '\'':
+      out += "&#39;";
+      break;
+    default:
+      out += c;
+    }
+  return out;
+}
+
+// For the inside of a script element: pure ASCII, and nothing in it can end the element or begin a comment.
+std::string script_json(const Json& json) {
+  std::string out;
+  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace))
+    c == '<' ? out += "\\u003c" : out += c;
+  return out;
+}
+
+std::string data_element(const std::string& id, std::string_view text) {
+  return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
+}
+
+Json to_json(const Range& range) { return {range.low, range.high}; }
+
+Json to_json(const FrameDescription& d) {
+  return {{"time", d.time},
+          {"step", d.step},
+          {"vertices", d.vertices},
+          {"triangles", d.triangles},
+          {"sameMesh", d.same_mesh},
+          {"positionStep", d.position_step},
+          {"positionFollows", d.position_follows},
+          {"moves", d.moves},
+          {"velocityStep", d.velocity_step},
+          {"velocityFollows", d.velocity_follows},
+          {"curvatureStep", d.curvature_step},
+          {"curvatureFollows", d.curvature_follows},
+          {"low", d.low},
+          {"high", d.high},
+          {"thickness", to_json(d.thickness)},
+          {"speed", to_json(d.speed)},
+          {"curvature", to_json(d.curvature)},
+          {"volume", d.volume}};
+}
+
+Json to_json(const Placement& placement) {
+  Json surfaces = Json::array();
+  for (const FlatSurface& s : placement.surfaces)
+    surfaces.push_back({{"kind", s.kind}, {"point", s.point}, {"normal", s.normal}});
+  return {{"motions", placement.motions}, {"surfaces", surfaces}};
+}
+
+// Writes what one stream brings and gathers its description.
+class StreamWriter {
+public:
+  StreamWriter(OutputFile& file, std::size_t number, const std::string& name) : file_(file), number_(number) {
+    description_ = {{"name", name}, {"frames", Json::array()}, {"thicknessStep", thickness_step}, {"up", {0, 1, 0}},
+                    {"scene", ""},  {"solids", Json::array()}, {"placements", Json::array()}};
+  }
+
+  void add(const formats::Frame& frame) {
+    if (!scene_)
+      take_scene(frame);
+    const PackedFrame packed = packer_.pack(frame);
+    Json& frames = description_["frames"];
+    file_.write(data_element(fmt::format("frame-{}-{}", number_, frames.size()), packed.text));
+    frames.push_back(to_json(packed.description));
+    frames.back()["placement"] = placement_at(frame.time);
+  }
+
+  [[nodiscard]] const Json& description() const { return description_; }
+
+private:
+  // Surroundings are those of the first scene of the stream.
+  void take_scene(const formats::Frame& frame) {
+    const Scene* scene = scenes_.find(frame);
+    if (scene == nullptr)
+      return;
+    scene_ = *scene;
+    description_["scene"] = std::string(frame.find("scene")->text());
+    const auto up = render::up_of(scene);
+    description_["up"] = {up[0], up[1], up[2]};
+    solids_ = pack_solids(*scene);
+    for (std::size_t i = 0; i < solids_.size(); ++i) {
+      const PackedSolid& solid = solids_[i];
+      file_.write(data_element(fmt::format("solid-{}-{}", number_, i), solid.text));
+      description_["solids"].push_back({{"number", solid.solid},
+                                        {"vertices", solid.vertices},
+                                        {"triangles", solid.triangles},
+                                        {"step", solid.step}});
+    }
+  }
+
+  // The number of the description's placement; most surroundings stand still and need one.
+  std::size_t placement_at(double time) {
+    Json& placements = description_["placements"];
+    const Placement placement = scene_ ? place_surroundings(*scene_, solids_, time) : Placement{};
+    if (placements.empty() || !(placement == placed_))
+      placements.push_back(to_json(placement));
+    placed_ = placement;
+    return placements.size() - 1;
+  }
+
+  OutputFile& file_;
+  std::size_t number_;
+  Json description_;
+  FramePacker packer_;
+  scene::FrameScene scenes_;
+  std::vector<PackedSolid> solids_;
+  std::optional<Scene> scene_;
+  Placement placed_;
+};
+
+std::string title_of(const ViewOptions& o) {
+  if (!o.title.empty())
+    return o.title;
+  std::string title;
+  for (const std::string& input : o.inputs)
+    title += (title.empty() ? "" : ", ") + (input == "-" ? "standard input" : input);
+  return title;
+}
+
+void write_head(OutputFile& file, const std::string& title) {
+  const std::vector<PagePart>& parts = page_parts();
+  std::string html(parts[0].text);
+  const auto put = [&](std::string_view mark, const std::string& text) {
+    for (std::size_t at = html.find(mark); at != std::string::npos; at = html.find(mark, at + text.size()))
+      html.replace(at, mark.size(), text);
+  };
+  put("{{STYLE}}", std::string(parts[1].text));
+  put("{{TITLE}}", escaped(formats::printable(title)));
+  file.write(html);
+}
+
+void write_scripts(OutputFile& file, const Json& streams) {
+  file.write("<script type=\"application/json\" id=\"streams\">" + script_json(streams) + "</script>\n");
+  file.write("<script>\n\"use strict\";\n(() => {\n");
+  const std::vector<PagePart>& parts = page_parts();
+  for (std::size_t i = 2; i < parts.size(); ++i)
+    file.write(parts[i].text);
+  file.write("})();\n</script>\n</body>\n</html>\n");
+}
+
+// Returns what was wrong with the stream behind its last whole frame, if anything was.
+std::exception_ptr write_stream(const std::string& input, StreamWriter& writer) {
+  const InputFile in(input);
+  formats::StreamReader reader(in.descriptor(), in.name());
+  formats::Frame frame;
+  try {
+    while (reader.read(frame))
+      writer.add(frame);
+  } catch (const formats::StreamError& error) {
+    if (reader.frames() == 0 || error.kind() != formats::StreamError::Kind::corrupt)
+      throw;
+    log::warning("the page has the whole frames of {}: {}", in.name(), reader.frames());
+    return std::current_exception();
+  }
+  if (reader.frames() == 0)
+    fail(ExitCode::bad_input, "{} has no frames: there is nothing to see", in.name());
+  return nullptr;
+}
+
+} // namespace
+
+void write_page(const ViewOptions& options) {
+  for (const std::string& input : options.inputs)
+    claim_file(input, FileRole::input); // before the output is made
+  std::exception_ptr cut;
+  write_whole_file(options.output, [&](OutputFile& file) {
+    write_head(file, title_of(options));
+    Json streams = Json::array();
+    for (const std::string& input : options.inputs) {
+      StreamWriter writer(file, streams.size(), input == "-" ? "standard input" : input);
+      if (const std::exception_ptr error = write_stream(input, writer); error && !cut)
+        cut = error;
+      streams.push_back(writer.description());
+    }
+    write_scripts(file, streams);
+  });
+  if (cut)
+    std::rethrow_exception(cut);
+}
+
+} // namespace sheet::view

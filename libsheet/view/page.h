@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A page for a browser that shows streams, in one file: scripts, styles and data.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace sheet {
+class OutputFile;
+}
+
+namespace sheet::view {
+
+struct ViewOptions {
+  std::vector<std::string> inputs; // files of streams, "-" for standard input
+  std::string output = "-";
+  std::string title; // "": made of the names of the inputs
+};
+
+// Writes the page. Of a stream that is cut short the whole frames are in it; the error is thrown when it is written.
+// Throws Error: bad_input (no frames, a solid's mesh that cannot be read), usage, io; StreamError.
+void write_page(const ViewOptions& options);
+
+} // namespace sheet::view

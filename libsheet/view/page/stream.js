@@ -1,0 +1,61 @@
+// Frames of a stream, unpacked one after the other (libsheet/view/packed_frame.h). Quantities are SI.
+
+class Frame {
+  constructor(description) {
+    Object.assign(this, description); // time, step, vertices, triangles, ..., as FrameDescription
+  }
+
+  place(v) {
+    const {positions: p, vertices: n, positionStep: s} = this;
+    return [p[v] * s, p[n + v] * s, p[2 * n + v] * s];
+  }
+  velocity(v) {
+    const {velocities: p, vertices: n, velocityStep: s} = this;
+    return p ? [p[v] * s, p[n + v] * s, p[2 * n + v] * s] : [0, 0, 0];
+  }
+  thicknessOf(triangle) { return Math.exp(this.logs[triangle] * this.thicknessStep); }
+  curvatureAt(v) { return this.bends[v] * this.curvatureStep; }
+  cornersOf(triangle) { return this.mesh.corners.subarray(3 * triangle, 3 * triangle + 3); }
+}
+
+class Stream {
+  constructor(number, description) {
+    Object.assign(this, description); // name, scene, up, solids, placements
+    this.number = number;
+    this.descriptions = description.frames;
+    this.frames = []; // those that are unpacked
+    this.times = this.descriptions.map(d => d.time);
+  }
+
+  async unpackNext() {
+    const number = this.frames.length, before = this.frames[number - 1];
+    const frame = new Frame(this.descriptions[number]);
+    const {vertices, triangles} = frame, data = await unpack(`frame-${this.number}-${number}`);
+    frame.number = number;
+    frame.thicknessStep = this.thicknessStep;
+    frame.mesh = frame.sameMesh ? before.mesh : new Mesh(vertices, new Uint32Array(data.numbers(3 * triangles)));
+    frame.positions = data.numbers(3 * vertices, frame.positionFollows ? before.positions : null);
+    frame.logs = data.numbers(triangles, frame.sameMesh ? before.logs : null);
+    if (frame.moves)
+      frame.velocities = data.numbers(3 * vertices, frame.velocityFollows ? before.velocities : null);
+    frame.bends = data.numbers(vertices, frame.curvatureFollows ? before.bends : null);
+    frame.contacts = data.rawBytes(vertices);
+    this.frames.push(frame);
+  }
+
+  async unpackSolids() {
+    for (const [i, solid] of this.solids.entries()) {
+      const data = await unpack(`solid-${this.number}-${i}`);
+      solid.positions = data.numbers(3 * solid.vertices);
+      solid.corners = new Uint32Array(data.numbers(3 * solid.triangles));
+    }
+  }
+
+  // The last frame that is not later, or the first; of those that are unpacked.
+  frameAt(time) {
+    let number = 0;
+    while (number + 1 < this.frames.length && this.times[number + 1] <= time * (1 + 1e-12))
+      ++number;
+    return this.frames[number];
+  }
+}

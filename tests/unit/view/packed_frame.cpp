@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/view/packed_frame.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace sheet::view {
+namespace {
+
+// Two triangles with edges of `edge` and its diagonal.
+formats::Frame square(double edge, double away = 0) {
+  const std::vector<Eigen::Vector3d> x = {{away, 0, 0}, {away + edge, 0, 0}, {away + edge, edge, 0}, {away, edge, 0}};
+  const std::vector<Corners> corners = {{0, 1, 2}, {0, 2, 3}};
+  const std::vector<double> volumes(2, 0.005 * edge * edge * edge);
+  return make_frame(x, corners, volumes);
+}
+
+TEST(FramePacker, RoundsByLessThanAThousandthOfAnEdge) {
+  for (const double edge : {1e-9, 3e-4, 0.7, 1.0, 5e8}) {
+    FramePacker packer;
+    const FrameDescription d = packer.pack(square(edge)).description;
+    EXPECT_LT(d.position_step / 2, edge / 1000);
+    EXPECT_GT(d.position_step, edge / 10000);
+    EXPECT_EQ(std::exp2(std::round(std::log2(d.position_step))), d.position_step);
+  }
+}
+
+TEST(FramePacker, TakesALargerStepFarAway) {
+  FramePacker packer;
+  const double away = 1e12;
+  const FrameDescription d = packer.pack(square(1e-3, away)).description;
+  EXPECT_LT(away / d.position_step, 0x1p31);
+  EXPECT_DOUBLE_EQ(d.low[0], away);
+}
+
+TEST(FramePacker, SaysAMeshOnce) {
+  FramePacker packer;
+  formats::Frame frame = square(1);
+  const PackedFrame first = packer.pack(frame);
+  EXPECT_FALSE(first.description.same_mesh);
+  EXPECT_FALSE(first.description.position_follows);
+  positions(frame)[2].z() += 0.01;
+  const PackedFrame second = packer.pack(frame);
+  EXPECT_TRUE(second.description.same_mesh);
+  EXPECT_TRUE(second.description.position_follows);
+  EXPECT_LT(second.text.size(), first.text.size());
+}
+
+TEST(FramePacker, TellsThicknessSpeedAndVolume) {
+  FramePacker packer;
+  formats::Frame frame = square(2);
+  const FrameDescription still = packer.pack(frame).description;
+  EXPECT_FALSE(still.moves);
+  for (Eigen::Vector3d& v : velocities(frame))
+    v = {3, 0, 4};
+  const FrameDescription d = packer.pack(frame).description;
+  EXPECT_TRUE(d.moves);
+  EXPECT_FALSE(d.velocity_follows);
+  EXPECT_DOUBLE_EQ(d.speed.low, 5);
+  EXPECT_DOUBLE_EQ(d.thickness.high, 0.02);
+  EXPECT_DOUBLE_EQ(d.volume, 0.08);
+  EXPECT_LE(d.velocity_step, 5.0 / 16384);
+}
+
+TEST(FramePacker, TakesAFrameWithoutTriangles) {
+  FramePacker packer;
+  EXPECT_EQ(packer.pack(make_frame({}, {}, {})).description.triangles, 0U);
+}
+
+} // namespace
+} // namespace sheet::view
