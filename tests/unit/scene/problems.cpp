@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
 #include "libsheet/scene/problems.h"
 
 #include <array>
@@ -33,7 +35,7 @@ TEST(Problems, Suggestions) {
 TEST(Problems, ManyAreCutShort) {
   std::string text = disk + liquid;
   for (int i = 0; i < 150; ++i)
-    text += "x" + std::to_string(i) + " = 1\n";
+    text += fmt::format("x{} = 1\n", i);
   const std::string all = problem(text);
   EXPECT_TRUE(all.ends_with("\ns: 50 more problems")) << all;
 }
