@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -46,8 +47,9 @@ double short_edge(const formats::Frame& frame) {
 
 // A step as long as `kept`, if that is no longer than `most` and not much shorter: differences then stay small.
 double choose_step(double most, double largest_value, double kept) {
-  constexpr double least_step = 1e-300, range = 0x1p30;
-  const double least = std::max(largest_value / range, least_step), limit = std::max(most, 2 * least);
+  constexpr double least_step = 1e-300, largest_step = 1e300, range = 0x1p30;
+  const double least = std::max(largest_value / range, least_step),
+               limit = std::min(std::max(most, 2 * least), largest_step);
   return kept <= limit && kept >= std::max(least, limit / 8) ? kept : power_of_two(limit);
 }
 
@@ -60,18 +62,24 @@ void set_box(Vectors places, FrameDescription& d) {
     }
 }
 
+// Velocities and curvatures of no finite size (products of hostile numbers) become 0, what is too large the largest.
+std::int32_t rounded(double steps) {
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  return std::isfinite(steps) ? static_cast<std::int32_t>(std::lround(std::clamp(steps, -most, most))) : 0;
+}
+
 std::vector<std::int32_t> in_steps(Vectors vectors, double step) {
   std::vector<std::int32_t> numbers;
   for (int axis = 0; axis < 3; ++axis)
     for (const Eigen::Vector3d& v : vectors)
-      numbers.push_back(static_cast<std::int32_t>(std::lround(v[axis] / step)));
+      numbers.push_back(rounded(v[axis] / step));
   return numbers;
 }
 
 std::vector<std::int32_t> in_steps(const std::vector<double>& values, double step) {
   std::vector<std::int32_t> numbers;
   for (const double value : values)
-    numbers.push_back(static_cast<std::int32_t>(std::lround(value / step)));
+    numbers.push_back(rounded(value / step));
   return numbers;
 }
 

@@ -62,6 +62,14 @@ TEST(FramePacker, TellsThicknessSpeedAndVolume) {
   EXPECT_LE(d.velocity_step, 5.0 / 16384);
 }
 
+TEST(FramePacker, SaysFiniteStepsOfVelocitiesWithoutBound) {
+  FramePacker packer;
+  formats::Frame frame = square(1);
+  velocities(frame)[0] = {1e200, -1e300, 1};
+  const FrameDescription d = packer.pack(frame).description;
+  EXPECT_TRUE(std::isfinite(d.velocity_step) && d.velocity_step > 0);
+}
+
 TEST(FramePacker, TakesAFrameWithoutTriangles) {
   FramePacker packer;
   EXPECT_EQ(packer.pack(make_frame({}, {}, {})).description.triangles, 0U);
