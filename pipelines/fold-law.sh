@@ -5,9 +5,9 @@
 #   speed      of the sheet at the slot [m/s]; height of the slot above the belt [m]
 #   edge       length of the edges [m]; tolerance: error of a step, in edges
 #   period     of the folds [s]: the median; middle_half: the range of the middle half of them [s]
-#   thickness  of the sheet where the folds are seen [m], mean over the later half of the run
+#   thickness, width  of the sheet where the folds are seen [m], means over the later half of the run
 : "${out:?pipelines/common.sh says where results go}"
-echo "kind,speed,height,edge,tolerance,period,middle_half,thickness" > "$out/law.csv"
+echo "kind,speed,height,edge,tolerance,period,middle_half,thickness,width" > "$out/law.csv"
 
 # fold_run KIND SPEED HEIGHT EDGE TOLERANCE UNTIL FPS BELT LOW HIGH SCENE [OPTION...]: runs the scene (options: sheet-init's) until
 # that time, with that many frames a second, and adds its line. The folds are seen LOW to HIGH metres above the belt, which is at the
@@ -18,13 +18,14 @@ fold_run() {
     "${@:11}" --set "solid.0.center=[0,$belt,0]"
   sheet-check "$out/$name.sheet"
   pipelines/folds "$out/$name.sheet" "$belt" "$out/$name-swing.csv" "$out/$name-folds.csv" "$low" "$high"
-  local thickness
-  thickness=$(awk -F, -v half="$(awk -v u="$until" 'BEGIN { print u / 2 }')" 'NR > 1 && $1 > half { n++; s += $3 } END { printf "%.4g", n ? s / n : 0 }' "$out/$name-swing.csv")
+  local size
+  size=$(awk -F, -v u="$until" 'NR > 1 && $1 > u / 2 { n++; h += $3; w += $4 } END { if (n) printf "%.4g,%.4g", h / n, w / n; else printf "nan,nan" }' \
+    "$out/$name-swing.csv")
   awk -F, 'NR > 1 && $2 > 0 { print $2 }' "$out/$name-folds.csv" | sort -g |
-    awk -v row="$kind,$speed,$height,$edge,$tolerance" -v thickness="$thickness" '{ t[NR] = $1 }
+    awk -v row="$kind,$speed,$height,$edge,$tolerance" -v size="$size" '{ t[NR] = $1 }
       END { if (NR < 2) { print row ": too few folds; simulate more periods" > "/dev/stderr"; exit 1 }
         middle = (t[int((NR + 1) / 2)] + t[int(NR / 2) + 1]) / 2; quarter = int((NR + 3) / 4)
-        printf "%s,%.5g,%.3g,%s\n", row, middle, t[NR + 1 - quarter] - t[quarter], thickness }' >> "$out/law.csv"
+        printf "%s,%.5g,%.3g,%s\n", row, middle, t[NR + 1 - quarter] - t[quarter], size }' >> "$out/law.csv"
 }
 
 # exponent KIND EDGE TOLERANCE [LEAST [MOST]]: that of frequency in what is varied, by least squares of logarithms; of the values
