@@ -90,6 +90,35 @@ interrupted() {
   interrupted KILL sideways bubble 0.0025 0.15
 }
 
+@test "bubble: the law has a line for each run, and the estimate" {
+  OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/bubble/law 1.2 2e-4 0.066
+  [[ $(wc -l < "$BATS_TEST_TMPDIR/law/law.csv") == 7 && $(grep -c '^thickness,2e-4,0.021,.*,2.57$' "$BATS_TEST_TMPDIR/law/law.csv") == 3 ]]
+}
+
+@test "bubble: waves around are counted, and a body of revolution has none" {
+  sheet-init pipelines/bubble/fine.toml -o "$BATS_TEST_TMPDIR/round.sheet" --set sheet.perturbation.amplitude=1e-9
+  pipelines/bubble/wrinkles "$BATS_TEST_TMPDIR/round.sheet" "$BATS_TEST_TMPDIR/round.csv"
+  awk -F, 'NR == 2 { exit !($3 < 1e-6) }' "$BATS_TEST_TMPDIR/round.csv"
+  PYTHONPATH=formats/python /usr/bin/python3 - "$BATS_TEST_TMPDIR" << 'END'
+import sys
+
+import numpy as np
+import sheetstream
+
+frame = next(iter(sheetstream.read(open(sys.argv[1] + "/round.sheet", "rb"))))
+position = frame["position"]
+angle = np.arctan2(position[:, 2], position[:, 0])
+position *= 1 + 0.02 * np.cos(7 * angle)[:, None]
+frame["position"] = position
+with open(sys.argv[1] + "/wavy.sheet", "wb") as file:
+    writer = sheetstream.Writer(file)
+    writer.write(frame)
+    writer.end()
+END
+  run -0 pipelines/bubble/wrinkles "$BATS_TEST_TMPDIR/wavy.sheet" "$BATS_TEST_TMPDIR/wavy.csv"
+  [[ $output == *", 7 around;"* ]]
+}
+
 @test "drape: interrupted and resumed = straight" {
   interrupted INT run drape 0.1 0.25
 }
