@@ -119,6 +119,22 @@ END
   [[ $output == *", 7 around;"* ]]
 }
 
+@test "pancake: interrupted and resumed = straight" {
+  interrupted INT run pancake 0.01 2
+}
+
+@test "honey: killed and resumed = straight" {
+  interrupted KILL run honey 0.006 1
+}
+
+@test "spin: interrupted and resumed = straight" {
+  interrupted INT run spin 0.01 1.2
+}
+
+@test "glass-mould: killed and resumed = straight" {
+  interrupted KILL slip glass-mould 0.015 60
+}
+
 @test "drape: interrupted and resumed = straight" {
   interrupted INT run drape 0.1 0.25
 }

@@ -80,7 +80,8 @@ void touch_walls(Stage& stage, Random& random) {
     WallSite site;
     site.vertex = v;
     site.normal = (Vector3(0, 1, 0) + random.vector(0.5)).normalized();
-    site.carried = stage.start->positions[v] + random.vector(0.1);
+    site.stuck = stage.start->positions[v];
+    site.carried = site.stuck + random.vector(0.1);
     site.slip_length = 0.1 * (1 + random());
     site.wetting = 1 + random();
     stage.site_of[v] = static_cast<std::uint32_t>(stage.sites.size());
