@@ -61,6 +61,18 @@ void forget_released(const Scene& scene, double time, std::vector<Array>& vertex
         bits &= in_force;
 }
 
+// Whether the one solid that a row of `touch` names lets liquid flow.
+bool flows_on_one(const Scene* scene, const std::byte* row, std::size_t bytes) {
+  std::size_t solids = 0, last = 0;
+  for (std::size_t bit = 0; bit < 8 * bytes; ++bit) // words are little-endian
+    if ((row[bit / 8] >> (bit % 8) & std::byte{1}) != std::byte{0}) {
+      ++solids;
+      last = bit;
+    }
+  return scene != nullptr && solids == 1 && last < scene->solids.size() &&
+         scene->solids[last].contact != SolidContact::stick;
+}
+
 } // namespace
 
 EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
@@ -105,12 +117,13 @@ std::uint32_t EditableSheet::grip_of(std::uint32_t v) {
   return static_cast<std::uint32_t>(it - grips_.begin());
 }
 
-// A [[hold]] holds its axes; what else holds a vertex holds it in all.
+// A [[hold]] holds its axes; what else holds a vertex holds it in all, but for a solid along which it flows.
 Axes EditableSheet::axes_of(std::uint32_t v) {
   for (Array& array : vertex_rows_)
     if (array.transfer == Transfer::common && (scene_ == nullptr || array.name != "hold")) {
       const std::byte* row = row_at(array, v);
-      if (std::any_of(row, row + row_size(array), [](std::byte b) { return b != std::byte{0}; }))
+      if (std::any_of(row, row + row_size(array), [](std::byte b) { return b != std::byte{0}; }) &&
+          !(array.name == "touch" && flows_on_one(scene_, row, row_size(array))))
         return all_axes;
     }
   for (Array& array : vertex_rows_)

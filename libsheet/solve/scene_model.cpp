@@ -166,6 +166,7 @@ void put_state(const State& state, Frame& frame) {
   put_number(frame, "start_time", frame.time);
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
+  std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());
   put_director_angles(state.director_angles, frame);
   frame.time = state.time;
   ++frame.step;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libsheet/base/error.h"
+#include "libsheet/energy/levelling.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/area.h"
 
@@ -176,8 +177,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   }
   estimate_error(state, dt, stage, first, last, end, scale, report);
   end.director_angles = director_angles(stage, last);
-  set_velocities_on_walls(model_.walls, stage, end.time, end);
-  set_held_velocities(model_.holds, end.time, end);
+  set_prescribed_velocities(stage, end);
   if (!sound(end))
     return Outcome::shrinks_to_nothing;
   if (slides_too_far(stage, last, dt, scale))
@@ -197,7 +197,15 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
       stage.inertial[v] += change.segment<3>(static_cast<Eigen::Index>(3 * v));
     report.reactions = reactions(cache_->system, cache_->terms, model_.viscosity, stage, last);
   }
+  if (level_layers(stage, {model_.viscosity, model_.density, model_.surface_tension, model_.gravity}, model_.holds, dt,
+                   end))
+    set_prescribed_velocities(stage, end);
   return Outcome::done;
+}
+
+void Stepper::set_prescribed_velocities(const Stage& stage, State& end) const {
+  set_velocities_on_walls(model_.walls, stage, end.time, end);
+  set_held_velocities(model_.holds, end.time, end);
 }
 
 // The difference e to the first-order result, from the slope of the first stage, or of backward Euler to the

@@ -89,6 +89,7 @@ private:
   Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end, StepReport& report);
   Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
                       const Eigen::VectorXd& scale, State& end, StepReport& report);
+  void set_prescribed_velocities(const Stage& stage, State& end) const;
   void estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first, const Unknowns& last,
                       const State& end, const Eigen::VectorXd& scale, StepReport& report) const;
   Outcome attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report);

@@ -165,11 +165,22 @@ TEST(Validation, LayersSpreadOnWalls) {
   EXPECT_GE(space_order(find_case("V23"), settings("V23", 0.1, 200)).order, 0.9);
 }
 
+// Theory's front is a step, and behind it the thickness is 1: the mesh keeps below twice that.
+TEST(Validation, AThickLayerOverrunsAThinOne) {
+  for (const double edge : {0.1, 0.05}) {
+    const Result front = run(find_case("V25"), settings("V25", edge, 100));
+    EXPECT_LT(std::abs(front.error), 0.07) << edge;
+    ASSERT_EQ(front.more.front().first, "thickest");
+    EXPECT_LT(front.more.front().second, 2) << edge;
+    EXPECT_GT(front.more[1].second, 1) << edge; // degrees, the sharpest
+  }
+}
+
 TEST(Validation, LayersOnWalls) {
   for (const int set : {1, 2, 7}) // down an incline, with slip; a puddle
     EXPECT_LT(error("V24", settings("V24", 0.1, 40, set)), 1e-6) << "set " << set;
-  EXPECT_LT(error("V24", settings("V24", 0.1, 40, 3)), 1e-3); // a plug stops
-  EXPECT_LT(error("V24", settings("V24", 0.1, 40, 5)), 2e-3); // on top of a cylinder
+  EXPECT_LT(error("V24", settings("V24", 0.1, 40, 3)), 1e-3);  // a plug stops
+  EXPECT_LT(error("V24", settings("V24", 0.1, 40, 5)), 2e-3);  // on top of a cylinder
   EXPECT_LT(error("V24", settings("V24", 0.1, 160, 6)), 1e-3); // spin coating
   for (const int set : {3, 4, 5, 6})
     EXPECT_GE(order_in_time("V24", settings("V24", 0.1, 80, set), Scheme::sdirk2), 1.9) << "set " << set;

@@ -70,6 +70,8 @@ const std::vector<Case>& cases() {
        "a "
        "cylinder; 6: spin coating; 7: a puddle)",
        "1, 2, 3: way; else thickness", "", 7, at(0.1, 40), true, false, v24},
+      {"V25", "a layer on an incline overruns a tenth as thick one, remeshed", "place of the front", "", 1,
+       at(0.1, 100), false, true, v25},
   };
   return list;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cases whose mesh is remade on the way, through the stages sheet-step and sheet-remesh: V9 until the hole has grown
-// tenfold, V10.
+// tenfold, V10, V25.
 #include <algorithm>
 #include <chrono>
 
 #include <fmt/core.h>
 
+#include "libsheet/geometry/area.h"
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/build.h"
@@ -25,11 +26,13 @@ struct Staged {
   std::uint64_t edits = 0;
 };
 
-// Steps and remeshes; `each` sees every frame.
+// Steps and remeshes; `prepare` sees the first frame, `each` every later one.
 Staged run_stages(const std::string& scene_text, const Settings& s, double duration,
-                  const std::function<void(const Frame&)>& each = {}) {
+                  const std::function<void(const Frame&)>& each = {}, const std::function<void(Frame&)>& prepare = {}) {
   const Scene scene = parse_scene(scene_text, "validation case");
   Staged run{build_frame(scene)};
+  if (prepare)
+    prepare(run.frame);
   StepStageOptions options;
   options.dt = duration / s.steps;
   options.scheme = s.scheme;
@@ -73,6 +76,13 @@ double volume_of(const Frame& frame) {
   for (const double v : volumes(frame))
     sum += v;
   return sum;
+}
+
+double sharpest_angle(const Vector3& a, const Vector3& b, const Vector3& c) { // [degrees]
+  const auto at = [](const Vector3& x, const Vector3& y, const Vector3& z) {
+    return std::atan2((y - x).cross(z - x).norm(), (y - x).dot(z - x));
+  };
+  return 180 / pi * std::min({at(a, b, c), at(b, c, a), at(c, a, b)});
 }
 
 // Area of the polygon of the vertices within `radius` of the y axis.
@@ -159,6 +169,57 @@ Result v10(const Settings& s) {
   r.more = {{"edge_speed", edge_speed / count / speed - 1},
             {"edits", static_cast<double>(run.edits)},
             {"edge_moved", length / 2 - edge}};
+  return r;
+}
+
+// V25: down an incline, a layer of thickness h overruns one of h/10 that lies ahead of it. Mass that flows through the
+// front gives its speed, (q(h) - q(h/10))/(h - h/10) = 1.11 u, q = u h ~ h³ [Huppert 1982]; behind it, from the upper
+// end, which is held, thickness is h (x/(3 u t))^(1/2). When the front has moved by 0.55 of the layer's length, where
+// is it: by the area of what is thicker than 0.55 h. More: the greatest thickness on the way, which theory says is h,
+// and the sharpest angle.
+Result v25(const Settings& s) {
+  constexpr double mu = 1, rho = 1, h = 0.02, length = 1, strip = 3, width = 0.3, ahead = 0.1, part = 0.55;
+  const double pull = std::sqrt(0.5), speed = rho * pull * h * h / (3 * mu), until = 0.5 * length / speed;
+  const std::string scene = fmt::format(
+      "[sheet]\nshape = \"rectangle\"\nplane = \"xz\"\nsize = [{}, {}]\ncenter = [{}, {}, 0]\nedge_length = {}\n"
+      "thickness = {}\nseed = {}\n[material]\nviscosity = {}\ndensity = {}\n[model]\nbending = false\n"
+      "[environment]\ngravity = [{}, {}, 0]\n"
+      "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncontact = \"flow\"\n"
+      "[[hold]]\nregion = \"x_min\"\n[[hold]]\nregion = \"z_min\"\naxes = \"z\"\n"
+      "[[hold]]\nregion = \"z_max\"\naxes = \"z\"\n",
+      strip, width, strip / 2, h / 2, s.edge, h, s.seed, mu, rho, pull, -pull);
+  const auto touch_and_thin = [&](Frame& frame) {
+    formats::Array touch = formats::make_standard_array("touch", frame.vertices);
+    std::ranges::fill(touch.values<std::uint64_t>(), 1);
+    frame.put(std::move(touch));
+    for (std::size_t t = 0; t < frame.triangles; ++t) {
+      const Corners& c = triangles(frame)[t];
+      const auto x = positions(frame);
+      if ((x[c[0]] + x[c[1]] + x[c[2]]).x() / 3 > length)
+        volumes(frame)[t] *= ahead;
+    }
+  };
+  double thickest = 0, least_angle = 180;
+  const auto watch = [&](const Frame& frame) {
+    const auto x = positions(frame);
+    for (std::size_t t = 0; t < frame.triangles; ++t) {
+      const Corners& c = triangles(frame)[t];
+      thickest = std::max(thickest, volumes(frame)[t] / TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area);
+      least_angle = std::min(least_angle, sharpest_angle(x[c[0]], x[c[1]], x[c[2]]));
+    }
+  };
+  const Staged run = run_stages(scene, s, until, watch, touch_and_thin);
+  double thick = 0;
+  const auto x = positions(run.frame);
+  for (std::size_t t = 0; t < run.frame.triangles; ++t) {
+    const Corners& c = triangles(run.frame)[t];
+    const double area = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+    if (volumes(run.frame)[t] > part * h * area)
+      thick += area / width;
+  }
+  const double exact = length + speed * until * (1 - std::pow(ahead, 3)) / (1 - ahead);
+  Result r = result_of(run, s, (thick + part * part * 3 * speed * until) / exact);
+  r.more = {{"thickest", thickest / h}, {"angle", least_angle}, {"edits", static_cast<double>(run.edits)}};
   return r;
 }
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Steps of liquid that flows along walls: forces, rigid motion, corners, length of steps.
+#include <cmath>
+#include <numeric>
+#include <random>
+
 #include <gtest/gtest.h>
 
+#include "libsheet/geometry/area.h"
 #include "libsheet/solve/step.h"
 #include "tests/support/meshes.h"
 
@@ -128,6 +133,48 @@ TEST(Walls, StepsPassHalfAnEdgeAtMost) {
   Stepper stepper(m, {});
   EXPECT_GE(stepper.step(s, 0.1).substeps, 8); // edges of 0.2 and their diagonals
   EXPECT_DOUBLE_EQ(s.time, 0.1);
+}
+
+// Root mean square of the differences of thickness from triangle to triangle [m].
+double roughness(const State& s) {
+  std::vector<double> thickness;
+  for (std::size_t t = 0; t < s.volumes.size(); ++t) {
+    const Corners& c = s.mesh->triangles[t];
+    thickness.push_back(s.volumes[t] / TriangleArea(s.positions[c[0]], s.positions[c[1]], s.positions[c[2]]).area);
+  }
+  double sum = 0, count = 0;
+  for (std::size_t e = 0; e < s.mesh->edges.size(); ++e)
+    if (!s.mesh->on_rim(e)) {
+      const auto [one, other] = s.mesh->edge_triangles[e];
+      sum += (thickness[one] - thickness[other]) * (thickness[one] - thickness[other]);
+      ++count;
+    }
+  return std::sqrt(sum / count);
+}
+
+// Patterns of an edge's length level within l²/(π² D) = 16 s, D = g h³/(3 ν), those of twice that within 64 s. The rim
+// is held, so the layer does not spread.
+TEST(Walls, RandomThicknessLevels) {
+  State s = resting(0.05);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> part(0.9, 1.1);
+  for (double& v : s.volumes)
+    v *= part(random);
+  const double before = roughness(s);
+  Model m = heavy_layer();
+  m.gravity = {0, 0, -9};
+  m.walls.push_back(floor_of(s));
+  Hold rim;
+  for (std::size_t e = 0; e < s.mesh->edges.size(); ++e)
+    if (s.mesh->on_rim(e))
+      rim.vertices.push_back(s.mesh->edges[e][0]), rim.vertices.push_back(s.mesh->edges[e][1]);
+  m.holds.push_back(rim);
+  Stepper stepper(m, {});
+  const double volume = std::accumulate(s.volumes.begin(), s.volumes.end(), 0.0);
+  for (int k = 0; k < 60; ++k)
+    ASSERT_EQ(stepper.step(s, 4).unfinished, 0);
+  EXPECT_LT(roughness(s), 0.1 * before);
+  EXPECT_NEAR(std::accumulate(s.volumes.begin(), s.volumes.end(), 0.0), volume, 1e-14 * volume);
 }
 
 } // namespace
