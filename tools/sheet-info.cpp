@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
       "energy and momentum, bounding box, quality of the mesh, topology. Quantities are SI.\n"
       "Energy and momentum need the density, which the frame's scene states; without it they are unknown: nan "
       "in CSV, null in JSON. Thickness is volume divided by area of each triangle; its mean is that of the "
-      "whole sheet.");
+      "whole sheet. Where the scene has rolls, or asks for forces ([model] forces = true), those of holds and solids "
+      "on the sheet at the end of the step are printed [N].");
   std::vector<std::string> inputs;
   bool json = false, csv = false;
   std::optional<double> density;
@@ -40,14 +41,18 @@ int main(int argc, char** argv) {
     sheet::OutputFile out(output, sheet::OutputFile::Content::text);
     std::string head = report->begin();
     sheet::SceneDensity scene;
+    sheet::SceneForces forces;
     sheet::formats::Frame frame;
     for (const std::string& input : inputs) {
       const sheet::InputFile in(input);
       sheet::formats::StreamReader reader(in.descriptor(), in.name());
-      while (reader.read(frame))
-        out.write(sheet::formats::printable(std::exchange(head, {}) +
-                                            report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame,
-                                                         sheet::measure(frame, density ? density : scene.of(frame))})));
+      while (reader.read(frame)) {
+        sheet::Measurements measured = sheet::measure(frame, density ? density : scene.of(frame));
+        measured.forces = forces.of(frame);
+        out.write(sheet::formats::printable(
+            std::exchange(head, {}) +
+            report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame, std::move(measured)})));
+      }
     }
     out.write(head + report->end());
     out.close();

@@ -38,6 +38,7 @@ constexpr std::array standards{
     Standard{"start_position", Place::vertex, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"start_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"hold", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
+    Standard{"hold_force", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
     Standard{"touch", Place::vertex, Type::uint64, any_number, "1", Transfer::common, false},
     Standard{"touch_force", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
     Standard{"inlet", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},

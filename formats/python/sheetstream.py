@@ -57,6 +57,7 @@ _STANDARD = {
     "next_output_time": ("frame", "float64", 1, "s", "copy"),
     "step_size": ("frame", "float64", 1, "s", "copy"),
     "touch": ("vertex", "uint64", 0, "1", "common"),
+    "hold_force": ("vertex", "float64", 3, "N", "conserve"),
     "touch_force": ("vertex", "float64", 3, "N", "conserve"),
     "inlet": ("vertex", "uint64", 1, "1", "common"),
     "inlet_origin": ("vertex", "float64", 3, "m", "interpolate"),

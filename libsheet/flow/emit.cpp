@@ -9,6 +9,7 @@
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/flow/inlet.h"
 #include "libsheet/flow/inlet_checks.h"
+#include "libsheet/flow/outflow.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/account.h"
@@ -354,6 +355,9 @@ Emitted emit(Frame& frame, const Scene& scene) {
 void EmitStage::emit(Frame& frame) {
   check_magnitudes(frame);
   const Scene& scene = scenes_.of(frame);
+  if (!scene.outflows.empty())
+    if (const Dropped out = let_out(frame, scene); out.volume > 0)
+      log::detail("step {}: {} m^3 left, {} triangles", frame.step, out.volume, out.triangles);
   if (!scene.inflow)
     return;
   const Emitted emitted = flow::emit(frame, scene);

@@ -26,7 +26,7 @@ struct Emitted {
 // that a [[hold]] holds fast.
 Emitted emit(formats::Frame& frame, const Scene& scene);
 
-// The stage. Without [inflow] in the scene, frames pass unchanged.
+// The stage: outflow (outflow.h), then inflow. Without [inflow] and [[outflow]] in the scene, frames pass unchanged.
 class EmitStage {
 public:
   void emit(formats::Frame& frame);

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "libsheet/measure/forces.h"
 #include "libsheet/measure/topology.h"
 
 namespace sheet {
@@ -33,6 +34,7 @@ struct Measurements {
   double angle_max = absent;
   double aspect_max = absent; // longest side over the altitude on it, 1 for an equilateral triangle; inf: degenerate
   Topology topology;
+  std::vector<NamedForce> forces; // in scenes that ask for them
 };
 
 // Precondition: the frame obeys the format's rules (StreamReader::Values::check). `density` [kg/m³].

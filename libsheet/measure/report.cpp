@@ -2,6 +2,7 @@
 // Report as text and CSV; JSON has a file of its own.
 #include "libsheet/measure/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -89,6 +90,9 @@ public:
                                                       m.angle_min * degrees, m.angle_max * degrees, m.aspect_max));
     line("topology", fmt::format("{}, pieces {}, boundary loops {}, Euler characteristic {}",
                                  t.closed ? "closed" : "open", t.components, t.boundary_loops, t.euler_characteristic));
+    for (const NamedForce& f : m.forces)
+      line("force of " + f.name,
+           std::isnan(f.force[0]) ? std::string("not known before a step") : vector_text(f.force) + " N");
     if (t.unused_vertices + t.pinched_vertices + t.non_manifold_edges > 0)
       line("", fmt::format("unused vertices {}, pinched vertices {}, non-manifold edges {}", t.unused_vertices,
                            t.pinched_vertices, t.non_manifold_edges));
@@ -120,8 +124,13 @@ public:
     const Frame& f = *e.frame;
     const Measurements& m = e.measurements;
     const Topology& t = m.topology;
-    std::string out = first_ ? header(e.many_files) : std::string();
-    first_ = false;
+    std::string out;
+    if (first_) {
+      for (const NamedForce& force : m.forces)
+        forces_.push_back(force.name);
+      out = header(e.many_files, forces_);
+      first_ = false;
+    }
     out += fmt::format("{},{},{},{}", e.index, f.time, f.vertices, f.triangles);
     for (const double x : {m.area, m.volume, m.thickness.least, m.thickness.mean, m.thickness.greatest,
                            m.kinetic_energy, m.momentum[0], m.momentum[1], m.momentum[2], m.low[0], m.high[0], m.low[1],
@@ -132,20 +141,29 @@ public:
                            m.edge.mean, m.aspect_max})
       out += "," + number(x);
     out += fmt::format(",{},{},{},{}", t.components, t.boundary_loops, t.euler_characteristic, t.closed ? 1 : 0);
+    for (std::size_t i = 0; i < forces_.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        out += "," + number(i < m.forces.size() ? m.forces[i].force[axis] : absent);
     return out + (e.many_files ? "," + csv_quoted(e.file) : "") + "\n";
   }
-  std::string end() override { return first_ ? header(false) : ""; }
+  std::string end() override { return first_ ? header(false, {}) : ""; }
 
 private:
-  static std::string header(bool many_files) {
+  static std::string header(bool many_files, const std::vector<std::string>& forces) {
+    std::string more;
+    for (const std::string& name : forces)
+      for (const char axis : {'x', 'y', 'z'})
+        more += fmt::format(",force_of_{}_{}", name, axis);
+    std::ranges::replace(more, ' ', '_');
     return std::string("frame,time,vertices,triangles,area,volume,thickness_min,thickness_mean,thickness_max,"
                        "kinetic_energy,momentum_x,momentum_y,momentum_z,x_min,x_max,y_min,y_max,z_min,z_max,"
                        "angle_min_degrees,edge_min,edge_max,step,angular_momentum_x,angular_momentum_y,"
                        "angular_momentum_z,angle_max_degrees,edge_mean,aspect_max,components,boundary_loops,"
                        "euler_characteristic,closed") +
-           (many_files ? ",file\n" : "\n");
+           more + (many_files ? ",file\n" : "\n");
   }
   bool first_ = true;
+  std::vector<std::string> forces_; // of the first frame's scene
 };
 
 } // namespace

@@ -44,26 +44,29 @@ Json provenance_json(const formats::Frame& frame) {
 Json measurements_json(const Measurements& m) {
   constexpr double degrees = 180 / std::numbers::pi;
   const Topology& t = m.topology;
-  return {{"area", m.area},
-          {"volume", m.volume},
-          {"thickness", range_json(m.thickness)},
-          {"kinetic_energy", m.kinetic_energy},
-          {"momentum", vector_json(m.momentum)},
-          {"angular_momentum", vector_json(m.angular_momentum)},
-          {"box", {{"min", vector_json(m.low)}, {"max", vector_json(m.high)}}},
-          {"edge", range_json(m.edge)},
-          {"angle_degrees", {{"min", m.angle_min * degrees}, {"max", m.angle_max * degrees}}},
-          {"aspect_max", m.aspect_max},
-          {"topology",
-           {{"components", t.components},
-            {"edges", t.edges},
-            {"boundary_edges", t.boundary_edges},
-            {"boundary_loops", t.boundary_loops},
-            {"euler_characteristic", t.euler_characteristic},
-            {"closed", t.closed},
-            {"unused_vertices", t.unused_vertices},
-            {"pinched_vertices", t.pinched_vertices},
-            {"non_manifold_edges", t.non_manifold_edges}}}};
+  Json json = {{"area", m.area},
+               {"volume", m.volume},
+               {"thickness", range_json(m.thickness)},
+               {"kinetic_energy", m.kinetic_energy},
+               {"momentum", vector_json(m.momentum)},
+               {"angular_momentum", vector_json(m.angular_momentum)},
+               {"box", {{"min", vector_json(m.low)}, {"max", vector_json(m.high)}}},
+               {"edge", range_json(m.edge)},
+               {"angle_degrees", {{"min", m.angle_min * degrees}, {"max", m.angle_max * degrees}}},
+               {"aspect_max", m.aspect_max},
+               {"topology",
+                {{"components", t.components},
+                 {"edges", t.edges},
+                 {"boundary_edges", t.boundary_edges},
+                 {"boundary_loops", t.boundary_loops},
+                 {"euler_characteristic", t.euler_characteristic},
+                 {"closed", t.closed},
+                 {"unused_vertices", t.unused_vertices},
+                 {"pinched_vertices", t.pinched_vertices},
+                 {"non_manifold_edges", t.non_manifold_edges}}}};
+  for (const NamedForce& f : m.forces)
+    json["forces"][f.name] = vector_json(f.force);
+  return json;
 }
 
 class JsonReport : public Report {

@@ -108,7 +108,7 @@ Frame checked_first_frame(const Scene& scene) {
   Frame frame = first_frame(scene);
   (void)remesh::Mesh(frame.vertices, triangles(frame));
   StepStage({}).check(frame);
-  if (scene.inflow) {
+  if (scene.inflow || !scene.outflows.empty()) {
     Frame copy = frame;
     flow::EmitStage().emit(copy);
   }

@@ -111,6 +111,7 @@ gravity = [0, "-9.81 m/s^2", 0]
 
 inertia = true                  # false: creeping flow, when viscosity stops everything at once
 bending = true                  # false: a membrane
+#forces = true                  # those of holds and solids on the sheet are written, for sheet-info
 )toml";
 
 static constexpr std::string_view things = R"toml(
@@ -144,6 +145,12 @@ static constexpr std::string_view things = R"toml(
 #[[hold]]
 #region = "z_max"
 #motion = {kind = "translating", velocity = [["0 s", 0, 0, 0], ["1 s", 0, 0, 0.1]]}
+
+# A roll, or a clip: its region stays where it is, holds what enters and carries it, and lets go what leaves.
+#[[hold]]
+#region = {box = [[0.9, -1, -1], [1.1, 1, 1]]}
+#roll = true
+#motion = {kind = "translating", velocity = ["0.5 m/s", 0, 0]}
 
 # ------------------------------------------------------------------------ solids: any number of [[solid]]
 # Liquid that touches a solid sticks to it. `motion` as for holds (turning about the solid's own center).
@@ -212,6 +219,13 @@ center = [0, "-0.3 m", 0]
 #velocity = [0, 0, "-0.1 m/s"]
 #thickness = "2.5 mm"
 #until = "10 s"
+
+# ------------------------------------------------------------------------ where liquid leaves: any number of [[outflow]]
+
+# What is wholly beyond the plane through `point`, on the side to which `normal` points.
+#[[outflow]]
+#point = [0, "-2 m", 0]
+#normal = [0, -1, 0]
 
 # ------------------------------------------------------------------------ where the sheet tears
 

@@ -34,7 +34,7 @@ std::string what_touches(const std::vector<Solid>& solids) {
 }
 
 std::vector<Term> terms_of(const Scene& scene) {
-  const auto& [sheet, material, environment, model, holds, solids, inflow, tear, contact] = scene;
+  const auto& [sheet, material, environment, model, holds, solids, inflow, outflows, tear, contact] = scene;
   std::vector<Term> terms;
   const auto term = [&](std::string_view name, bool modelled, std::string_view because, std::string_view because_not) {
     terms.push_back({name, modelled, std::string(modelled ? because : because_not)});
@@ -81,6 +81,8 @@ std::vector<Term> terms_of(const Scene& scene) {
                             inflow->until ? fmt::format("until {} s", brief(*inflow->until)) : "without end")
               : "",
        "no [inflow]: the volume stays the same");
+  term("outflow", !outflows.empty(), count(outflows.size(), "plane") + " beyond which the sheet ends",
+       "no [[outflow]]: nothing leaves");
   term("tear", tear.has_value(), tear ? fmt::format("where thinner than {} m", brief(tear->below)) : "",
        "no [tear]: the sheet only thins");
   return terms;

@@ -25,7 +25,7 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     const Node* found = document.find(table);
     return found && found->find(key);
   };
-  const auto& [sheet, material, environment, model, holds, solids, inflow, tear, contact] = scene;
+  const auto& [sheet, material, environment, model, holds, solids, inflow, outflows, tear, contact] = scene;
   if (!has("material", "density") && model.inertia)
     problems.add(place("material", "density"), "missing key \"density\" in [material]: inertia needs it (or switch it "
                                                "off: inertia = false in [model])");
@@ -103,6 +103,8 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     scene.solids.push_back(read_solid(table, scene.environment, files));
   if (auto table = optional("inflow"))
     scene.inflow = read_inflow(*table, scene.sheet);
+  for (TableReader& table : list("outflow", std::numeric_limits<std::size_t>::max()))
+    scene.outflows.push_back(read_outflow(table));
   if (auto table = optional("tear"))
     scene.tear = read_tear(*table, scene.sheet);
   if (auto table = optional("contact"))

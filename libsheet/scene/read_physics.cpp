@@ -62,6 +62,7 @@ Model read_model(TableReader table) {
   Model model;
   model.inertia = table.boolean("inertia").value_or(true);
   model.bending = table.boolean("bending").value_or(true);
+  model.forces = table.boolean("forces").value_or(false);
   table.finish();
   return model;
 }

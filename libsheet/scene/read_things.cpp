@@ -158,6 +158,13 @@ Hold read_hold(TableReader table, const SheetTable& sheet, const Model& model) {
   hold.axes = read_axes(table);
   hold.motion = read_motion(table, sheet.center);
   hold.until = table.quantity("until", quantity::time, Bound::positive);
+  hold.roll = table.boolean("roll").value_or(false);
+  if (hold.roll && std::holds_alternative<Border>(hold.region))
+    table.wrong("roll",
+                "a roll takes what enters a part of space: region = {box = [[0, 0, 0], [1, 1, 1]]}, or a sphere");
+  if (hold.roll && std::holds_alternative<Fixed>(hold.motion))
+    table.wrong("roll", "a roll carries what it holds: it needs a motion, such as {kind = \"translating\", velocity = "
+                        "[1, 0, 0]}");
   if (hold.clamped && !model.bending)
     table.wrong("kind", "a clamped hold needs bending, which [model] switches off; use \"pinned\"");
   if (hold.clamped && hold.axes != all_axes)
@@ -216,6 +223,17 @@ Inflow read_inflow(TableReader table, const SheetTable& sheet) {
     table.wrong("velocity", "with no velocity nothing flows in");
   table.finish();
   return inflow;
+}
+
+Outflow read_outflow(TableReader table) {
+  Outflow outflow;
+  for (const std::string_view key : {"point", "normal"})
+    if (table.absent(key))
+      table.missing(key, key == "point" ? "[\"1 m\", 0, 0]" : "[1, 0, 0]");
+  outflow.point = table.vector("point", quantity::length).value_or(Vector3d::Zero());
+  outflow.normal = table.direction_or("normal", Vector3d::UnitX());
+  table.finish();
+  return outflow;
 }
 
 Tear read_tear(TableReader table, const SheetTable& sheet) {

@@ -9,8 +9,8 @@ std::vector<RingStage> ring_of(const Scene& scene) {
   std::vector<RingStage> stages{{"sheet-remesh --smooth", ""}};
   if (scene.tear)
     stages.push_back({"sheet-tear", "[tear] parts nothing"});
-  if (scene.inflow)
-    stages.push_back({"sheet-emit", "[inflow] lets nothing in"});
+  if (scene.inflow || !scene.outflows.empty())
+    stages.push_back({"sheet-emit", scene.inflow ? "[inflow] lets nothing in" : "[[outflow]] lets nothing out"});
   stages.push_back({"sheet-step", "nothing moves"});
   const bool self = scene.contact && scene.contact->self;
   if (!scene.solids.empty() || self)

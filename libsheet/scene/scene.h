@@ -163,6 +163,7 @@ struct Environment {
 struct Model {
   bool inertia = true; // false: creeping flow
   bool bending = true; // false: a membrane
+  bool forces = false; // those of holds and solids are wanted
   bool operator==(const Model&) const = default;
 };
 
@@ -190,6 +191,9 @@ struct Hold {
   Axes axes = all_axes; // the coordinates that are held
   Motion motion;
   std::optional<double> until; // released at this time [s]
+  // A roll, a clip: the region stays where it is; what enters it is held from then on and moves on by the hold's
+  // motion, what leaves it is let go. The region is a box or a sphere.
+  bool roll = false;
   bool operator==(const Hold&) const = default;
 };
 
@@ -246,6 +250,13 @@ struct Inflow {
   bool operator==(const Inflow&) const = default;
 };
 
+// What is wholly beyond the plane through `point` leaves the sheet.
+struct Outflow {
+  Vector3d point = Vector3d::Zero();
+  Vector3d normal = Vector3d::UnitX(); // towards what is beyond, any length but zero
+  bool operator==(const Outflow&) const = default;
+};
+
 struct Tear {
   double below = 0; // thickness [m]
   bool drop_crumbs = false;
@@ -268,6 +279,7 @@ struct Scene {
   std::vector<Hold> holds;
   std::vector<Solid> solids;
   std::optional<Inflow> inflow;
+  std::vector<Outflow> outflows;
   std::optional<Tear> tear;
   std::optional<Contact> contact;
   bool operator==(const Scene&) const = default;

@@ -23,6 +23,7 @@ Model read_model(TableReader table);
 Hold read_hold(TableReader table, const SheetTable& sheet, const Model& model);
 Solid read_solid(TableReader table, const Environment& environment, const Files& files);
 Inflow read_inflow(TableReader table, const SheetTable& sheet);
+Outflow read_outflow(TableReader table);
 Tear read_tear(TableReader table, const SheetTable& sheet);
 Contact read_contact(TableReader table);
 

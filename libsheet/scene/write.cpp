@@ -182,6 +182,8 @@ void write_hold(Writer& out, const Hold& hold) {
   }
   write_motion(out, hold.motion);
   out.line("until", hold.until);
+  if (hold.roll)
+    out.line("roll", flag(true));
 }
 
 void write_solid(Writer& out, const Solid& solid) {
@@ -234,6 +236,8 @@ std::string to_toml(const Scene& scene) {
   out.open("[model]");
   out.line("inertia", flag(scene.model.inertia));
   out.line("bending", flag(scene.model.bending));
+  if (scene.model.forces)
+    out.line("forces", flag(true));
   for (const Hold& hold : scene.holds)
     write_hold(out, hold);
   for (const Solid& solid : scene.solids)
@@ -244,6 +248,11 @@ std::string to_toml(const Scene& scene) {
     out.line("velocity", timed(inflow->velocity));
     out.line("thickness", inflow->thickness);
     out.line("until", inflow->until);
+  }
+  for (const Outflow& outflow : scene.outflows) {
+    out.open("[[outflow]]");
+    out.line("point", list(outflow.point));
+    out.line("normal", list(outflow.normal));
   }
   if (const auto& tear = scene.tear) {
     out.open("[tear]");

@@ -160,7 +160,7 @@ void add_holds(const TriangleMesh& mesh, const std::vector<scene::Hold>& table, 
                        [&](const scene::SphereRegion& s) { return in_sphere(mesh, s.center, s.radius); },
                    },
                    table[i].region);
-    if (held.empty())
+    if (held.empty() && !table[i].roll)
       fail(ExitCode::bad_input, "[[hold]] number {} (from 0): no vertex lies in its region", i);
     for (const std::uint32_t v : held)
       bits[v] |= std::uint64_t{1} << i;

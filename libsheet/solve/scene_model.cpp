@@ -8,6 +8,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/overloaded.h"
 #include "libsheet/scene/prescribed.h"
+#include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/held_rims.h"
@@ -172,10 +173,19 @@ void put_state(const State& state, Frame& frame) {
   ++frame.step;
 }
 
-void put_reactions(std::span<const Vector3> reactions, Frame& frame) {
+void put_reactions(std::span<const Vector3> reactions, bool of_holds, Frame& frame) {
   frame.erase("touch_force");
+  frame.erase("hold_force");
   if (reactions.empty())
     return;
+  if (of_holds) {
+    Array held = formats::make_standard_array("hold_force", frame.vertices);
+    const auto holds = sheet::holds(frame);
+    for (std::size_t v = 0; v < holds.size(); ++v)
+      if (holds[v] != 0)
+        held.values<Vector3>()[v] = reactions[v];
+    frame.put(std::move(held));
+  }
   Array force = formats::make_standard_array("touch_force", frame.vertices);
   const auto touched = touched_solids(frame);
   for (std::size_t v = 0; v < reactions.size(); ++v)
@@ -205,7 +215,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   add_inlet(scene, frame, mesh, model);
   model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
   model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
-  model.reactions = touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene));
+  model.reactions =
+      scene::wants_forces(scene) || (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene)));
   return model;
 }
 

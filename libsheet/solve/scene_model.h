@@ -17,9 +17,9 @@ namespace sheet {
 // Writes the end of a step into the frame: positions, velocities, time, step + 1, and where the step started.
 void put_state(const State& state, formats::Frame& frame);
 
-// Writes the forces of solids on what touches them, [N] a vertex (array "touch_force"), or takes the array away where
-// there are none.
-void put_reactions(std::span<const Vector3> reactions, formats::Frame& frame);
+// Writes the forces of solids on what touches them, [N] a vertex (array "touch_force"), and, if wanted, those of holds
+// ("hold_force"); takes the arrays away where there are none.
+void put_reactions(std::span<const Vector3> reactions, bool of_holds, formats::Frame& frame);
 
 // The terms that the scene asks for, and its holds that are in force at the frame's time: those of the scene's [[hold]]
 // tables (array "hold"), the vertices that touch a solid and move with it (array "touch"), those in the inlet (array

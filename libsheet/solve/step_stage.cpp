@@ -14,6 +14,7 @@
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/base/whole_file.h"
 #include "libsheet/scene/frame_scene.h"
+#include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/frame_mesh.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/scene_model.h"
@@ -106,8 +107,8 @@ struct StepStage::Impl {
     return until;
   }
 
-  // What the step is computed with. Errors as StepStage::check.
-  Model prepare(const Frame& frame) {
+  // What the step is computed with; whom the rolls hold is set. Errors as StepStage::check.
+  Model prepare(Frame& frame) {
     check_magnitudes(frame);
     const Scene& scene = scenes.of(frame);
     if (scenes.changed())
@@ -117,6 +118,7 @@ struct StepStage::Impl {
     check_edges(frame, *mesh.mesh());
     if (mesh.mesh()->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
+    scene::follow_rolls(scene, frame);
     // Arcs reduce locking where the sheet bends by directors (docs/hard-cases.md says what they cost).
     constexpr bool arcs = true;
     return model_of(scene, frame, *mesh.mesh(), options.bending, arcs, solids);
@@ -166,7 +168,7 @@ struct StepStage::Impl {
     else if (report.inaccurate > 0)
       warn_of_inaccurate(frame, state, report);
     put_state(state, frame);
-    put_reactions(report.reactions, frame);
+    put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), frame);
   }
 
   // state: at the end of the step.
@@ -192,7 +194,8 @@ StepStage::StepStage(StepStageOptions options) : impl_(std::make_unique<Impl>())
 StepStage::~StepStage() = default;
 
 void StepStage::check(const Frame& frame) {
-  const Model model = impl_->prepare(frame);
+  Frame copy = frame;
+  const Model model = impl_->prepare(copy);
   (void)make_terms(model, impl_->mesh.mesh());
 }
 

@@ -135,6 +135,10 @@ END
   interrupted KILL slip glass-mould 0.015 60
 }
 
+@test "film-casting: killed and resumed = straight" {
+  interrupted KILL free film-casting 0.02 1 0.5
+}
+
 @test "drape: interrupted and resumed = straight" {
   interrupted INT run drape 0.1 0.25
 }

@@ -165,6 +165,17 @@ TEST(Validation, LayersSpreadOnWalls) {
   EXPECT_GE(space_order(find_case("V23"), settings("V23", 0.1, 200)).order, 0.9);
 }
 
+// Below and above the onset of draw resonance; finer: docs/scenes/film-casting.md.
+TEST(Validation, FilmCasting) {
+  for (const int set : {2, 4}) {
+    const Result film = run(find_case("V26"), settings("V26", 0.04, 2000, set));
+    EXPECT_LT(std::abs(film.error), 0.04) << set;
+    ASSERT_EQ(film.more.front().first, "growth");
+    EXPECT_LT(std::abs(film.more.front().second), 0.3) << set;
+    EXPECT_LT(std::abs(film.more.back().second), 0.03) << set;
+  }
+}
+
 // Theory's front is a step, and behind it the thickness is 1: the mesh keeps below twice that.
 TEST(Validation, AThickLayerOverrunsAThinOne) {
   for (const double edge : {0.1, 0.05}) {

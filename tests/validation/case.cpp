@@ -72,6 +72,8 @@ const std::vector<Case>& cases() {
        "1, 2, 3: way; else thickness", "", 7, at(0.1, 40), true, false, v24},
       {"V25", "a layer on an incline overruns a tenth as thick one, remeshed", "place of the front", "", 1,
        at(0.1, 100), false, true, v25},
+      {"V26", "film casting, draw ratio 10, 15, 20, 25, 30 (sets 1 to 5)", "force of the roll", "", 5, at(0.02, 4000),
+       false, true, v26},
   };
   return list;
 }

@@ -39,7 +39,7 @@ Explanation of(const std::string& text) { return explain(parse_scene(text, "s"))
 
 TEST(Explain, TermsFollowTheTables) {
   const Explanation all = of(everything), little = of(disk + liquid);
-  EXPECT_EQ(all.terms.size(), 12U);
+  EXPECT_EQ(all.terms.size(), 13U);
   for (const Term& term : all.terms) {
     EXPECT_TRUE(term.modelled) << term.name;
     EXPECT_EQ(modelled(little, term.name), term.name == "membrane" || term.name == "bending" || term.name == "inertia");
@@ -143,6 +143,7 @@ Not modelled, and at no cost
   solids          no [[solid]]
   contact         no [contact]: the sheet may pass through itself
   inflow          no [inflow]: the volume stays the same
+  outflow         no [[outflow]]: nothing leaves
   tear            no [tear]: the sheet only thins
 
 Scales

@@ -254,6 +254,16 @@ TEST(Read, ProblemsOfTheOtherTables) {
             "s:12:15: slip_length must not be negative, got -1 m"},
            {"[[solid]]\nshape = \"plane\"\ncontact = \"glue\"",
             "s:11:11: contact: \"glue\" is none of \"stick\", \"flow\", \"slip\""},
+           {"[[hold]]\nregion = \"rim\"\nroll = true\nmotion = {kind = \"translating\", velocity = [1, 0, 0]}",
+            "s:11:8: roll: a roll takes what enters a part of space: region = {box = [[0, 0, 0], [1, 1, 1]]}, or a "
+            "sphere"},
+           {"[[hold]]\nregion = {sphere = {center = [0, 0, 0], radius = 1}}\nroll = true",
+            "s:11:8: roll: a roll carries what it holds: it needs a motion, such as {kind = \"translating\", velocity "
+            "= "
+            "[1, 0, 0]}"},
+           {"[[outflow]]\npoint = [0, 0, 0]",
+            "s:9:1: missing key \"normal\" in [[outflow]], such as normal = [1, 0, 0]"},
+           {"[[outflow]]\npoint = [0, 0, 0]\nnormal = [0, 0, 0]", "s:11:10: normal: a direction must not be zero"},
            {"[inflow]\nregion = \"outer_rim\"\nvelocity = [0, 0, 0]",
             "s:11:12: velocity: with no velocity nothing flows in"},
            {"[inflow]", "s:9:1: missing key \"region\" in [inflow], such as region = \"y_max\"\n"

@@ -77,6 +77,9 @@ receding = true
 region = "outer_rim"
 velocity = [0, -1, 0]
 until = 1
+[[outflow]]
+point = [0, "-2 m", 0]
+normal = [0, -1, 0]
 [tear]
 below = "0.8 mm"
 crumbs = "drop"

@@ -80,6 +80,10 @@ velocity = [0, -1, 0]
 thickness = 0.002
 until = 1
 
+[[outflow]]
+point = [0, -2, 0]
+normal = [0, -1, 0]
+
 [tear]
 below = 0.0008
 crumbs = "drop"
@@ -154,7 +158,7 @@ public:
       s.environment.pressure = DrainingPressure{positive()};
     if (s.environment.gravity && below(2))
       s.environment.bath = Bath{positive(), number(), below(2) == 1};
-    s.model = {below(2) == 1, below(2) == 1};
+    s.model = {below(2) == 1, below(2) == 1, below(2) == 1};
     for (int i = below(4); i > 0; --i)
       s.holds.push_back(hold(s));
     for (int i = below(4); i > 0; --i)
@@ -162,6 +166,8 @@ public:
     const auto borders = borders_of(sheet);
     if (!borders.empty() && below(2))
       s.inflow = Inflow{borders.back(), velocity(), positive(), maybe_positive()};
+    for (int i = below(3); i > 0; --i)
+      s.outflows.push_back({vector(), direction()});
     if (below(2))
       if (const double* h = std::get_if<double>(&sheet.thickness))
         s.tear = Tear{0.3 * *h, below(2) == 1};
@@ -188,6 +194,7 @@ private:
     else if (!std::holds_alternative<Rotating>(h.motion))
       h.axes = static_cast<Axes>(axis_bit(0) | below(2) * axis_bit(1) | below(2) * axis_bit(2));
     h.until = maybe_positive();
+    h.roll = !std::holds_alternative<Border>(h.region) && !std::holds_alternative<Fixed>(h.motion) && below(2);
     return h;
   }
   Solid solid() {

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/flow/outflow.h"
+
+#include <algorithm>
+
+#include "libsheet/base/error.h"
+#include "libsheet/flow/cracks.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/sheet/account.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::flow {
+
+using formats::Frame;
+
+namespace {
+
+constexpr double close = 0.25; // of a triangle's mean edge: what is not farther inside is not worth a triangle
+
+// Of x from the plane, positive beyond it [m].
+double past(const scene::Outflow& o, const Vector3& x) { return o.normal.dot(x - o.point) / o.normal.norm(); }
+
+std::vector<bool> beyond(const Frame& frame, const std::vector<scene::Outflow>& outflows) {
+  const auto x = positions(frame);
+  const auto inlet = masks(frame, "inlet");
+  std::vector<bool> leaves(frame.triangles, false);
+  for (std::size_t t = 0; t < frame.triangles; ++t) {
+    const Corners& c = triangles(frame)[t];
+    if (!inlet.empty() && std::ranges::all_of(c, [&](std::uint32_t v) { return inlet[v] != 0; }))
+      continue;
+    const double edge = ((x[c[1]] - x[c[0]]).norm() + (x[c[2]] - x[c[1]]).norm() + (x[c[0]] - x[c[2]]).norm()) / 3;
+    leaves[t] = std::ranges::any_of(outflows, [&](const scene::Outflow& o) {
+      const auto d = std::minmax({past(o, x[c[0]]), past(o, x[c[1]]), past(o, x[c[2]])});
+      return d.second > 0 && d.first > -close * edge;
+    });
+  }
+  return leaves;
+}
+
+double area_of(const Corners& c, std::span<const Vector3> x) { return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area; }
+
+// Vertices that are still beyond a plane go back to it; triangles lose volume with their area.
+Dropped pull_back(Frame& frame, const Scene& scene) {
+  const auto old = positions(static_cast<const Frame&>(frame));
+  std::vector<Vector3> x(old.begin(), old.end());
+  std::vector<bool> moved(x.size(), false);
+  for (const scene::Outflow& o : scene.outflows)
+    for (std::size_t v = 0; v < x.size(); ++v)
+      if (const double d = past(o, x[v]); d > 0) {
+        x[v] -= d * o.normal.normalized();
+        moved[v] = true;
+      }
+  Frame gone = frame; // with the volumes that leave
+  std::vector<bool> loses(frame.triangles, false);
+  for (std::size_t t = 0; t < frame.triangles; ++t) {
+    const Corners& c = triangles(static_cast<const Frame&>(frame))[t];
+    const double part = area_of(c, x) / area_of(c, old);
+    if (!(moved[c[0]] || moved[c[1]] || moved[c[2]]) || part >= 1)
+      continue;
+    loses[t] = true;
+    volumes(gone)[t] = (1 - part) * volumes(frame)[t];
+    volumes(frame)[t] -= volumes(gone)[t];
+  }
+  std::ranges::copy(x, positions(frame).begin());
+  return sum_of(gone, loses, scene.material.density);
+}
+
+// Takes triangles away.
+void drop(Frame& frame, const std::vector<bool>& leaves) {
+  const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const Frame&>(frame)));
+  std::vector<bool> cut(mesh.edges.size(), false);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    cut[e] = !mesh.on_rim(e) && leaves[mesh.edge_triangles[e][0]] != leaves[mesh.edge_triangles[e][1]];
+  const Fans fans = take_apart(mesh, cut);
+  put_fans(frame, fans, leaves, open_cracks(fans, leaves, positions(static_cast<const Frame&>(frame))));
+}
+
+} // namespace
+
+Dropped let_out(Frame& frame, const Scene& scene) {
+  const auto x = positions(static_cast<const Frame&>(frame));
+  if (std::ranges::none_of(x, [&](const Vector3& at) {
+        return std::ranges::any_of(scene.outflows, [&](const scene::Outflow& o) { return past(o, at) > 0; });
+      }))
+    return {};
+  const std::vector<bool> leaves = beyond(frame, scene.outflows);
+  Dropped out = sum_of(frame, leaves, scene.material.density);
+  if (out.triangles == frame.triangles)
+    fail(ExitCode::bad_input,
+         "all of the sheet is beyond an [[outflow]]: nothing is left at {:.6g} s; end the run before (--until)",
+         frame.time);
+  if (out.triangles > 0)
+    drop(frame, leaves);
+  const Dropped cut = pull_back(frame, scene);
+  out.volume += cut.volume;
+  out.momentum += cut.momentum;
+  out.energy += cut.energy;
+  add_to_account(frame, "outflow.volume", "m^3", {&out.volume, 1});
+  add_to_account(frame, "outflow.momentum", "kg*m/s", {out.momentum.data(), 3});
+  add_to_account(frame, "outflow.energy", "J", {&out.energy, 1});
+  return out;
+}
+
+} // namespace sheet::flow

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/measure/forces.h"
+
+#include <limits>
+
+#include "libsheet/base/error.h"
+#include "libsheet/scene/read.h"
+#include "libsheet/scene/rolls.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+std::vector<NamedForce> SceneForces::of(const formats::Frame& frame) {
+  const formats::Array* text = frame.find("scene");
+  if (text == nullptr)
+    return {};
+  if (text->text() != scene_) {
+    scene_ = text->text();
+    wanted_ = false;
+    try {
+      const Scene scene = parse_scene(scene_, "the frame's scene");
+      wanted_ = scene::wants_forces(scene);
+      holds_ = scene.holds.size();
+      solids_ = scene.solids.size();
+    } catch (const Error&) { // of which SceneDensity warns
+    }
+  }
+  std::vector<NamedForce> forces;
+  if (!wanted_)
+    return forces;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const formats::Array *held = frame.find("hold_force"), *touched = frame.find("touch_force");
+  const auto bits = holds(frame);
+  for (std::size_t i = 0; i < holds_; ++i) {
+    NamedForce& sum = forces.emplace_back("hold " + std::to_string(i), Eigen::Vector3d::Constant(held ? 0 : unknown));
+    for (std::size_t v = 0; held != nullptr && v < bits.size(); ++v)
+      if ((bits[v] >> i & 1) != 0)
+        sum.force += held->values<Vector3>()[v];
+  }
+  const auto solids = touched_solids(frame, solids_);
+  for (std::size_t i = 0; i < solids_; ++i) {
+    NamedForce& sum =
+        forces.emplace_back("solid " + std::to_string(i), Eigen::Vector3d::Constant(touched ? 0 : unknown));
+    for (std::size_t v = 0; touched != nullptr && v < solids.size(); ++v)
+      if (solids[v] == static_cast<std::int32_t>(i))
+        sum.force += touched->values<Vector3>()[v];
+  }
+  return forces;
+}
+
+} // namespace sheet

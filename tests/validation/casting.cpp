@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// V26: film casting. A film enters at x = 0 with the speed u0 and the thickness h0 and is drawn by a roll at x = L that
+// takes it at Dr u0; its width is held. Steady: u = u0 Dr^(x/L), pulled by 4 μ h0 u0 ln(Dr)/L per width. Disturbances
+// grow from a draw ratio of 20.218 on (draw resonance): L/u0 times growth rate and angular frequency from the linear
+// eigenvalue problem of the isothermal film of constant width, by collocation and by shooting alike [Yeow 1974].
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <complex>
+
+#include <Eigen/Dense>
+#include <fmt/core.h>
+
+#include "libsheet/flow/emit.h"
+#include "libsheet/measure/forces.h"
+#include "libsheet/remesh/remesh.h"
+#include "libsheet/scene/read.h"
+#include "libsheet/shape/build.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/step_stage.h"
+#include "tests/validation/setup.h"
+
+namespace sheet::validation {
+
+namespace {
+
+constexpr double mu = 1, h0 = 1e-3, settled = 0.3;
+
+struct Casting {
+  double draw_ratio, growth, frequency, duration, disturbance;
+};
+constexpr std::array<Casting, 5> castings = {{{10, -1.44599, 11.8056, 2, 0.1},
+                                              {15, -0.62821, 13.0763, 2.5, 0.1},
+                                              {20, -0.02319, 13.9771, 2, 0.05},
+                                              {25, 0.45955, 14.6761, 1.8, 0.05},
+                                              {30, 0.86231, 15.2476, 1.8, 0.03}}};
+
+// From the steady flow, its thickness disturbed by a part of h sin(πx).
+formats::Frame start_of(const Scene& scene, const Casting& c) {
+  formats::Frame frame = build_frame(scene);
+  const auto x = positions(static_cast<const formats::Frame&>(frame));
+  for (std::size_t t = 0; t < frame.triangles; ++t) {
+    const Corners& k = triangles(frame)[t];
+    const double at = std::min(1.0, (x[k[0]] + x[k[1]] + x[k[2]]).x() / 3);
+    volumes(frame)[t] *= std::pow(c.draw_ratio, -at) * (1 + c.disturbance * std::sin(pi * at));
+  }
+  return frame;
+}
+
+// Fits F = a + e^(σt) (b cos ωt + c sin ωt), by least squares over a refined grid of σ and ω.
+struct Wave {
+  double mean = 0, growth = 0, frequency = 0;
+};
+Wave fit(const std::vector<std::array<double, 2>>& series) {
+  Wave best;
+  double least = std::numeric_limits<double>::infinity(), width = 4;
+  Wave middle{0, 0, 13};
+  for (int level = 0; level < 4; ++level, width /= 5) {
+    for (int i = -20; i <= 20; ++i)
+      for (int k = -20; k <= 20; ++k) {
+        const double growth = middle.growth + width * i / 20, frequency = middle.frequency + 1.5 * width * k / 20;
+        Eigen::MatrixX3d basis(series.size(), 3);
+        Eigen::VectorXd force(series.size());
+        for (Eigen::Index n = 0; n < force.size(); ++n) {
+          const auto [t, f] = series[static_cast<std::size_t>(n)];
+          basis.row(n) << 1, std::exp(growth * t) * std::cos(frequency * t),
+              std::exp(growth * t) * std::sin(frequency * t);
+          force[n] = f;
+        }
+        const Eigen::Vector3d a = (basis.transpose() * basis).ldlt().solve(basis.transpose() * force);
+        if (const double rest = (basis * a - force).squaredNorm(); rest < least) {
+          least = rest;
+          best = {a[0], growth, frequency};
+        }
+      }
+    middle = best;
+  }
+  return best;
+}
+
+} // namespace
+
+// Value: the mean force over the steady one. More: growth rate and angular frequency less those of theory.
+Result v26(const Settings& s) {
+  const Casting& c = castings[static_cast<std::size_t>(s.set - 1)];
+  const double width = 3 * s.edge, length = 1 + 3 * s.edge;
+  const Scene scene = parse_scene(
+      fmt::format("[sheet]\nshape = \"rectangle\"\nplane = \"xz\"\nsize = [{}, {}]\ncenter = [{}, 0, 0]\n"
+                  "edge_length = {}\nthickness = {}\nseed = {}\n[material]\nviscosity = {}\ndensity = 1\n"
+                  "[model]\ninertia = false\nbending = false\n[inflow]\nregion = \"x_min\"\nvelocity = [1, 0, 0]\n"
+                  "[[hold]]\nregion = \"z_min\"\naxes = \"z\"\n[[hold]]\nregion = \"z_max\"\naxes = \"z\"\n"
+                  "[[hold]]\nregion = {{box = [[-9, -9, -9], [9, 9, 9]]}}\naxes = \"y\"\n"
+                  "[[hold]]\nregion = {{box = [[1, -9, -9], [9, 9, 9]]}}\nroll = true\n"
+                  "motion = {{kind = \"translating\", velocity = [{}, 0, 0]}}\n"
+                  "[[outflow]]\npoint = [{}, 0, 0]\nnormal = [1, 0, 0]\n",
+                  length, width, length / 2, s.edge, h0, s.seed, mu, c.draw_ratio, 1 + 2.5 * s.edge),
+      "V26");
+  formats::Frame frame = start_of(scene, c);
+  StepStageOptions options;
+  options.dt = c.duration / s.steps;
+  options.scheme = s.scheme;
+  options.failed = "";
+  StepStage stage(options);
+  flow::EmitStage flow;
+  remesh::Options remeshing;
+  remeshing.size.edge_length = s.edge;
+  remeshing.smooth = true;
+  SceneForces forces;
+  std::vector<std::array<double, 2>> series;
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < s.steps; ++k) {
+    static_cast<void>(remesh::remesh(frame, &scene, remeshing));
+    flow.emit(frame);
+    stage.step(frame);
+    if (frame.time > settled)
+      series.push_back({frame.time, forces.of(frame).back().force.x()});
+  }
+  const Wave wave = fit(series);
+  Result result;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.value = wave.mean / (4 * mu * h0 * std::log(c.draw_ratio) * width);
+  result.error = result.value - 1;
+  result.vertices = frame.vertices;
+  result.edge = s.edge;
+  result.steps = s.steps;
+  result.more = {{"growth", wave.growth - c.growth}, {"frequency", wave.frequency / c.frequency - 1}};
+  return result;
+}
+
+} // namespace sheet::validation
