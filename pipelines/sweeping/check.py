@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import tempfile
 import tomllib
@@ -75,7 +76,9 @@ def _stages(ring):
             word = (shlex.split(stage) or [""])[0]
         except ValueError as error:
             return [f"the ring \"{ring}\": {error}"]
-        if subprocess.run(["sh", "-c", 'command -v "$1"', "sh", word], stdout=subprocess.DEVNULL).returncode != 0:
+        if "/" in word and not os.path.isabs(word):
+            wrong.append(f"the ring \"{ring}\": {word} would be looked for in each run's folder: give its whole path")
+        elif not shutil.which(word):
             wrong.append(f"the ring \"{ring}\": there is no program \"{word}\"")
     return wrong
 

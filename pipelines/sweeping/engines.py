@@ -5,6 +5,7 @@ Every engine gets indices of runs and ends when nothing is left that it could do
 folder. Several short runs make one job, a chunk, so that starting jobs costs little.
 """
 import re
+import shlex
 import shutil
 import statistics
 import subprocess
@@ -26,10 +27,12 @@ class Work:
 
     def __init__(self, sweep, folder, program, threads, jobs):
         self.sweep, self.folder, self.program, self.threads = sweep, folder, program, threads
+        self.told_jobs = jobs
         self.jobs = jobs or max(1, cores() // threads)
 
-    def command(self, runs="{}"):
-        return [str(self.program), "work", "--threads", str(self.threads), str(self.folder), runs]
+    def command(self):
+        """For a shell, which shall add the indices of runs."""
+        return shlex.join([str(self.program), "work", "--threads", str(self.threads), str(self.folder)])
 
     def needs(self):
         """(seconds, bytes) of the longest and largest of the runs that were tried; None if none was."""
@@ -74,8 +77,9 @@ def parallel(work, indices):
 
 
 def _parallel(work, chunks, options):
-    command = ["parallel", "--will-cite", "--halt", "never", "--line-buffer", "--jobs", str(work.jobs), *options]
-    process = subprocess.Popen([*command, *work.command()[:-1], "{}"], stdin=subprocess.PIPE, text=True)
+    command = ["setpriv", "--pdeathsig", "TERM", "parallel", "--will-cite", "--halt", "never", "--line-buffer",
+               "--jobs", str(work.jobs), *options, work.command()]  # fmt: skip
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, text=True)
     try:
         process.stdin.write("\n".join(chunks) + "\n")
         process.stdin.close()
@@ -122,7 +126,7 @@ def _submit(work, name, chunks, options):
     logs = work.folder / "slurm" / f"{time.time_ns():x}"
     logs.mkdir(parents=True)
     (logs / "chunks").write_text("\n".join(chunks) + "\n", encoding="utf-8")
-    script = f"#!/bin/sh\nexec {' '.join(work.command()[:-1])} $(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {logs}/chunks)\n"
+    script = f"#!/bin/sh\nexec {work.command()} $(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {shlex.quote(str(logs / 'chunks'))})\n"
     command = ["sbatch", "--parsable", f"--job-name={name}", f"--array=0-{len(chunks) - 1}", "--requeue", "--ntasks=1",
                f"--cpus-per-task={work.threads}", f"--output={logs}/%a.log", *options]  # fmt: skip
     told = subprocess.run(command, input=script, text=True, capture_output=True)
