@@ -69,7 +69,7 @@ class _Hosts:
         return done.stdout
 
     def compare_versions(self):
-        words = programs_of(self.work.sweep.ring)
+        words = programs_of(self.work.sweep.ring) if self.work.sweep.ring else ["sheet-render"]
         here, wrong = versions(words), []
         for host in self.hosts:
             number, *lines = self.call(host, "versions", *words).decode().splitlines()

@@ -34,13 +34,14 @@ class Sweep:
     loop: list  # options of sheet-loop
     ring: str
     measure: str  # a command that prints names and values, or ""
+    command: str  # a command that is all of the run, instead of scene, ring and measures; or ""
     files: dict  # file as the scene or a row says it: its name in inputs/
     hashes: dict  # name in inputs/: SHA-256
     count: int
     id: str = ""
 
     def texts(self):
-        return [*self.sets, *self.loop, self.ring, self.measure]
+        return [*self.sets, *self.loop, self.ring, self.measure, self.command]
 
 
 def names_in(text):
@@ -74,24 +75,23 @@ def run_folder(folder, index):
 
 def copy_inputs(scene, given, inputs):
     """Copies the scene and the files that it or `given` (texts, as keys `file` of scenes) names. (files, hashes) of Sweep."""
-    files, hashes = {}, {}
-    shutil.copyfile(scene, inputs / SCENE)
-    hashes[SCENE] = _hash(scene)
+    files, hashes = {}, {SCENE: copy_input(scene, inputs, SCENE)[1]}
     for text in given:
-        source = scene.parent / text
-        try:
-            digest = _hash(source)
-            files[text] = f"{digest[:8]}-{source.name}"
-            shutil.copyfile(source, inputs / files[text])
-        except OSError as error:
-            raise Problem(BAD_INPUT, f"{source}: {error.strerror} (a file that the scene or the table names)") from error
+        files[text], digest = copy_input(scene.parent / text, inputs)
         hashes[files[text]] = digest
     return files, hashes
 
 
-def _hash(path):
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+def copy_input(source, inputs, name=""):
+    """Copies a file, under a name that begins with its checksum if none is given. (name, SHA-256)."""
+    try:
+        with open(source, "rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+        name = name or f"{digest[:8]}-{source.name}"
+        shutil.copyfile(source, inputs / name)
+    except OSError as error:
+        raise Problem(BAD_INPUT, f"{source}: {error.strerror} (a file that every run needs)") from error
+    return name, digest
 
 
 def identity(sweep, rows):

@@ -202,7 +202,7 @@ page_commands() {
   ln -s "$PWD/pipelines" "$t/pipelines"
   cd "$t"
   bash -e commands
-  [[ -s sag.png && -s plane.png && $(wc -l < out/plane/results.csv) == 10 ]]
+  [[ -s sag.png && -s plane.png && -s sag.mp4 && $(wc -l < out/plane/results.csv) == 10 ]]
   run -3 pipelines/sweep plot out/plane -o none.png --x sheet.thicknes --y material.viscosity
   [[ $output == *"no column sheet.thicknes; they have run, "* ]]
 }
