@@ -18,6 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def find_programs():
     """Those of $SHEET_BIN, if there is one, come before those of build/bin and of the system."""
     places = [os.path.abspath(os.environ["SHEET_BIN"])] if os.environ.get("SHEET_BIN") else []
+    os.environ["SHEET"] = str(ROOT)  # for commands that measure
     os.environ["PATH"] = ":".join([*places, str(ROOT / "build" / "bin"), os.environ["PATH"]])
 
 

@@ -146,8 +146,11 @@ def read_sweep(folder):
     content = read_json(folder / "sweep.json")
     if content is None:
         raise Problem(USAGE, f"{folder}: no sweep is there (no sweep.json): give the folder that pipelines/sweep made")
-    content["columns"] = [Column(**column) for column in content["columns"]]
-    return Sweep(**content)
+    try:
+        content["columns"] = [Column(**column) for column in content["columns"]]
+        return Sweep(**content)
+    except (KeyError, TypeError) as error:
+        raise Problem(BAD_INPUT, f"{folder}/sweep.json is of another version of pipelines/sweep ({error}): remove the folder") from error
 
 
 def read_rows(folder, block):

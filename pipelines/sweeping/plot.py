@@ -22,6 +22,20 @@ def column(rows, name):
     return found[0]
 
 
+def finite(rows, *names):
+    """The rows whose values in these columns are finite numbers; others cannot be drawn. Throws Problem if none are."""
+    def drawn(text):
+        try:
+            return math.isfinite(float(text))
+        except ValueError:
+            return False
+
+    kept = [row for row in rows if all(drawn(row[name]) for name in names)]
+    if not kept:
+        raise Problem(BAD_INPUT, f"no run has numbers in {', '.join(names)}")
+    return kept
+
+
 def curves(rows, x, y, by, log, lines, picture):
     """y over x; one curve (or one colour of points) for each value of the columns `by`, if there are any."""
     groups = {}

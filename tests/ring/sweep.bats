@@ -192,13 +192,13 @@ END
 
 # usage: page_commands PAGE: its commands, what stands indented and begins with pipelines/ or cat, with what belongs to cat
 page_commands() {
-  awk '/^    (pipelines\/[a-z-]+ [a-z.]|cat > )/ { on = 1 }
-    on { print substr($0, 5); if (/<< .END.$/) here = 1; else if (/^    END$/) here = 0; if (!here) on = 0 }' "$1"
+  awk '/^    (pipelines\/[a-z-]+(\/run)? [a-z.]|cat > )/ { on = 1 }
+    on { print substr($0, 5); if (/<< .END.$/) here = 1; else if (/^    END$/) here = 0; if (!here && !/\\$/) on = 0 }' "$1"
 }
 
 @test "the commands of docs/sweeps.md" {
   page_commands docs/sweeps.md > "$t/commands"
-  [[ $(grep -c '^pipelines/sweep' "$t/commands") -ge 5 ]]
+  [[ $(grep -c "^pipelines/" "$t/commands") -ge 7 ]]
   ln -s "$PWD/pipelines" "$t/pipelines"
   cd "$t"
   bash -e commands
