@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-init: from a scene file to the first frame.
+#include <fmt/format.h>
+
+#include <sstream>
+
 #include "formats/cpp/printable.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/files.h"
@@ -18,6 +22,30 @@ sheet::Scene read(const std::string& file, const std::vector<std::string>& sets)
   if (file == "-")
     return sheet::parse_scene(sheet::read_text_file("-"), "standard input", sets);
   return sheet::read_scene(file, sets);
+}
+
+// What is wrong with the variants of the scene that the lines of `rows` make: settings KEY=VALUE, separated by tabs.
+// Throws one Error (bad_input) with all of it, each line with its row's number.
+void check_rows(const std::string& file, const std::vector<std::string>& sets, const std::string& rows) {
+  std::istringstream lines(sheet::read_text_file(rows));
+  const std::string name = rows == "-" ? "standard input" : rows;
+  std::string wrong, line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    std::vector<std::string> all = sets;
+    std::istringstream settings(line);
+    for (std::string set; std::getline(settings, set, '\t');)
+      if (!set.empty())
+        all.push_back(set);
+    try {
+      (void)sheet::checked_first_frame(read(file, all));
+    } catch (const sheet::Error& error) {
+      std::istringstream problems(error.what());
+      for (std::string problem; std::getline(problems, problem);)
+        wrong += fmt::format("{}{}:{}: {}", wrong.empty() ? "" : "\n", name, number, problem);
+    }
+  }
+  if (!wrong.empty())
+    throw sheet::Error(sheet::ExitCode::bad_input, wrong);
 }
 
 // What --check prints.
@@ -40,7 +68,7 @@ int main(int argc, char** argv) {
       "a stream of one frame. The scene travels along in the frame, and every stage reads from there what "
       "concerns it.\nEvery key is checked; all that is wrong is told at once, with file, line and the nearest "
       "known key.");
-  std::string scene_file, output = "-";
+  std::string scene_file, output = "-", rows;
   std::vector<std::string> sets;
   bool example = false, check = false, no_provenance = false;
   tool.argument("SCENE", scene_file, "scene file; - for standard input");
@@ -51,6 +79,10 @@ int main(int argc, char** argv) {
             "explain the scene instead: what will be modelled, what not, the dimensionless numbers that say why it "
             "matters, and the ring to run; refuses what any stage would refuse at the first frame",
             sheet::Tool::Provenance::omit);
+  tool.option("--check-rows", rows, "FILE",
+              "check many variants of the scene instead: each line of FILE (- for standard input) has settings as "
+              "--set takes them, separated by tabs; tells what is wrong with which line, and refuses what --check does",
+              sheet::Tool::Provenance::omit);
   tool.flag("--example", example, "print a commented scene that shows every table and key",
             sheet::Tool::Provenance::omit);
   tool.option("-o,--output", output, "FILE", "stream to write; - for standard output", sheet::Tool::Provenance::omit);
@@ -60,7 +92,13 @@ int main(int argc, char** argv) {
   tool.example("sheet-init --check scene.toml", "what will it model?");
   tool.example("sheet-init scene.toml --set material.viscosity='50 Pa*s' > first.sheet",
                "the first frame, with a change");
+  tool.example("printf 'sheet.thickness=2 mm\\nsheet.thickness=3 mm\\n' | sheet-init --check-rows - scene.toml",
+               "are all of these scenes well?");
   return tool.run(argc, argv, [&] {
+    if (!rows.empty()) {
+      check_rows(scene_file, sets, rows);
+      return;
+    }
     if (example || check) {
       const std::string text = example ? std::string(sheet::scene::example()) : explained(scene_file, sets);
       sheet::OutputFile file(output, sheet::OutputFile::Content::text);

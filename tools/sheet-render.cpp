@@ -21,6 +21,9 @@ int main(int argc, char** argv) {
   tool.option(
       "--frames", film.frames, "RANGES",
       "draw only these frames, as in 0,5,10-20,30-; counted from 0. Negative ones count from the end of a file");
+  tool.option("--view-of", film.view, "RANGES",
+              "place camera, scale and ground as for these frames of a file; without it, as for those to draw. With 0- "
+              "parts of a film that are drawn by themselves fit together");
   tool.example("sheet-render run.sheet -o frames/%04d.png --material honey", "a picture of each frame");
   tool.example("sheet-render run.sheet --denoise --samples 4 --y4m | ffmpeg -i - bunny.mp4", "a film");
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look thickness", "where the sheet is thin at the end");

@@ -68,6 +68,8 @@ void claim_file(const std::string& path, FileRole role) {
   std::erase_if(claims(),
                 [&](const Claim& c) { return c.identity == *identity && identity_of(c.path, c.role) != c.identity; });
   for (const Claim& c : claims()) {
+    if (c.identity == *identity && c.path == path && c.role == role && role == FileRole::input)
+      return; // it is read once more
     if (c.identity != *identity || (c.role == FileRole::input && role == FileRole::input))
       continue;
     const std::string name = spoken(path, role), other = spoken(c.path, c.role);

@@ -118,11 +118,11 @@ std::uint64_t for_each_frame(int descriptor, const std::string& name, const Want
 void run_film(
     const FilmOptions& options, const std::function<void(const formats::Frame&)>& survey,
     const std::function<std::string(const formats::Frame&, std::uint64_t, const std::function<void(double)>&)>& draw) {
-  Wanted wanted(options.frames);
+  Wanted wanted(options.frames), surveyed(options.view.empty() ? options.frames : options.view);
   std::optional<std::uint64_t> total;
   const InputFile input(options.input);
   if (options.input != "-" && is_file(input.descriptor())) {
-    if (wanted.needs_total()) {
+    if (wanted.needs_total() || surveyed.needs_total()) {
       const InputFile counted(options.input);
       formats::StreamReader reader(counted.descriptor(), counted.name());
       formats::Frame frame;
@@ -132,16 +132,27 @@ void run_film(
       } catch (const formats::StreamError&) { // a run that failed: its whole frames count
       }
       wanted.set_total(reader.frames());
+      surveyed.set_total(reader.frames());
     }
     const InputFile first(options.input);
     total = 0;
+    bool any = options.view.empty();
     try {
-      for_each_frame(first.descriptor(), first.name(), wanted, [&](const formats::Frame& frame, std::uint64_t) {
-        ++*total;
-        survey(frame);
-      });
+      for_each_frame(first.descriptor(), first.name(), Wanted(""),
+                     [&](const formats::Frame& frame, std::uint64_t index) {
+                       if (wanted.has(index))
+                         ++*total;
+                       if (surveyed.has(index)) {
+                         survey(frame);
+                         any = true;
+                       }
+                     });
     } catch (const formats::StreamError&) { // what is whole is drawn; then the same error comes again
     }
+    if (!any)
+      fail(ExitCode::bad_input, "--view-of {}: {} has no such frames", options.view, input.name());
+  } else if (!options.view.empty()) {
+    fail(ExitCode::usage, "--view-of {}: {} can be read only once; give a file", options.view, input.name());
   } else if (wanted.needs_total()) {
     fail(ExitCode::usage, "--frames {}: the end of {} is not known; give a file to count from its end", options.frames,
          input.name());

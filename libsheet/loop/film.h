@@ -12,13 +12,14 @@ namespace sheet {
 struct FilmOptions {
   std::string input = "-"; // a stream's file, "-" for standard input
   std::string frames;      // ranges as parse_indices reads them; "": all
+  std::string view;        // likewise: frames to survey; "": those to draw
 };
 
-// Calls `survey` with each frame to draw if the input is a file, then `draw` with each of them and its number in the
-// stream; `draw` tells its progress (0 to 1) and returns a line about the picture, which is shown with -v. Shows what
-// part is done and the time left if stderr is a terminal. An Error thrown by either gets the number of the frame. Of a
-// stream that is cut short the whole frames are drawn first.
-// Throws Error: usage (frames counted from the end of a pipe), bad_input (no such frames).
+// Calls `survey` with each frame to survey if the input is a file, then `draw` with each one to draw and its number in
+// the stream; `draw` tells its progress (0 to 1) and returns a line about the picture, which is shown with -v. Shows
+// what part is done and the time left if stderr is a terminal. An Error thrown by either gets the number of the frame.
+// Of a stream that is cut short the whole frames are drawn first. Throws Error: usage (frames counted from the end of a
+// pipe), bad_input (no such frames).
 void run_film(
     const FilmOptions& options, const std::function<void(const formats::Frame&)>& survey,
     const std::function<std::string(const formats::Frame&, std::uint64_t, const std::function<void(double)>&)>& draw);

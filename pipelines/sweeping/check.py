@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that can be told to be wrong with a sweep before anything runs, all of it at once."""
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import tempfile
+import tomllib
+
+from .plan import SCENE, names_in, settings
+from .problem import BAD_INPUT, Problem
+from .table import duplicates
+
+# What sheet-init calls the quantities that a key may be, and the SI units in which it states them (libsheet/base/units.h).
+_UNITS = {
+    "a plain number": "1", "an angle": "rad", "a length": "m", "a time": "s", "a mass": "kg", "a velocity": "m/s",
+    "an acceleration": "m/s^2", "a turning rate": "rad/s", "a viscosity": "Pa*s", "a density": "kg/m^3",
+    "a surface tension": "N/m", "a stiffness": "N/m", "a pressure": "Pa", "a conductance": "m^3/(Pa*s)",
+}  # fmt: skip
+_TOLD = 20  # problems of rows that are printed; how many more there are is said
+
+
+def named_files(scene, table):
+    """What the scene and the table's columns KEY.file name, in order: {key of the scene or "": texts}."""
+    try:
+        with open(scene, "rb") as file:
+            document = tomllib.load(file)
+    except OSError as error:
+        raise Problem(BAD_INPUT, f"{scene}: {error.strerror}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise Problem(BAD_INPUT, f"{scene}: {error}") from error
+    named = {}
+    if "file" in document.get("sheet", {}):
+        named["sheet.file"] = [document["sheet"]["file"]]
+    for i, solid in enumerate(document.get("solid", [])):
+        if "file" in solid:
+            named[f"solid.{i}.file"] = [solid["file"]]
+    for j, column in enumerate(table.columns):
+        if column.key.endswith(".file"):
+            named.setdefault("", []).extend(dict.fromkeys(row[j] for row in table.rows))
+    return named
+
+
+def check_all(sweep, table, path, inputs):
+    """Throws one Problem with all that is wrong; of many rows that are, the first few are told."""
+    problems = _names(sweep, path) + _stages(sweep.ring) + duplicates(table) + _rows(sweep, table, inputs)
+    if problems:
+        told = problems[:_TOLD]
+        if len(problems) > _TOLD:
+            told.append(f"and {len(problems) - _TOLD} more")
+        raise Problem(BAD_INPUT, "\n".join(told))
+
+
+def _names(sweep, path):
+    """Names in braces that are no columns, columns that nothing uses."""
+    keys = [column.key for column in sweep.columns]
+    wrong = []
+    for text in sweep.texts():
+        for name in names_in(text):
+            if name not in keys:
+                wrong.append(f"{path}: there is no column {name}, which {{{name}}} in \"{text}\" asks for")
+    used = {name for text in sweep.texts() for name in names_in(text)}
+    for column in sweep.columns:
+        if "." not in column.key and column.key not in used:
+            wrong.append(f"{path}: column {column.key}: unknown: no key of the scene (those have a dot), and nothing "
+                         f"asks for {{{column.key}}}")  # fmt: skip
+    return list(dict.fromkeys(wrong))
+
+
+def _stages(ring):
+    """Stages of the ring that are not there."""
+    wrong = []
+    for stage in ring.split("|"):
+        try:
+            word = (shlex.split(stage) or [""])[0]
+        except ValueError as error:
+            return [f"the ring \"{ring}\": {error}"]
+        if "/" in word and not os.path.isabs(word):
+            wrong.append(f"the ring \"{ring}\": {word} would be looked for in each run's folder: give its whole path")
+        elif not shutil.which(word):
+            wrong.append(f"the ring \"{ring}\": there is no program \"{word}\"")
+    return wrong
+
+
+def set_units(sweep, inputs):
+    """Columns that are keys of the scene get the SI unit of their quantity, where they have none; sheet-init knows it."""
+    asked = [c for c in sweep.columns if "." in c.key and not c.unit]
+    for column in asked:
+        command = ["sheet-init", inputs / SCENE, "--set", f"{column.key}=1 nonesuch"]
+        told = subprocess.run(command, capture_output=True, text=True).stderr
+        match = re.search(r"expected (an? [a-z ]+?) such as", told)
+        if match and _UNITS.get(match[1], "1") != "1":
+            column.unit = _UNITS[match[1]]
+
+
+def _rows(sweep, table, inputs):
+    """What sheet-init refuses, once for each thing that is wrong, with the place of the first row where it is."""
+    every = range(len(table.rows))
+    wrong = _refused(sweep, table, inputs, [every[i :: cores()] for i in range(cores())])
+    rows = {}
+    for i, text in wrong:
+        rows.setdefault(re.sub(r"--set ([^=]*)=.*?: ", r"\1: ", text), []).append((i, text))
+    problems = []
+    for same in rows.values():
+        more = f" (and {len(same) - 1} more alike)" if len(same) > 1 else ""
+        problems.append(f"{table.places[same[0][0]]}: {same[0][1]}{more}")
+    return problems
+
+
+def _refused(sweep, table, inputs, parts):
+    """(row, message) of what `sheet-init --check-rows` refuses; every part of the rows is looked at by one process."""
+    processes = []
+    for part in parts:
+        with tempfile.TemporaryFile("w+", encoding="utf-8") as file:
+            for i in part:
+                file.write("\t".join(settings(sweep, table.rows[i])) + "\n")
+            file.seek(0)
+            command = ["sheet-init", "--threads", "1", "--check-rows", "-", inputs / SCENE]
+            processes.append((part, subprocess.Popen(command, stdin=file, stderr=subprocess.PIPE, text=True)))
+    found = []
+    for part, process in processes:
+        told = process.communicate()[1]
+        lines = [re.fullmatch(r"sheet-init: standard input:(\d+): (.*)", line) for line in told.splitlines()]
+        if process.returncode not in (0, BAD_INPUT) or not all(lines):
+            raise Problem(process.returncode or BAD_INPUT, f"sheet-init cannot check the rows: {told.strip()}")
+        found += [(part[int(match[1]) - 1], match[2]) for match in lines]
+    return sorted(found)
+
+
+def cores():
+    return len(os.sched_getaffinity(0))
