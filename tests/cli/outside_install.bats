@@ -13,6 +13,6 @@ bats_require_minimum_version 1.5.0
   cmp "$share/LICENSE" "$SHEET_SOURCE/LICENSE"
   cmp "$share/LICENSE.formats" "$SHEET_SOURCE/formats/LICENSE"
   make_grid 3 > grid.sheet
-  PYTHONPATH=$(dirname "$(find root -name sheetstream.py)") /usr/bin/python3 "$share/examples/example_stage.py" --no-provenance < grid.sheet |
+  PYTHONPATH=$(dirname "$(find root -type d -name sheetstream)") /usr/bin/python3 "$share/examples/example_stage.py" --no-provenance < grid.sheet |
     sheet-diff - grid.sheet
 }
