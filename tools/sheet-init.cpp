@@ -9,7 +9,6 @@
 #include "libsheet/scene/example.h"
 #include "libsheet/scene/explain.h"
 #include "libsheet/scene/read.h"
-#include "libsheet/shape/build.h"
 
 namespace {
 
@@ -69,7 +68,7 @@ int main(int argc, char** argv) {
       file.close();
       return;
     }
-    sheet::formats::Frame frame = sheet::build_frame(read(scene_file, sets));
+    sheet::formats::Frame frame = sheet::first_frame(read(scene_file, sets));
     if (!no_provenance)
       sheet::record_provenance(frame, tool.command_line());
     sheet::log::detail("{} vertices, {} triangles", frame.vertices, frame.triangles);

@@ -96,6 +96,12 @@ Shares shares(std::span<const Corners> triangles, std::span<const double> volume
   return s;
 }
 
+// Volume over area; where triangles are crushed that is beyond sense.
+double thickness_of(const Shares& s, std::size_t v) {
+  const double limit = edges_of_reach * s.edge[v];
+  return s.volume[v] < limit * s.area[v] ? s.volume[v] / s.area[v] : limit;
+}
+
 } // namespace
 
 struct CollideStage::Impl {
@@ -141,11 +147,13 @@ struct CollideStage::Impl {
     at_start = shares(path.triangles, volumes(frame), path.start);
     const double density = scene->material.density > 0 ? scene->material.density : 1;
     for (std::size_t i = 0; i < path.start.size(); ++i) {
-      const double limit =
-          edges_of_reach * at_start.edge[i]; // where triangles are crushed, volume over area is beyond sense
-      path.thickness.push_back(at_start.volume[i] < limit * at_start.area[i] ? at_start.volume[i] / at_start.area[i]
-                                                                             : limit);
+      path.thickness.push_back(thickness_of(at_start, i));
       path.mass.push_back(at_start.volume[i] * density);
+    }
+    if (flows_on_solids(*scene)) {
+      const Shares at_end = shares(path.triangles, volumes(frame), path.end);
+      for (std::size_t i = 0; i < path.end.size(); ++i)
+        path.end_thickness.push_back(thickness_of(at_end, i));
     }
     return path;
   }

@@ -121,13 +121,26 @@ private:
         } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
           rides_[v] = static_cast<std::int32_t>(hit->solid);
           caught[v] = 1;
-          hold(v, hit->place + views_[hit->solid].belt(1 - hit->s));
+          hold(v, slides(v) ? slid(v, *hit) : Vector3(hit->place + views_[hit->solid].belt(1 - hit->s)));
         }
       }
     });
     bring_out(depth);
     for (const std::uint8_t c : caught)
       report_.caught += c;
+  }
+
+  // Whether what touches the vertex' solid flows along it.
+  [[nodiscard]] bool slides(std::uint32_t v) const {
+    return rides_[v] != no_solid && solids_.scene(static_cast<std::size_t>(rides_[v])).contact != SolidContact::stick;
+  }
+
+  // Where a vertex goes that hits a solid and slides on: what is left of its path, along the surface.
+  [[nodiscard]] Vector3 slid(std::uint32_t v, const VertexHit& hit) const {
+    const SolidView& view = views_[hit.solid];
+    const Vector3 normal = view.shape().nearest(hit.place).normal;
+    const Vector3 rest = view.own(view.pieces(), path_.end[v]) - hit.place;
+    return hit.place + rest - normal.dot(rest) * normal;
   }
 
   // Whether a vertex that touches starts farther from its solid than the sheet is thick: a change of the mesh over a
@@ -140,7 +153,7 @@ private:
 
   // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, out of the others.
   void hold(std::uint32_t v, Vector3 own) {
-    const double offset = path_.thickness[v] / 2;
+    const double offset = (slides(v) && !path_.end_thickness.empty() ? path_.end_thickness : path_.thickness)[v] / 2;
     const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
     own = settle(view.shape(), own, offset);
     Vector3 end = view.world_at_end(own);
@@ -244,6 +257,8 @@ private:
     Vector3 move = view.belt(1 - hit.s), change = Vector3::Zero(); // in the solid's frame
     if (hit.kind == FoundHit::Kind::meeting) {
       move += hit.place - end;
+      if (solids_.scene(hit.solid).contact != SolidContact::stick) // it slides on
+        move = near.normal.dot(move) * near.normal;
       change = move / path_.length();
     } else {
       const Vector3 solid = solids_.surface_velocity(hit.solid, view.world_at_end(end), path_.end_time);
@@ -316,8 +331,12 @@ private:
         continue;
       const auto solid = static_cast<std::size_t>(rides_[v]);
       path_.touch[v] = rides_[v];
-      path_.velocity[v] =
-          with_fixed(prescribed_[v], path_.velocity[v], solids_.surface_velocity(solid, path_.end[v], path_.end_time));
+      Vector3 velocity = solids_.surface_velocity(solid, path_.end[v], path_.end_time);
+      if (slides(static_cast<std::uint32_t>(v))) {
+        const Vector3 normal = solids_.at(solid, path_.end[v], path_.end_time).normal;
+        velocity = path_.velocity[v] + normal.dot(velocity - path_.velocity[v]) * normal;
+      }
+      path_.velocity[v] = with_fixed(prescribed_[v], path_.velocity[v], velocity);
       ++report_.touching;
     }
   }

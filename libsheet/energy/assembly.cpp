@@ -182,14 +182,12 @@ EnergySum Assembly::value(const Terms& terms, const Unknowns& u) {
   return sum;
 }
 
-void Assembly::gather_gradient(std::span<const char> held, Eigen::VectorXd& gradient) {
+void Assembly::gather_gradient(const Constraints& constraints, Eigen::VectorXd& gradient) {
   pattern_->gather_gradient(gradients_, gradient);
-  for (std::size_t k = 0; k < held.size(); ++k)
-    if (held[k])
-      gradient[static_cast<Eigen::Index>(k)] = 0;
+  constraints.project(gradient);
 }
 
-EnergySum Assembly::gradient(const Terms& terms, const Unknowns& u, std::span<const char> held,
+EnergySum Assembly::gradient(const Terms& terms, const Unknowns& u, const Constraints& constraints,
                              Eigen::VectorXd& gradient) {
   prepare(terms, u);
   std::vector<EnergySum> sums(chunks());
@@ -204,14 +202,14 @@ EnergySum Assembly::gradient(const Terms& terms, const Unknowns& u, std::span<co
         overwrite = false;
       }
   });
-  gather_gradient(held, gradient);
+  gather_gradient(constraints, gradient);
   EnergySum sum;
   for (const EnergySum& s : sums)
     sum.add(s);
   return sum;
 }
 
-EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool definite, std::span<const char> held,
+EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool definite, const Constraints& constraints,
                                 Eigen::VectorXd& gradient, SparseLower& matrix) {
   prepare(terms, u);
   const std::size_t total = chunks();
@@ -237,8 +235,8 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
                      &hessians_[groups_[g].first_hessian + i * packed]);
   });
   Stopwatch watch;
-  gather_gradient(held, gradient);
-  pattern_->gather_matrix(hessians_, held, matrix);
+  gather_gradient(constraints, gradient);
+  pattern_->gather_matrix(hessians_, constraints, matrix);
   seconds_.back() += watch.lap();
   EnergySum sum;
   for (std::size_t c = 0; c < total; ++c) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "libsheet/energy/constraints.h"
 #include "libsheet/energy/pattern.h"
 #include "libsheet/energy/term.h"
 
@@ -34,9 +35,9 @@ public:
 
   [[nodiscard]] EnergySum value(const Terms& terms, const Unknowns& u);
   // Value and gradient, without the Hessian's cost.
-  EnergySum gradient(const Terms& terms, const Unknowns& u, std::span<const char> held, Eigen::VectorXd& gradient);
-  // held: one flag an unknown, or empty. Their gradient is zero, their rows and columns those of the unit matrix.
-  EnergySum derivatives(const Terms& terms, const Unknowns& u, bool definite, std::span<const char> held,
+  EnergySum gradient(const Terms& terms, const Unknowns& u, const Constraints& constraints, Eigen::VectorXd& gradient);
+  // Gradient and Hessian are those of what the constraints leave free.
+  EnergySum derivatives(const Terms& terms, const Unknowns& u, bool definite, const Constraints& constraints,
                         Eigen::VectorXd& gradient, SparseLower& matrix);
   // The Hessian at u of the terms of one kind (inertial or elastic) times a vector.
   [[nodiscard]] Eigen::VectorXd multiply(const Terms& terms, Kind kind, const Unknowns& u, const Eigen::VectorXd& x);
@@ -48,7 +49,7 @@ private:
   void prepare(const Terms& terms, const Unknowns& u) const;
   [[nodiscard]] std::size_t chunks() const;
   template <class Visit> void each_chunk(Visit&& visit) const;
-  void gather_gradient(std::span<const char> held, Eigen::VectorXd& gradient);
+  void gather_gradient(const Constraints& constraints, Eigen::VectorXd& gradient);
   void collect(const ElementGroup& group, std::size_t first, std::size_t last, const Unknowns& u, double* out) const;
 
   std::shared_ptr<const Connectivity> mesh_;

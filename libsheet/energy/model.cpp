@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/energy/model.h"
 
+#include <algorithm>
+
 #include "libsheet/base/error.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/gravity.h"
@@ -8,6 +10,8 @@
 #include "libsheet/energy/membrane.h"
 #include "libsheet/energy/mid_edge_shell.h"
 #include "libsheet/energy/surface_tension.h"
+#include "libsheet/energy/wall_drag.h"
+#include "libsheet/energy/wall_weight.h"
 
 namespace sheet {
 
@@ -28,6 +32,10 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
     terms.push_back(make_term(Inertia(model.density, model.mass)));
   if (model.density > 0 && model.gravity.squaredNorm() > 0)
     terms.push_back(make_term(Gravity(model.density, model.gravity)));
+  if (model.viscosity > 0 && std::ranges::any_of(model.walls, [](const Wall& w) { return w.slip_length != free_slip; }))
+    terms.push_back(make_term(WallDrag(model.viscosity)));
+  if (!model.walls.empty() && model.density > 0 && model.gravity.squaredNorm() > 0)
+    terms.push_back(make_term(WallWeight(model.density, model.gravity)));
   if (model.pressure)
     terms.push_back(make_term(Pressure(*model.pressure)));
   if (model.bath && model.gravity.squaredNorm() > 0)

@@ -9,6 +9,7 @@
 #include "libsheet/energy/inertia.h"
 #include "libsheet/energy/pressure.h"
 #include "libsheet/energy/term.h"
+#include "libsheet/energy/walls.h"
 
 namespace sheet {
 
@@ -33,7 +34,8 @@ struct Model {
   bool arcs = false; // with mid-edge bending: edges are arcs in the membrane's strain
   Mass mass = Mass::lumped;
   std::vector<Hold> holds; // of two that hold the same unknown, the later one
-  bool reactions = false;  // whether the forces of the holds are wanted
+  std::vector<Wall> walls; // along which liquid flows
+  bool reactions = false;  // whether the forces of holds and walls are wanted
   std::vector<ContactSpring> contacts;
   bool contacts_adhere = false;
 

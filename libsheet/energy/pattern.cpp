@@ -3,6 +3,7 @@
 #include "libsheet/energy/pattern.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include <tbb/blocked_range.h>
@@ -25,16 +26,41 @@ int packed_block(Stencil s, int a, int b) {
     return vertices + 3 * (edge * v + low);
   return vertices + 3 * v * stencil_edges(s) + edge * (edge + 1) / 2 + (low - v);
 }
+
+// A block (rows x columns, by columns) on the free directions of its row and column nodes, which have a slide or none.
+// What is not free gets the mean stiffness of the rest, so that scaling treats a vertex as one. Of a diagonal block the
+// lower triangle counts.
+void project(double* block, int rows, int columns, const Slide* row, const Slide* column, bool diagonal) {
+  if (row == nullptr && column == nullptr)
+    return;
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+  Eigen::Map<Block> h(block, rows, columns);
+  if (diagonal)
+    for (int c = 1; c < columns; ++c)
+      for (int r = 0; r < c; ++r)
+        h(r, c) = h(c, r);
+  if (row != nullptr)
+    h = Block(row->free * h);
+  if (column != nullptr)
+    h = Block(h * column->free);
+  if (!diagonal)
+    return;
+  const double rank = row->free.trace();
+  const double stiffness = rank > 0.5 ? std::abs(h.trace()) / rank : 0;
+  h += (stiffness > 0 ? stiffness : 1.0) * (Matrix3::Identity() - row->free);
+}
+
 } // namespace
 
 MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
                              std::span<const std::uint32_t> order)
     : vertices_(vertices), stride_(stride), order_(order.begin(), order.end()) {
   const std::size_t nodes = vertices + edges;
-  std::vector<std::uint32_t> rank(nodes);
+  rank_.resize(nodes);
+  const std::vector<std::uint32_t>& rank = rank_;
   column_start_.resize(nodes + 1, 0);
   for (std::uint32_t k = 0; k < nodes; ++k) {
-    rank[order_[k]] = k;
+    rank_[order_[k]] = k;
     column_start_[k + 1] = column_start_[k] + static_cast<std::uint32_t>(width(order_[k]));
     for (int d = 0; d < width(order_[k]); ++d)
       permutation_.push_back(first_unknown(order_[k]) + static_cast<std::uint32_t>(d));
@@ -174,8 +200,10 @@ void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::Ve
   });
 }
 
-void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<const char> held,
+void MatrixPattern::gather_matrix(const std::vector<double>& buffer, const Constraints& constraints,
                                   SparseLower& matrix) const {
+  const std::vector<char>& held = constraints.held;
+  const auto slide = [&](std::uint32_t node) { return node < vertices_ ? constraints.slide(node) : nullptr; };
   const auto gather = [&](std::uint32_t k) {
     const std::uint32_t column_node = order_[k];
     const int columns = width(column_node);
@@ -198,6 +226,8 @@ void MatrixPattern::gather_matrix(const std::vector<double>& buffer, std::span<c
       else
         add(std::integral_constant<int, 1>());
       const bool diagonal = block.row_node == column_node;
+      if (!constraints.slides.empty())
+        project(sum, rows, columns, slide(block.row_node), slide(column_node), diagonal);
       if (!held.empty())
         for (int c = 0; c < columns; ++c)
           for (int r = 0; r < rows; ++r)

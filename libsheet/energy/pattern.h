@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "libsheet/energy/constraints.h"
 #include "libsheet/energy/element.h"
 
 namespace sheet {
@@ -46,14 +47,17 @@ public:
   [[nodiscard]] std::size_t unknowns() const { return permutation_.size(); }
   // permutation()[k] is the unknown in row k of the matrix.
   [[nodiscard]] const std::vector<std::uint32_t>& permutation() const { return permutation_; }
+  // The first of the three rows of a vertex.
+  [[nodiscard]] Eigen::Index first_row(std::uint32_t vertex) const { return column_start_[rank_[vertex]]; }
   [[nodiscard]] const SparseLower& structure() const { return structure_; }
 
   // Puts the Hessian of an element (column major, stride x stride; its lower triangle counts) into its place,
   // packed_size(group.stencil) numbers.
   void pack(const ElementGroup& group, std::size_t element, const double* hessian, double* packed) const;
   void gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const;
-  // Rows and columns of held unknowns become those of the unit matrix. matrix must be a copy of structure().
-  void gather_matrix(const std::vector<double>& buffer, std::span<const char> held, SparseLower& matrix) const;
+  // Rows and columns of held unknowns become those of the unit matrix, blocks of vertices that slide are projected on
+  // what is free. matrix must be a copy of structure().
+  void gather_matrix(const std::vector<double>& buffer, const Constraints& constraints, SparseLower& matrix) const;
 
 private:
   struct Block {
@@ -68,9 +72,9 @@ private:
 
   std::size_t vertices_;
   int stride_;
-  std::vector<std::uint32_t> order_, permutation_;
-  std::vector<std::uint32_t> column_start_; // scalar column of each node, in elimination order
-  std::vector<std::uint32_t> block_start_;  // of each node column, in elimination order
+  std::vector<std::uint32_t> order_, rank_, permutation_; // rank_: of each node in the order
+  std::vector<std::uint32_t> column_start_;               // scalar column of each node, in elimination order
+  std::vector<std::uint32_t> block_start_;                // of each node column, in elimination order
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> sources_; // places in the Hessian buffer
   std::vector<std::uint8_t> reversed_; // for each element: bit a(a-1)/2 + b, whether vertex a > b is eliminated first

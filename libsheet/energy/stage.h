@@ -16,6 +16,20 @@ namespace sheet {
 
 using Unknowns = Eigen::VectorXd;
 
+// A vertex that touches a solid and may flow along it (walls.h), at the predicted end of the stage.
+struct WallSite {
+  std::uint32_t vertex = 0, wall = 0;
+  Vector3 normal;         // of the wall
+  Vector3 stuck;          // where it would be had it stuck to the wall from the start of the step on [m]
+  Vector3 carried;        // the same, in a second stage extrapolated from the first: there it is not dragged [m]
+  double slip_length = 0; // [m]
+  double wetting = 2;     // 1 - cos of the contact angle
+  double offset = 0;      // from the wall: that at the start of the step, and half of what the layer thickens [m]
+  std::vector<Vector3>
+      across; // orthonormal: the directions in which its place is given, along its own wall's normal first
+  std::vector<double> place; // that place along each of them [m]
+};
+
 struct Stage {
   const State* start = nullptr;
   double duration = 0;                // of the implicit solve: dt, or gamma dt [s]
@@ -27,6 +41,8 @@ struct Stage {
   std::vector<RaisedMetric> raised;   // for each triangle: the metric that raises indices and weighs by area
   std::vector<Vector3> inertial;      // where the vertices would go without force [m]
   std::vector<Vector3> predicted;     // the extrapolated end of the stage, for what is lagged [m]
+  std::vector<WallSite> sites;        // of what touches walls, ascending
+  std::vector<std::uint32_t> site_of; // of each vertex, or no_index; empty without sites
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] Vector3 position(const Unknowns& u, std::uint32_t v) const { return u.segment<3>(3 * v); }

@@ -56,6 +56,29 @@ void check_outside_solids(const Scene& scene, const Frame& frame) {
     }
 }
 
+// What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.)
+void mark_touching(const Scene& scene, Frame& frame) {
+  constexpr double in_reach = 1 + 1e-3; // of half the thickness
+  const solid::Solids solids(scene);
+  const auto x = positions(frame);
+  const auto volume = volumes(frame);
+  std::vector<double> half(frame.vertices, 0), area(frame.vertices, 0);
+  for (std::size_t t = 0; t < frame.triangles; ++t) {
+    const Corners& c = triangles(frame)[t];
+    for (const auto v : c) {
+      half[v] += volume[t] / 2;
+      area[v] += TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+    }
+  }
+  std::vector<std::int32_t> touch(frame.vertices, no_solid);
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    for (std::size_t v = 0; v < x.size() && solids.scene(i).contact != SolidContact::stick; ++v)
+      if (touch[v] == no_solid && solids.at(i, x[v], frame.time).distance <= in_reach * half[v] / area[v])
+        touch[v] = static_cast<std::int32_t>(i);
+  if (std::ranges::any_of(touch, [](std::int32_t solid) { return solid != no_solid; }))
+    put_touched_solids(frame, touch, solids.size());
+}
+
 // A number that one likes to type: its first two digits.
 double rounded(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
@@ -74,8 +97,15 @@ double until_of(const Scene& scene, const scene::Scales& scales) {
 
 } // namespace
 
-Frame checked_first_frame(const Scene& scene) {
+Frame first_frame(const Scene& scene) {
   Frame frame = build_frame(scene);
+  if (flows_on_solids(scene))
+    mark_touching(scene, frame);
+  return frame;
+}
+
+Frame checked_first_frame(const Scene& scene) {
+  Frame frame = first_frame(scene);
   (void)remesh::Mesh(frame.vertices, triangles(frame));
   StepStage({}).check(frame);
   if (scene.inflow) {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the stages will say of a scene's first frame, before anything is run (sheet-init --check).
+// A scene's first frame, and what the stages will say of it before anything is run (sheet-init --check).
 #pragma once
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/explain.h"
 
 namespace sheet {
 
-// The scene's first frame. Throws Error where sheet-init or a stage would refuse it: a hold or an inlet that is not
+// The sheet of the scene; what lies within half its thickness of a solid along which liquid flows or slips touches it.
+// Throws Error where the sheet, its holds, its inlet or such a solid cannot be made.
+[[nodiscard]] formats::Frame first_frame(const Scene& scene);
+
+// The same. Throws Error where sheet-init or a stage would refuse it: a hold or an inlet that is not
 // there, an inlet along which or out of which liquid would flow, a solid's mesh that cannot be read or is none, a sheet
 // that starts inside a solid or passes through itself.
 [[nodiscard]] formats::Frame checked_first_frame(const Scene& scene);

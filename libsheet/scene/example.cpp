@@ -182,6 +182,17 @@ center = [0, "-0.3 m", 0]
 #normal = [0, 1, 0]
 #surface_velocity = [0, 0, "25 mm/s"]
 
+# What liquid does that touches. contact: "stick" (it stays where it touched, the default), "flow" (it flows in a layer that the
+# solid drags; slip_length eases that) or "slip" (no drag). contact_angle: of its rim, with surface tension (absent: what
+# touches costs as much as a free face). receding: whether rims may retreat, else they leave a film.
+#[[solid]]
+#shape = "plane"
+#center = [0, "-0.8 m", 0]
+#contact = "flow"
+#slip_length = "10 um"
+#contact_angle = "60 deg"
+#receding = true
+
 # A mesh (.obj .off .ply .stl) or a distance field (.vdb). In a frame's scene it has a `checksum` besides, by which stages find
 # the file and tell whether it has changed.
 #[[solid]]

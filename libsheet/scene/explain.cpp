@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/explain.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "libsheet/base/overloaded.h"
+#include "libsheet/scene/layer_scales.h"
 #include "libsheet/scene/scales.h"
 
 namespace sheet::scene {
@@ -15,6 +18,20 @@ namespace {
 std::string brief(double value) { return fmt::format("{:.3g}", value); }
 
 std::string count(std::size_t n, std::string_view one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
+
+// What liquid does that touches the solids.
+std::string what_touches(const std::vector<Solid>& solids) {
+  constexpr std::array<std::string_view, 3> does{"sticks", "flows along it, dragged", "slips along it without drag"};
+  std::string text;
+  for (std::size_t k = 0; k < does.size(); ++k) {
+    const auto alike = std::ranges::count(solids, static_cast<SolidContact>(k), &Solid::contact);
+    if (alike == static_cast<std::ptrdiff_t>(solids.size()))
+      return fmt::format("liquid that touches {}", does[k]);
+    if (alike > 0)
+      text += fmt::format("{}on {} of them liquid that touches {}", text.empty() ? "" : ", ", alike, does[k]);
+  }
+  return text;
+}
 
 std::vector<Term> terms_of(const Scene& scene) {
   const auto& [sheet, material, environment, model, holds, solids, inflow, tear, contact] = scene;
@@ -56,7 +73,7 @@ std::vector<Term> terms_of(const Scene& scene) {
            : "",
        "no bath in [environment]");
   term("holds", !holds.empty(), count(holds.size(), "hold"), "no [[hold]]");
-  term("solids", !solids.empty(), count(solids.size(), "solid") + "; liquid that touches sticks", "no [[solid]]");
+  term("solids", !solids.empty(), count(solids.size(), "solid") + "; " + what_touches(solids), "no [[solid]]");
   term("contact", contact && contact->self, "the sheet cannot pass through itself",
        contact ? "[contact] self = false" : "no [contact]: the sheet may pass through itself");
   term("inflow", inflow.has_value(),
@@ -86,6 +103,12 @@ std::vector<Scale> scale_list(const Scene& scene, const Scales& scales) {
     add("t_g", "time in which gravity stretches it", mu / (rho * g * L), "s", "mu / (rho g L)");
   add("t_f", "time of free fall", std::sqrt(L / g), "s", "sqrt(L / g)");
   add("t_c", "time in which surface tension contracts it", mu * h / gamma, "s", "mu h / gamma");
+  if (const auto layer = layer_scales_of(scene, scales)) {
+    add("U", "speed of a layer along the steepest solid", layer->speed, "m/s",
+        "rho h (h + 3 b) (g_t + g h / L) / (3 mu); steps are kept below half an edge over it");
+    add("t_U", "time in which it spreads by its length", layer->time, "s", "L / U");
+    add("l_c", "capillary length", layer->capillary_length, "m", "sqrt(gamma / (rho g))");
+  }
   add("t_p", "time in which pressure stretches it", mu * h / (scales.pressure * L), "s", "mu h / (p L)");
   if (const auto& bath = scene.environment.bath) {
     const double excess = 4 * mu * h * scales.speed / L - 2 * gamma;
@@ -126,6 +149,10 @@ std::vector<DimensionlessNumber> numbers_of(const Scene& scene, const Scales& sc
            : x < 10 ? "Viscosity and inertia both matter."
                     : "Inertia rules: it falls and flies before viscosity is felt.";
   });
+  if (const auto layer = layer_scales_of(scene, scales))
+    add("Reynolds of the layer", "U h² / (nu L)", layer->reynolds, [](double x) {
+      return x < 1 ? "The drag of the wall is felt at once." : "Inertia delays the drag of the wall.";
+    });
   // A sheet carries its load by its thickness, so its tension is judged by the numbers times h / L.
   const double part = scales.thickness ? *scales.thickness / L : 1;
   const auto against_tension = [](double x, std::string_view force) {
@@ -164,6 +191,9 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
       warn(fmt::format("inertia is off, but the Reynolds number is {}: the real sheet would move differently",
                        brief(number.value)));
   }
+  if (const auto layer = layer_scales_of(scene, scales); layer && layer->reynolds > 1)
+    warn(fmt::format("the Reynolds number of the layer on a solid is {}: drag that acts at once is wrong by its order",
+                     brief(layer->reynolds)));
   if (const auto edge = scene.sheet.edge_length; edge && scales.thickness) {
     const double h = *scales.thickness, locking = std::sqrt(h / scales.curvature);
     if (scene.model.bending && scales.curvature > 0 && *edge > locking)
@@ -176,7 +206,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
   }
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
-  if (scene.environment.gravity && !scene.model.inertia && !carried)
+  if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
     warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
   else if (scene.environment.gravity && !carried && scene.solids.empty())
     warn("nothing holds or catches the sheet: it falls for ever");
@@ -188,7 +218,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
 // What a user may take for modelled, and is not.
 std::vector<std::string> left_out_of(const Scene& scene) {
   std::vector<std::string> left_out;
-  if (!scene.solids.empty())
+  if (std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact == SolidContact::stick; }))
     left_out.push_back("what sticks to a solid does not spread on it");
   if (scene.contact && scene.contact->self)
     left_out.push_back("layers that touch never become one liquid");

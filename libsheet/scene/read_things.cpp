@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [[hold]], [[solid]], [inflow], [tear], [contact]
 #include <filesystem>
+#include <numbers>
 
 #include "libsheet/base/named_files.h"
 #include "libsheet/scene/tables.h"
@@ -126,6 +127,28 @@ KnownSolid read_solid_shape(TableReader& table, std::size_t kind, const Environm
   }
 }
 
+// How liquid that touches the solid meets it.
+void read_contact_with(TableReader& table, Solid& solid) {
+  const std::size_t contact = table.choice("contact", words::solid_contacts).value_or(0);
+  solid.contact = static_cast<SolidContact>(contact);
+  const auto needs = [&](std::string_view what) {
+    return fmt::format("contact is \"{}\"; liquid must {} along it", words::solid_contacts[contact], what);
+  };
+  if (solid.contact == SolidContact::flow) {
+    solid.slip_length = table.quantity_or("slip_length", quantity::length, 0, Bound::not_negative);
+    solid.receding = table.boolean("receding").value_or(false);
+  } else {
+    table.has_no_meaning({"slip_length", "receding"}, needs("\"flow\""));
+  }
+  if (solid.contact != SolidContact::stick) {
+    solid.contact_angle = table.quantity("contact_angle", quantity::angle, Bound::not_negative);
+    if (solid.contact_angle > std::numbers::pi)
+      table.wrong("contact_angle", "expected an angle from 0 to 180 deg");
+  } else {
+    table.has_no_meaning({"contact_angle"}, needs("\"flow\" or \"slip\""));
+  }
+}
+
 } // namespace
 
 Hold read_hold(TableReader table, const SheetTable& sheet, const Model& model) {
@@ -167,6 +190,7 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
   }
   solid.motion = read_motion(table, solid.center);
   solid.surface_velocity = table.vector("surface_velocity", quantity::velocity).value_or(Vector3d::Zero());
+  read_contact_with(table, solid);
   table.finish();
   return solid;
 }

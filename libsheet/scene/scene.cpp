@@ -93,4 +93,8 @@ std::optional<Vector3d> up(const Environment& environment) {
   return -environment.gravity->stableNormalized();
 }
 
+bool flows_on_solids(const Scene& scene) {
+  return std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact != SolidContact::stick; });
+}
+
 } // namespace sheet::scene

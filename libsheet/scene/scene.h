@@ -219,12 +219,20 @@ struct SolidMesh {
 };
 using SolidShape = std::variant<Sphere, SolidBox, Capsule, Cylinder, HalfSpace, SolidMesh>;
 
+// What liquid does that touches a solid: it stays where it touched, flows in a layer that the solid drags, or slides
+// without drag.
+enum class SolidContact { stick, flow, slip };
+
 struct Solid {
   SolidShape shape = Sphere{1};
   Vector3d center = Vector3d::Zero(); // mesh: where the file's origin goes
   std::optional<Rotation> rotation;
   Motion motion;
   Vector3d surface_velocity = Vector3d::Zero(); // of a belt: what touches moves so, though the shape stays [m/s]
+  SolidContact contact = SolidContact::stick;
+  double slip_length = 0;              // of what flows: the drag is that of a layer thicker by three times this [m]
+  std::optional<double> contact_angle; // of what flows or slips [rad]; absent: the wetted face pulls like a free one
+  bool receding = false;               // of what flows: rims may retreat; else they leave a film behind
   bool operator==(const Solid&) const = default;
 };
 
@@ -282,11 +290,16 @@ struct PlaneAxes {
 };
 [[nodiscard]] PlaneAxes axes_of(Plane plane);
 
+// Whether liquid that touches flows or slips along any of the scene's solids.
+[[nodiscard]] bool flows_on_solids(const Scene& scene);
+
 // Up: against gravity; nothing without gravity.
 [[nodiscard]] std::optional<Vector3d> up(const Environment& environment);
 
 } // namespace sheet::scene
 
 namespace sheet {
+using scene::flows_on_solids;
 using scene::Scene;
+using scene::SolidContact;
 } // namespace sheet

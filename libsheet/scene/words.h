@@ -19,6 +19,7 @@ inline constexpr std::array<std::string_view, 9> borders{"rim",   "inner_rim", "
 inline constexpr std::array<std::string_view, 2> holds{"pinned", "clamped"};
 inline constexpr std::array<std::string_view, 3> motions{"fixed", "translating", "rotating"};
 inline constexpr std::array<std::string_view, 6> solid_shapes{"sphere", "box", "capsule", "cylinder", "plane", "mesh"};
+inline constexpr std::array<std::string_view, 3> solid_contacts{"stick", "flow", "slip"};
 inline constexpr std::array<std::string_view, 2> crumbs{"keep", "drop"};
 
 } // namespace sheet::scene::words

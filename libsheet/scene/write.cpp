@@ -210,6 +210,13 @@ void write_solid(Writer& out, const Solid& solid) {
   write_rotation(out, solid.rotation);
   write_motion(out, solid.motion);
   out.line_unless_zero("surface_velocity", solid.surface_velocity);
+  if (solid.contact != SolidContact::stick)
+    out.line("contact", word(words::solid_contacts, static_cast<std::size_t>(solid.contact)));
+  if (solid.slip_length > 0)
+    out.line("slip_length", solid.slip_length);
+  out.line("contact_angle", solid.contact_angle);
+  if (solid.receding)
+    out.line("receding", flag(true));
 }
 
 } // namespace

@@ -33,18 +33,18 @@ void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms
   seconds_analysis_ = watch.lap();
 }
 
-void LinearSystem::hold(std::span<const char> held, double floor) {
-  held_.assign(held.begin(), held.end());
+void LinearSystem::constrain(Constraints constraints, double floor) {
+  constraints_ = std::move(constraints);
   floor_ = floor;
   has_factor_ = false;
 }
 
 EnergySum LinearSystem::gradient(const Terms& terms, const Unknowns& u, Eigen::VectorXd& g) {
-  return assembly_.gradient(terms, u, held_, g);
+  return assembly_.gradient(terms, u, constraints_, g);
 }
 
 EnergySum LinearSystem::hessian(const Terms& terms, const Unknowns& u, bool definite, Eigen::VectorXd& g) {
-  const EnergySum energy = assembly_.derivatives(terms, u, definite, held_, g, matrix_);
+  const EnergySum energy = assembly_.derivatives(terms, u, definite, constraints_, g, matrix_);
   find_rank_ones(terms, u);
   if (has_factor_)
     rank_ones_to_rows();
@@ -58,9 +58,7 @@ void LinearSystem::find_rank_ones(const Terms& terms, const Unknowns& u) {
     const double stiffness = term->rank_one(u, g);
     if (stiffness == 0)
       continue;
-    for (std::size_t k = 0; k < held_.size(); ++k)
-      if (held_[k])
-        g[static_cast<Eigen::Index>(k)] = 0;
+    constraints_.project(g);
     of_hessian_.push_back({stiffness, std::move(g)});
   }
 }
@@ -76,7 +74,8 @@ void LinearSystem::rank_ones_to_rows() {
 void LinearSystem::scale_to_unit_diagonal() {
   const auto& permutation = assembly_.pattern().permutation();
   scale_.resize(matrix_.size);
-  const auto fixed = [&](int row) { return !held_.empty() && held_[permutation[static_cast<std::size_t>(row)]] != 0; };
+  const std::vector<char>& held = constraints_.held;
+  const auto fixed = [&](int row) { return !held.empty() && held[permutation[static_cast<std::size_t>(row)]] != 0; };
   for (int k = 0; k < matrix_.size;) {
     const int width = permutation[static_cast<std::size_t>(k)] < 3 * assembly_.vertices() ? 3 : 1;
     double sum = 0;
@@ -132,11 +131,29 @@ Eigen::VectorXd LinearSystem::multiply(const Eigen::VectorXd& x) const {
   return y;
 }
 
+// What slides may do so in other directions than when the factor was made.
 Eigen::VectorXd LinearSystem::solve(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd x = precision_ == Precision::single ? single_.solve(b) : full_.solve(b);
+  const bool slides = !constraints_.slides.empty();
+  Eigen::VectorXd free;
+  if (slides) {
+    free = b;
+    project_rows(free);
+  }
+  const Eigen::VectorXd& rows = slides ? free : b;
+  Eigen::VectorXd x = precision_ == Precision::single ? single_.solve(rows) : full_.solve(rows);
   for (const SolvedRankOne& part : of_factor_)
     x -= (part.part * part.g.dot(x)) * part.solved;
+  if (slides)
+    project_rows(x);
   return x;
+}
+
+// The three rows of a vertex have one scale, but those that are held.
+void LinearSystem::project_rows(Eigen::VectorXd& rows) const {
+  for (const Slide& slide : constraints_.slides) {
+    auto x = rows.segment<3>(assembly_.pattern().first_row(slide.vertex));
+    x = Vector3(slide.free * x);
+  }
 }
 
 Eigen::VectorXd LinearSystem::to_rows(const Eigen::VectorXd& forces) const {
@@ -156,7 +173,8 @@ Eigen::VectorXd LinearSystem::to_unknowns(const Eigen::VectorXd& rows) const {
 }
 
 void LinearSystem::balance(const Eigen::VectorXd& force, Eigen::VectorXd& step) const {
-  if (floor_ > 0 || std::find(held_.begin(), held_.end(), char{1}) != held_.end())
+  const std::vector<char>& held = constraints_.held;
+  if (floor_ > 0 || !constraints_.slides.empty() || std::find(held.begin(), held.end(), char{1}) != held.end())
     return;
   const Eigen::VectorXd residual = force - multiply(step);
   const auto& permutation = assembly_.pattern().permutation();
@@ -174,9 +192,7 @@ void LinearSystem::balance(const Eigen::VectorXd& force, Eigen::VectorXd& step) 
 }
 
 Eigen::VectorXd LinearSystem::respond(Eigen::VectorXd force) const {
-  for (std::size_t k = 0; k < held_.size(); ++k)
-    if (held_[k])
-      force[static_cast<Eigen::Index>(k)] = 0;
+  constraints_.project(force);
   const Eigen::VectorXd rows = to_rows(force);
   const auto product = [&](const Eigen::VectorXd& x) { return multiply(x); };
   const auto precondition = [&](const Eigen::VectorXd& b) { return solve(b); };
@@ -187,28 +203,33 @@ bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target
   const auto& permutation = assembly_.pattern().permutation();
   Eigen::VectorXd gradient;
   has_factor_ = false;
+  // For a start, what slides is held.
+  std::vector<char> held = constraints_.held;
+  held.resize(static_cast<std::size_t>(u.size()), 0);
+  for (const Slide& slide : constraints_.slides)
+    std::fill_n(held.begin() + 3 * static_cast<std::ptrdiff_t>(slide.vertex), 3, char{1});
   assembly_.derivatives(terms, u, true, {}, gradient, matrix_);
   SparseLower& a = matrix_;
   Eigen::VectorXd rhs(u.size()), move(u.size());
   for (Eigen::Index k = 0; k < u.size(); ++k) {
     const auto unknown = permutation[static_cast<std::size_t>(k)];
-    move[k] = held_[unknown] ? target[unknown] - u[unknown] : 0;
+    move[k] = held[unknown] ? target[unknown] - u[unknown] : 0;
     rhs[k] = -gradient[unknown];
   }
   for (int c = 0; c < a.size; ++c) {
-    const bool fixed = held_[permutation[static_cast<std::size_t>(c)]];
+    const bool fixed = held[permutation[static_cast<std::size_t>(c)]];
     for (auto p = static_cast<std::size_t>(a.starts[static_cast<std::size_t>(c)]);
          p < static_cast<std::size_t>(a.starts[static_cast<std::size_t>(c) + 1]); ++p) {
       const int r = a.rows[p];
       rhs[r] -= a.values[p] * move[c];
       if (r != c)
         rhs[c] -= a.values[p] * move[r];
-      if (fixed || held_[permutation[static_cast<std::size_t>(r)]])
+      if (fixed || held[permutation[static_cast<std::size_t>(r)]])
         a.values[p] = r == c ? 1 : 0;
     }
   }
   for (Eigen::Index k = 0; k < u.size(); ++k)
-    if (held_[permutation[static_cast<std::size_t>(k)]])
+    if (held[permutation[static_cast<std::size_t>(k)]])
       rhs[k] = move[k];
   scale_to_unit_diagonal();
   if (!factorize_scaled(spread_shift, Precision::single))
@@ -216,7 +237,7 @@ bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target
   const Eigen::VectorXd step = single_.solve(rhs.cwiseProduct(scale_));
   for (Eigen::Index k = 0; k < u.size(); ++k) {
     const auto unknown = permutation[static_cast<std::size_t>(k)];
-    u[unknown] += held_[unknown] ? move[k] : scale_[k] * step[k];
+    u[unknown] += held[unknown] ? move[k] : scale_[k] * step[k];
   }
   return u.allFinite();
 }

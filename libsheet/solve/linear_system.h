@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libsheet/energy/assembly.h"
+#include "libsheet/energy/walls.h"
 #include "libsheet/solve/supernodal_factor.h"
 #include "libsheet/solve/symmetric_product.h"
 
@@ -30,9 +31,12 @@ public:
   void analyze(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles);
   [[nodiscard]] double seconds_analysis() const { return seconds_analysis_; }
 
-  // The unknowns that have a prescribed value, one flag each, and the shift that every operator and factor has at
-  // least. Takes effect with the next Hessian and factor.
-  void hold(std::span<const char> held, double floor);
+  // What is prescribed, and the shift that every operator and factor has at least. Takes effect with the next Hessian
+  // and factor.
+  void constrain(Constraints constraints, double floor);
+  // The same vertices slide in other directions: a factor still serves as preconditioner.
+  void turn_slides(const Stage& stage) { sheet::turn_slides(stage, constraints_); }
+  [[nodiscard]] const Constraints& constraints() const { return constraints_; }
 
   [[nodiscard]] double floor() const { return floor_; }
 
@@ -97,7 +101,9 @@ private:
   SparseLower matrix_, scaled_;
   SymmetricProduct product_;
   Eigen::VectorXd scale_; // of rows
-  std::vector<char> held_;
+  void project_rows(Eigen::VectorXd& rows) const;
+
+  Constraints constraints_;
   double floor_ = 0;
   std::vector<RankOne> of_hessian_, of_operator_; // of unknowns, of rows
   std::vector<SolvedRankOne> of_factor_;

@@ -2,6 +2,7 @@
 #include "libsheet/solve/scene_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "libsheet/base/error.h"
@@ -9,6 +10,7 @@
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/held_rims.h"
 
 namespace sheet {
 
@@ -74,8 +76,27 @@ void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   }
 }
 
-// No slip: what touches a solid moves with its surface [Batty et al. 2012, section 3.5]. Gives whether anything does.
-bool add_touching(const Scene& scene, const Frame& frame, Model& model) {
+// Along which liquid flows: motion and belt as for what sticks.
+Wall wall_of(const std::shared_ptr<const solid::Solids>& solids, std::size_t i, std::vector<std::uint32_t> touching,
+             const Hold& moved) {
+  const scene::Solid& solid = solids->scene(i);
+  Wall wall;
+  wall.vertices = std::move(touching);
+  wall.slip_length = solid.contact == SolidContact::slip ? free_slip : solid.slip_length;
+  wall.wetting = solid.contact_angle ? 1 - std::cos(*solid.contact_angle) : 2;
+  wall.nearest = [solids, i](double t, const Vector3& x) {
+    const solid::SolidPoint point = solids->at(i, x, t);
+    return WallPoint{point.distance, point.normal};
+  };
+  wall.motion = moved.motion;
+  wall.velocity = moved.velocity;
+  return wall;
+}
+
+// What touches a solid moves with its surface, without slip [Batty et al. 2012, section 3.5], or flows along it. Gives
+// whether anything touches.
+bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& mesh,
+                  const std::shared_ptr<const solid::Solids>& solids, Model& model) {
   std::vector<std::vector<std::uint32_t>> touching(scene.solids.size());
   const auto touched = touched_solids(frame, scene.solids.size());
   for (std::uint32_t v = 0; v < touched.size(); ++v)
@@ -86,10 +107,17 @@ bool add_touching(const Scene& scene, const Frame& frame, Model& model) {
     if (touching[i].empty())
       continue;
     any = true;
+    const scene::Solid& solid = scene.solids[i];
     Hold hold;
-    hold.vertices = std::move(touching[i]);
-    move(hold, scene.solids[i].motion, scene.solids[i].surface_velocity);
-    model.holds.push_back(std::move(hold));
+    move(hold, solid.motion, solid.surface_velocity);
+    if (solid.contact == SolidContact::flow && !solid.receding)
+      hold.vertices = held_rims(frame, mesh, touching[i]);
+    if (solid.contact == SolidContact::stick)
+      hold.vertices = std::move(touching[i]);
+    else
+      model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
+    if (!hold.vertices.empty())
+      model.holds.push_back(std::move(hold));
   }
   return any;
 }
@@ -154,7 +182,8 @@ void put_reactions(std::span<const Vector3> reactions, Frame& frame) {
   frame.put(std::move(force));
 }
 
-Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh, Bending bending, bool arcs) {
+Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh, Bending bending, bool arcs,
+               const std::shared_ptr<const solid::Solids>& solids) {
   Model model;
   model.viscosity = scene.material.viscosity;
   model.density = scene.material.density;
@@ -169,13 +198,13 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (scene.environment.bath)
     model.bath =
         BathModel{scene.environment.bath->density, scene.environment.bath->level, scene.environment.bath->clings};
-  const bool touching =
-      add_touching(scene, frame, model); // first: along the axes that a [[hold]] prescribes that one counts
+  const bool touching = add_touching(scene, frame, mesh, solids,
+                                     model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
   add_inlet(scene, frame, mesh, model);
   model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
   model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
-  model.reactions = scene.contact && scene.contact->adhesion && touching;
+  model.reactions = touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene));
   return model;
 }
 

@@ -7,6 +7,7 @@
 #include "libsheet/energy/model.h"
 #include "libsheet/energy/state.h"
 #include "libsheet/scene/scene.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet {
 
@@ -24,9 +25,11 @@ void put_reactions(std::span<const Vector3> reactions, formats::Frame& frame);
 // tables (array "hold"), the vertices that touch a solid and move with it (array "touch"), those in the inlet (array
 // "inlet", until the inflow ends); contact springs (arrays "contact_..."). Bending is as `bending` says, unless the
 // scene wants none. Reactions are wanted where the scene says at what tension the sheet parts from solids that it
-// touches. Throws Error (bad_input) where the scene has too little for a model.
+// touches, or where rims do not retreat on a solid along which liquid flows. `solids`: the scene's, where liquid flows
+// or slips on one of them (flows_on_solids); else not needed. Throws Error (bad_input) where the scene has too little
+// for a model.
 [[nodiscard]] Model model_of(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh, Bending bending,
-                             bool arcs);
+                             bool arcs, const std::shared_ptr<const solid::Solids>& solids = nullptr);
 
 // The first time after t [s] at which a prescribed motion has a kink, a hold is released or the inflow ends; infinity
 // if there is none. A step that does not pass it keeps its order.

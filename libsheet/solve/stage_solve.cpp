@@ -31,15 +31,15 @@ Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, c
     }
   };
   Unknowns trial = guess;
-  place_held(holds_, stage, stage.end_time, trial);
+  place(stage, trial);
   const double left_behind = (trial - guess).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
   consider(trial);
   trial = safe;
-  place_held(holds_, stage, stage.end_time, trial);
+  place(stage, trial);
   const Unknowns target = trial;
   consider(trial);
   if (move_with_held(holds_, stage, stage.end_time, trial)) {
-    place_held(holds_, stage, stage.end_time, trial);
+    place(stage, trial);
     consider(trial);
   }
   if (left_behind >= far_behind) {
@@ -48,6 +48,12 @@ Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, c
       consider(trial);
   }
   return best;
+}
+
+// What is prescribed.
+void StageSolve::place(const Stage& stage, Unknowns& u) const {
+  place_held(holds_, stage, stage.end_time, u);
+  place_on_walls(stage, system_.constraints().held, u);
 }
 
 bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns& safe, int iterations,

@@ -27,6 +27,7 @@ public:
                            NewtonReport& report, Unknowns& u);
 
 private:
+  void place(const Stage& stage, Unknowns& u) const;
   [[nodiscard]] Unknowns starting_guess(const Stage& stage, const Unknowns& guess, const Unknowns& safe);
 
   LinearSystem& system_;

@@ -27,18 +27,38 @@ bool sound(const State& s) {
   return true;
 }
 
-// What the holds must add to the other forces, inertia included, so that the sum vanishes: the potential's gradient.
-std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, std::span<const char> held,
+// What holds and walls must add to the other forces, inertia included, so that the sum vanishes: the potential's
+// gradient in the directions that they prescribe, and the walls' drag.
+std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, double viscosity, const Stage& stage,
                                const Unknowns& u) {
+  const Constraints constraints = system.constraints();
   Eigen::VectorXd gradient;
-  system.hold({}, 0);
+  system.constrain({}, 0);
   (void)system.gradient(terms, u, gradient);
-  std::vector<Vector3> result(system.assembly().vertices(), Vector3::Zero());
-  for (std::size_t v = 0; v < result.size() && !held.empty(); ++v)
-    for (std::size_t a = 0; a < 3; ++a)
-      if (held[3 * v + a] != 0)
-        result[v][static_cast<Eigen::Index>(a)] = gradient[static_cast<Eigen::Index>(3 * v + a)];
+  Eigen::VectorXd free = gradient;
+  constraints.project(free);
+  gradient -= free;
+  std::vector<Vector3> result = drag_on_walls(stage, viscosity, u);
+  for (std::size_t v = 0; v < result.size(); ++v)
+    result[v] += gradient.segment<3>(static_cast<Eigen::Index>(3 * v));
   return result;
+}
+
+// Vertices that have a place along the sheet: by holds, or by the drag of a wall.
+std::size_t at_places(const Model& model) {
+  std::size_t count = fully_held(model.holds);
+  for (const Wall& wall : model.walls)
+    if (wall.slip_length != free_slip)
+      count += wall.vertices.size();
+  return count;
+}
+
+// Whether a vertex moves along its wall by more than an edge in the time dt, as fast as it ends.
+bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const Eigen::VectorXd& lengths) {
+  return std::ranges::any_of(stage.sites, [&](const WallSite& site) {
+    const double allowed = lengths[3 * static_cast<Eigen::Index>(site.vertex)];
+    return (stage.position(last, site.vertex) - site.carried).norm() * dt > allowed * stage.duration;
+  });
 }
 
 bool same_mesh(const Connectivity& a, const Connectivity& b) {
@@ -106,10 +126,11 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   Stage& stage = cache_->stage;
   stage = first_stage(state, gamma * dt, state.time + gamma * dt, model_.has_angles());
   const Eigen::VectorXd scale = step_scale(state, stage.begin.size());
-  const std::vector<char> held = held_unknowns(model_.holds, stage);
+  const auto onto_walls = [&] { set_wall_sites(model_.walls, stage); };
+  onto_walls();
   // Without inertia a sheet that is not held is free to move rigidly, and a flat membrane to leave its plane.
-  const bool determined = model_.has_inertia() || (fully_held(model_.holds) >= 3 && model_.bending != Bending::none);
-  cache_->system.hold(held, determined ? 0 : smallest_floor);
+  const bool determined = model_.has_inertia() || (at_places(model_) >= 3 && model_.bending != Bending::none);
+  cache_->system.constrain(constraints_of(model_.holds, stage), determined ? 0 : smallest_floor);
   StageSolve solver(cache_->system, cache_->terms, model_.holds, scale, options_.newton, demand);
   const auto solve = [&](const Unknowns& guess, const Unknowns& safe, Unknowns& u) {
     if (options_.thickness == Thickness::as_started)
@@ -126,19 +147,21 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   if (two) {
     if (!second_stage(stage, first, gamma, dt))
       return Outcome::shrinks_to_nothing;
+    onto_walls();
+    cache_->system.turn_slides(stage);
     guess = stage.begin + (first - stage.begin) / gamma;
     if (!solve(guess, first, last))
       return Outcome::not_converged;
   } else {
     last = first;
   }
-  return finish_step(state, dt, stage, first, last, scale, held, end, report);
+  return finish_step(state, dt, stage, first, last, scale, end, report);
 }
 
 // first: the first stage's result; last: that of the last stage, which is the end of the step.
 Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stage, const Unknowns& first,
-                                      const Unknowns& last, const Eigen::VectorXd& scale, std::span<const char> held,
-                                      State& end, StepReport& report) {
+                                      const Unknowns& last, const Eigen::VectorXd& scale, State& end,
+                                      StepReport& report) {
   const bool two = stage.previous != nullptr;
   const std::size_t n = state.positions.size();
   end = state;
@@ -153,25 +176,35 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   }
   estimate_error(state, dt, stage, first, last, end, scale, report);
   end.director_angles = director_angles(stage, last);
+  set_velocities_on_walls(model_.walls, stage, end.time, end);
   set_held_velocities(model_.holds, end.time, end);
+  if (!sound(end))
+    return Outcome::shrinks_to_nothing;
+  if (slides_too_far(stage, last, dt, scale))
+    return Outcome::slides_too_far;
   if (model_.reactions) {
-    // What is held does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
-    for (std::size_t i = 0; i < 3 * n && !held.empty(); ++i)
-      if (held[i] != 0) {
-        const std::size_t v = i / 3;
-        const auto a = static_cast<Eigen::Index>(i % 3);
-        stage.inertial[v][a] = end.positions[v][a] -
-                               stage.duration * stage.duration / dt * (end.velocities[v][a] - state.velocities[v][a]);
-      }
-    report.reactions = reactions(cache_->system, cache_->terms, held, last);
+    // What is prescribed does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
+    const Constraints& constraints = cache_->system.constraints();
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(last.size());
+    for (std::size_t v = 0; v < n; ++v)
+      change.segment<3>(static_cast<Eigen::Index>(3 * v)) =
+          end.positions[v] - stage.duration * stage.duration / dt * (end.velocities[v] - state.velocities[v]) -
+          stage.inertial[v];
+    Eigen::VectorXd free = change;
+    constraints.project(free);
+    change -= free;
+    for (std::size_t v = 0; v < n; ++v)
+      stage.inertial[v] += change.segment<3>(static_cast<Eigen::Index>(3 * v));
+    report.reactions = reactions(cache_->system, cache_->terms, model_.viscosity, stage, last);
   }
-  return sound(end) ? Outcome::done : Outcome::shrinks_to_nothing;
+  return Outcome::done;
 }
 
 // The difference e to the first-order result, from the slope of the first stage, or of backward Euler to the
 // trapezoidal rule. That of SDIRK2 is led through an implicit step of M x'' + D x' + K x = 0, (1 - τJ)⁻¹ e, as such a
 // result is worth nothing where forces relax within the step: what an impulse of contact or a new mesh has left in the
-// velocities [Shampine and Baca 1984; Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8].
+// velocities. On a wall it is taken in the wall's frame, as the wall's own motion is exact. [Shampine and Baca 1984;
+// Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8].
 void Stepper::estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first,
                              const Unknowns& last, const State& end, const Eigen::VectorXd& scale,
                              StepReport& report) const {
@@ -181,7 +214,10 @@ void Stepper::estimate_error(const State& state, double dt, const Stage& stage, 
   for (std::size_t v = 0; v < state.positions.size(); ++v) {
     const auto at = static_cast<Eigen::Index>(3 * v);
     const Vector3 &x0 = state.positions[v], &v0 = state.velocities[v], x1 = first.segment<3>(at);
-    const Vector3 lower = two ? Vector3(x0 + (x1 - x0) / gamma) : Vector3(x0 + 0.5 * dt * (v0 + end.velocities[v]));
+    const WallSite* site = site_at(stage, static_cast<std::uint32_t>(v));
+    const Vector3 lower = two && site != nullptr ? Vector3(site->stuck + (site->carried - site->stuck) / (1 - gamma))
+                          : two                  ? Vector3(x0 + (x1 - x0) / gamma)
+                                                 : Vector3(x0 + 0.5 * dt * (v0 + end.velocities[v]));
     e.segment<3>(at) = last.segment<3>(at) - lower;
     speeds.segment<3>(at) = end.velocities[v] - (v0 + ((x1 - x0) / tau - v0) / gamma);
   }

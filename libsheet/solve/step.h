@@ -85,10 +85,10 @@ public:
 private:
   struct Cache;
   class ChosenStep;
-  enum class Outcome { done, not_converged, shrinks_to_nothing };
+  enum class Outcome { done, not_converged, shrinks_to_nothing, slides_too_far };
   Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end, StepReport& report);
   Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
-                      const Eigen::VectorXd& scale, std::span<const char> held, State& end, StepReport& report);
+                      const Eigen::VectorXd& scale, State& end, StepReport& report);
   void estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first, const Unknowns& last,
                       const State& end, const Eigen::VectorXd& scale, StepReport& report) const;
   Outcome attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report);

@@ -35,6 +35,7 @@ public:
   ChosenStep(Stepper& stepper, const State& state, double remaining, const StepControl& control, StepReport& report)
       : stepper_(stepper), state_(state), remaining_(remaining), tolerance_(control.tolerance),
         wanted_(control.dt > 0 ? control.dt : remaining), report_(report) {
+    wanted_ = std::min(wanted_, longest_step_on_walls(stepper.model_.walls, state));
     // No sliver of a step before the output time: two equal steps instead.
     first_ = wanted_ >= remaining ? remaining : wanted_ > 0.5 * remaining ? 0.5 * remaining : wanted_;
     shortest_ = std::min(shortest_step(state, remaining), first_);

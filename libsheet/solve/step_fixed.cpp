@@ -25,7 +25,15 @@ StepReport Stepper::step(State& state, double dt) {
   prepare_cache(state, report);
   State next = state;
   limit_leaning(next, model_.holds);
-  advance(next, dt, 0, report);
+  // In equal parts, if something moves far along a wall.
+  const double until = state.time + dt;
+  for (double left = dt; left > 0; left = until - next.time) {
+    const double longest = longest_step_on_walls(model_.walls, next);
+    const double count = std::ceil(std::max(1.0, left / longest * (1 - 1e-9)));
+    advance(next, left / count, 0, report);
+    if (count == 1)
+      break;
+  }
   next.time = state.time + dt;
   state = std::move(next);
   tell_times(report);
@@ -45,8 +53,9 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     advance_flat(state, dt, report);
     return;
   }
+  const bool too_far = outcome == Outcome::slides_too_far;
   const bool exhausted = report.newton.iterations >= options_.iterations;
-  if (!exhausted && options_.scheme != Scheme::backward_euler && depth >= halvings_before_euler &&
+  if (!exhausted && !too_far && options_.scheme != Scheme::backward_euler && depth >= halvings_before_euler &&
       attempt(state, dt, Scheme::backward_euler, Demand::converged, end, report) == Outcome::done) {
     ++report.substeps;
     ++report.euler_fallbacks;
@@ -54,7 +63,7 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   const bool divisible = depth < options_.retries;
-  if ((exhausted || !divisible) &&
+  if (((exhausted && !too_far) || !divisible) &&
       attempt(state, dt, Scheme::backward_euler, Demand::lower_potential, end, report) == Outcome::done) {
     ++report.substeps;
     ++report.unfinished;

@@ -94,6 +94,7 @@ struct StepStage::Impl {
   StepStageOptions options;
   FrameScene scenes;
   FrameMesh mesh;
+  std::shared_ptr<const solid::Solids> solids; // if liquid flows on them
   std::optional<Stepper> stepper;
   Totals totals;
 
@@ -109,6 +110,8 @@ struct StepStage::Impl {
   Model prepare(const Frame& frame) {
     check_magnitudes(frame);
     const Scene& scene = scenes.of(frame);
+    if (scenes.changed())
+      solids = flows_on_solids(scene) ? std::make_shared<const solid::Solids>(scene) : nullptr;
     if (mesh.follow(frame))
       check_mesh(*mesh.mesh());
     check_edges(frame, *mesh.mesh());
@@ -116,7 +119,7 @@ struct StepStage::Impl {
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
     // Arcs reduce locking where the sheet bends by directors (docs/hard-cases.md says what they cost).
     constexpr bool arcs = true;
-    return model_of(scene, frame, *mesh.mesh(), options.bending, arcs);
+    return model_of(scene, frame, *mesh.mesh(), options.bending, arcs, solids);
   }
 
   void step(Frame& frame) {

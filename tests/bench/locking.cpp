@@ -91,7 +91,7 @@ double power_ratio(double thickness, double k, bool arcs, Bending bending, doubl
     u.segment<3>(static_cast<Eigen::Index>(3 * v)) =
         on_arc(flat.positions[v].x() - 0.5 * nx, flat.positions[v].y(), k + step);
   place_held(m.holds, stage, dt, u);
-  system.hold(held_unknowns(m.holds, stage), 0);
+  system.constrain({.held = held_unknowns(m.holds, stage)}, 0);
   const Unknowns start = u;
   const NewtonReport r = minimize(system, terms, step_scale(s, u.size()), start, {}, u);
   const double exact = 0.5 * thickness * thickness * thickness / 3 * step * step * nx * ny / dt;

@@ -57,7 +57,7 @@ void iterate(Variant& v) {
   LinearSystem& system = *v.system;
   const std::vector<double> before = system.assembly().seconds();
   const double start = processor_seconds();
-  system.hold({}, 1e-10);
+  system.constrain({}, 1e-10);
   (void)system.hessian(v.terms, v.u, true, gradient);
   const double assembled = processor_seconds();
   if (!system.factorize(0, Precision::single))

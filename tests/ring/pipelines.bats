@@ -1,7 +1,8 @@
 #!/usr/bin/env bats
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The scripts pipelines/NAME/run, small: interrupted and resumed, each gives the same streams as run straight; each stage of
-# the bunny can be replaced by one of one's own in Python.
+# the bunny can be replaced by one of one's own in Python. What stands before a test's colon is the CTest that it belongs to,
+# ring.pipelines.SCENE, so that several run at the same time.
 
 bats_require_minimum_version 1.5.0
 
@@ -89,13 +90,76 @@ interrupted() {
   interrupted KILL sideways bubble 0.0025 0.15
 }
 
+@test "bubble: the law has a line for each run, and the estimate" {
+  OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/bubble/law 1.2 2e-4 0.066
+  [[ $(wc -l < "$BATS_TEST_TMPDIR/law/law.csv") == 7 && $(grep -c '^thickness,2e-4,0.021,.*,2.57$' "$BATS_TEST_TMPDIR/law/law.csv") == 3 ]]
+}
+
+@test "bubble: waves around are counted, and a body of revolution has none" {
+  sheet-init pipelines/bubble/fine.toml -o "$BATS_TEST_TMPDIR/round.sheet" --set sheet.perturbation.amplitude=1e-9
+  pipelines/bubble/wrinkles "$BATS_TEST_TMPDIR/round.sheet" "$BATS_TEST_TMPDIR/round.csv"
+  awk -F, 'NR == 2 { exit !($3 < 1e-6) }' "$BATS_TEST_TMPDIR/round.csv"
+  PYTHONPATH=formats/python /usr/bin/python3 - "$BATS_TEST_TMPDIR" << 'END'
+import sys
+
+import numpy as np
+import sheetstream
+
+frame = next(iter(sheetstream.read(open(sys.argv[1] + "/round.sheet", "rb"))))
+position = frame["position"]
+angle = np.arctan2(position[:, 2], position[:, 0])
+position *= 1 + 0.02 * np.cos(7 * angle)[:, None]
+frame["position"] = position
+with open(sys.argv[1] + "/wavy.sheet", "wb") as file:
+    writer = sheetstream.Writer(file)
+    writer.write(frame)
+    writer.end()
+END
+  run -0 pipelines/bubble/wrinkles "$BATS_TEST_TMPDIR/wavy.sheet" "$BATS_TEST_TMPDIR/wavy.csv"
+  [[ $output == *", 7 around;"* ]]
+}
+
+@test "pancake: interrupted and resumed = straight" {
+  interrupted INT run pancake 0.01 2
+}
+
+@test "honey: killed and resumed = straight" {
+  interrupted KILL run honey 0.006 1
+}
+
+@test "spin: interrupted and resumed = straight" {
+  interrupted INT run spin 0.01 1.2
+}
+
+@test "glass-mould: killed and resumed = straight" {
+  interrupted KILL slip glass-mould 0.015 60
+}
+
 @test "drape: interrupted and resumed = straight" {
   interrupted INT run drape 0.1 0.25
 }
 
+@test "annulus: killed and resumed = straight, and it turns as it should" {
+  interrupted KILL fine annulus 0.02 8
+  awk -F, 'NR == 10 { exit !($1 == 8 && $2 > 0.00399 && $2 < 0.00401) }' "$BATS_TEST_TMPDIR/straight/run-waves.csv"
+}
+
+@test "annulus: waves grow as theory says, the closer the finer" {
+  OUT=$BATS_TEST_TMPDIR/growth run -0 pipelines/annulus/growth 0.0075 0.06
+  grep -q "steps 0.1: highest with [67] crests (theory 6)" <<< "$output"
+  # Growth over theory's of the six crests that grow fastest, for edges of 7.5 and of 5.25 mm.
+  awk -F, '$3 == 0.1 && $4 == 6 { off[$2] = $5 / $6 - 1 } END { exit !(off[0.0075] < 0.25 && off[0.00525] < 0.12 && off[0.00525] > 0.05) }' \
+    "$BATS_TEST_TMPDIR/growth/growth.csv"
+}
+
 @test "ice cream: frequency goes as speed, whatever the edges" {
   OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/ice-cream/law 0.01 4 "1.5 3" "0.055 0.06"
-  [[ $(grep -cE "goes as speed to (0\.9[0-9]*|1\.0[0-9]*)," <<< "$output") == 2 ]]
+  [[ $(grep -cE "goes as speed to (0\.9[0-9]*|1\.0[0-9]*)," <<< "$output") == 3 ]]
+}
+
+@test "folding: frequency goes as speed to three quarters, or nearly" {
+  OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/folding/law 0.01 3 "0.1 0.2" "0.07"
+  [[ $(grep -cE "goes as speed to 0\.[6-9]" <<< "$output") == 3 ]]
 }
 
 @test "gallery: a scene that is ended ends it, it goes on from there, and what is done is not done again" {
@@ -114,7 +178,7 @@ interrupted() {
   [[ $output == *"there is no scene nonesuch"* ]]
 }
 
-@test "a stream that was made with other options is not gone on with" {
+@test "bunny: a stream that was made with other options is not gone on with" {
   export OUT=$BATS_TEST_TMPDIR/run
   pipelines/bunny/run 0.3 0.1
   run -2 pipelines/bunny/run 0.25 0.1
@@ -134,15 +198,15 @@ with_stage() {
   ! grep -q " $1 (" "$BATS_TEST_TMPDIR/text"
 }
 
-@test "bunny with a Python stage in place of sheet-collide: nothing stops the sheet" {
+@test "stages: a Python stage in place of sheet-collide: nothing stops the sheet" {
   with_stage sheet-collide formats/python/example_stage.py
 }
 
-@test "bunny with a Python stage in place of sheet-remesh" {
+@test "stages: a Python stage in place of sheet-remesh" {
   with_stage sheet-remesh formats/python/example_stage.py
 }
 
-@test "bunny with a Python clock in place of sheet-step: nothing moves" {
+@test "stages: a Python clock in place of sheet-step: nothing moves" {
   with_stage sheet-step tests/ring/clock_stage.py
   awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "y_min") y = i } NR > 1 && $y != 0 { exit 1 } END { exit NR != 10 }' "$OUT/run.csv"
 }

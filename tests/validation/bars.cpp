@@ -154,6 +154,27 @@ TEST(Validation, MomentumAndEnergy) {
   EXPECT_LT(error("V20", settings("V20", 0.15, 20, 3)), 3e-3);
 }
 
+TEST(Validation, LayersSpreadOnWalls) {
+  const Result channel = run(find_case("V22"), settings("V22", 0.1, 200, 1));
+  EXPECT_LT(std::abs(channel.error), 0.01);
+  const Result disk = run(find_case("V22"), settings("V22", 0.1, 200, 2));
+  EXPECT_LT(std::abs(disk.error), 0.015);
+  ASSERT_EQ(disk.more.back().first, "scatter of the rim");
+  EXPECT_LT(disk.more.back().second, 0.01);
+  EXPECT_LT(error("V23", settings("V23", 0.1, 200)), 0.03);
+  EXPECT_GE(space_order(find_case("V23"), settings("V23", 0.1, 200)).order, 0.9);
+}
+
+TEST(Validation, LayersOnWalls) {
+  for (const int set : {1, 2, 7}) // down an incline, with slip; a puddle
+    EXPECT_LT(error("V24", settings("V24", 0.1, 40, set)), 1e-6) << "set " << set;
+  EXPECT_LT(error("V24", settings("V24", 0.1, 40, 3)), 1e-3); // a plug stops
+  EXPECT_LT(error("V24", settings("V24", 0.1, 40, 5)), 2e-3); // on top of a cylinder
+  EXPECT_LT(error("V24", settings("V24", 0.1, 160, 6)), 1e-3); // spin coating
+  for (const int set : {3, 4, 5, 6})
+    EXPECT_GE(order_in_time("V24", settings("V24", 0.1, 80, set), Scheme::sdirk2), 1.9) << "set " << set;
+}
+
 TEST(Validation, FallingCurtain) {
   const Result r = run(find_case("V18"), settings("V18", 0.01, 350));
   EXPECT_LT(std::abs(r.error), 0.01);

@@ -62,6 +62,14 @@ const std::vector<Case>& cases() {
        "1 + force over mu V/(dt edge), or greatest relative change of an edge", "", 3, at(0.15, 1), false, false, v19},
       {"V20", "thrown disk (set 1: linear momentum; 2: angular momentum; 3: energy balance)", "1 + relative defect", "",
        3, at(0.15, 20), true, false, v20},
+      {"V22", "a layer spreads on a plane (set 1: in a channel; 2: as a disk)", "length or radius", "", 2, at(0.1, 200),
+       true, true, v22},
+      {"V23", "a block flows down an incline, its upper end held", "length", "", 1, at(0.1, 200), true, true, v23},
+      {"V24",
+       "layers on walls (set 1: down an incline; 2: with slip; 3: a plug stops; 4: spreads without drag; 5: on top of "
+       "a "
+       "cylinder; 6: spin coating; 7: a puddle)",
+       "1, 2, 3: way; else thickness", "", 7, at(0.1, 40), true, false, v24},
   };
   return list;
 }

@@ -28,7 +28,7 @@ Instant solve_instant(const State& s, const Model& model, double dt, const Place
   const Eigen::VectorXd scale = step_scale(s, stage.begin.size());
   NewtonOptions options;
   options.tolerance = 1e-12;
-  system.hold(held, 1e-10);
+  system.constrain({.held = held}, 1e-10);
   const Unknowns start = r.end;
   const NewtonReport report = minimize(system, terms, scale, start, options, r.end);
   r.iterations = report.iterations;
@@ -39,7 +39,7 @@ Instant solve_instant(const State& s, const Model& model, double dt, const Place
     r.next.positions[v] = stage.position(r.end, v);
   r.next.director_angles = director_angles(stage, r.end);
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  system.hold({}, 0);
+  system.constrain({}, 0);
   r.potential = system.gradient(terms, r.end, r.reaction).value;
   for (std::size_t k = 0; k < static_cast<std::size_t>(r.reaction.size()); ++k)
     if (held.empty() || !held[k])

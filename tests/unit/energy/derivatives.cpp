@@ -19,6 +19,8 @@
 #include "libsheet/energy/pressure.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/energy/surface_tension.h"
+#include "libsheet/energy/wall_drag.h"
+#include "libsheet/energy/wall_weight.h"
 #include "libsheet/geometry/area.h"
 #include "tests/support/meshes.h"
 
@@ -68,6 +70,25 @@ State leaning(Random& random) {
   return s;
 }
 
+// Two of three vertices touch a bumpy wall.
+void touch_walls(Stage& stage, Random& random) {
+  stage.sites.clear();
+  stage.site_of.assign(stage.vertices(), no_index);
+  for (std::uint32_t v = 0; v < stage.vertices(); ++v) {
+    if (v % 3 == 0)
+      continue;
+    WallSite site;
+    site.vertex = v;
+    site.normal = (Vector3(0, 1, 0) + random.vector(0.5)).normalized();
+    site.stuck = stage.start->positions[v];
+    site.carried = site.stuck + random.vector(0.1);
+    site.slip_length = 0.1 * (1 + random());
+    site.wetting = 1 + random();
+    stage.site_of[v] = static_cast<std::uint32_t>(stage.sites.size());
+    stage.sites.push_back(std::move(site));
+  }
+}
+
 template <class E> VectorN<12> unknowns(const E& element, std::size_t i, const State& s, Random& random) {
   VectorN<12> u = VectorN<12>::Zero();
   if constexpr (E::stencil == Stencil::hinge || E::stencil == Stencil::four) {
@@ -98,7 +119,8 @@ struct Properties {
 };
 
 template <class E>
-void check(E element, Properties properties, bool second_stage_too = true, State (*state)(Random&) = crumpled) {
+void check(E element, Properties properties, bool second_stage_too = true, State (*state)(Random&) = crumpled,
+           void (*prepare)(Stage&, Random&) = nullptr) {
   constexpr int n = stencil_unknowns(E::stencil), vertices = stencil_vertices(E::stencil);
   Random random;
   for (int round = 0; round < 5; ++round) {
@@ -110,6 +132,8 @@ void check(E element, Properties properties, bool second_stage_too = true, State
         first[k] += 0.02 * random();
       (void)second_stage(stage, first, 1 - std::sqrt(0.5), 0.05 / (1 - std::sqrt(0.5)));
     }
+    if (prepare != nullptr)
+      prepare(stage, random);
     element.begin(stage);
     if constexpr (requires { element.prepare(stage.begin); })
       element.prepare(stage.begin);
@@ -160,6 +184,9 @@ void check(E element, Properties properties, bool second_stage_too = true, State
 
 TEST(Derivatives, Membrane) { check(Membrane(2.0), {}); }
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(0.7), {}); }
+TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(0.7), {}, true, crumpled, touch_walls); }
+TEST(Derivatives, WallDrag) { check(WallDrag(2.0), {false, false}, true, crumpled, touch_walls); }
+TEST(Derivatives, WallWeight) { check(WallWeight(3, {0.3, -9, 2}), {}, true, crumpled, touch_walls); }
 TEST(Derivatives, InertiaLumped) { check(Inertia(3, Mass::lumped), {false, false}); }
 TEST(Derivatives, InertiaConsistent) { check(Inertia(3, Mass::consistent), {false, false}); }
 TEST(Derivatives, Gravity) { check(Gravity(3, {0.3, -9, 2}), {false, false}); }

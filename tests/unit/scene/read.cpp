@@ -243,6 +243,17 @@ TEST(Read, ProblemsOfTheOtherTables) {
            {"[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 0]", "s:11:10: normal: a direction must not be zero"},
            {"[[solid]]\nshape = \"mesh\"\nfile = \"a.vtu\"",
             "s:11:8: file: \"a.vtu\" is of no known kind; known: .obj, .off, .ply, .stl, .vdb"},
+           {"[[solid]]\nshape = \"plane\"\ncontact_angle = 1",
+            "s:11:1: key \"contact_angle\" has no meaning in [[solid]]: contact is \"stick\"; liquid must \"flow\" or "
+            "\"slip\" along it"},
+           {"[[solid]]\nshape = \"plane\"\ncontact = \"slip\"\nreceding = true",
+            "s:12:1: key \"receding\" has no meaning in [[solid]]: contact is \"slip\"; liquid must \"flow\" along it"},
+           {"[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\ncontact_angle = \"200 deg\"",
+            "s:12:17: contact_angle: expected an angle from 0 to 180 deg"},
+           {"[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\nslip_length = -1",
+            "s:12:15: slip_length must not be negative, got -1 m"},
+           {"[[solid]]\nshape = \"plane\"\ncontact = \"glue\"",
+            "s:11:11: contact: \"glue\" is none of \"stick\", \"flow\", \"slip\""},
            {"[inflow]\nregion = \"outer_rim\"\nvelocity = [0, 0, 0]",
             "s:11:12: velocity: with no velocity nothing flows in"},
            {"[inflow]", "s:9:1: missing key \"region\" in [inflow], such as region = \"y_max\"\n"

@@ -69,6 +69,10 @@ motion = {kind = "rotating", axis = [0, 1, 0], rate = 1}
 [[solid]]
 shape = "plane"
 surface_velocity = [0, 0, 0.4]
+contact = "flow"
+slip_length = "1 um"
+contact_angle = "60 deg"
+receding = true
 [inflow]
 region = "outer_rim"
 velocity = [0, -1, 0]

@@ -69,6 +69,10 @@ motion = {kind = "rotating", axis = [0, 1, 0], center = [0, -1, 0], rate = 1}
 shape = "plane"
 normal = [0, 1, 0]
 surface_velocity = [0, 0, 0.4]
+contact = "flow"
+slip_length = 1e-06
+contact_angle = 1.0471975511965976
+receding = true
 
 [inflow]
 region = "outer_rim"
@@ -206,6 +210,13 @@ private:
     s.center = maybe(vector());
     s.motion = motion();
     s.surface_velocity = maybe(vector());
+    s.contact = static_cast<SolidContact>(below(3));
+    if (s.contact != SolidContact::stick && below(2))
+      s.contact_angle = std::abs(std::remainder(number(), 6.28));
+    if (s.contact == SolidContact::flow) {
+      s.slip_length = below(2) ? positive() : 0;
+      s.receding = below(2);
+    }
     return s;
   }
   Motion motion() {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a layer's own weight does to it along its wall: the hydrostatic pressure ρ g_n (h - z), over the thickness, is
+// the thrust ρ g_n h²/2 [N/m] by which thick parts flow to thin ones [Huppert 1982]. Its potential is
+//   W = ρ g_n V²/(2 A),
+// for each triangle in the part of its corners that touch; g_n is gravity's part towards the wall, and never below 0:
+// layers that hang are unstable, at wavelengths that no such equation bounds.
+// The place of a layer across its wall is given, so Gravity (gravity.h) has no part in this.
+#pragma once
+#include <algorithm>
+
+#include "libsheet/energy/element.h"
+#include "libsheet/energy/walls.h"
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+
+class WallWeight {
+public:
+  static constexpr Stencil stencil = Stencil::triangle;
+  static constexpr Kind kind = Kind::elastic;
+  WallWeight(double density, const Vector3& gravity) : weight_(density * gravity) {}
+  [[nodiscard]] const char* name() const { return "weight on walls"; }
+  [[nodiscard]] std::size_t size() const { return thrust_.size(); }
+
+  void begin(const Stage& stage) {
+    const auto& triangles = stage.start->mesh->triangles;
+    const auto& x = stage.start->positions;
+    thrust_.assign(triangles.size(), 0);
+    start_area_.assign(triangles.size(), 1);
+    for (std::size_t t = 0; t < triangles.size() && !stage.sites.empty(); ++t) {
+      double towards = 0;
+      for (const auto v : triangles[t])
+        if (const WallSite* site = site_at(stage, v))
+          towards += std::max(0.0, -weight_.dot(site->normal)) / 3;
+      const double volume = stage.start->volumes[t];
+      thrust_[t] = towards * volume * volume / 2;
+      start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
+    }
+  }
+
+  [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
+    return thrust_[i] == 0 ? 0 : since_start(i, TriangleArea(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)).area);
+  }
+
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
+                     bool definite) const {
+    if (thrust_[i] == 0) {
+      gradient.setZero();
+      hessian.setZero();
+      return 0;
+    }
+    const TriangleArea a(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
+    const double slope = thrust_[i] / (a.area * a.area);
+    gradient << a.gradient(0), a.gradient(1), a.gradient(2);
+    hessian = 2 * slope / a.area * gradient * gradient.transpose();
+    if (!definite)
+      hessian -= slope * a.hessian(true);
+    gradient *= -slope;
+    return since_start(i, a.area);
+  }
+
+private:
+  // W less that at the start, which only keeps round-off small.
+  [[nodiscard]] double since_start(std::size_t i, double area) const {
+    return thrust_[i] * (start_area_[i] - area) / (area * start_area_[i]);
+  }
+
+  Vector3 weight_;                          // of a cubic metre [N/m³]
+  std::vector<double> thrust_, start_area_; // W A [J m²], [m²]
+};
+
+} // namespace sheet

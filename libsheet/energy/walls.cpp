@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/walls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/wall_drag.h"
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr double least_angle = 0.1;     // sine of, between walls that count as two
+constexpr double in_reach = 1 + 1e-3;   // of the offset: another wall that is so near holds a vertex as well
+constexpr double part_of_an_edge = 0.5; // that a vertex may move along its wall in a step
+
+// By how much half the thickness grows to the predicted end of the stage: volume over area of a vertex' triangles [m].
+std::vector<double> half_thickening(const Stage& stage) {
+  const State& state = *stage.start;
+  const auto& x = state.positions;
+  std::vector<double> volume(stage.vertices(), 0), before(volume), after(volume);
+  for (std::size_t t = 0; t < state.mesh->triangles.size(); ++t) {
+    const Corners& c = state.mesh->triangles[t];
+    const double area = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+    for (const auto v : c) {
+      volume[v] += state.volumes[t];
+      before[v] += area;
+      after[v] += stage.raised[t].area();
+    }
+  }
+  for (std::size_t v = 0; v < volume.size(); ++v)
+    volume[v] *= (before[v] - after[v]) / (2 * before[v] * after[v]);
+  return volume;
+}
+
+RigidMotion moved(const Wall& wall, double from, double to) {
+  return wall.motion ? wall.motion(from, to) : RigidMotion{};
+}
+
+Vector3 velocity_at(const Wall& wall, double t, const Vector3& x) {
+  return wall.velocity ? wall.velocity(t, x) : Vector3(Vector3::Zero());
+}
+
+// Gives a site the plane n·x = c, unless it has one nearly like it.
+void add_plane(WallSite& site, const Vector3& n, double c) {
+  Vector3 rest = n;
+  for (std::size_t k = 0; k < site.across.size(); ++k) {
+    const double along = rest.dot(site.across[k]);
+    rest -= along * site.across[k];
+    c -= along * site.place[k];
+  }
+  const double length = rest.norm();
+  if (length < least_angle)
+    return;
+  site.across.emplace_back(rest / length);
+  site.place.push_back(c / length);
+}
+
+void add_plane_of(WallSite& site, const WallPoint& point, const Vector3& x) {
+  add_plane(site, point.normal, point.normal.dot(x) + site.offset - point.distance);
+}
+
+// Where the wall takes the vertex of a site.
+void carry(const Wall& wall, const Stage& stage, WallSite& site) {
+  const Vector3& x0 = stage.start->positions[site.vertex];
+  const double from = stage.start->time;
+  const RigidMotion to_end = moved(wall, from, stage.end_time);
+  site.stuck = site.carried = to_end(x0);
+  if (stage.previous == nullptr)
+    return;
+  const RigidMotion to_first = moved(wall, from, from + stage.duration);
+  const Vector3 slid = stage.position(*stage.previous, site.vertex) - to_first(x0);
+  site.carried += stage.ratio * (to_end.rotation * (to_first.rotation.transpose() * slid));
+}
+
+// The directions of a site along which a vertex is free that a hold keeps from some axes.
+Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint32_t v) {
+  Vector3 free = direction;
+  for (int a = 0; a < 3 && !held.empty(); ++a)
+    if (held[3 * std::size_t{v} + static_cast<std::size_t>(a)] != 0)
+      free[a] = 0;
+  return free;
+}
+
+} // namespace
+
+void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
+  stage.sites.clear();
+  stage.site_of.clear();
+  if (std::ranges::all_of(walls, [](const Wall& w) { return w.vertices.empty(); }))
+    return;
+  stage.site_of.assign(stage.vertices(), no_index);
+  const std::vector<double> thickening = half_thickening(stage);
+  for (std::uint32_t w = 0; w < walls.size(); ++w)
+    for (const auto v : walls[w].vertices) {
+      WallSite site;
+      site.vertex = v;
+      site.wall = w;
+      site.slip_length = walls[w].slip_length;
+      site.wetting = walls[w].wetting;
+      site.offset = walls[w].nearest(stage.start->time, stage.start->positions[v]).distance + thickening[v];
+      const Vector3& x = stage.predicted[v];
+      const WallPoint own = walls[w].nearest(stage.end_time, x);
+      site.normal = own.normal;
+      carry(walls[w], stage, site);
+      add_plane_of(site, own, x);
+      for (std::uint32_t other = 0; other < walls.size() && site.across.size() < 3; ++other)
+        if (other != w)
+          if (const WallPoint point = walls[other].nearest(stage.end_time, x); point.distance < in_reach * site.offset)
+            add_plane_of(site, point, x);
+      stage.sites.push_back(std::move(site));
+    }
+  std::ranges::sort(stage.sites, {}, &WallSite::vertex);
+  for (std::uint32_t s = 0; s < stage.sites.size(); ++s)
+    stage.site_of[stage.sites[s].vertex] = s;
+}
+
+void place_on_walls(const Stage& stage, std::span<const char> held, Unknowns& u) {
+  for (const WallSite& site : stage.sites) {
+    auto x = u.segment<3>(3 * static_cast<Eigen::Index>(site.vertex));
+    for (std::size_t k = 0; k < site.across.size(); ++k) {
+      const Vector3 free = free_of(site.across[k], held, site.vertex);
+      if (free.squaredNorm() > least_angle * least_angle)
+        x += (site.place[k] - site.across[k].dot(x)) / free.squaredNorm() * free;
+    }
+  }
+}
+
+Constraints constraints_of(const std::vector<Hold>& holds, const Stage& stage) {
+  Constraints constraints;
+  constraints.held = held_unknowns(holds, stage);
+  turn_slides(stage, constraints);
+  return constraints;
+}
+
+void turn_slides(const Stage& stage, Constraints& constraints) {
+  std::vector<Slide> slides;
+  for (const WallSite& site : stage.sites) {
+    Slide slide{site.vertex, Matrix3::Identity()};
+    for (const Vector3& direction : site.across) {
+      const Vector3 free = slide.free * free_of(direction, constraints.held, site.vertex);
+      if (free.squaredNorm() > least_angle * least_angle)
+        slide.free -= free * free.transpose() / free.squaredNorm();
+    }
+    if (!slide.free.isIdentity(0))
+      slides.push_back(slide);
+  }
+  constraints.let_slide(std::move(slides), stage.vertices());
+}
+
+std::vector<Vector3> drag_on_walls(const Stage& stage, double viscosity, const Unknowns& u) {
+  std::vector<Vector3> force(stage.vertices(), Vector3::Zero());
+  if (stage.sites.empty())
+    return force;
+  WallDrag drag(viscosity);
+  drag.begin(stage);
+  const auto& triangles = stage.start->mesh->triangles;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    VectorN<9> x, gradient;
+    for (Eigen::Index c = 0; c < 3; ++c)
+      x.segment<3>(3 * c) = stage.position(u, triangles[t][static_cast<std::size_t>(c)]);
+    (void)drag.gradient(t, x, gradient);
+    for (Eigen::Index c = 0; c < 3; ++c)
+      force[triangles[t][static_cast<std::size_t>(c)]] -= gradient.segment<3>(3 * c);
+  }
+  return force;
+}
+
+void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage, double t, State& state) {
+  for (const WallSite& site : stage.sites) {
+    Vector3& v = state.velocities[site.vertex];
+    const Vector3 relative = v - velocity_at(walls[site.wall], t, state.positions[site.vertex]);
+    for (const Vector3& direction : site.across)
+      v -= relative.dot(direction) * direction;
+  }
+}
+
+double longest_step_on_walls(const std::vector<Wall>& walls, const State& state) {
+  double longest = std::numeric_limits<double>::infinity();
+  if (walls.empty())
+    return longest;
+  const Eigen::VectorXd lengths = step_scale(state, static_cast<Eigen::Index>(3 * state.positions.size()));
+  for (const Wall& wall : walls)
+    for (const auto v : wall.vertices) {
+      const double speed = (state.velocities[v] - velocity_at(wall, state.time, state.positions[v])).norm();
+      longest = std::min(longest, part_of_an_edge * lengths[3 * static_cast<Eigen::Index>(v)] / speed);
+    }
+  return longest;
+}
+
+} // namespace sheet

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Liquid that flows along the solids that it touches, as a thin layer on a wall [Oron, Davis and Bankoff 1997, section
+// II]. Its vertices keep half the layer's thickness from the wall and are free along it. Where they may be is a plane,
+// tangent to the wall at the predicted end of each stage, so that steps keep their order on curved walls.
+//
+// A wall's site is one vertex on it in one stage. Lengths in metres, times in seconds.
+#pragma once
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "libsheet/energy/constraints.h"
+#include "libsheet/energy/holds.h"
+#include "libsheet/energy/stage.h"
+
+namespace sheet {
+
+inline constexpr double free_slip = std::numeric_limits<double>::infinity();
+
+struct WallPoint {
+  double distance = 0; // signed, negative in the solid
+  Vector3 normal;      // unit, out of the solid, at the nearest point of its surface
+};
+
+// One solid on which liquid flows.
+struct Wall {
+  std::vector<std::uint32_t> vertices; // those that touch it
+  double slip_length = 0;              // [m], or free_slip
+  double wetting = 2;                  // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs
+  std::function<WallPoint(double t, const Vector3& x)> nearest;
+  // Of what sticks to it, as for holds; absent: it rests.
+  std::function<RigidMotion(double from, double to)> motion;
+  std::function<Vector3(double t, const Vector3& x)> velocity;
+};
+
+// Sets the stage's sites, from where it is predicted to end: predicted places, raised metrics, end time.
+void set_wall_sites(const std::vector<Wall>& walls, Stage& stage);
+
+// Puts what touches walls where it may be, by the least way; along the axes only that no hold prescribes.
+void place_on_walls(const Stage& stage, std::span<const char> held, Unknowns& u);
+
+// What holds and walls leave free.
+[[nodiscard]] Constraints constraints_of(const std::vector<Hold>& holds, const Stage& stage);
+// The same with the sites of another stage, as long as the same vertices touch.
+void turn_slides(const Stage& stage, Constraints& constraints);
+
+// Force of the walls' drag on each vertex [N] (wall_drag.h).
+[[nodiscard]] std::vector<Vector3> drag_on_walls(const Stage& stage, double viscosity, const Unknowns& u);
+
+// Takes away the velocities across the walls, relative to them, at the time t [s].
+void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage, double t, State& state);
+
+// The longest time in which nothing moves along its wall by more than half the mean length of its edges, at the
+// velocities of the state [s]; infinity without walls.
+[[nodiscard]] double longest_step_on_walls(const std::vector<Wall>& walls, const State& state);
+
+// The part of the vertices' areas, a third of the triangle's each, that touches walls: per corner of a triangle its
+// site or null.
+[[nodiscard]] inline const WallSite* site_at(const Stage& stage, std::uint32_t vertex) {
+  return stage.site_of.empty() || stage.site_of[vertex] == no_index ? nullptr : &stage.sites[stage.site_of[vertex]];
+}
+
+} // namespace sheet
