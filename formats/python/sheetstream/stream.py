@@ -1,22 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Reads and writes sheet streams with numpy (specification: formats/sheet.md). Needs python3-numpy and python3-xxhash.
+"""The sheet stream as formats/sheet.md specifies it: frames and their arrays, a reader that trusts nothing, a writer, and
+stages of one's own."""
+from __future__ import annotations
 
-A stage of one's own, which may stand anywhere in a pipe or in the ring of sheet-loop:
-
-    import sheetstream
-    for frame in sheetstream.stage():
-        frame["velocity"] *= 0.5
-
-Reading and writing files:
-
-    with open("run.sheet", "rb") as file:
-        for frame in sheetstream.read(file):
-            print(frame.time, frame.thickness().mean())
-    with open("copy.sheet", "wb") as file:
-        writer = sheetstream.Writer(file)
-        writer.write(frame)
-        writer.end()
-"""
 import contextlib
 import math
 import os
@@ -24,9 +10,16 @@ import signal
 import struct
 import sys
 import time
+from collections.abc import Iterable, Iterator
+from typing import Any, BinaryIO, NamedTuple, NoReturn, Union
 
 import numpy as np
-import xxhash
+import numpy.typing as npt
+
+from .checksum import checksum as _checksum
+
+Values = Union[npt.NDArray[Any], str]
+Floats = npt.NDArray[np.float64]
 
 PLACES = ("vertex", "triangle", "edge", "frame")
 TYPES = ("", "int8", "uint8", "int32", "uint32", "int64", "uint64", "float32", "float64", "text")
@@ -76,7 +69,7 @@ _STANDARD = {
 class StreamError(Exception):
     """A stream that is cut short or damaged (exit_code CORRUPT) or says something impossible (BAD_INPUT)."""
 
-    def __init__(self, exit_code, message):
+    def __init__(self, exit_code: int, message: str) -> None:
         super().__init__(message)
         self.exit_code = exit_code
 
@@ -84,25 +77,26 @@ class StreamError(Exception):
 class Array:
     """Values (a numpy array with a row for each vertex, ..., or a str at place frame) and what they are."""
 
-    def __init__(self, values, place="vertex", unit="1", transfer="copy", critical=False):
-        self.values = values if isinstance(values, str) else np.asarray(values)
+    def __init__(self, values: npt.ArrayLike, place: str = "vertex", unit: str = "1", transfer: str = "copy",
+                 critical: bool = False) -> None:
+        self.values: Values = values if isinstance(values, str) else np.asarray(values)
         self.place, self.unit, self.transfer, self.critical = place, unit, transfer, critical
 
     @property
-    def type(self):
+    def type(self) -> str:
         return "text" if isinstance(self.values, str) else self.values.dtype.name
 
     @property
-    def components(self):
+    def components(self) -> int:
         return 1 if isinstance(self.values, str) or self.values.ndim < 2 else math.prod(self.values.shape[1:])
 
     @property
-    def rows(self):
+    def rows(self) -> int:
         if isinstance(self.values, str):
             return len(self.values.encode())
         return self.values.shape[0] if self.values.ndim else 1
 
-    def data(self):
+    def data(self) -> bytes | memoryview:
         """The payload without its padding."""
         if isinstance(self.values, str):
             return self.values.encode()
@@ -112,37 +106,89 @@ class Array:
 class Frame:
     """Time [s], step, and the arrays by name, in the order of the stream. frame[name] are the array's values."""
 
-    def __init__(self, time=0.0, step=0, arrays=None, vertices=0, triangles=0, edges=0):
-        self.time, self.step, self.arrays = time, step, {} if arrays is None else arrays
+    def __init__(self, time: float = 0.0, step: int = 0, arrays: dict[str, Array] | None = None, vertices: int = 0,
+                 triangles: int = 0, edges: int = 0) -> None:
+        self.time, self.step = time, step
+        self.arrays: dict[str, Array] = {} if arrays is None else arrays
         self._counts = {"vertex": vertices, "triangle": triangles, "edge": edges}
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Any:
         return self.arrays[name].values
 
-    def __setitem__(self, name, values):
+    def __setitem__(self, name: str, values: Values) -> None:
         self.arrays[name].values = values
 
-    def __contains__(self, name):
+    def __contains__(self, name: str) -> bool:
         return name in self.arrays
 
-    def count(self, place):
+    def count(self, place: str) -> int:
         """Number of vertices, triangles or edges: the rows of the arrays there."""
         return next((a.rows for a in self.arrays.values() if a.place == place), self._counts[place])
 
-    vertices = property(lambda self: self.count("vertex"))
-    triangles = property(lambda self: self.count("triangle"))
-    edges = property(lambda self: self.count("edge"))
+    @property
+    def vertices(self) -> int:
+        """Number of vertices."""
+        return self.count("vertex")
 
-    def area(self):
-        """Area of each triangle [m^2]."""
+    @property
+    def triangles(self) -> int:
+        """Number of triangles."""
+        return self.count("triangle")
+
+    @property
+    def edges(self) -> int:
+        """Number of edges, if the frame has arrays at place edge; else 0."""
+        return self.count("edge")
+
+    def _area_vectors(self) -> Floats:
         a, b, c = (self["position"][self["triangle"][:, i]] for i in range(3))
-        return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        return 0.5 * np.cross(b - a, c - a)
 
-    def thickness(self):
+    def area(self) -> Floats:
+        """Area of each triangle [m^2]."""
+        return np.linalg.norm(self._area_vectors(), axis=1)
+
+    def thickness(self) -> Floats:
         """Thickness of each triangle [m]: volume / area."""
-        return self["volume"] / self.area()
+        return np.asarray(self["volume"] / self.area())
 
-    def record(self, command):
+    def vertex_thickness(self) -> Floats:
+        """Thickness at each vertex [m]: all volume around it over all area around it; 0 where no triangle is."""
+        volume, area = self._to_vertices(self["volume"]), self._to_vertices(self.area())
+        return np.divide(volume, area, out=np.zeros(self.vertices), where=area > 0)
+
+    def vertex_normals(self) -> Floats:
+        """Unit normal at each vertex, towards the positive side: the mean of the triangles' around, by area; 0 without."""
+        vectors = self._area_vectors()
+        total = np.stack([self._to_vertices(vectors[:, i]) for i in range(3)], axis=1)
+        length = np.linalg.norm(total, axis=1, keepdims=True)
+        return np.divide(total, length, out=np.zeros_like(total), where=length > 0)
+
+    def velocity(self) -> Floats:
+        """Velocity of each vertex [m/s]: the array of that name, 0 where the frame has none."""
+        return np.asarray(self["velocity"]) if "velocity" in self else np.zeros((self.vertices, 3))
+
+    def kinetic_energy(self, density: float | None = None) -> float:
+        """Kinetic energy [J], with the density [kg/m^3] of the frame's scene or another; nan where none is known."""
+        if density is None:
+            known = self.scene().get("material", {}).get("density", math.nan)
+            density = float(known)
+        u2 = (self.velocity()**2).sum(axis=1)
+        return float(density / 6 * (self["volume"] * u2[self["triangle"]].sum(axis=1)).sum())
+
+    def scene(self) -> dict[str, Any]:
+        """The frame's scene as nested dictionaries; empty if it has none. Needs Python 3.11 or the package tomli."""
+        try:
+            import tomllib
+        except ImportError:  # until Python 3.10
+            import tomli as tomllib
+        return tomllib.loads(self["scene"]) if "scene" in self else {}
+
+    def _to_vertices(self, values: npt.NDArray[Any]) -> Floats:
+        """Sums values of triangles at their vertices."""
+        return np.bincount(self["triangle"].reshape(-1), np.repeat(values, 3), self.vertices).astype(float)
+
+    def record(self, command: str) -> None:
         """Counts the command in the array "provenance": where it stands, or on a new line."""
         text = self["provenance"].lstrip("\n") if "provenance" in self else ""
         lines = text.removesuffix("\n").split("\n") if text else []
@@ -156,26 +202,22 @@ class Frame:
         self.arrays["provenance"] = Array("\n".join(lines), "frame")
 
 
-def _padded(size):
+def _padded(size: int) -> int:
     return (size + 63) // 64 * 64
 
 
-def _checksum(data):
-    return xxhash.xxh3_64_intdigest(data)
-
-
-def _is_name(name):
+def _is_name(name: str) -> bool:
     return 0 < len(name) < 48 and _NAME_CHARACTERS.issuperset(name)
 
 
-def _is_unit(unit):
+def _is_unit(unit: str) -> bool:
     return 0 < len(unit) < 24 and all(" " < c < "\x7f" for c in unit)
 
 
 # Each says what is wrong; None if nothing is. The messages are those of the C++ reader.
 
 
-def _find_header_error(arrays, counts, when):
+def _find_header_error(arrays: int, counts: Iterable[int], when: float) -> str | None:
     if arrays > _MAX_ARRAYS:
         return f"{arrays} arrays are more than the {_MAX_ARRAYS} that a frame may have"
     for rows in counts:
@@ -186,7 +228,8 @@ def _find_header_error(arrays, counts, when):
     return None
 
 
-def _find_entry_error(name, unit, place, kind, transfer, components, rows, expected_rows):
+def _find_entry_error(name: str, unit: str, place: str, kind: str, transfer: str, components: int, rows: int,
+                      expected_rows: int | None) -> str | None:
     floating = kind in ("float32", "float64")
     if not _is_name(name):
         return "its name is not 1 to 47 characters of [a-z0-9_.:-]"
@@ -205,7 +248,7 @@ def _find_entry_error(name, unit, place, kind, transfer, components, rows, expec
     return None
 
 
-def _find_text_error(data):
+def _find_text_error(data: bytes | bytearray) -> str | None:
     at = data.find(0)
     if at >= 0:
         return f"its byte {at} is zero, text has none"
@@ -216,7 +259,7 @@ def _find_text_error(data):
     return None
 
 
-def find_form_error(frame):
+def find_form_error(frame: Frame) -> str | None:
     """Says what is wrong with names, places, types and sizes; None if nothing is."""
     counts = {place: frame.count(place) for place in PLACES[:3]}
     error = _find_header_error(len(frame.arrays), counts.values(), frame.time)
@@ -226,19 +269,19 @@ def find_form_error(frame):
         if a.type not in TYPES or a.place not in PLACES or a.transfer not in TRANSFERS:
             return f'array "{name}": {a.type}, {a.place} or {a.transfer} is no type, place or transfer rule'
         error = _find_entry_error(name, a.unit, a.place, a.type, a.transfer, a.components, a.rows, counts.get(a.place))
-        error = error or (_find_text_error(a.data()) if a.type == "text" else None)
+        error = error or (_find_text_error(bytes(a.data())) if a.type == "text" else None)
         if error:
             return f'array "{name}": {error}'
     return _find_edge_error(frame.arrays, counts["edge"])
 
 
-def _find_edge_error(arrays, edges):
+def _find_edge_error(arrays: dict[str, Array], edges: int) -> str | None:
     if edges and all(a.place != "edge" for a in arrays.values()):
         return f"the frame counts {edges} edges but has no array at place edge"
     return None
 
 
-def _find_contact_error(frame, vertices):
+def _find_contact_error(frame: Frame, vertices: npt.NDArray[Any]) -> str | None:
     bad = vertices.reshape(-1) >= frame.vertices
     if bad.any():
         i = int(bad.argmax())
@@ -250,7 +293,7 @@ def _find_contact_error(frame, vertices):
     return None
 
 
-def _find_standard_error(frame, name, array):
+def _find_standard_error(frame: Frame, name: str, array: Array) -> str | None:
     place, kind, components, unit, transfer = _STANDARD[name]
     components = components or array.components
     if (array.place, array.type, array.components) != (place, kind, components):
@@ -260,7 +303,7 @@ def _find_standard_error(frame, name, array):
         return f'array "{name}" has unit "{array.unit}", it must be "{unit}"'
     if array.transfer != transfer:
         return f'array "{name}" has transfer "{array.transfer}", it must be "{transfer}"'
-    values = array.values
+    values: Any = array.values
     if name == "triangle":
         outside = values >= frame.vertices
         bad = outside.any(axis=1) | (values == np.roll(values, 1, axis=1)).any(axis=1)
@@ -292,7 +335,7 @@ def _find_standard_error(frame, name, array):
     return None
 
 
-def find_value_error(frame):
+def find_value_error(frame: Frame) -> str | None:
     """Says which standard array breaks its rule; None if none does."""
     for name in ("position", "triangle", "volume"):
         if name not in frame:
@@ -310,31 +353,78 @@ def find_value_error(frame):
     return None
 
 
+class Header(NamedTuple):
+    """What the header of a frame says."""
+
+    minor: int
+    size: int  # of the whole frame [bytes]
+    vertices: int
+    triangles: int
+    edges: int
+    time: float  # [s]
+    step: int
+    arrays: int
+    table_checksum: int
+
+
+class _Payload(NamedTuple):
+    type: str
+    components: int
+    rows: int
+    bytes: int
+    checksum: int
+
+
 class Reader:
     """Iterates over the frames of a binary file object, trusting nothing. Raises StreamError."""
 
-    def __init__(self, file, name=None, check_values=True):
-        self._file, self._check_values = file, check_values
+    def __init__(self, file: BinaryIO, name: str | None = None, check_values: bool = True) -> None:
+        self._file: Any = file  # whose readinto() BinaryIO does not name
+        self._check_values = check_values
         self._name = name or str(getattr(file, "name", "stream"))
         self._position = self._consumed = self._unended = 0
         self.frames = self.ends = 0  # read so far
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Frame]:
         while (header := self._read_header()) is not None:
-            frame, table = self._read_table(*header)
-            for name, entry in table:
-                self._read_payload(frame.arrays[name], name, *entry)
-            error = find_value_error(frame) if self._check_values else None
-            if error:
-                raise StreamError(BAD_INPUT, f"{self._name}: frame {self.frames}: {error}")
+            yield self._read_frame(header)
+
+    def headers(self) -> Iterator[tuple[int, Header]]:
+        """Of a file that can seek: where each frame starts, and its header; what follows the headers is passed over."""
+        length = self._file.seek(0, os.SEEK_END)
+        self._file.seek(self._consumed)
+        while (header := self._read_header()) is not None:
+            if self._position + header.size > length:
+                self._corrupt(length, f"the frame is cut short, {length - self._position} of {header.size} bytes are there")
+            yield self._position, header
+            self._consumed = self._file.seek(self._position + header.size)
             self.frames += 1
             self._unended += 1
-            yield frame
 
-    def _corrupt(self, byte, what):
+    def read_at(self, number: int, start: int) -> Frame:
+        """Of a file that can seek: the frame of that number, which starts there."""
+        self._consumed = self._file.seek(start)
+        self.frames = number
+        header = self._read_header()
+        if header is None:
+            self._corrupt(start, "no frame is there any more: the file has changed")
+        return self._read_frame(header)
+
+    def _read_frame(self, header: Header) -> Frame:
+        frame, table = self._read_table(header)
+        for name, payload in table:
+            self._read_payload(frame.arrays[name], name, payload)
+        error = find_value_error(frame) if self._check_values else None
+        if error:
+            raise StreamError(BAD_INPUT, f"{self._name}: frame {self.frames}: {error}")
+        self.frames += 1
+        self._unended += 1
+        return frame
+
+    def _corrupt(self, byte: int, what: str) -> NoReturn:
         raise StreamError(CORRUPT, f"{self._name}: frame {self.frames}, byte {byte}: {what}")
 
-    def _fill(self, view):
+    def _fill(self, view: memoryview) -> int:
         """Fills the memory from the file as far as it goes; returns the number of bytes."""
         done = 0
         while done < len(view) and (got := self._file.readinto(view[done:])):
@@ -342,18 +432,18 @@ class Reader:
         self._consumed += done
         return done
 
-    def _take(self, size):
+    def _take(self, size: int) -> bytearray:
         block = bytearray(size)
         return block[:self._fill(memoryview(block))]
 
-    def _check_version(self, major, flags):
+    def _check_version(self, major: int, flags: int) -> None:
         if major != _MAJOR:
             self._corrupt(self._position, f"format version {major} is not {_MAJOR}: a newer sheet is needed")
         if flags:
             self._corrupt(self._position, f"critical flags {flags:#x} are unknown to version {_MAJOR}.{_MINOR}: "
                           "a newer sheet is needed")
 
-    def _read_end(self, block):
+    def _read_end(self, block: bytearray) -> None:
         magic, major, minor, flags, frames, reserved, checksum = _END.unpack(block)
         if _checksum(block[:56]) != checksum:
             self._corrupt(self._position, "end mark: checksum mismatch")
@@ -365,8 +455,25 @@ class Reader:
         self.ends += 1
         self._unended = 0
 
-    def _read_header(self):
-        """The header's fields, END marks passed over; None at the end of the stream."""
+    def _read_header(self) -> Header | None:
+        """The header of the next frame, END marks passed over; None at the end of the stream."""
+        block = self._find_frame()
+        if block is None:
+            return None
+        _, major, minor, flags, size, *counts, when, step, arrays, a, table_checksum, b, checksum = _HEADER.unpack(block)
+        if _checksum(block[:120]) != checksum:
+            self._corrupt(self._position, "frame header: checksum mismatch")
+        self._check_version(major, flags)
+        if minor <= _MINOR and (a or any(b)):
+            self._corrupt(self._position, "reserved bytes of the frame header are not zero")
+        if arrays > _MAX_ARRAYS:
+            self._corrupt(self._position, f"{arrays} arrays are more than the {_MAX_ARRAYS} that a frame may have")
+        if size < 128 + 128 * arrays or size > _MAX_BYTES or size % 64:
+            self._corrupt(self._position, f"a frame of {size} bytes cannot be")
+        return Header(minor, size, counts[0], counts[1], counts[2], when, step, arrays, table_checksum)
+
+    def _find_frame(self) -> bytearray | None:
+        """The bytes of the next header, END marks passed over; None at the end of the stream."""
         after_end = False
         while True:
             self._position = self._consumed
@@ -393,21 +500,11 @@ class Reader:
                 block += self._take(64)
             if len(block) < 128:
                 self._corrupt(self._consumed, "the frame header is cut short")
-            break
-        _, major, minor, flags, size, *counts, when, step, arrays, a, table_checksum, b, checksum = _HEADER.unpack(block)
-        if _checksum(block[:120]) != checksum:
-            self._corrupt(self._position, "frame header: checksum mismatch")
-        self._check_version(major, flags)
-        if minor <= _MINOR and (a or any(b)):
-            self._corrupt(self._position, "reserved bytes of the frame header are not zero")
-        if arrays > _MAX_ARRAYS:
-            self._corrupt(self._position, f"{arrays} arrays are more than the {_MAX_ARRAYS} that a frame may have")
-        if size < 128 + 128 * arrays or size > _MAX_BYTES or size % 64:
-            self._corrupt(self._position, f"a frame of {size} bytes cannot be")
-        return minor, size, counts, when, step, arrays, table_checksum
+            return block
 
-    def _read_table(self, minor, size, counts, when, step, arrays, checksum):
+    def _read_table(self, header: Header) -> tuple[Frame, list[tuple[str, _Payload]]]:
         """A frame whose arrays have no values yet, and name, type, ... of each payload."""
+        minor, size, *counts, when, step, arrays, checksum = header
         block = self._take(128 * arrays)
         if len(block) < 128 * arrays:
             self._corrupt(self._consumed, "the array table is cut short")
@@ -417,18 +514,19 @@ class Reader:
         if error:
             self._corrupt(self._position, error)
         frame = Frame(when, step, {}, *counts)
-        table, twice = [], None
+        table: list[tuple[str, _Payload]] = []
+        twice = None
         offset = 128 + 128 * arrays
         for i, entry in enumerate(_ENTRY.iter_unpack(block)):
             name, array, payload, error = self._read_entry(entry, minor, counts, size, offset)
-            if error:
+            if error or not array or not payload:
                 shown = "".join(c if " " <= c <= "~" else "?" for c in name)
                 self._corrupt(self._position + 128 + 128 * i, f'array {i} "{shown}": {error}')
             if name in frame:
                 twice = twice or name
             frame.arrays[name] = array
             table.append((name, payload))
-            offset += _padded(payload[3])
+            offset += _padded(payload.bytes)
         if offset != size:
             self._corrupt(self._position, f"the frame has {size} bytes, its arrays need {offset}")
         if twice:
@@ -443,15 +541,16 @@ class Reader:
         return frame, table
 
     @staticmethod
-    def _read_entry(entry, minor, counts, frame_size, expected_offset):
-        """Name, array without values, (type, components, rows, bytes, checksum), and what is wrong if something is."""
+    def _read_entry(entry: tuple[Any, ...], minor: int, counts: list[int], frame_size: int,
+                    expected_offset: int) -> tuple[str, Array | None, _Payload | None, str | None]:
+        """Name, array without values, its payload, and what is wrong if something is."""
         raw_name, raw_unit, place, kind, transfer, flags, components, rows, offset, size, checksum, reserved = entry
         name, unit = raw_name.rstrip(b"\0").decode("latin-1"), raw_unit.rstrip(b"\0").decode("latin-1")
 
         if len(name) == 48 or "\0" in name:
             return "", None, None, "its name does not end"
 
-        def find_error():
+        def find_error() -> str | None:
             if len(unit) == 24 or "\0" in unit:
                 return "its unit does not end"
             if place >= len(PLACES):
@@ -477,9 +576,10 @@ class Reader:
         if error:
             return name, None, None, error
         array = Array("", PLACES[place], unit, TRANSFERS[transfer], bool(flags & 1))
-        return name, array, (TYPES[kind], components, rows, size, checksum), None
+        return name, array, _Payload(TYPES[kind], components, rows, size, checksum), None
 
-    def _read_payload(self, array, name, kind, components, rows, size, checksum):
+    def _read_payload(self, array: Array, name: str, payload: _Payload) -> None:
+        kind, components, rows, size, checksum = payload
         start, full, block = self._consumed, _padded(size), bytearray()
         while len(block) < full:
             have = len(block)
@@ -502,30 +602,29 @@ class Reader:
             array.values = block.decode()
             return
         dtype = np.dtype(kind).newbyteorder("<")
-        shape = (rows,) if components == 1 else (rows, components)
+        shape: tuple[int, ...] = (rows,) if components == 1 else (rows, components)
         array.values = np.frombuffer(block, dtype, rows * components).reshape(shape) if rows else np.zeros(shape, dtype)
 
 
-def read(file, name=None, check_values=True):
+def read(file: BinaryIO, name: str | None = None, check_values: bool = True) -> Iterator[Frame]:
     """Iterates over the frames of a binary file object."""
     return iter(Reader(file, name, check_values))
 
 
-def encode(frame):
+def encode(frame: Frame) -> list[bytes | memoryview]:
     """The frame as a list of blocks of bytes."""
     error = find_form_error(frame)
     if error:
         raise StreamError(BAD_INPUT, f"cannot write frame: {error}")
-    payloads, table = [], b""
+    payloads: list[bytes | memoryview] = []
+    table = b""
     offset = 128 + 128 * len(frame.arrays)
     for name, a in frame.arrays.items():
         data = a.data()
         padding = bytes(_padded(len(data)) - len(data))
-        checksum = xxhash.xxh3_64(data)
-        checksum.update(padding)
         table += _ENTRY.pack(name.encode(), a.unit.encode(), PLACES.index(a.place), TYPES.index(a.type),
                              TRANSFERS.index(a.transfer), int(a.critical), a.components, a.rows, offset, len(data),
-                             checksum.intdigest(), bytes(16))
+                             _checksum(bytes(data) + padding if padding else data), bytes(16))
         payloads += [block for block in (data, padding) if len(block)]
         offset += len(data) + len(padding)
     if offset > _MAX_BYTES:
@@ -538,26 +637,28 @@ def encode(frame):
 class Writer:
     """Writes frames to a binary file object. A stream without end() counts as cut short."""
 
-    def __init__(self, file):
+    def __init__(self, file: BinaryIO) -> None:
         self._file, self._unended = file, 0
 
-    def _write(self, block):
+    def _write(self, block: bytes | memoryview) -> None:
         view = memoryview(block).cast("B")
         while len(view):  # unbuffered files write what they can
             view = view[self._file.write(view):]
 
-    def write(self, frame):
+    def write(self, frame: Frame) -> None:
+        """Appends a frame."""
         for block in encode(frame):
             self._write(block)
         self._unended += 1
 
-    def end(self):
+    def end(self) -> None:
+        """Writes the end mark."""
         mark = _END.pack(b"SHEETEND", _MAJOR, _MINOR, 0, self._unended, bytes(32), 0)[:56]
         self._write(mark + struct.pack("<Q", _checksum(mark)))
         self._unended = 0
 
 
-def _number(x):
+def _number(x: Any) -> str:
     """The canonical text of a numpy scalar (section 6)."""
     if isinstance(x, np.integer):
         return str(x)
@@ -569,7 +670,7 @@ def _number(x):
     return repr(float(np.format_float_scientific(x)) if x.dtype.itemsize == 4 else float(x)).removesuffix(".0")
 
 
-def text(frame):
+def text(frame: Frame) -> str:
     """The canonical text of a frame: lines from "frame" to its last row."""
     lines = ["frame", f"time {_number(np.float64(frame.time))}", f"step {frame.step}", f"vertices {frame.vertices}",
              f"triangles {frame.triangles}", f"edges {frame.edges}"]
@@ -577,19 +678,19 @@ def text(frame):
         place = f"frame[{a.rows}]" if a.place == "frame" and a.type != "text" else a.place
         critical = " critical" if a.critical else ""
         lines.append(f"array {name} {place} {a.type} {a.components} {a.unit} {a.transfer}{critical}")
-        if a.type == "text":
+        if isinstance(a.values, str):
             lines += [f"| {line}" if line else "|" for line in a.values.split("\n")] if a.values else []
         else:
             lines += [" ".join(map(_number, row)) for row in a.values.reshape(a.rows, a.components)]
     return "".join(f"{line}\n" for line in lines)
 
 
-def _exit(code, message):
+def _exit(code: int, message: str) -> NoReturn:
     print(f"{os.path.basename(sys.argv[0])}: {message}", file=sys.stderr)
     sys.exit(code)
 
 
-def _report_time(frames, seconds):
+def _report_time(frames: int, seconds: float) -> None:
     """Where sheet-loop runs the stage, it wants to know the time that the stage took: on a descriptor that it names."""
     descriptor = os.environ.get("SHEET_REPORT_FD", "")
     if descriptor.isdecimal() and int(descriptor) > 2:
@@ -598,7 +699,7 @@ def _report_time(frames, seconds):
             os.write(int(descriptor), line.encode())
 
 
-def stage(command=None):
+def stage(command: str | None = None) -> Iterator[Frame]:
     """Yields each frame of standard input; as the loop leaves it, the frame goes to standard output.
 
     A command (program, version in brackets, options that differ from their defaults) is recorded as provenance.

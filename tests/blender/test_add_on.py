@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on of formats/blender in a Blender without a window, installed from the zip file that users install: what it
+imports against sheet-info, what it exports through sheet-init, its errors, and a picture.
+
+    blender -b --factory-startup --python-exit-code 1 --python test_add_on.py -- sheet-blender.zip
+"""
+import csv
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import bmesh
+import bpy
+import numpy as np
+from mathutils import Vector
+
+root = pathlib.Path(__file__).resolve().parents[2]
+archive = sys.argv[sys.argv.index("--") + 1]
+FPS = 24
+
+
+def shell(command):
+    done = subprocess.run(["bash", "-ec", "set -o pipefail; " + command], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def attribute(mesh, name, width=1):
+    data = mesh.attributes[name].data
+    values = np.empty(len(data) * width, np.float32)
+    data.foreach_get("vector" if width == 3 else "value", values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def corners_of(mesh):
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    return corners.reshape(-1, 3)
+
+
+def places_of(mesh):
+    places = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", places)
+    return places.reshape(-1, 3)
+
+
+def shown_volume(thing):
+    """Volume inside of what modifiers make of the object; outward triangles count as positive."""
+    evaluated = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    made = bmesh.new()
+    made.from_mesh(evaluated.to_mesh())
+    volume = made.calc_volume(signed=True)
+    made.free()
+    evaluated.to_mesh_clear()
+    return volume
+
+
+class AddOn(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        bpy.ops.preferences.addon_install(filepath=archive)
+        bpy.ops.preferences.addon_enable(module="sheet_blender")
+        import sheet_blender
+        cls.add_on = sheet_blender
+        assert pathlib.Path(sheet_blender.__file__).is_relative_to(os.environ["BLENDER_USER_SCRIPTS"])
+        shell("sheet-init --example | sed 's/^edge_length = .*/edge_length = 0.1/' > scene.toml; "
+              f"sheet-init scene.toml | sheet-loop -q --until 0.3 --fps {FPS} -o run.sheet -- "
+              "'sheet-remesh | sheet-step | sheet-collide'; sheet-info --csv run.sheet > run.csv")
+        with open("run.csv") as file:
+            cls.rows = [{k: float(v) for k, v in row.items() if v} for row in csv.DictReader(file)]
+        cls.run_of = cls.add_on.sheetstream.Run("run.sheet")
+
+    def setUp(self):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        bpy.context.scene.render.fps = FPS
+
+    def test_every_frame_is_what_sheet_info_says(self):
+        thing = self.add_on.import_run("run.sheet")
+        scene = bpy.context.scene
+        self.assertEqual((scene.frame_end, scene.unit_settings.system), (len(self.rows), "METRIC"))
+        self.assertGreater(len({row["vertices"] for row in self.rows}), 2)
+        order = [*range(len(self.rows)), 3, 0, 5]  # backwards, too
+        for i in order:
+            row, frame = self.rows[i], self.run_of[i]
+            scene.frame_set(1 + i)
+            mesh = thing.data
+            self.assertEqual((len(mesh.vertices), len(mesh.polygons)), (row["vertices"], row["triangles"]))
+            self.assertFalse(mesh.validate())
+            np.testing.assert_array_equal(corners_of(mesh), frame["triangle"])
+            np.testing.assert_allclose(places_of(mesh), frame["position"], atol=1e-6)
+            area, volume = np.array([p.area for p in mesh.polygons]), attribute(mesh, "triangle_thickness")
+            self.assertAlmostEqual(area.sum() / row["area"], 1, places=5)
+            self.assertAlmostEqual((area * volume).sum() / row["volume"], 1, places=5)
+            self.assertAlmostEqual(volume.min() / row["thickness_min"], 1, places=5)
+            self.assertAlmostEqual(volume.max() / row["thickness_max"], 1, places=5)
+            speed = np.linalg.norm(attribute(mesh, "velocity", 3), axis=1).max()
+            self.assertAlmostEqual(speed, np.linalg.norm(frame.velocity(), axis=1).max(), places=5)
+            self.assertIn(f"{row['time']:.4g} s", thing.sheet.message)
+            touching = attribute(mesh, "touch").sum()
+            self.assertEqual(touching, np.count_nonzero(frame["touch"]) if "touch" in frame else 0)
+        self.assertGreater(np.count_nonzero(self.run_of[-1]["touch"]), 0)
+
+    def test_the_slab_has_the_volume_and_stands_upright(self):
+        thing = self.add_on.import_run("run.sheet")
+        for i, tolerance in ((0, 1e-4), (len(self.rows) - 1, 0.03)):
+            bpy.context.scene.frame_set(1 + i)
+            self.assertAlmostEqual(shown_volume(thing) / self.rows[i]["volume"], 1, delta=tolerance)
+        self.assertAlmostEqual((thing.matrix_world.to_3x3() @ Vector((0, 1, 0))).z, 1, places=6)  # gravity is along -y
+
+    def test_time_between_frames_speed_and_start(self):
+        thing = self.add_on.import_run("run.sheet", start=10, speed=0.5)
+        bpy.context.scene.frame_set(10)
+        np.testing.assert_allclose(places_of(thing.data), self.run_of[0]["position"], atol=1e-6)
+        bpy.context.scene.frame_set(13)  # 1.5 frames of the run
+        first, second = self.run_of[1], self.run_of[2]
+        half = first["position"] + first.velocity() * 0.5 / FPS
+        if np.array_equal(first["triangle"], second["triangle"]):
+            half = (first["position"] + second["position"]) / 2
+        np.testing.assert_allclose(places_of(thing.data), half, atol=1e-6)
+        np.testing.assert_allclose(attribute(thing.data, "velocity", 3), 0.5 * first.velocity(), atol=1e-6)
+        thing.sheet.between = False
+        np.testing.assert_allclose(places_of(thing.data), first["position"], atol=1e-6)
+
+    def test_a_saved_file_goes_on_to_follow_its_run(self):
+        self.assertEqual(bpy.ops.sheet.import_run(filepath=os.path.abspath("run.sheet"), material="honey"), {"FINISHED"})
+        bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath("kept.blend"))
+        bpy.ops.wm.open_mainfile(filepath=os.path.abspath("kept.blend"))
+        bpy.context.scene.frame_set(len(self.rows))
+        self.assertEqual(len(bpy.data.objects["run"].data.vertices), self.rows[-1]["vertices"])
+        self.assertEqual(bpy.data.objects["run"].data.materials[0].name, "Sheet honey")
+
+    def test_solids_stand_where_the_scene_has_them(self):
+        shell("sed 's/^radius = \"0.2 m\"/&\\nmotion = {kind = \"translating\", velocity = [0.4, 0, 0]}/' scene.toml > moving.toml;"
+              "printf '[[solid]]\\nshape = \"capsule\"\\nradius = 0.1\\nlength = 0.4\\ncenter = [2, 0, 0]\\n' >> moving.toml;"
+              "sheet-init moving.toml -o moving.sheet")
+        self.add_on.import_run("moving.sheet")
+        ball, capsule = bpy.data.objects["moving sphere 0"], bpy.data.objects["moving capsule 1"]
+        bpy.context.scene.frame_set(1 + FPS)
+        np.testing.assert_allclose(ball.matrix_world.translation, (0.4, 0, -0.3), atol=1e-6)
+        np.testing.assert_allclose(sorted(ball.dimensions), [0.4] * 3, rtol=1e-3)
+        np.testing.assert_allclose(sorted(capsule.dimensions), [0.2, 0.2, 0.6], rtol=1e-2)
+
+    def test_a_painted_scene_goes_through_sheet_init(self):
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=12, y_subdivisions=8, size=1.0)
+        thing = bpy.context.object
+        thing.scale, thing.location = (2, 1, 1), (0, 0, 3)
+        bpy.context.view_layer.update()
+        x = places_of(thing.data)
+        left, corner = np.flatnonzero(x[:, 0] < -0.49), np.flatnonzero((x[:, 0] > 0.3) & (x[:, 1] > 0.2))
+        thing.vertex_groups.new(name="pinned side").add(left.tolist(), 1.0, "REPLACE")
+        group = thing.vertex_groups.new(name="Clamped corner")
+        group.add(corner.tolist(), 0.8, "REPLACE")
+        group.add([0], 0.3, "REPLACE")  # painted too thinly to hold
+        thickness = thing.data.attributes.new("thickness", "FLOAT", "POINT")
+        values = (0.004 + 0.002 * (x[:, 0] + 0.5)).astype(np.float32)
+        thickness.data.foreach_set("value", values)
+        bpy.ops.mesh.primitive_cube_add(size=0.5, location=(0, 0, 2))
+        files = self.add_on.export_scene("painted.toml", thing, solids=(bpy.context.object,))
+        self.assertEqual(len(files), 3)
+        shell("sheet-init --check painted.toml; sheet-init painted.toml | sheet-loop -q --steps 2 -o painted.sheet -- "
+              "'sheet-step --dt 1e-3 | sheet-collide'; sheet-init painted.toml -o start.sheet")
+        frame = self.add_on.sheetstream.Run("start.sheet")[0]
+        np.testing.assert_allclose(frame["position"], x * (2, 1, 1) + (0, 0, 3), atol=1e-6)
+        held = np.flatnonzero(frame["hold"])
+        np.testing.assert_array_equal(held, np.union1d(left, corner))
+        tables = frame.scene()["hold"]
+        kinds = {tables[int(bits).bit_length() - 1]["kind"]: i for i, bits in enumerate(frame["hold"]) if bits}
+        self.assertEqual((kinds["pinned"] in left, kinds["clamped"] in corner), (True, True))
+        self.assertAlmostEqual(frame.thickness().max(), 0.006, delta=1e-4)
+        self.assertAlmostEqual(frame.thickness().min(), 0.004, delta=1e-4)
+
+    def test_a_round_painting_takes_a_few_boxes_that_hold_it_exactly(self):
+        x = np.stack(np.meshgrid(np.linspace(-1, 1, 25), np.linspace(-1, 1, 25), [0.0]), -1).reshape(-1, 3)
+        painted = np.hypot(x[:, 0], x[:, 1]) < 0.6
+        boxes = self.add_on.painted_boxes(x, painted)
+        held = np.any([((x >= low) & (x <= high)).all(axis=1) for low, high in boxes], axis=0)
+        np.testing.assert_array_equal(held, painted)
+        self.assertLess(len(boxes), 30)
+
+    def test_errors_name_what_is_wrong(self):
+        self.assert_error("no.sheet.*[Nn]o such file", self.add_on.import_run, "no.sheet")
+        pathlib.Path("text.sheet").write_text("not a stream")
+        self.assert_error("text.sheet", self.add_on.import_run, "text.sheet")
+        self.assert_error('material "jam" is unknown: choose chocolate', self.add_on.import_run, "run.sheet", "jam")
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=3, y_subdivisions=3)
+        thing = bpy.context.object
+        thing.vertex_groups.new(name="pinned nothing")
+        self.assert_error('"pinned nothing" holds nothing', self.add_on.export_scene, "bad.toml", thing)
+        thing.vertex_groups.clear()
+        thing.data.attributes.new("thickness", "FLOAT", "POINT")
+        self.assert_error('"thickness" is 0 at vertex 0; it must be positive', self.add_on.export_scene, "bad.toml", thing)
+        self.assert_error("choose a mesh", self.add_on.export_scene, "bad.toml", None)
+        self.assertFalse(pathlib.Path("bad.toml").exists())
+
+    def test_a_run_that_is_cut_short_is_shown_as_far_as_it_is(self):
+        whole = pathlib.Path("run.sheet").read_bytes()
+        pathlib.Path("cut.sheet").write_bytes(whole[:len(whole) // 2])
+        thing = self.add_on.import_run("cut.sheet")
+        there = len(self.add_on.sheetstream.Run("cut.sheet", partial=True))
+        self.assertTrue(0 < there < len(self.rows))
+        self.assertIn(f" of {there},", thing.sheet.message)
+        self.assertEqual(bpy.context.scene.frame_end, there)
+
+    def assert_error(self, pattern, call, *arguments):
+        with self.assertRaisesRegex(self.add_on.SheetError, pattern):
+            call(*arguments)
+
+
+class Page(unittest.TestCase):
+    def test_commands_run_and_the_picture_shows_the_sheet(self):
+        commands = re.findall(r"^    \$ (.+)$", (root / "docs/blender.md").read_text(), re.M)
+        self.assertEqual(len(commands), 4)
+        os.makedirs("page/build/share")
+        os.symlink(archive, "page/build/share/sheet-blender.zip")
+        os.symlink(root / "formats", "page/formats")
+        for command in commands:
+            small = command.replace("--until 1", "--until 0.01").replace("--blur", "--blur --size 96x54 --samples 4")
+            shell("cd page; cp -n ../scene.toml ../run.sheet .; " + small)
+        image = bpy.data.images.load(os.path.abspath("page/picture.png"))
+        pixels = np.array(image.pixels[:]).reshape(54, 96, 4)
+        corner, middle = pixels[-4:, :4, :3].mean(axis=(0, 1)), pixels[22:32, 40:56, :3].mean(axis=(0, 1))
+        self.assertGreater(np.abs(corner - middle).max(), 0.1)
+        self.assertGreater(middle[0] / middle[2], corner[0] / corner[2] + 0.2)  # chocolate is browner than the sky
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    suite = unittest.defaultTestLoader.loadTestsFromModule(sys.modules["__main__"])
+    good = unittest.TextTestRunner(stream=sys.stdout, verbosity=2).run(suite).wasSuccessful()
+    os.chdir("/")
+    if not good:
+        raise SystemExit(1)
