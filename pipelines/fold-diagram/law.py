@@ -19,33 +19,39 @@ FLOW, DENSITY, GRAVITY = 0.1 * 0.00125 * 0.024, 100, 9.81  # [m^3/s], [kg/m^3], 
 
 
 def rows_of(folder):
-    """viscosity, H, T, l, l_g, and middle half of T, for every run that has a period."""
-    rows = []
+    """viscosity, H, T, l, l_g, and middle half of T, for every run that has a steady period: one whose middle half is
+    narrower than a third of it. Says how many have not."""
+    rows, others = [], 0
     for r in plot.read_results(folder / "sweep" / "results.csv"):
         mu, height, period = float(r["material.viscosity [Pa*s]"]), float(r["height"]), float(r["period [s]"])
         thickness, width = float(r["thickness [m]"]), float(r["width [m]"])
-        if math.isfinite(period):
+        if not math.isfinite(period) or float(r["middle_half [s]"]) > period / 3:
+            others += 1
+        else:
             speed = FLOW / (thickness * width)
             gravity_length = (mu / DENSITY * thickness**2 * speed / GRAVITY) ** 0.25
             rows.append((mu, height, period, speed * period / 2, gravity_length, float(r["middle_half [s]"])))
+    print(f"{len(rows)} runs with a steady period, {others} without")
     return np.array(rows)
 
 
-def exponents(rows, what):
-    """Exponents of l in l_g and in H by least squares of logarithms, and their standard errors."""
+def exponent(rows, what, law):
+    """The exponent b of l/l_g ~ (H/l_g)^b: median of the slopes of all pairs of runs in logarithms [Theil 1950; Sen 1968], which
+    single runs cannot spoil, with its standard error from 200 samples with replacement."""
     if len(rows) < 5:
-        print(f"{what}: {len(rows)} runs: too few for exponents")
+        print(f"{what}: {len(rows)} runs: too few for an exponent")
         return
-    a = np.column_stack([np.log(rows[:, 4]), np.log(rows[:, 1]), np.ones(len(rows))])
-    b = np.log(rows[:, 3])
-    x, _, rank, _ = np.linalg.lstsq(a, b, rcond=None)
-    if rank < 3:
-        print(f"{what}: {len(rows)} runs that do not tell l_g from H")
-        return
-    spread = np.sqrt(((a @ x - b) ** 2).sum() / (len(rows) - 3))
-    error = spread * np.sqrt(np.diag(np.linalg.inv(a.T @ a)))
-    print(f"{what}, {len(rows)} runs: l ~ l_g^({x[0]:.2f} +- {error[0]:.2f}) H^({x[1]:.2f} +- {error[1]:.2f}), "
-          f"scatter {100 * spread:.0f} %; l/l_g {np.median(rows[:, 3] / rows[:, 4]):.2f}, l/H {np.median(rows[:, 3] / rows[:, 1]):.2f}")  # fmt: skip
+    x, y = np.log(rows[:, 1] / rows[:, 4]), np.log(rows[:, 3] / rows[:, 4])
+
+    def slope(chosen):
+        i, j = np.triu_indices(len(chosen), 1)
+        dx, dy = x[chosen][j] - x[chosen][i], y[chosen][j] - y[chosen][i]
+        return np.median(dy[dx != 0] / dx[dx != 0])
+
+    generator = np.random.default_rng(1)
+    error = np.std([slope(generator.integers(0, len(x), len(x))) for _ in range(200)])
+    print(f"{what}, {len(rows)} runs: l/l_g ~ (H/l_g)^({slope(np.arange(len(x))):.2f} +- {error:.2f}){law}; "
+          f"medians: l/l_g {np.median(np.exp(y)):.2f}, l/H {np.median(np.exp(y - x)):.2f}")  # fmt: skip
 
 
 def draw(folder, rows):
@@ -68,8 +74,9 @@ def main():
         file.write("# viscosity [Pa*s],height [m],period [s],fold [m],l_g [m],middle half of the periods [s]\n")
         file.writelines(",".join(f"{x:.6g}" for x in row) + "\n" for row in rows)
     high = rows[:, 1] / rows[:, 4]
-    exponents(rows[high < 4], "height folds (H < 4 l_g)")
-    exponents(rows[high > 5.5], "gravity folds (H > 5.5 l_g)")
+    exponent(rows[high < 3], "low slots (H < 3 l_g)", ", 1 if the height folds the sheet")
+    exponent(rows[(high >= 3) & (high < 5.5)], "between", "")
+    exponent(rows[high >= 5.5], "high slots (H > 5.5 l_g)", ", 0 if gravity does")
     draw(folder, rows)
     subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "sweep", "plot", folder / "sweep", "-o", folder / "period.png", "--log", "xy",
                     "--x", "height", "--y", "material.viscosity", "--map", "period"], check=True)  # fmt: skip

@@ -39,11 +39,12 @@ class Work:
         tried = accounts(self.folder, states(self.folder, self.sweep.count), among=("done", "failed", "begun"))
         return (max(a["seconds"] for a in tried), max(a["memory"] for a in tried)) if tried else None
 
-    def chunks(self, indices):
-        """Texts "3 4 5": as many runs each as take some seconds, but enough chunks for every worker to have several."""
+    def chunks(self, indices, most=1_000_000):
+        """Texts "3 4 5": as many runs each as take some seconds, but enough chunks for every worker to have several, and at
+        most so many."""
         tried = accounts(self.folder, states(self.folder, self.sweep.count))
         seconds = statistics.mean(a["seconds"] for a in tried) if tried else _CHUNK_SECONDS
-        size = max(1, min(int(_CHUNK_SECONDS / max(seconds, 1e-3)), len(indices) // (8 * self.jobs), 500))
+        size = max(1, min(int(_CHUNK_SECONDS / max(seconds, 1e-3)), len(indices) // (4 * self.jobs)), -(-len(indices) // most))
         return [" ".join(map(str, indices[i : i + size])) for i in range(0, len(indices), size)]
 
     def say(self):
@@ -110,14 +111,12 @@ def slurm(work, indices):
     if not indices:
         return
     seconds, memory = work.needs() or (60, 0)
-    chunks = work.chunks(indices)
+    chunks = work.chunks(indices, _array_size())
     longest = max(len(chunk.split()) for chunk in chunks)
     asked = [f"--time={int(3 * seconds * longest / 60) + 2}"]
     if memory:
         asked.append(f"--mem={int(1.5 * memory / 2**20) + 64}M")
-    most = _array_size()
-    for i in range(0, len(chunks), most):
-        _submit(work, name, chunks[i : i + most], asked)
+    _submit(work, name, chunks, asked)
     _slurm_wait(work, name)
 
 

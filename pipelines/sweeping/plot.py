@@ -55,10 +55,13 @@ def phase_map(rows, x, y, value, boundary, log, picture):
     xs, ys = sorted({p[0] for p, _ in points}), sorted({p[1] for p, _ in points})
     squares = [(*_around(xs, a, "x" in log), *_around(ys, b, "y" in log), v) for (a, b), v in points]
     low, high = min(v for _, v in points), max(v for _, v in points)
-    script = ["$data << END\n" + "".join(f"{a!r} {b!r} {v!r}\n" for (a, b), v in points) + "END\n", _axes(x, y, log),
+    script = ["set format cb '%.3g'\n$data << END\n" + "".join(f"{a!r} {b!r} {v!r}\n" for (a, b), v in points) + "END\n", _axes(x, y, log),
               f"set cblabel \"{_plain(value)}\"", "set palette defined (0 '#30123b', 1 '#2f6ea5', 2 '#3fa89a', 3 '#a8cf5e', 4 '#fbe56a')", f"set cbrange [{low!r}:{high!r}]" if low < high else "",
               f"set xrange [{squares[0][0]!r}:{squares[-1][1]!r}]", f"set yrange [{_around(ys, ys[0], 'y' in log)[0]!r}:"
               f"{_around(ys, ys[-1], 'y' in log)[1]!r}]"]  # fmt: skip
+    for axis, places in (("x", xs), ("y", ys)):
+        if len(places) <= 12:
+            script.append(f"set {axis}tics (" + ", ".join(f"{at:.3g}" for at in places) + ")")
     for i, (left, right, bottom, top, v) in enumerate(squares):
         script.append(f"set object {i + 1} rectangle from {left!r},{bottom!r} to {right!r},{top!r} behind fillcolor palette cb {v!r} "
                       "fillstyle solid noborder")  # fmt: skip
