@@ -17,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "
 import sheetstream  # noqa: E402
 from sheetstream import Array  # noqa: E402
 
-sheetstream.find_form_error = lambda frame: None  # the writer would refuse
+sheetstream.stream.find_form_error = lambda frame: None  # the writer would refuse
 good_file, folder = sys.argv[1], pathlib.Path(sys.argv[2])
 folder.mkdir(parents=True, exist_ok=True)
 good = list(sheetstream.read(open(good_file, "rb")))[-1]
