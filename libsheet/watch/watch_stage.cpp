@@ -100,12 +100,15 @@ Answer WatchStage::answer(std::string_view path) {
 }
 
 std::string WatchStage::state() {
-  const std::lock_guard lock(mutex_);
-  const std::vector<StepFigures>& steps = history_.steps();
+  const RunHistory history = [this] { // a copy, so that the run need not wait while it is written
+    const std::lock_guard lock(mutex_);
+    return history_;
+  }();
+  const std::vector<StepFigures>& steps = history.steps();
   Json json = {{"elapsed", std::chrono::duration<double>(Clock::now() - start_).count()},
                {"until", to_json(until_)},
-               {"speed", to_json(history_.speed())},
-               {"left", to_json(until_ ? history_.seconds_left(*until_) : std::nullopt)}};
+               {"speed", to_json(history.speed())},
+               {"left", to_json(until_ ? history.seconds_left(*until_) : std::nullopt)}};
   if (!steps.empty()) {
     const StepFigures& last = steps.back();
     json["time"] = last.time;
