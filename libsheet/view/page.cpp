@@ -2,6 +2,7 @@
 #include "libsheet/view/page.h"
 
 #include <exception>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -93,10 +94,12 @@ Json to_json(const Placement& placement) {
   return {{"motions", placement.motions}, {"surfaces", surfaces}};
 }
 
+using Sink = std::function<void(std::string_view)>; // takes the page, piece by piece
+
 // Writes what one stream brings and gathers its description.
 class StreamWriter {
 public:
-  StreamWriter(OutputFile& file, std::size_t number, const std::string& name) : file_(file), number_(number) {
+  StreamWriter(const Sink& write, std::size_t number, const std::string& name) : write_(write), number_(number) {
     description_ = {{"name", name}, {"frames", Json::array()}, {"thicknessStep", thickness_step}, {"up", {0, 1, 0}},
                     {"scene", ""},  {"solids", Json::array()}, {"placements", Json::array()}};
   }
@@ -106,7 +109,7 @@ public:
       take_scene(frame);
     const PackedFrame packed = packer_.pack(frame);
     Json& frames = description_["frames"];
-    file_.write(data_element(fmt::format("frame-{}-{}", number_, frames.size()), packed.text));
+    write_(data_element(fmt::format("frame-{}-{}", number_, frames.size()), packed.text));
     frames.push_back(to_json(packed.description));
     frames.back()["placement"] = placement_at(frame.time);
   }
@@ -126,7 +129,7 @@ private:
     solids_ = pack_solids(*scene);
     for (std::size_t i = 0; i < solids_.size(); ++i) {
       const PackedSolid& solid = solids_[i];
-      file_.write(data_element(fmt::format("solid-{}-{}", number_, i), solid.text));
+      write_(data_element(fmt::format("solid-{}-{}", number_, i), solid.text));
       description_["solids"].push_back({{"number", solid.solid},
                                         {"vertices", solid.vertices},
                                         {"triangles", solid.triangles},
@@ -144,7 +147,7 @@ private:
     return placements.size() - 1;
   }
 
-  OutputFile& file_;
+  const Sink& write_;
   std::size_t number_;
   Json description_;
   FramePacker packer_;
@@ -163,7 +166,7 @@ std::string title_of(const ViewOptions& o) {
   return title;
 }
 
-void write_head(OutputFile& file, const std::string& title) {
+void write_head(const Sink& write, const std::string& title) {
   const std::vector<PagePart>& parts = page_parts();
   std::string html(parts[0].text);
   const auto put = [&](std::string_view mark, const std::string& text) {
@@ -172,16 +175,16 @@ void write_head(OutputFile& file, const std::string& title) {
   };
   put("{{STYLE}}", std::string(parts[1].text));
   put("{{TITLE}}", escaped(formats::printable(title)));
-  file.write(html);
+  write(html);
 }
 
-void write_scripts(OutputFile& file, const Json& streams) {
-  file.write("<script type=\"application/json\" id=\"streams\">" + script_json(streams) + "</script>\n");
-  file.write("<script>\n\"use strict\";\n(() => {\n");
+void write_scripts(const Sink& write, const Json& streams) {
+  write("<script type=\"application/json\" id=\"streams\">" + script_json(streams) + "</script>\n");
+  write("<script>\n\"use strict\";\n(() => {\n");
   const std::vector<PagePart>& parts = page_parts();
   for (std::size_t i = 2; i < parts.size(); ++i)
-    file.write(parts[i].text);
-  file.write("})();\n</script>\n</body>\n</html>\n");
+    write(parts[i].text);
+  write("})();\n</script>\n</body>\n</html>\n");
 }
 
 // Returns what was wrong with the stream behind its last whole frame, if anything was.
@@ -210,18 +213,29 @@ void write_page(const ViewOptions& options) {
     claim_file(input, FileRole::input); // before the output is made
   std::exception_ptr cut;
   write_whole_file(options.output, [&](OutputFile& file) {
-    write_head(file, title_of(options));
+    const Sink write = [&](std::string_view text) { file.write(text); };
+    write_head(write, title_of(options));
     Json streams = Json::array();
     for (const std::string& input : options.inputs) {
-      StreamWriter writer(file, streams.size(), input == "-" ? "standard input" : input);
+      StreamWriter writer(write, streams.size(), input == "-" ? "standard input" : input);
       if (const std::exception_ptr error = write_stream(input, writer); error && !cut)
         cut = error;
       streams.push_back(writer.description());
     }
-    write_scripts(file, streams);
+    write_scripts(write, streams);
   });
   if (cut)
     std::rethrow_exception(cut);
+}
+
+std::string page_of(const formats::Frame& frame, const std::string& name) {
+  std::string page;
+  const Sink write = [&](std::string_view text) { page += text; };
+  write_head(write, name);
+  StreamWriter writer(write, 0, name);
+  writer.add(frame);
+  write_scripts(write, Json::array({writer.description()}));
+  return page;
 }
 
 } // namespace sheet::view

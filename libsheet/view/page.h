@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace sheet {
-class OutputFile;
-}
+#include "formats/cpp/stream_frame.h"
 
 namespace sheet::view {
 
@@ -19,5 +17,8 @@ struct ViewOptions {
 // Writes the page. Of a stream that is cut short the whole frames are in it; the error is thrown when it is written.
 // Throws Error: bad_input (no frames, a solid's mesh that cannot be read), usage, io; StreamError.
 void write_page(const ViewOptions& options);
+
+// The page of a single frame; `name` is its title. Throws Error (bad_input: a solid's mesh that cannot be read).
+[[nodiscard]] std::string page_of(const formats::Frame& frame, const std::string& name);
 
 } // namespace sheet::view

@@ -65,6 +65,7 @@ stream_reader() {
   sheet-export) arguments=(--format obj -o -) ;;
   sheet-step) arguments=(--dt 0.01) ;;
   sheet-remesh) arguments=(--edge-length 1) ;;
+  sheet-watch) arguments=(--port 0 -q) ;;
   sheet-render) arguments=(--ppm --size 32x18 --samples 2) ;;
   *) arguments=() ;;
   esac

@@ -24,7 +24,7 @@ except ImportError:
     vtk_to_numpy = None
 
 root = pathlib.Path(__file__).resolve().parents[2]
-PARAVIEW = shutil.which("pvpython") and shutil.which("xvfb-run")
+PARAVIEW = shutil.which("pvpython") and os.environ.get("DISPLAY")
 
 ASK = """
 import sys
@@ -95,8 +95,8 @@ class Readers(unittest.TestCase):
         self.assertEqual(len(commands), 2)
         os.makedirs("page")
         shell(f"ln -s ../run.sheet {root}/formats .; " +
-              "; ".join("xvfb-run -a " * c.startswith("pvpython") + c for c in commands), cwd="page")
-        said = shell("xvfb-run -a pvpython ask.py page/out/frame.pvd page/run.pvsm")
+              "; ".join(commands), cwd="page")
+        said = shell("pvpython ask.py page/out/frame.pvd page/run.pvsm")
         self.assertIn("views 2", said)
         frames = np.array([line.split()[1:] for line in said.splitlines() if line.startswith("frame")], float)
         wanted = [[row[k] for k in ("time", "vertices", "triangles", "thickness_min", "thickness_max")] for row in self.rows]
@@ -111,7 +111,7 @@ class Readers(unittest.TestCase):
         shell("sheet-select --last run.sheet | sheet-export --solidify -o bare.vtu")
         for file, message in (("no.pvd", "no.pvd: no such file; sheet-export"),
                               ("bare.vtu", "bare.vtu: no array thickness")):
-            done = subprocess.run(["xvfb-run", "-a", "pvpython", str(root / "formats/paraview/show_sheet.py"), file],
+            done = subprocess.run(["pvpython", str(root / "formats/paraview/show_sheet.py"), file],
                                   capture_output=True, text=True)
             self.assertEqual(done.returncode, 2)
             self.assertIn(message, done.stdout + done.stderr)

@@ -11,6 +11,8 @@ import tempfile
 import unittest
 import urllib.parse
 
+from browser import Browser
+
 root = pathlib.Path(__file__).resolve().parents[2]
 programs = pathlib.Path(os.environ["SHEET_PROGRAMS"])
 LOADED = {("script", "src"), ("link", "href"), ("img", "src"), ("video", "src"), ("iframe", "src")}
@@ -94,14 +96,23 @@ class Site(unittest.TestCase):
         self.assertIn("views/drape.html", (self.site / "scenes/drape.html").read_text())
         self.assertGreater((self.site / "views/drape.html").stat().st_size, 50000)
 
-    def found(self, words):
-        return subprocess.run(["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=3000",
-                               "--dump-dom", f"file://{self.site}/index.html?q={urllib.parse.quote(words)}"],
-                              capture_output=True, text=True, check=True).stdout
+    def test_in_a_browser_the_search_finds_and_narrow_pages_do_not_scroll_sideways(self):
+        with Browser(1000, 800) as browser:
+            def look(page):
+                browser.call("Page.navigate", url=f"file://{self.site}/{page}")
+                browser.until("document.readyState === 'complete' && window.sheetIndex && "
+                              f"location.href.includes('{page.split('?')[0]}')")
 
-    def test_the_search_finds_from_a_folder(self):
-        self.assertRegex(self.found("blender motion blur"), r'<a href="\./blender\.html[^>]*>')
-        self.assertIn("Nothing found", self.found("zzzunheardof <b>"))
+            look("index.html?q=blender%20motion%20blur")
+            self.assertTrue(browser.js("document.querySelector('#found a[href*=\"blender.html\"]') !== null"))
+            look("index.html?q=zzzunheardof%20%3Cb%3E")
+            self.assertEqual(browser.js("document.getElementById('found').textContent"), "Nothing found")
+            browser.size(420, 900, True)
+            for page in ("index.html", "model.html", "gallery.html", "programs/sheet-step.html", "tutorial.html"):
+                look(page)
+                browser.js("document.fonts.ready.then(() => 1)")
+                self.assertEqual(browser.js("document.documentElement.scrollWidth"), 420, page)
+            self.assertEqual([c for c in browser.complaints() if not str(c).startswith("data:")], [])
 
 
 class Tutorial(unittest.TestCase):

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/watch/watch_stage.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "libsheet/base/error.h"
+#include "libsheet/view/page.h"
+#include "libsheet/watch/live_page.h"
+
+namespace sheet::watch {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::uint16_t checked_port(std::int64_t port) {
+  if (port < 0 || port > 65535)
+    fail(ExitCode::usage, "--port {} is none: they go from 1 to 65535, 0 stands for any that is free", port);
+  return static_cast<std::uint16_t>(port);
+}
+
+using Handler = std::function<Answer(std::string_view)>;
+
+std::unique_ptr<HttpServer> open_server(const WatchOptions& options, const Handler& handler) {
+  if (options.port)
+    return std::make_unique<HttpServer>(options.address, checked_port(*options.port), handler);
+  constexpr std::uint16_t first = 8000, last = 8019;
+  for (std::uint16_t port = first; port < last; ++port)
+    try {
+      return std::make_unique<HttpServer>(options.address, port, handler);
+    } catch (const Error& error) { // taken, as a rule by another run
+      if (error.code() != ExitCode::io)
+        throw;
+    }
+  return std::make_unique<HttpServer>(options.address, last, handler);
+}
+
+Json to_json(std::optional<double> x) { return x && std::isfinite(*x) ? Json(*x) : Json(nullptr); }
+
+Json curve(const std::vector<StepFigures>& steps, double StepFigures::*figure) {
+  Json values = Json::array();
+  for (const StepFigures& step : steps)
+    values.push_back(to_json(step.*figure));
+  return values;
+}
+
+} // namespace
+
+WatchStage::WatchStage(const WatchOptions& options)
+    : until_(options.until), page_(live_page()),
+      measurer_([this](const std::stop_token& stop) { measure_frames(stop); }),
+      server_(open_server(options, [this](std::string_view path) { return answer(path); })) {}
+
+WatchStage::~WatchStage() = default;
+
+void WatchStage::show(const formats::Frame& frame) {
+  auto copy = std::make_shared<const formats::Frame>(frame);
+  {
+    const std::lock_guard lock(mutex_);
+    newest_ = std::move(copy);
+    measured_ = false;
+  }
+  news_.notify_one();
+}
+
+void WatchStage::measure_frames(const std::stop_token& stop) {
+  SceneDensity density;
+  std::unique_lock lock(mutex_);
+  while (news_.wait(lock, stop, [this] { return !measured_; })) {
+    const std::shared_ptr<const formats::Frame> frame = newest_;
+    measured_ = true;
+    lock.unlock();
+    const StepFigures figures = figures_of(*frame, measure(*frame, density.of(*frame)));
+    lock.lock();
+    history_.add(figures, Clock::now());
+  }
+}
+
+Answer WatchStage::answer(std::string_view path) {
+  if (path == "/")
+    return {.type = "text/html; charset=utf-8", .body = page_};
+  if (path == "/state.json")
+    return {.type = "application/json", .body = state()};
+  if (path != "/frame.html")
+    return {.status = 404, .body = "there are /, /state.json and /frame.html\n"};
+  std::shared_ptr<const formats::Frame> frame;
+  {
+    const std::lock_guard lock(mutex_);
+    frame = newest_;
+  }
+  if (!frame)
+    return {.status = 503, .body = "no frame has come yet\n"};
+  try {
+    return {.type = "text/html; charset=utf-8", .body = view::page_of(*frame, "newest frame")};
+  } catch (const std::exception& error) { // a solid's file, say; the run goes on
+    return {.status = 503, .body = std::string(error.what()) + "\n"};
+  }
+}
+
+std::string WatchStage::state() {
+  const RunHistory history = [this] { // a copy, so that the run need not wait while it is written
+    const std::lock_guard lock(mutex_);
+    return history_;
+  }();
+  const std::vector<StepFigures>& steps = history.steps();
+  Json json = {{"elapsed", std::chrono::duration<double>(Clock::now() - start_).count()},
+               {"until", to_json(until_)},
+               {"speed", to_json(history.speed())},
+               {"left", to_json(until_ ? history.seconds_left(*until_) : std::nullopt)}};
+  if (!steps.empty()) {
+    const StepFigures& last = steps.back();
+    json["time"] = last.time;
+    json["step"] = last.step;
+    json["vertices"] = last.vertices;
+    json["triangles"] = last.triangles;
+  }
+  json["curves"] = {{"time", curve(steps, &StepFigures::time)},
+                    {"volume", curve(steps, &StepFigures::volume)},
+                    {"area", curve(steps, &StepFigures::area)},
+                    {"thickness_min", curve(steps, &StepFigures::thickness_min)},
+                    {"thickness_mean", curve(steps, &StepFigures::thickness_mean)},
+                    {"thickness_max", curve(steps, &StepFigures::thickness_max)},
+                    {"kinetic_energy", curve(steps, &StepFigures::kinetic_energy)}};
+  return json.dump();
+}
+
+} // namespace sheet::watch
