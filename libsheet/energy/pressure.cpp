@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "libsheet/geometry/capped_volume.h"
+
 namespace sheet {
 
 namespace {
@@ -81,7 +83,43 @@ void Pressure::begin(const Stage& stage) {
   if (law_.kind == PressureLaw::Kind::draining && stage.previous)
     for (std::size_t t = 0; t < start_.size(); ++t)
       reference_change_ += stage.ratio * change(t, corners(*stage.previous, t));
+  if (law_.kind == PressureLaw::Kind::gas)
+    begin_gas(stage);
   prepare(stage.begin);
+}
+
+// What caps sweep with their rims counts, at the predicted place.
+void Pressure::begin_gas(const Stage& stage) {
+  const State& state = *stage.start;
+  const Connectivity& mesh = *state.mesh;
+  const auto whole = [&](std::span<const Vector3> x) { return capped_volume(mesh, x) + law_.gas.more_volume; };
+  start_enclosed_ = whole(state.positions);
+  gas_reference_ = law_.gas.leak > 0 && state.gas ? state.gas->amount : law_.gas.amount;
+  if (law_.gas.leak > 0 && stage.previous) {
+    std::vector<Vector3> first(stage.vertices());
+    for (std::uint32_t v = 0; v < first.size(); ++v)
+      first[v] = stage.position(*stage.previous, v);
+    const double amount = gas_in(law_.gas, whole(first), gas_reference_, stage.duration).amount;
+    gas_reference_ += stage.ratio * (amount - gas_reference_);
+  }
+  if (lagged_.empty())
+    return;
+  const double caps = whole(stage.predicted) - start_enclosed_;
+  double swept = 0;
+  for (std::size_t t = 0; t < start_.size(); ++t) {
+    const Corners& v = mesh.triangles[t];
+    VectorN<9> x;
+    x << stage.predicted[v[0]], stage.predicted[v[1]], stage.predicted[v[2]];
+    swept += change(t, x);
+  }
+  start_enclosed_ += caps - swept;
+}
+
+void Pressure::finish(const Unknowns& last, State& end) {
+  if (law_.kind != PressureLaw::Kind::gas)
+    return;
+  prepare(last);
+  end.gas = gas_;
 }
 
 void Pressure::prepare(const Unknowns& u) {
@@ -108,6 +146,12 @@ void Pressure::prepare(const Unknowns& u) {
     scale_ = k * 3 / (4 * std::numbers::pi) / (r * r + r * r_start + r_start * r_start);
     break;
   }
+  case PressureLaw::Kind::gas:
+    gas_ = gas_in(law_.gas, enclosed_, gas_reference_, stage_->duration);
+    pressure_ = gas_.pressure;
+    stiffness_ = gas_.stiffness;
+    scale_ = mean_pressure(law_.gas, start_enclosed_, enclosed_, gas_reference_, stage_->duration);
+    break;
   }
 }
 

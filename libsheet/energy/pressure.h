@@ -4,19 +4,22 @@
 //   constant         p
 //   inverse square   p (r0/r)², r the radius of the ball of volume Ω: W = -4π p r0² (r - r_start)
 //   draining         gas leaves at the rate c p: p = -(dΩ/dt)/c, W = (Ω - Ω̄)²/(2 c τ), Ω̄ the reference of the stage
+//   gas              an amount of gas, compressed (gas.h); its Ω has rims closed (capped_volume.h)
 // On a closed sheet, or one whose rim is held, this is p n A exactly. On a free rim the gradient of Ω also holds a part
 // that belongs to the missing cap; it is taken away with the rim at its predicted place, so the sum stays a potential:
-// Ω then changes by what the sheet sweeps. The two laws that depend on Ω couple all vertices: W'' g gᵀ, g = ∂Ω/∂x.
+// Ω then changes by what the sheet sweeps. The laws that depend on Ω couple all vertices: W'' g gᵀ, g = ∂Ω/∂x.
 #pragma once
 #include "libsheet/energy/element.h"
+#include "libsheet/energy/gas.h"
 
 namespace sheet {
 
 struct PressureLaw {
-  enum class Kind { constant, inverse_square, draining } kind = Kind::constant;
+  enum class Kind { constant, inverse_square, draining, gas } kind = Kind::constant;
   double value = 0;            // [Pa]
   double reference_radius = 1; // r0 [m], inverse square
   double conductance = 1;      // c [m³/(Pa s)], draining
+  GasLaw gas = {};
 };
 
 class Pressure {
@@ -32,6 +35,8 @@ public:
   // The present pressure [Pa] and volume [m³], after prepare.
   [[nodiscard]] double pressure() const { return pressure_; }
   [[nodiscard]] double enclosed() const { return enclosed_; }
+  // The gas at the end of a step, to which the last stage led.
+  void finish(const Unknowns& last, State& end);
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const;
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const;
@@ -41,6 +46,7 @@ private:
   [[nodiscard]] VectorN<9> corners(const Unknowns& u, std::size_t i) const;
   [[nodiscard]] double change(std::size_t i, const VectorN<9>& u) const; // of Ω since the start
   [[nodiscard]] VectorN<9> volume_gradient(std::size_t i, const VectorN<9>& u) const;
+  void begin_gas(const Stage& stage);
 
   PressureLaw law_;
   const Stage* stage_ = nullptr;
@@ -50,7 +56,9 @@ private:
   double start_enclosed_ = 0, enclosed_ = 0, pressure_ = 0;
   double reference_change_ = 0; // Ω̄ - Ω_start, draining [m³]
   double stiffness_ = 0;        // W''
-  double scale_ = 0;            // W = -scale_ Σ (each triangle's change of volume) [Pa]
+  double gas_reference_ = 0;    // the amount of gas that the stage refers to [m³]
+  Gas gas_;
+  double scale_ = 0; // W = -scale_ Σ (each triangle's change of volume) [Pa]
 };
 
 } // namespace sheet

@@ -4,8 +4,10 @@
 // Thickness is volume / area, everywhere. Connectivity is shared and constant during a step.
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "libsheet/energy/gas.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/types.h"
 
@@ -17,6 +19,7 @@ struct State {
   std::vector<Vector3> velocities;
   std::vector<double> volumes;
   std::vector<double> director_angles; // none: all are 0
+  std::optional<Gas> gas;              // that it encloses; none: as its law starts
   double time = 0;                     // [s]
 };
 

@@ -31,6 +31,8 @@ public:
   // sets those of its own unknowns.
   virtual EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                                     double* hessians, bool definite, bool overwrite) const = 0;
+  // What else a step leaves in the state, to whose end `last` the last stage led.
+  virtual void finish(const Unknowns&, State&) {}
   // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an
   // unknown.
   [[nodiscard]] virtual double rank_one(const Unknowns&, Eigen::VectorXd&) const { return 0; }
@@ -65,6 +67,11 @@ public:
   void prepare(const Unknowns& u) override {
     if constexpr (requires { element_.prepare(u); })
       element_.prepare(u);
+  }
+
+  void finish(const Unknowns& last, State& end) override {
+    if constexpr (requires { element_.finish(last, end); })
+      element_.finish(last, end);
   }
 
   [[nodiscard]] EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const override {

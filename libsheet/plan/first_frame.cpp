@@ -5,12 +5,15 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/collide/collide_stage.h"
+#include "libsheet/energy/gas.h"
 #include "libsheet/flow/emit.h"
 #include "libsheet/flow/tear.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/capped_volume.h"
 #include "libsheet/remesh/mesh.h"
 #include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
+#include "libsheet/scene/write.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
@@ -79,6 +82,21 @@ void mark_touching(const Scene& scene, Frame& frame) {
     put_touched_solids(frame, touch, solids.size());
 }
 
+// With the amount of gas that presses, in what the sheet encloses, as its scene says of the start.
+Scene with_amount_of_gas(Scene scene, const Frame& frame) {
+  auto& gas = std::get<scene::GasPressure>(*scene.environment.pressure);
+  const double enclosed = capped_volume(connect(frame.vertices, triangles(frame)), positions(frame));
+  if (!(enclosed + gas.more_volume > 0))
+    fail(ExitCode::bad_input,
+         "pressure: the sheet encloses {:.3g} m^3 on the side that its triangles' normals point away from, so there is "
+         "no room for gas: turn the sheet round, or give more_volume",
+         enclosed);
+  if (!gas.amount)
+    gas.amount =
+        amount_of_gas({.ambient = gas.ambient, .exponent = gas.exponent}, gas.value, enclosed + gas.more_volume);
+  return scene;
+}
+
 // A number that one likes to type: its first two digits.
 double rounded(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
@@ -101,6 +119,8 @@ Frame first_frame(const Scene& scene) {
   Frame frame = build_frame(scene);
   if (flows_on_solids(scene))
     mark_touching(scene, frame);
+  if (scene.environment.pressure && std::holds_alternative<scene::GasPressure>(*scene.environment.pressure))
+    frame.put_text("scene", to_toml(with_amount_of_gas(scene, frame)));
   return frame;
 }
 

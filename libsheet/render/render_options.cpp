@@ -68,6 +68,18 @@ void size_option(Tool& tool, DrawOptions& draw) {
       [&draw] { return fmt::format("{}x{}", draw.width, draw.height); });
 }
 
+// On or off by two words.
+void choice_option(Tool& tool, const char* name, bool& value, const char* on, const char* off, const char* text) {
+  tool.custom(
+      name, fmt::format("{}|{}", on, off), text,
+      [=, &value](const std::string& s) {
+        if (s != on && s != off)
+          fail(ExitCode::usage, "\"{}\" is not one of {}|{}", s, on, off);
+        value = s == on;
+      },
+      [=, &value] { return value ? on : off; });
+}
+
 void range_option(Tool& tool, std::optional<Scale>& range) {
   tool.custom(
       "--range", "LOW:HIGH",
@@ -160,14 +172,8 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
       "--environment", o.environment, "FILE",
       "image of the surroundings to light the scene with instead of the studio, .exr or .png, longitude across");
   tool.option("--exposure", o.exposure, "STOPS", "brighter by so many factors of two");
-  tool.custom(
-      "--ground", "auto|none", "the ground below a scene that has no plane of its own",
-      [&o](const std::string& s) {
-        if (s != "auto" && s != "none")
-          fail(ExitCode::usage, "\"{}\" is not one of auto|none", s);
-        o.ground = s == "auto";
-      },
-      [&o] { return o.ground ? "auto" : "none"; });
+  choice_option(tool, "--ground", o.ground, "auto", "none", "the ground below a scene that has no plane of its own");
+  choice_option(tool, "--solids", o.solids, "all", "none", "the scene's solids; none, to see what is within a mould");
   range_option(tool, o.range);
 }
 

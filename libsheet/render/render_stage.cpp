@@ -130,7 +130,7 @@ struct RenderStage::Impl {
   void read_scene_of(const formats::Frame& frame) {
     scene = scenes.find(frame);
     if (scenes.changed())
-      meshes = scene != nullptr ? make_solids(*scene) : std::vector<SolidMesh>{};
+      meshes = scene != nullptr && options.solids ? make_solids(*scene) : std::vector<SolidMesh>{};
   }
 
   // Around the subject; what is written on the picture stands beside it.
@@ -282,7 +282,7 @@ struct RenderStage::Impl {
     std::vector<Eigen::Isometry3d> motions;
     for (const SolidMesh& mesh : meshes)
       motions.push_back(motion_of(scene->solids[mesh.solid], frame.time));
-    std::vector<Plane> planes = scene ? make_planes(*scene, frame.time) : std::vector<Plane>{};
+    std::vector<Plane> planes = scene && options.solids ? make_planes(*scene, frame.time) : std::vector<Plane>{};
     if (fixed->ground)
       planes.push_back(*fixed->ground);
     const World world(make_surface(frame, thinnest * fixed->subject.diagonal()), meshes, motions, planes,

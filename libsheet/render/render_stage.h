@@ -27,7 +27,7 @@ struct RenderOptions {
   double optical_scale = 1;                     // factor on absorption and scattering
   double exposure = 0;                          // [stops]
   std::string environment;                      // image file; "": the studio
-  bool ground = true;
+  bool ground = true, solids = true; // whether they are drawn
   std::optional<Scale> range; // of false colours, in SI; absent: that of the frames
   double frames_per_second = 24;
 };

@@ -103,6 +103,16 @@ gravity = [0, "-9.81 m/s^2", 0]
 #[environment]
 #pressure = {law = "draining", conductance = "1e-4 m^3/(Pa*s)"}
 
+# or of a given amount of enclosed gas, p = ambient ((amount/V)^exponent - 1), V the enclosed volume. `amount`: the volume
+# that it would fill outside; or `value`, its pressure at the start. exponent: 1 as it keeps its temperature (default), 1.4
+# for air without time to cool. ambient: pressure outside (default 101325 Pa); leak: a hole's conductance as above
+# (default 0); more_volume: of vessels and pipes that the gas fills, too (default 0).
+#[sheet]
+#shape = "sphere"
+#radius = "0.1 m"
+#[environment]
+#pressure = {law = "gas", value = "2 Pa", exponent = 1.4, ambient = "1 bar", leak = "1e-8 m^3/(Pa*s)", more_volume = "1 cm^3"}
+
 # A heavy liquid below the sheet, up to the height `level` against gravity. It carries what is under its surface;
 # with clings = true it pulls down what is above it, too, so that the sheet cannot leave it.
 #bath = {density = "1200 kg/m^3", level = "-0.5 m", clings = false}

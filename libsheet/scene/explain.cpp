@@ -60,6 +60,13 @@ std::vector<Term> terms_of(const Scene& scene) {
                    },
                    [](const DrainingPressure& p) {
                      return fmt::format("enclosed gas leaves at {} m³/s per Pa", brief(p.conductance));
+                   },
+                   [](const GasPressure& p) {
+                     const std::string start = p.amount ? fmt::format("that fills {} m³ outside", brief(*p.amount))
+                                                        : fmt::format("of {} Pa at the start", brief(p.value));
+                     return fmt::format("enclosed gas {}, {} Pa outside, p ~ V^-{}{}", start, brief(p.ambient),
+                                        brief(p.exponent),
+                                        p.leak > 0 ? fmt::format(", leaving at {} m³/s per Pa", brief(p.leak)) : "");
                    }},
         pressure);
   };
@@ -226,7 +233,9 @@ std::vector<std::string> left_out_of(const Scene& scene) {
     left_out.push_back("layers that touch never become one liquid");
   if (scene.environment.bath)
     left_out.push_back("the bath has no waves and no viscosity");
-  if (scene.environment.pressure)
+  if (const auto& pressure = scene.environment.pressure; pressure && std::holds_alternative<GasPressure>(*pressure))
+    left_out.push_back("enclosed gas has one pressure everywhere, and stays in where the sheet is torn");
+  else if (pressure)
     left_out.push_back("enclosed gas is not compressed");
   if (scene.tear)
     left_out.push_back("tearing goes by thickness alone");

@@ -36,7 +36,11 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
   if (environment.bath && !environment.gravity && (!has("environment", "gravity") || !problems.any()))
     problems.add(place("environment", "bath"), "bath: needs gravity, which says where up is");
   const bool flat = sheet.shape.index() <= 2;
-  if (environment.pressure && flat && !std::holds_alternative<ConstantPressure>(*environment.pressure))
+  const auto* gas = environment.pressure ? std::get_if<GasPressure>(&*environment.pressure) : nullptr;
+  const bool without_volume =
+      environment.pressure &&
+      (std::holds_alternative<ConstantPressure>(*environment.pressure) || (gas && gas->more_volume > 0));
+  if (environment.pressure && flat && !without_volume)
     problems.add(place("environment", "pressure"),
                  "pressure: this law needs a shape that encloses a volume, or a mesh");
 }

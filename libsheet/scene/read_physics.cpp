@@ -6,6 +6,28 @@
 namespace sheet::scene {
 namespace {
 
+constexpr double standard_atmosphere = 101325; // [Pa]
+
+GasPressure read_gas(TableReader& table) {
+  GasPressure gas{};
+  gas.amount = table.quantity("amount", quantity::volume, Bound::positive);
+  const auto value = table.quantity("value", quantity::pressure, Bound::any);
+  if (gas.amount && value)
+    table.wrong("value", "either the amount of the gas is given, or its pressure at the start");
+  else if (!gas.amount && !value)
+    table.missing("value", "\"10 Pa\" (pressure at the start), or amount = \"1 l\"");
+  gas.value = value.value_or(0);
+  gas.ambient = table.quantity_or("ambient", quantity::pressure, standard_atmosphere, Bound::positive);
+  if (gas.value <= -gas.ambient)
+    table.wrong("value", "gas cannot have less than no pressure: give more than -ambient");
+  gas.exponent = table.quantity_or("exponent", quantity::number, 1);
+  if (gas.exponent < 1)
+    table.wrong("exponent", "a polytropic exponent is at least 1 (constant temperature)");
+  gas.leak = table.quantity_or("leak", quantity::conductance, 0, Bound::not_negative);
+  gas.more_volume = table.quantity_or("more_volume", quantity::volume, 0, Bound::not_negative);
+  return gas;
+}
+
 std::optional<Pressure> read_pressure(TableReader& parent) {
   auto table = parent.table("pressure");
   if (!table)
@@ -25,8 +47,12 @@ std::optional<Pressure> read_pressure(TableReader& parent) {
   } else if (law == 2) {
     result = DrainingPressure{table->required("conductance", quantity::conductance)};
     because = "law \"draining\" takes conductance";
+  } else if (law == 3) {
+    result = read_gas(*table);
+    because = "law \"gas\" takes value or amount, ambient, exponent, leak, more_volume";
   }
-  table->has_no_meaning({"value", "reference_radius", "conductance"}, because);
+  table->has_no_meaning(
+      {"value", "reference_radius", "conductance", "amount", "ambient", "exponent", "leak", "more_volume"}, because);
   table->finish();
   return result;
 }

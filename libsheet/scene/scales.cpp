@@ -19,7 +19,8 @@ double curvature_of(const SheetShape& shape) {
 double stated(const Pressure& pressure) {
   return std::visit(Overloaded{[](const ConstantPressure& p) { return std::abs(p.value); },
                                [](const InverseSquarePressure& p) { return std::abs(p.value); },
-                               [](const DrainingPressure&) { return 0.0; }},
+                               [](const DrainingPressure&) { return 0.0; },
+                               [](const GasPressure& p) { return std::abs(p.value); }},
                     pressure);
 }
 

@@ -143,7 +143,18 @@ struct DrainingPressure {
   double conductance; // [m³/(Pa s)]
   bool operator==(const DrainingPressure&) const = default;
 };
-using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingPressure>;
+// A given amount of enclosed gas: p = ambient ((amount/V)^exponent - 1), V the enclosed volume (openings closed by
+// cones to the middle of their rims) and more_volume; it leaves at the rate leak * p, measured at the pressure outside.
+struct GasPressure {
+  std::optional<double> amount; // volume that it fills at the pressure outside [m³]; absent: it follows from value
+  double value;                 // p at the start [Pa], if amount is absent
+  double ambient;               // pressure outside [Pa]
+  double exponent;              // polytropic; 1: constant temperature
+  double leak;                  // [m³/(Pa s)]; 0: none
+  double more_volume;           // of vessels and pipes that the gas fills, too [m³]
+  bool operator==(const GasPressure&) const = default;
+};
+using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingPressure, GasPressure>;
 
 // Liquid below the height `level`, measured against gravity from the origin. It carries what is under its surface, and
 // pulls down what is above it if it clings.

@@ -151,7 +151,12 @@ void write_environment(Writer& out, const Environment& environment) {
                      return fmt::format("value = {}, reference_radius = {}", number(p.value),
                                         number(p.reference_radius));
                    },
-                   [](const DrainingPressure& p) { return fmt::format("conductance = {}", number(p.conductance)); }},
+                   [](const DrainingPressure& p) { return fmt::format("conductance = {}", number(p.conductance)); },
+                   [](const GasPressure& p) {
+                     return fmt::format("{} = {}, ambient = {}, exponent = {}, leak = {}, more_volume = {}",
+                                        p.amount ? "amount" : "value", number(p.amount.value_or(p.value)),
+                                        number(p.ambient), number(p.exponent), number(p.leak), number(p.more_volume));
+                   }},
         *environment.pressure);
     out.line("pressure",
              fmt::format("{{law = {}, {}}}", word(words::pressures, environment.pressure->index()), values));

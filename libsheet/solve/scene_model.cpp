@@ -31,6 +31,13 @@ PressureLaw pressure_law(const scene::Pressure& pressure) {
                         [&](const scene::DrainingPressure& p) {
                           law.kind = PressureLaw::Kind::draining;
                           law.conductance = p.conductance;
+                        },
+                        [&](const scene::GasPressure& p) {
+                          law.kind = PressureLaw::Kind::gas;
+                          law.gas = {p.amount.value_or(0), p.ambient, p.exponent, p.leak, p.more_volume};
+                          if (!p.amount)
+                            fail(ExitCode::bad_input, "pressure: the amount of gas is not known: make the first frame "
+                                                      "with sheet-init, or give amount in place of value");
                         }},
              pressure);
   return law;
@@ -156,6 +163,8 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
     const auto angle = angles->values<double>();
     state.director_angles.assign(angle.begin(), angle.end());
   }
+  if (frame.find("gas.amount") != nullptr)
+    state.gas = Gas{.amount = number(frame, "gas.amount", 0)};
   state.time = frame.time;
   return state;
 }
@@ -169,6 +178,10 @@ void put_state(const State& state, Frame& frame) {
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());
   put_director_angles(state.director_angles, frame);
+  if (state.gas) {
+    put_number(frame, "gas.amount", "m^3", state.gas->amount);
+    put_number(frame, "gas.pressure", "Pa", state.gas->pressure);
+  }
   frame.time = state.time;
   ++frame.step;
 }

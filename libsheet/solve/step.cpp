@@ -178,6 +178,8 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   estimate_error(state, dt, stage, first, last, end, scale, report);
   end.director_angles = director_angles(stage, last);
   set_prescribed_velocities(stage, end);
+  for (const auto& term : cache_->terms)
+    term->finish(last, end);
   if (!sound(end))
     return Outcome::shrinks_to_nothing;
   if (slides_too_far(stage, last, dt, scale))

@@ -135,6 +135,10 @@ END
   interrupted KILL slip glass-mould 0.015 60
 }
 
+@test "bottle: interrupted and resumed = straight" {
+  interrupted INT bottle bottle 0.006 0.08 0.03
+}
+
 @test "film-casting: killed and resumed = straight" {
   interrupted KILL free film-casting 0.02 1 0.5
 }
@@ -180,6 +184,8 @@ END
   cmp "$BATS_TEST_TMPDIR/straight/run.sheet" "$OUT/ice-cream/run.sheet"
   run -2 pipelines/gallery nonesuch
   [[ $output == *"there is no scene nonesuch"* ]]
+  run -0 pipelines/gallery --list # each has a short version
+  [[ $(wc -l <<< "$output") -gt 15 && $output == *bottle* && $output != *diagram* ]]
 }
 
 @test "bunny: a stream that was made with other options is not gone on with" {

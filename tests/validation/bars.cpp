@@ -176,6 +176,17 @@ TEST(Validation, FilmCasting) {
   }
 }
 
+TEST(Validation, EnclosedGas) {
+  for (const int set : {1, 2, 3}) {
+    const int steps = set == 2 ? 300 : 40;
+    const double fine = error("V27", settings("V27", 0.08, steps, set));
+    EXPECT_LT(fine, 1e-3) << set;
+    EXPECT_LT(fine, error("V27", settings("V27", 0.16, steps, set)) / 3.1) << set; // 3.5 times fewer vertices
+  }
+  for (const int set : {2, 3}) // 1 forgets how it came there
+    EXPECT_GE(order_in_time("V27", settings("V27", 0.5, set == 2 ? 200 : 160, set), Scheme::sdirk2), 1.9) << set;
+}
+
 // Theory's front is a step, and behind it the thickness is 1: the mesh keeps below twice that.
 TEST(Validation, AThickLayerOverrunsAThinOne) {
   for (const double edge : {0.1, 0.05}) {

@@ -74,6 +74,8 @@ const std::vector<Case>& cases() {
        at(0.1, 100), false, true, v25},
       {"V26", "film casting, draw ratio 10, 15, 20, 25, 30 (sets 1 to 5)", "force of the roll", "", 5, at(0.02, 4000),
        false, true, v26},
+      {"V27", "sphere that encloses gas (set 1: comes to rest; 2: oscillates; 3: leaks)", "1, 3: radius; 2: frequency",
+       "", 3, at(0.08, 100, Pattern::equilateral), true, true, v27},
   };
   return list;
 }

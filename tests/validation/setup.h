@@ -66,6 +66,7 @@ Result v1(const Settings&), v2(const Settings&), v3(const Settings&), v4(const S
     v6(const Settings&), v7(const Settings&), v8(const Settings&), v9(const Settings&), v9_remeshed(const Settings&),
     v10(const Settings&), v11(const Settings&), v12(const Settings&), v13(const Settings&), v14(const Settings&),
     v15(const Settings&), v16(const Settings&), v17(const Settings&), v18(const Settings&), v19(const Settings&),
-    v20(const Settings&), v22(const Settings&), v23(const Settings&), v24(const Settings&), v25(const Settings&), v26(const Settings&);
+    v20(const Settings&), v22(const Settings&), v23(const Settings&), v24(const Settings&), v25(const Settings&),
+    v26(const Settings&), v27(const Settings&);
 
 } // namespace sheet::validation

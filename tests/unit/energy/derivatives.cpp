@@ -255,7 +255,17 @@ TEST(Derivatives, PressureOfTheEnclosedVolume) {
   test::Mesh dome = test::disk(1, 3, 0.2);
   for (Vector3& x : dome.positions)
     x.z() = 0.7 - 0.5 * x.squaredNorm();
-  for (const auto kind : {PressureLaw::Kind::inverse_square, PressureLaw::Kind::draining})
+  struct Law {
+    std::string name;
+    PressureLaw law;
+  };
+  const PressureLaw gas{.kind = PressureLaw::Kind::gas, .gas = {.amount = 6, .ambient = 2, .exponent = 1.4}};
+  PressureLaw leaking = gas;
+  leaking.gas.leak = 5;
+  leaking.gas.more_volume = 0.5;
+  for (const auto& [what, law] :
+       {Law{"inverse square", {PressureLaw::Kind::inverse_square, 3, 0.8, 2}},
+        Law{"draining", {PressureLaw::Kind::draining, 3, 0.8, 2}}, Law{"gas", gas}, Law{"leaking gas", leaking}})
     for (const bool closed : {true, false})
       for (const bool second : {true, false}) {
         State s = closed ? crumpled(random) : test::at_rest(dome, 0.1);
@@ -268,7 +278,7 @@ TEST(Derivatives, PressureOfTheEnclosedVolume) {
         if (second)
           (void)second_stage(stage, first, 1 - std::sqrt(0.5), 0.05 / (1 - std::sqrt(0.5)));
         Terms terms;
-        terms.push_back(make_term(Pressure({kind, 3, 0.8, 2})));
+        terms.push_back(make_term(Pressure(law)));
         terms[0]->begin(stage);
         Assembly assembly(s.mesh, terms, false);
         std::vector<std::uint32_t> order(s.mesh->vertices);
@@ -306,7 +316,6 @@ TEST(Derivatives, PressureOfTheEnclosedVolume) {
             hessian_error[k] = std::max(hessian_error[k], ((gu - gd) / (2 * d) - h.col(c)).cwiseAbs().maxCoeff());
           }
         }
-        const std::string what = kind == PressureLaw::Kind::draining ? "draining" : "inverse square";
         expect_second_order(gradient_error, g.cwiseAbs().maxCoeff(), what + ": gradient");
         expect_second_order(hessian_error, h.cwiseAbs().maxCoeff(), what + ": Hessian");
       }

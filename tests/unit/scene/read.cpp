@@ -200,6 +200,17 @@ TEST(Read, ProblemsOfTheOtherTables) {
             "s:10:31: key \"value\" has no meaning in pressure: law \"draining\" takes conductance"},
            {"[environment]\npressure = {law = \"inverse_square\", value = 3, reference_radius = 1}",
             "s:10:12: pressure: this law needs a shape that encloses a volume, or a mesh"},
+           {"[environment]\npressure = {law = \"gas\", value = -2e5, exponent = 0.9, conductance = 1}",
+            "s:10:12: pressure: this law needs a shape that encloses a volume, or a mesh\n"
+            "s:10:34: value: gas cannot have less than no pressure: give more than -ambient\n"
+            "s:10:51: exponent: a polytropic exponent is at least 1 (constant temperature)\n"
+            "s:10:56: key \"conductance\" has no meaning in pressure: law \"gas\" takes value or amount, ambient, "
+            "exponent, leak, more_volume"},
+           {"[environment]\npressure = {law = \"gas\", value = 3, amount = \"1 l\", more_volume = 1}",
+            "s:10:34: value: either the amount of the gas is given, or its pressure at the start"},
+           {"[environment]\npressure = {law = \"gas\", more_volume = 1}",
+            "s:10:12: missing key \"value\" in pressure, such as value = \"10 Pa\" (pressure at the start), or amount "
+            "= \"1 l\""},
            {"[environment]\npressure = {value = 3}",
             "s:10:12: missing key \"law\" in pressure, such as law = \"constant\"\n"
             "s:10:13: key \"value\" has no meaning in pressure: the law is not known"},

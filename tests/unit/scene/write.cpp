@@ -156,6 +156,11 @@ public:
       s.environment.pressure = InverseSquarePressure{number(), positive()};
     if (shape > 2 && below(3) == 0)
       s.environment.pressure = DrainingPressure{positive()};
+    if (shape > 2 && below(3) == 0) {
+      GasPressure gas{maybe_positive(), 0, positive(), 1 + std::abs(number()), std::abs(number()), std::abs(number())};
+      gas.value = gas.amount ? 0 : positive();
+      s.environment.pressure = gas;
+    }
     if (s.environment.gravity && below(2))
       s.environment.bath = Bath{positive(), number(), below(2) == 1};
     s.model = {below(2) == 1, below(2) == 1, below(2) == 1};

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/geometry/capped_volume.h"
+
+#include <map>
+
+#include "libsheet/geometry/disjoint_sets.h"
+
+namespace sheet {
+
+namespace {
+
+struct Rim {
+  Vector3 sum = Vector3::Zero();
+  std::size_t count = 0;
+};
+
+} // namespace
+
+double capped_volume(const Connectivity& mesh, std::span<const Vector3> positions) {
+  Vector3 origin = Vector3::Zero();
+  for (const Vector3& x : positions)
+    origin += x / static_cast<double>(positions.size());
+  const auto cone = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
+    return (a - origin).dot((b - origin).cross(c - origin)) / 6;
+  };
+  double volume = 0;
+  DisjointSets sets(mesh.vertices);
+  for (const Corners& t : mesh.triangles)
+    volume += cone(positions[t[0]], positions[t[1]], positions[t[2]]);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.on_rim(e))
+      sets.join(mesh.edges[e][0], mesh.edges[e][1]);
+  std::map<std::uint64_t, Rim> rims;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.on_rim(e)) {
+      Rim& rim = rims[sets.find(mesh.edges[e][0])];
+      rim.sum += positions[mesh.edges[e][0]] + positions[mesh.edges[e][1]]; // each vertex twice
+      rim.count += 2;
+    }
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.on_rim(e)) {
+      const Rim& rim = rims[sets.find(mesh.edges[e][0])];
+      const Vector3 middle = rim.sum / static_cast<double>(rim.count);
+      const bool forward = mesh.edge_triangles[e][0] != no_index; // the triangle runs from the lower to the higher
+      const Vector3 &a = positions[mesh.edges[e][0]], &b = positions[mesh.edges[e][1]];
+      volume += forward ? cone(b, a, middle) : cone(a, b, middle);
+    }
+  return volume;
+}
+
+} // namespace sheet
