@@ -11,10 +11,11 @@ int main(int argc, char** argv) {
       "sheet-emit fills the gap that has opened behind it. A row of vertices comes in whenever the liquid has moved "
       "on by the length of the inlet's edges, whatever the time steps. The array `emit.volume` of the frame is the "
       "volume that has entered so far [m^3].\n"
+      "A [[sheet]] with `enters` comes in at that time, whole; `emit.volume` counts it.\n"
       "What is wholly beyond the plane of an [[outflow]] leaves; `outflow.volume` [m^3], `outflow.momentum` [kg m/s] "
       "and "
       "`outflow.energy` (kinetic) [J] are what has left so far.\n"
-      "Without [inflow] and [[outflow]] in the scene, frames pass unchanged.");
+      "Without any of these in the scene, frames pass unchanged.");
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);
   tool.example("sheet-init curtain.toml | sheet-loop --until 2 --fps 24 -- 'sheet-emit | sheet-step' > run.sheet",

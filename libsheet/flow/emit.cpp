@@ -2,11 +2,13 @@
 #include "libsheet/flow/emit.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
+#include "libsheet/flow/entering.h"
 #include "libsheet/flow/inlet.h"
 #include "libsheet/flow/inlet_checks.h"
 #include "libsheet/flow/outflow.h"
@@ -32,8 +34,9 @@ using Row = std::vector<std::uint32_t>; // a vertex for each of the border's
 
 class Emission {
 public:
-  Emission(Frame& frame, const scene::Inflow& inflow, const std::vector<InletChain>& chains)
-      : frame_(frame), old_(frame), inflow_(inflow), chains_(chains) {
+  // The inflow's inlet has this number, and these chains.
+  Emission(Frame& frame, const scene::Inflow& inflow, std::size_t number, const std::vector<InletChain>& chains)
+      : frame_(frame), old_(frame), inflow_(inflow), number_(number), chains_(chains) {
     const auto x = positions(old_);
     const auto origins = frame.find("inlet_origin")->values<Vector3>();
     const auto bits = masks(frame, "inlet");
@@ -167,12 +170,18 @@ private:
     return row;
   }
 
+  // Of this inlet; those of others stay.
+  void set_bits(std::uint32_t v, std::uint64_t bits) {
+    const std::size_t shift = bits_of_an_inlet * number_;
+    bits_[v] = (bits_[v] & ~(of_inlet(~std::uint64_t{0}, 0) << shift)) | bits << shift;
+  }
+
   // The last row is the border, that before it the first one behind it.
   void mark(const InletChain& chain, const std::vector<Row>& rows) {
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::size_t i = 0; i < chain.border.size(); ++i) {
         const std::size_t from_border = rows.size() - 1 - r;
-        bits_[rows[r][i]] = from_border == 0 ? in_inlet | at_inlet_border : from_border == 1 ? behind_inlet : 0;
+        set_bits(rows[r][i], from_border == 0 ? in_inlet | at_inlet_border : from_border == 1 ? behind_inlet : 0);
       }
   }
 
@@ -269,8 +278,10 @@ private:
           keeps[v] = true;
     const auto bits = frame_.find("inlet")->values<std::uint64_t>();
     for (std::size_t v = 0; v < bits.size(); ++v)
-      if (!keeps[v])
-        bits[v] = bits_[v] = 0;
+      if (!keeps[v]) {
+        set_bits(static_cast<std::uint32_t>(v), 0);
+        bits[v] = bits_[v];
+      }
   }
 
   void put() {
@@ -314,6 +325,7 @@ private:
   Frame& frame_;
   const Frame& old_; // the same, to read
   const scene::Inflow& inflow_;
+  std::size_t number_;
   const std::vector<InletChain>& chains_;
   std::vector<Vector3> x_, origins_;
   std::vector<std::uint64_t> bits_;
@@ -328,23 +340,52 @@ private:
 
 } // namespace
 
-Emitted emit(Frame& frame, const Scene& scene) {
-  const scene::Inflow& inflow = *scene.inflow;
+namespace {
+
+// Marks nobody any more.
+void release(Frame& frame, std::size_t number) {
+  const std::uint64_t own = of_inlet(~std::uint64_t{0}, 0) << (bits_of_an_inlet * number);
+  for (std::uint64_t& bits : frame.find("inlet")->values<std::uint64_t>())
+    bits &= ~own;
+}
+
+// What has entered at one inlet.
+Emitted emit_at(Frame& frame, const Scene& scene, std::size_t number) {
+  const scene::Inflow& inflow = scene.inflows[number];
+  const std::vector<InletChain> chains = find_inlet(frame, number);
   const bool ended = !scene::in_force(inflow, frame.time);
+  if (!ended)
+    check_inlet(frame, scene, inflow, chains);
+  if (!chains.empty()) {
+    const Emitted emitted = Emission(frame, inflow, number, chains).run();
+    if (ended)
+      release(frame, number);
+    return emitted;
+  }
+  if (!ended && has_entered(scene, inflow.sheet, frame))
+    fail(ExitCode::bad_input,
+         "the inlet{} is gone, so nothing can flow in: no edge of the sheet's border has both ends marked in the array "
+         "\"inlet\"",
+         scene.inflows.size() > 1 ? fmt::format(" of [[inflow]] number {} (from 0)", number) : "");
+  return {};
+}
+
+} // namespace
+
+Emitted emit(Frame& frame, const Scene& scene) {
+  const bool ended = std::ranges::none_of(
+      scene.inflows, [&](const scene::Inflow& inflow) { return scene::in_force(inflow, frame.time); });
   if (frame.find("inlet") == nullptr) {
     if (ended)
       return {};
     fail(ExitCode::bad_input, "the frame does not say where its inlet is (array \"inlet\"): make it with sheet-init");
   }
-  const std::vector<InletChain> chains = find_inlet(frame);
   Emitted result;
-  if (!ended)
-    check_inlet(frame, scene, chains);
-  if (!chains.empty())
-    result = Emission(frame, inflow, chains).run();
-  else if (!ended)
-    fail(ExitCode::bad_input, "the inlet is gone, so nothing can flow in: no edge of the sheet's border has both ends "
-                              "marked in the array \"inlet\"");
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    const Emitted at = emit_at(frame, scene, i);
+    result.volume += at.volume;
+    result.rows += at.rows;
+  }
   if (ended) {
     frame.erase("inlet");
     frame.erase("inlet_origin");
@@ -358,7 +399,9 @@ void EmitStage::emit(Frame& frame) {
   if (!scene.outflows.empty())
     if (const Dropped out = let_out(frame, scene); out.volume > 0)
       log::detail("step {}: {} m^3 left, {} triangles", frame.step, out.volume, out.triangles);
-  if (!scene.inflow)
+  if (const double volume = let_enter(frame, scene); volume > 0)
+    log::detail("step {}: a sheet of {} m^3 enters", frame.step, volume);
+  if (scene.inflows.empty())
     return;
   const Emitted emitted = flow::emit(frame, scene);
   log::detail("step {}: {} m^3 entered, {} new rows of vertices", frame.step, emitted.volume, emitted.rows);

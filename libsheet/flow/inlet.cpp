@@ -120,8 +120,11 @@ void add_strip(const Marked& m, std::span<const Vector3d> origins, InletChain& c
 
 } // namespace
 
-std::vector<InletChain> find_inlet(const Frame& frame) {
-  const auto bits = masks(frame, "inlet");
+std::vector<InletChain> find_inlet(const Frame& frame, std::size_t number) {
+  const auto all = masks(frame, "inlet");
+  std::vector<std::uint64_t> bits(all.begin(), all.end());
+  for (std::uint64_t& b : bits)
+    b = of_inlet(b, number);
   if (std::all_of(bits.begin(), bits.end(), [](std::uint64_t b) { return b == 0; }))
     return {};
   const formats::Array* origin = frame.find("inlet_origin");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The inlet of a frame (arrays inlet and inlet_origin, formats/sheet.md, section 5). Liquid enters at its border, which
-// moves at the inflow's velocity; behind it the sheet is free. Once enough has entered, a strip of it hangs there, two
-// triangles behind each edge of the border, which takes up what enters until there is enough for another row.
+// The inlets of a frame, one for each [inflow] (arrays inlet and inlet_origin, formats/sheet.md, section 5). Liquid
+// enters at its border, which moves at the inflow's velocity; behind it the sheet is free. Once enough has entered, a
+// strip of it hangs there, two triangles behind each edge of the border, which takes up what enters until there is
+// enough for another row.
 //
 //     a' -> b'   border: bits in_inlet and at_inlet_border
 //     |  /  |    strip, or the same with the other diagonal
@@ -30,8 +31,8 @@ struct InletChain {
   [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == border.size() ? 0 : i + 1; }
 };
 
-// All pieces, open ones first, each kind by its first vertex. A strip that is not as drawn above (somebody has remeshed
-// it) is none. Throws Error (bad_input) where the border is no manifold.
-[[nodiscard]] std::vector<InletChain> find_inlet(const formats::Frame& frame);
+// All pieces of inlet `number`, open ones first, each kind by its first vertex. A strip that is not as drawn above
+// (somebody has remeshed it) is none. Throws Error (bad_input) where the border is no manifold.
+[[nodiscard]] std::vector<InletChain> find_inlet(const formats::Frame& frame, std::size_t number);
 
 } // namespace sheet::flow

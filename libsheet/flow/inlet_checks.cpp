@@ -61,8 +61,8 @@ bool moves_along(const scene::Inflow& inflow, std::size_t axis) {
 
 } // namespace
 
-void check_inlet(const Frame& frame, const Scene& scene, std::span<const InletChain> chains) {
-  const scene::Inflow& inflow = *scene.inflow;
+void check_inlet(const Frame& frame, const Scene& scene, const scene::Inflow& inflow,
+                 std::span<const InletChain> chains) {
   for (const InletChain& chain : chains) {
     check_velocity(frame, chain, frame.time, scene::value_at(inflow.velocity, frame.time));
     if (chain.row.empty())

@@ -108,8 +108,10 @@ double until_of(const Scene& scene, const scene::Scales& scales) {
   double until = scales.length && scales.speed > 0 ? 5 * *scales.length / scales.speed : 1;
   for (const scene::Hold& hold : scene.holds)
     until = std::max(until, 1.5 * hold.until.value_or(0));
-  if (scene.inflow)
-    until = std::max(until, 1.5 * scene.inflow->until.value_or(0));
+  for (const scene::Inflow& inflow : scene.inflows)
+    until = std::max(until, 1.5 * inflow.until.value_or(0));
+  for (const scene::SheetTable& sheet : scene.sheets)
+    until = std::max(until, 1.5 * sheet.enters.value_or(0));
   return std::isfinite(until) && until > 0 ? rounded(until) : 1;
 }
 
@@ -128,7 +130,7 @@ Frame checked_first_frame(const Scene& scene) {
   Frame frame = first_frame(scene);
   (void)remesh::Mesh(frame.vertices, triangles(frame));
   StepStage({}).check(frame);
-  if (scene.inflow || !scene.outflows.empty()) {
+  if (flows_in_or_out(scene)) {
     Frame copy = frame;
     flow::EmitStage().emit(copy);
   }

@@ -42,8 +42,9 @@ void RemeshStage::remesh(formats::Frame& frame) {
   check_magnitudes(frame);
   const Scene* scene = frame.find("scene") == nullptr ? nullptr : &scenes_.of(frame);
   if (!options_.edge_length) {
-    options_.remeshing.size.edge_length =
-        scene != nullptr && scene->sheet.edge_length ? *scene->sheet.edge_length : own_edge_length(frame);
+    options_.remeshing.size.edge_length = scene != nullptr && scene->sheets.front().edge_length
+                                              ? *scene->sheets.front().edge_length
+                                              : own_edge_length(frame);
   }
   const std::uint64_t vertices = frame.vertices;
   Stopwatch watch;

@@ -27,8 +27,8 @@ struct RenderOptions {
   double optical_scale = 1;                     // factor on absorption and scattering
   double exposure = 0;                          // [stops]
   std::string environment;                      // image file; "": the studio
-  bool ground = true, solids = true; // whether they are drawn
-  std::optional<Scale> range; // of false colours, in SI; absent: that of the frames
+  bool ground = true, solids = true;            // whether they are drawn
+  std::optional<Scale> range;                   // of false colours, in SI; absent: that of the frames
   double frames_per_second = 24;
 };
 

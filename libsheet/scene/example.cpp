@@ -72,6 +72,9 @@ center = [0, 0, 0]
 rotation = {axis = [0, 1, 0], angle = "0 deg"}
 velocity = [0, 0, 0]
 
+# Several sheets: [[sheet]] in place of [sheet], once for each. name = "lid" lets a [[hold]] and an [inflow] speak of one of
+# them, sheet = "lid"; enters = "2 s" lets it come in at that time (not the first one).
+
 [material] # ------------------------------------------------------------- the liquid
 
 viscosity = "80 Pa*s"           # resists stretching and bending; also "800 P" or "2 cP"

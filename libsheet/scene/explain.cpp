@@ -34,7 +34,7 @@ std::string what_touches(const std::vector<Solid>& solids) {
 }
 
 std::vector<Term> terms_of(const Scene& scene) {
-  const auto& [sheet, material, environment, model, holds, solids, inflow, outflows, tear, contact] = scene;
+  const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, contact] = scene;
   std::vector<Term> terms;
   const auto term = [&](std::string_view name, bool modelled, std::string_view because, std::string_view because_not) {
     terms.push_back({name, modelled, std::string(modelled ? because : because_not)});
@@ -83,10 +83,11 @@ std::vector<Term> terms_of(const Scene& scene) {
   term("solids", !solids.empty(), count(solids.size(), "solid") + "; " + what_touches(solids), "no [[solid]]");
   term("contact", contact && contact->self, "the sheet cannot pass through itself",
        contact ? "[contact] self = false" : "no [contact]: the sheet may pass through itself");
-  term("inflow", inflow.has_value(),
-       inflow ? fmt::format("new liquid, {} m thick, {}", brief(inflow->thickness),
-                            inflow->until ? fmt::format("until {} s", brief(*inflow->until)) : "without end")
-              : "",
+  term("inflow", !inflows.empty(),
+       inflows.size() == 1
+           ? fmt::format("new liquid, {} m thick, {}", brief(inflows[0].thickness),
+                         inflows[0].until ? fmt::format("until {} s", brief(*inflows[0].until)) : "without end")
+           : fmt::format("new liquid at {} borders", inflows.size()),
        "no [inflow]: the volume stays the same");
   term("outflow", !outflows.empty(), count(outflows.size(), "plane") + " beyond which the sheet ends",
        "no [[outflow]]: nothing leaves");
@@ -189,7 +190,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
                                      const std::vector<DimensionlessNumber>& numbers) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
-  const bool carried = !scene.holds.empty() || scene.environment.bath || scene.inflow;
+  const bool carried = !scene.holds.empty() || scene.environment.bath || !scene.inflows.empty();
   for (const auto& number : numbers) {
     if (number.name != "Reynolds")
       continue;
@@ -203,7 +204,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
   if (const auto layer = layer_scales_of(scene, scales); layer && layer->reynolds > 1)
     warn(fmt::format("the Reynolds number of the layer on a solid is {}: drag that acts at once is wrong by its order",
                      brief(layer->reynolds)));
-  if (const auto edge = scene.sheet.edge_length; edge && scales.thickness) {
+  if (const auto edge = scene.sheets.front().edge_length; edge && scales.thickness) {
     const double h = *scales.thickness, locking = std::sqrt(h / scales.curvature);
     if (scene.model.bending && scales.curvature > 0 && *edge > locking)
       warn(fmt::format(

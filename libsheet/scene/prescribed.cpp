@@ -31,9 +31,9 @@ std::vector<Axes> prescribed_axes(const formats::Frame& frame, const Scene& scen
   for (std::size_t v = 0; v < hold.size(); ++v)
     axes[v] = held_axes(scene, hold[v] & counting);
   const auto inlet = masks(frame, "inlet");
-  if (scene.inflow && in_force(*scene.inflow, t))
-    for (std::size_t v = 0; v < inlet.size(); ++v)
-      if ((inlet[v] & in_inlet) != 0)
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i)
+    for (std::size_t v = 0; in_force(scene.inflows[i], t) && v < inlet.size(); ++v)
+      if ((of_inlet(inlet[v], i) & in_inlet) != 0)
         axes[v] = all_axes;
   return axes;
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/read.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "libsheet/base/files.h"
 #include "libsheet/scene/tables.h"
+#include "libsheet/sheet/sheet.h"
 
 namespace sheet::scene {
 namespace {
 
 // [[hold]]s have a bit of 64 each in the array "hold" of a frame.
-constexpr std::size_t most_holds = 64;
+constexpr std::size_t most_holds = 64, most_sheets = 1000;
 
 // What only several tables together can say.
 void check_together(const Scene& scene, const Node& document, Problems& problems) {
@@ -25,7 +27,7 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     const Node* found = document.find(table);
     return found && found->find(key);
   };
-  const auto& [sheet, material, environment, model, holds, solids, inflow, outflows, tear, contact] = scene;
+  const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, contact] = scene;
   if (!has("material", "density") && model.inertia)
     problems.add(place("material", "density"), "missing key \"density\" in [material]: inertia needs it (or switch it "
                                                "off: inertia = false in [model])");
@@ -35,7 +37,7 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     problems.add(place("material", "viscosity"), "viscosity: 0 needs inertia: nothing else would resist the forces");
   if (environment.bath && !environment.gravity && (!has("environment", "gravity") || !problems.any()))
     problems.add(place("environment", "bath"), "bath: needs gravity, which says where up is");
-  const bool flat = sheet.shape.index() <= 2;
+  const bool flat = std::ranges::all_of(sheets, [](const SheetTable& sheet) { return sheet.shape.index() <= 2; });
   const auto* gas = environment.pressure ? std::get_if<GasPressure>(&*environment.pressure) : nullptr;
   const bool without_volume =
       environment.pressure &&
@@ -67,6 +69,23 @@ std::vector<TableReader> tables_of(const Node* node, std::string_view key, std::
   return tables;
 }
 
+// Names are told apart, and one sheet is there from the start. Without tables: one that has every border.
+std::vector<SheetTable> read_sheets(std::span<TableReader> tables, const Environment& environment, const Files& files) {
+  std::vector<SheetTable> sheets;
+  for (TableReader& table : tables) {
+    SheetTable sheet = read_sheet(table, environment, files);
+    const auto same = [&](const SheetTable& other) { return !sheet.name.empty() && other.name == sheet.name; };
+    if (std::ranges::any_of(sheets, same))
+      table.wrong("name", "another [[sheet]] has this name");
+    if (sheets.empty() && sheet.enters)
+      table.wrong("enters", "the first sheet is there from the start");
+    sheets.push_back(std::move(sheet));
+  }
+  if (sheets.empty())
+    sheets.emplace_back().shape = SheetMesh{"", 1};
+  return sheets;
+}
+
 Scene read_document(const Node& document, Problems& problems, const Files& files) {
   static const Node nothing{};
   TableReader top(document, "the scene", problems);
@@ -88,29 +107,36 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
   const auto list = [&](std::string_view key, std::size_t most) {
     return tables_of(top.take(key), key, most, problems);
   };
+  const auto one_or_several = [&](std::string_view key, std::size_t most) -> std::vector<TableReader> {
+    const Node* node = top.take(key);
+    if (node != nullptr && node->type == Node::Type::list)
+      return list(key, most);
+    const auto table = optional(key);
+    return table ? std::vector<TableReader>{*table} : std::vector<TableReader>{};
+  };
 
   Scene scene;
-  const bool has_sheet = required("sheet").has_value(), has_material = required("material").has_value();
+  std::vector<TableReader> sheets = one_or_several("sheet", most_sheets);
+  if (top.absent("sheet"))
+    problems.add({}, "missing table [sheet]");
+  const bool has_sheet = !sheets.empty(), has_material = required("material").has_value();
   if (has_material)
     scene.material = read_material(named("material", *document.find("material")));
   if (auto table = optional("environment"))
     scene.environment = read_environment(*table);
   if (auto table = optional("model"))
     scene.model = read_model(*table);
-  if (has_sheet)
-    scene.sheet = read_sheet(named("sheet", *document.find("sheet")), scene.environment, files);
-  else
-    scene.sheet.shape = SheetMesh{"", 1}; // has every border
+  scene.sheets = read_sheets(sheets, scene.environment, files);
   for (TableReader& table : list("hold", most_holds))
-    scene.holds.push_back(read_hold(table, scene.sheet, scene.model));
+    scene.holds.push_back(read_hold(table, scene.sheets, scene.model));
   for (TableReader& table : list("solid", std::numeric_limits<std::size_t>::max()))
     scene.solids.push_back(read_solid(table, scene.environment, files));
-  if (auto table = optional("inflow"))
-    scene.inflow = read_inflow(*table, scene.sheet);
+  for (TableReader& table : one_or_several("inflow", most_inlets))
+    scene.inflows.push_back(read_inflow(table, scene.sheets));
   for (TableReader& table : list("outflow", std::numeric_limits<std::size_t>::max()))
     scene.outflows.push_back(read_outflow(table));
   if (auto table = optional("tear"))
-    scene.tear = read_tear(*table, scene.sheet);
+    scene.tear = read_tear(*table, scene.sheets);
   if (auto table = optional("contact"))
     scene.contact = read_contact(*table);
   top.finish();

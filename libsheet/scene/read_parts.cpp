@@ -39,6 +39,25 @@ Motion read_motion(TableReader& parent, const Vector3d& center) {
   return motion;
 }
 
+WhichSheet read_which_sheet(TableReader& table, std::span<const SheetTable> sheets, bool any) {
+  const auto name = table.text("sheet");
+  if (!name) {
+    if (sheets.size() > 1 && !any)
+      table.missing("sheet", fmt::format("\"{}\", as there are several", sheets.front().name));
+    return {"", sheets.front()};
+  }
+  const auto found = std::ranges::find(sheets, *name, [](const SheetTable& sheet) { return sheet.name; });
+  if (found != sheets.end() && !name->empty())
+    return {*name, *found};
+  std::string names;
+  for (const SheetTable& sheet : sheets)
+    if (!sheet.name.empty())
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", sheet.name);
+  table.wrong("sheet", names.empty() ? "no [[sheet]] has a name"
+                                     : fmt::format("there is no [[sheet]] \"{}\"; there is {}", *name, names));
+  return {"", sheets.front()};
+}
+
 std::optional<Rotation> read_rotation(TableReader& parent) {
   auto table = parent.table("rotation");
   if (!table)

@@ -234,6 +234,7 @@ Plane horizontal(const Environment& environment) {
 
 SheetTable read_sheet(TableReader table, const Environment& environment, const Files& files) {
   SheetTable sheet;
+  sheet.name = table.text("name").value_or("");
   sheet.shape = read_shape(table, files);
   read_mesh_size(table, sheet);
   const auto plane = table.choice("plane", words::planes);
@@ -243,6 +244,7 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
   sheet.center = table.vector("center", quantity::length).value_or(Vector3d::Zero());
   sheet.rotation = read_rotation(table);
   sheet.velocity = table.vector("velocity", quantity::velocity).value_or(Vector3d::Zero());
+  sheet.enters = table.quantity("enters", quantity::time, Bound::positive);
   table.finish();
   return sheet;
 }

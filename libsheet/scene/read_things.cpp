@@ -151,8 +151,12 @@ void read_contact_with(TableReader& table, Solid& solid) {
 
 } // namespace
 
-Hold read_hold(TableReader table, const SheetTable& sheet, const Model& model) {
+Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Model& model) {
   Hold hold;
+  const Node* region = table.take("region");
+  const bool in_space = region != nullptr && region->type == Node::Type::table;
+  const auto [name, sheet] = read_which_sheet(table, sheets, in_space);
+  hold.sheet = name;
   hold.region = read_region(table, sheet).value_or(Border::rim);
   hold.clamped = table.choice("kind", words::holds).value_or(0) == 1;
   hold.axes = read_axes(table);
@@ -202,8 +206,10 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
   return solid;
 }
 
-Inflow read_inflow(TableReader table, const SheetTable& sheet) {
+Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets) {
   Inflow inflow;
+  const auto [name, sheet] = read_which_sheet(table, sheets, false);
+  inflow.sheet = name;
   if (table.absent("region"))
     table.missing("region", "\"y_max\"");
   const auto region = read_border(table, "region", sheet);
@@ -236,13 +242,15 @@ Outflow read_outflow(TableReader table) {
   return outflow;
 }
 
-Tear read_tear(TableReader table, const SheetTable& sheet) {
+Tear read_tear(TableReader table, std::span<const SheetTable> sheets) {
   Tear tear;
   tear.below = table.required("below", quantity::length);
-  const double* uniform = std::get_if<double>(&sheet.thickness);
-  if (uniform && tear.below >= *uniform)
-    table.wrong("below", fmt::format("the whole sheet would tear at once: {} m is not less than its thickness {} m",
-                                     shortest(tear.below), shortest(*uniform)));
+  for (const SheetTable& sheet : sheets)
+    if (const double* uniform = std::get_if<double>(&sheet.thickness); uniform && tear.below >= *uniform) {
+      table.wrong("below", fmt::format("the whole sheet would tear at once: {} m is not less than its thickness {} m",
+                                       shortest(tear.below), shortest(*uniform)));
+      break;
+    }
   tear.drop_crumbs = table.choice("crumbs", words::crumbs).value_or(0) == 1;
   table.finish();
   return tear;

@@ -9,8 +9,10 @@ std::vector<RingStage> ring_of(const Scene& scene) {
   std::vector<RingStage> stages{{"sheet-remesh --smooth", ""}};
   if (scene.tear)
     stages.push_back({"sheet-tear", "[tear] parts nothing"});
-  if (scene.inflow || !scene.outflows.empty())
-    stages.push_back({"sheet-emit", scene.inflow ? "[inflow] lets nothing in" : "[[outflow]] lets nothing out"});
+  if (flows_in_or_out(scene))
+    stages.push_back({"sheet-emit", !scene.inflows.empty()    ? "[inflow] lets nothing in"
+                                    : !scene.outflows.empty() ? "[[outflow]] lets nothing out"
+                                                              : "no [[sheet]] enters"});
   stages.push_back({"sheet-step", "nothing moves"});
   const bool self = scene.contact && scene.contact->self;
   if (!scene.solids.empty() || self)

@@ -60,20 +60,22 @@ void offer_forces(Scales& scales, const Scene& scene) {
 
 Scales scales_of(const Scene& scene, const Measured& measured) {
   Scales scales;
-  const auto size = size_of(scene.sheet.shape);
-  const auto* uniform = std::get_if<double>(&scene.sheet.thickness);
+  const SheetTable& sheet = scene.sheets.front();
+  const auto size = size_of(sheet.shape);
+  const auto* uniform = std::get_if<double>(&sheet.thickness);
   scales.length = size ? std::optional(size->length) : measured.length;
   scales.thickness = uniform ? std::optional(*uniform) : measured.thickness;
-  scales.curvature = size ? curvature_of(scene.sheet.shape) : measured.curvature.value_or(0);
+  scales.curvature = size ? curvature_of(sheet.shape) : measured.curvature.value_or(0);
   if (scene.environment.gravity)
     scales.gravity = scene.environment.gravity->norm();
   if (scene.environment.pressure)
     scales.pressure = stated(*scene.environment.pressure);
 
-  if (scene.inflow)
-    for (const auto& entry : scene.inflow->velocity.entries)
+  for (const Inflow& inflow : scene.inflows)
+    for (const auto& entry : inflow.velocity.entries)
       offer(scales, entry.value.norm(), "inflow");
-  offer(scales, scene.sheet.velocity.norm(), "the sheet's velocity at the start");
+  for (const SheetTable& each : scene.sheets)
+    offer(scales, each.velocity.norm(), "the sheet's velocity at the start");
   for (const Hold& hold : scene.holds)
     offer(scales, hold.motion, "a moving hold");
   for (const Solid& solid : scene.solids) {

@@ -65,6 +65,16 @@ std::optional<ShapeSize> size_of(const SheetShape& shape) {
   return std::visit([](const auto& s) { return size(s); }, shape);
 }
 
+bool flows_in_or_out(const Scene& scene) {
+  return !scene.inflows.empty() || !scene.outflows.empty() ||
+         std::ranges::any_of(scene.sheets, [](const SheetTable& sheet) { return sheet.enters.has_value(); });
+}
+
+const SheetTable& sheet_named(const Scene& scene, const std::string& name) {
+  return name.empty() ? scene.sheets.front()
+                      : *std::ranges::find(scene.sheets, name, [](const SheetTable& sheet) { return sheet.name; });
+}
+
 std::vector<Border> borders_of(const SheetTable& sheet) {
   return std::visit([&](const auto& s) { return borders(s, axes_of(sheet.plane)); }, sheet.shape);
 }

@@ -101,6 +101,7 @@ struct Perturbation {
 };
 
 struct SheetTable {
+  std::string name; // by which holds and inflows speak of it; "": none
   SheetShape shape = Rectangle{1, 1};
   std::optional<double> edge_length; // [m]; generated shapes have either this or segments, meshes neither
   std::optional<std::array<int, 2>>
@@ -113,6 +114,7 @@ struct SheetTable {
   Vector3d center = Vector3d::Zero(); // of the shape (cap: of its sphere; mesh: where the file's origin goes)
   std::optional<Rotation> rotation;
   Vector3d velocity = Vector3d::Zero(); // at the start
+  std::optional<double> enters;         // it is there from this time on [s]; absent: from the start
   bool operator==(const SheetTable&) const = default;
 };
 
@@ -197,6 +199,7 @@ struct SphereRegion {
 using Region = std::variant<Border, BoxRegion, SphereRegion>;
 
 struct Hold {
+  std::string sheet; // whose vertices; "": of all that there are
   Region region = Border::rim;
   bool clamped = false; // position and slope; else position only
   Axes axes = all_axes; // the coordinates that are held
@@ -254,6 +257,7 @@ struct Solid {
 // New liquid enters at this border; what has entered moves at `velocity` as long as it is at the inlet. A velocity that
 // is not perpendicular to the border gives a slanted curtain.
 struct Inflow {
+  std::string sheet; // whose border; "": of the only one
   Border region = Border::y_max;
   Timed<Vector3d> velocity; // [m/s]
   double thickness = 0;     // [m]
@@ -283,18 +287,21 @@ struct Contact {
 };
 
 struct Scene {
-  SheetTable sheet;
+  std::vector<SheetTable> sheets = {SheetTable{}}; // at least one; the first is there from the start
   Material material;
   Environment environment;
   Model model;
   std::vector<Hold> holds;
   std::vector<Solid> solids;
-  std::optional<Inflow> inflow;
+  std::vector<Inflow> inflows;
   std::vector<Outflow> outflows;
   std::optional<Tear> tear;
   std::optional<Contact> contact;
   bool operator==(const Scene&) const = default;
 };
+
+// The sheet of this name, or the first one for "". Precondition: there is one.
+[[nodiscard]] const SheetTable& sheet_named(const Scene& scene, const std::string& name);
 
 // Figures of a generated shape, at the start; a mesh has none here.
 struct ShapeSize {
@@ -316,13 +323,18 @@ struct PlaneAxes {
 // Whether liquid that touches flows or slips along any of the scene's solids.
 [[nodiscard]] bool flows_on_solids(const Scene& scene);
 
+// Whether liquid enters or leaves: what sheet-emit does.
+[[nodiscard]] bool flows_in_or_out(const Scene& scene);
+
 // Up: against gravity; nothing without gravity.
 [[nodiscard]] std::optional<Vector3d> up(const Environment& environment);
 
 } // namespace sheet::scene
 
 namespace sheet {
+using scene::flows_in_or_out;
 using scene::flows_on_solids;
 using scene::Scene;
+using scene::sheet_named;
 using scene::SolidContact;
 } // namespace sheet

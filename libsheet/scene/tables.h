@@ -2,6 +2,7 @@
 // One function a table of the scene file, for read.cpp. Each reports what is wrong and returns what it could read.
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,17 +21,25 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
 Material read_material(TableReader table);
 Environment read_environment(TableReader table);
 Model read_model(TableReader table);
-Hold read_hold(TableReader table, const SheetTable& sheet, const Model& model);
+// `sheets`: those of the scene, at least one.
+Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Model& model);
 Solid read_solid(TableReader table, const Environment& environment, const Files& files);
-Inflow read_inflow(TableReader table, const SheetTable& sheet);
+Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets);
 Outflow read_outflow(TableReader table);
-Tear read_tear(TableReader table, const SheetTable& sheet);
+Tear read_tear(TableReader table, std::span<const SheetTable> sheets);
 Contact read_contact(TableReader table);
 
 // Parts that several tables have.
 Motion read_motion(TableReader& parent, const Vector3d& center);
 std::optional<Rotation> read_rotation(TableReader& parent);
 std::string read_file(TableReader& table, const Files& files, std::span<const std::string_view> extensions);
+// The sheet that the key "sheet" names, and its name. Without the key: none, if that is enough (`any`), or the only
+// one.
+struct WhichSheet {
+  std::string name;
+  const SheetTable& sheet;
+};
+WhichSheet read_which_sheet(TableReader& table, std::span<const SheetTable> sheets, bool any);
 // A border by its name; reports one that the sheet does not have.
 std::optional<Border> read_border(TableReader& table, std::string_view key, const SheetTable& sheet);
 

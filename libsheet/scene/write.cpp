@@ -90,8 +90,10 @@ void write_perturbations(Writer& out, const SheetTable& sheet) {
   out.line("perturbation", "[" + tables + "]");
 }
 
-void write_sheet(Writer& out, const SheetTable& sheet) {
-  out.open("[sheet]");
+void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) {
+  out.open(header);
+  if (!sheet.name.empty())
+    out.line("name", toml_text(sheet.name));
   out.line("shape", word(words::sheet_shapes, sheet.shape.index()));
   std::visit(Overloaded{[&](const Rectangle& s) {
                           out.line("size", fmt::format("[{}, {}]", number(s.size_first), number(s.size_second)));
@@ -136,6 +138,7 @@ void write_sheet(Writer& out, const SheetTable& sheet) {
   out.line_unless_zero("center", sheet.center);
   write_rotation(out, sheet.rotation);
   out.line_unless_zero("velocity", sheet.velocity);
+  out.line("enters", sheet.enters);
 }
 
 void write_environment(Writer& out, const Environment& environment) {
@@ -168,6 +171,8 @@ void write_environment(Writer& out, const Environment& environment) {
 
 void write_hold(Writer& out, const Hold& hold) {
   out.open("[[hold]]");
+  if (!hold.sheet.empty())
+    out.line("sheet", toml_text(hold.sheet));
   out.line("region", std::visit(Overloaded{[](Border border) { return word(words::borders, border); },
                                            [](const BoxRegion& box) {
                                              return fmt::format("{{box = [{}, {}]}}", list(box.low), list(box.high));
@@ -230,7 +235,9 @@ void write_solid(Writer& out, const Solid& solid) {
 
 std::string to_toml(const Scene& scene) {
   Writer out;
-  write_sheet(out, scene.sheet);
+  const bool several = scene.sheets.size() > 1;
+  for (const SheetTable& sheet : scene.sheets)
+    write_sheet(out, sheet, several ? "[[sheet]]" : "[sheet]");
   out.open("[material]");
   out.line("viscosity", scene.material.viscosity);
   if (scene.material.density > 0)
@@ -247,12 +254,14 @@ std::string to_toml(const Scene& scene) {
     write_hold(out, hold);
   for (const Solid& solid : scene.solids)
     write_solid(out, solid);
-  if (const auto& inflow = scene.inflow) {
-    out.open("[inflow]");
-    out.line("region", word(words::borders, inflow->region));
-    out.line("velocity", timed(inflow->velocity));
-    out.line("thickness", inflow->thickness);
-    out.line("until", inflow->until);
+  for (const Inflow& inflow : scene.inflows) {
+    out.open(scene.inflows.size() > 1 ? "[[inflow]]" : "[inflow]");
+    if (!inflow.sheet.empty())
+      out.line("sheet", toml_text(inflow.sheet));
+    out.line("region", word(words::borders, inflow.region));
+    out.line("velocity", timed(inflow.velocity));
+    out.line("thickness", inflow.thickness);
+    out.line("until", inflow.until);
   }
   for (const Outflow& outflow : scene.outflows) {
     out.open("[[outflow]]");

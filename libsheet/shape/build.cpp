@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/build.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +16,7 @@
 #include "libsheet/shape/random.h"
 #include "libsheet/shape/regions.h"
 #include "libsheet/shape/shapes.h"
+#include "libsheet/sheet/append.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -138,20 +140,30 @@ std::string_view name_of(scene::Border border) {
   return names[static_cast<std::size_t>(border)];
 }
 
-// Marks the border where liquid enters, and where it is now.
-void add_inlet(const TriangleMesh& mesh, const VertexSet& inlet, formats::Frame& frame) {
-  const auto bits = put_masks(frame, "inlet");
-  for (const std::uint32_t v : inlet)
-    bits[v] = in_inlet | at_inlet_border;
+// The borders where liquid enters.
+std::vector<std::uint64_t> inlets_of(const TriangleMesh& mesh, const Scene& scene, const scene::SheetTable& table) {
+  std::vector<std::uint64_t> bits(mesh.positions.size());
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i)
+    if (&sheet_named(scene, scene.inflows[i].sheet) == &table)
+      for (const std::uint32_t v : named_region(mesh, name_of(scene.inflows[i].region)))
+        bits[v] |= (in_inlet | at_inlet_border) << (bits_of_an_inlet * i);
+  return bits;
+}
+
+// Where the inlets are.
+void put_inlets(const TriangleMesh& mesh, std::span<const std::uint64_t> inlets, formats::Frame& frame) {
+  std::ranges::copy(inlets, put_masks(frame, "inlet").begin());
   formats::Array& origins = frame.put(formats::make_standard_array("inlet_origin", frame.vertices));
   std::copy(mesh.positions.begin(), mesh.positions.end(), origins.values<Vector3d>().begin());
 }
 
-// Bits of all holds whose region is a named border (borders of the undisturbed shape), or all others.
-void add_holds(const TriangleMesh& mesh, const std::vector<scene::Hold>& table, bool borders,
+// Bits of all holds of a sheet whose region is a named border (borders of the undisturbed shape), or all others.
+void add_holds(const TriangleMesh& mesh, const Scene& scene, const scene::SheetTable& sheet, bool borders,
                std::vector<std::uint64_t>& bits) {
+  const std::vector<scene::Hold>& table = scene.holds;
   for (std::size_t i = 0; i < table.size(); ++i) {
-    if (std::holds_alternative<scene::Border>(table[i].region) != borders)
+    if (std::holds_alternative<scene::Border>(table[i].region) != borders ||
+        (!table[i].sheet.empty() && table[i].sheet != sheet.name))
       continue;
     const VertexSet held =
         std::visit(Overloaded{
@@ -160,8 +172,6 @@ void add_holds(const TriangleMesh& mesh, const std::vector<scene::Hold>& table, 
                        [&](const scene::SphereRegion& s) { return in_sphere(mesh, s.center, s.radius); },
                    },
                    table[i].region);
-    if (held.empty() && !table[i].roll)
-      fail(ExitCode::bad_input, "[[hold]] number {} (from 0): no vertex lies in its region", i);
     for (const std::uint32_t v : held)
       bits[v] |= std::uint64_t{1} << i;
   }
@@ -169,18 +179,18 @@ void add_holds(const TriangleMesh& mesh, const std::vector<scene::Hold>& table, 
 
 } // namespace
 
-formats::Frame build_frame(const Scene& scene) {
-  const scene::SheetTable& table = scene.sheet;
+formats::Frame build_sheet(const Scene& scene, std::size_t number) {
+  const scene::SheetTable& table = scene.sheets[number];
   TriangleMesh mesh = local_mesh(table);
   if (!std::holds_alternative<scene::SheetMesh>(table.shape)) // a file's coordinates are taken as they are
     place_mesh(mesh, {plane_of(table.plane), Eigen::Matrix3d::Identity(), Vector3d::Zero()});
   std::vector<std::uint64_t> holds(mesh.positions.size());
-  add_holds(mesh, scene.holds, true, holds);
-  const VertexSet inlet = scene.inflow ? named_region(mesh, name_of(scene.inflow->region)) : VertexSet();
+  add_holds(mesh, scene, table, true, holds);
+  const std::vector<std::uint64_t> inlets = inlets_of(mesh, scene, table);
   const std::vector<double> h = thicknesses(mesh, table);
   perturb_positions(mesh, table);
   place_mesh(mesh, {Plane::xy, scene::matrix(table.rotation), table.center});
-  add_holds(mesh, scene.holds, false, holds);
+  add_holds(mesh, scene, table, false, holds);
 
   std::vector<double> volumes(h.size());
   for (std::size_t t = 0; t < h.size(); ++t) {
@@ -199,8 +209,28 @@ formats::Frame build_frame(const Scene& scene) {
   }
   if (!scene.holds.empty())
     std::copy(holds.begin(), holds.end(), put_masks(frame, "hold").begin());
-  if (scene.inflow)
-    add_inlet(mesh, inlet, frame);
+  if (!scene.inflows.empty())
+    put_inlets(mesh, inlets, frame);
+  return frame;
+}
+
+formats::Frame build_frame(const Scene& scene) {
+  formats::Frame frame = build_sheet(scene, 0);
+  std::uint64_t held = 0; // bits of any vertex
+  const auto note_holds = [&](const formats::Frame& sheet) {
+    for (const std::uint64_t bits : sheet::holds(sheet))
+      held |= bits;
+  };
+  note_holds(frame);
+  for (std::size_t i = 1; i < scene.sheets.size(); ++i) {
+    const formats::Frame sheet = build_sheet(scene, i);
+    note_holds(sheet);
+    if (!scene.sheets[i].enters)
+      append(sheet, frame);
+  }
+  for (std::size_t i = 0; i < scene.holds.size(); ++i)
+    if ((held >> i & 1) == 0 && !scene.holds[i].roll)
+      fail(ExitCode::bad_input, "[[hold]] number {} (from 0): no vertex lies in its region", i);
   frame.put_text("scene", to_toml(scene));
   return frame;
 }

@@ -11,4 +11,7 @@ namespace sheet {
 // read.
 [[nodiscard]] formats::Frame build_frame(const Scene& scene);
 
+// The scene's sheet `number` alone, without the scene's text. Errors as above.
+[[nodiscard]] formats::Frame build_sheet(const Scene& scene, std::size_t number);
+
 } // namespace sheet

@@ -40,9 +40,14 @@ inline constexpr std::int32_t no_solid = -1;
 // Adds or replaces it; `touch` has a solid or no_solid for each vertex.
 void put_touched_solids(formats::Frame& frame, std::span<const std::int32_t> touch, std::size_t solids);
 
-// Bits of the array inlet.
+// Bits of the array inlet, of the first inlet; the next ones have the bits above them.
 inline constexpr std::uint64_t in_inlet = 1;        // moves at the inflow's velocity
 inline constexpr std::uint64_t at_inlet_border = 2; // where liquid enters
+inline constexpr std::size_t bits_of_an_inlet = 3, most_inlets = 21;
+// Those of inlet i alone, as if it were the first.
+[[nodiscard]] inline std::uint64_t of_inlet(std::uint64_t bits, std::size_t i) {
+  return bits >> (bits_of_an_inlet * i) & ((std::uint64_t{1} << bits_of_an_inlet) - 1);
+}
 
 // Adds or replaces a float64 array of one row at place frame: a standard one, or one of the caller's.
 void put_number(formats::Frame& frame, std::string_view name, double value);

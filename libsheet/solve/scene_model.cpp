@@ -130,20 +130,24 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
   return any;
 }
 
-// What is in the inlet moves at the inflow's velocity, and does not turn.
-void add_inlet(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
+// What is in an inlet moves at its inflow's velocity, and does not turn.
+void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
   const auto masks = sheet::masks(frame, "inlet");
-  if (!scene.inflow || !in_force(*scene.inflow, frame.time))
-    return;
-  Hold hold;
-  hold.vertices = with_bit(masks, 0);
-  if (hold.vertices.empty())
-    return;
-  for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
-    if ((masks[mesh.edges[e][0]] & masks[mesh.edges[e][1]] & in_inlet) != 0)
-      hold.clamped_edges.push_back(e);
-  move(hold, scene::Translating{scene.inflow->velocity});
-  model.holds.push_back(std::move(hold));
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    if (!in_force(scene.inflows[i], frame.time))
+      continue;
+    Hold hold;
+    for (std::uint32_t v = 0; v < masks.size(); ++v)
+      if ((of_inlet(masks[v], i) & in_inlet) != 0)
+        hold.vertices.push_back(v);
+    if (hold.vertices.empty())
+      continue;
+    for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
+      if ((of_inlet(masks[mesh.edges[e][0]] & masks[mesh.edges[e][1]], i) & in_inlet) != 0)
+        hold.clamped_edges.push_back(e);
+    move(hold, scene::Translating{scene.inflows[i].velocity});
+    model.holds.push_back(std::move(hold));
+  }
 }
 
 } // namespace
@@ -225,7 +229,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   const bool touching = add_touching(scene, frame, mesh, solids,
                                      model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
-  add_inlet(scene, frame, mesh, model);
+  add_inlets(scene, frame, mesh, model);
   model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
   model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
   model.reactions =
@@ -258,11 +262,14 @@ double next_event(const Scene& scene, double t) {
   }
   for (const scene::Solid& solid : scene.solids)
     consider_motion(solid.motion);
-  if (scene.inflow) {
-    consider_motion(scene::Translating{scene.inflow->velocity});
-    if (scene.inflow->until)
-      consider(*scene.inflow->until);
+  for (const scene::Inflow& inflow : scene.inflows) {
+    consider_motion(scene::Translating{inflow.velocity});
+    if (inflow.until)
+      consider(*inflow.until);
   }
+  for (const scene::SheetTable& sheet : scene.sheets)
+    if (sheet.enters)
+      consider(*sheet.enters);
   return next;
 }
 

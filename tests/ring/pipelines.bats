@@ -139,6 +139,10 @@ END
   interrupted INT bottle bottle 0.006 0.08 0.03
 }
 
+@test "coating: killed while a second sheet is there, and resumed = straight" {
+  interrupted KILL coating coating 0.006 0.24 0.05
+}
+
 @test "film-casting: killed and resumed = straight" {
   interrupted KILL free film-casting 0.02 1 0.5
 }

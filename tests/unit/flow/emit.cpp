@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/flow/emit.h"
+#include "libsheet/flow/entering.h"
 #include "libsheet/flow/inlet.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/remesh/remesh.h"
+#include "libsheet/shape/build.h"
 #include "libsheet/sheet/transfer.h"
 #include "tests/unit/remesh/sheets.h"
 
@@ -71,7 +73,7 @@ Frame tube(std::uint32_t around) {
 
 // The whole sheet moves with what is in the inlet.
 void move(Frame& frame, const Scene& scene, double dt) {
-  const Vector3 way = scene::integral(scene.inflow->velocity, frame.time, frame.time + dt);
+  const Vector3 way = scene::integral(scene.inflows[0].velocity, frame.time, frame.time + dt);
   for (Vector3& x : positions(frame))
     x += way;
   frame.time += dt;
@@ -199,7 +201,7 @@ TEST(Emit, ClosedTubeStraightAndSlanted) {
       Frame frame = tube(around);
       const double start = volume_of(frame);
       double width = 0; // of each edge, across the velocity, per speed
-      const Vector3 v = scene.inflow->velocity.entries[0].value;
+      const Vector3 v = scene.inflows[0].velocity.entries[0].value;
       for (std::uint32_t i = 0; i < around; ++i)
         width += (positions(frame)[(i + 1) % around] - positions(frame)[i]).cross(v).norm();
       for (int i = 0; i < 60; ++i) {
@@ -452,6 +454,59 @@ TEST(Emit, HugeStepsAreRefusedNotTried) {
   Frame frame = curtain();
   move(frame, scene, 1);
   EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("smaller steps"));
+}
+
+// Two inlets with their own velocities, one of which ends, and a sheet that enters: each is as it would be alone, one
+// behind the other in the frame.
+TEST(Emit, SeveralInletsAndSheets) {
+  const std::string left = "shape = \"rectangle\"\nsize = [4, 2]\nsegments = [4, 2]\npattern = \"structured\"\n"
+                           "thickness = 0.25\n",
+                    right = left + "center = [10, 0, 0]\n", late = left + "center = [20, 0, 0]\nenters = 1.5\n",
+                    liquid = "[material]\nviscosity = 1\ndensity = 1\n";
+  const Scene both = parse_scene("[[sheet]]\nname = \"a\"\n" + left + "[[sheet]]\nname = \"b\"\n" + right +
+                                     "[[sheet]]\nname = \"c\"\n" + late + liquid +
+                                     "[[inflow]]\nsheet = \"a\"\nregion = \"z_max\"\nvelocity = [0, 0, -1]\nuntil = 2\n"
+                                     "[[inflow]]\nsheet = \"b\"\nregion = \"z_max\"\nvelocity = [0, 0, -2]\n",
+                                 "scene");
+  const Scene one = parse_scene(
+      "[sheet]\n" + left + liquid + "[inflow]\nregion = \"z_max\"\nvelocity = [0, 0, -1]\nuntil = 2\n", "scene");
+  const Scene other =
+      parse_scene("[sheet]\n" + right + liquid + "[inflow]\nregion = \"z_max\"\nvelocity = [0, 0, -2]\n", "scene");
+  Frame all = build_frame(both), a = build_frame(one), b = build_frame(other);
+  EXPECT_EQ(all.vertices, a.vertices + b.vertices);
+  EXPECT_EQ(positions(all)[a.vertices], positions(b)[0]);
+  const std::size_t at_start = all.vertices;
+  double entered_late = 0;
+  for (int k = 1; k <= 10; ++k) {
+    const double dt = 0.3;
+    const auto x = positions(all);
+    // As the solver would move them: what belongs to b, then the rest (c rests).
+    for (std::size_t v = 0; v < all.vertices; ++v)
+      if (std::abs(x[v].x()) < 15)
+        x[v].z() -= (x[v].x() > 5 ? 2 : 1) * dt;
+    for (Vector3& y : positions(a))
+      y.z() -= dt;
+    for (Vector3& y : positions(b))
+      y.z() -= 2 * dt;
+    all.time = a.time = b.time = k * dt;
+    entered_late += let_enter(all, both);
+    emit(all, both);
+    emit(a, one);
+    emit(b, other);
+    EXPECT_EQ(entered_late > 0, all.time >= 1.5);
+  }
+  EXPECT_GT(a.vertices, 20U);
+  EXPECT_EQ(all.vertices, a.vertices + b.vertices + 15);
+  EXPECT_GT(all.vertices, at_start);
+  EXPECT_NEAR(volume_of(all), volume_of(a) + volume_of(b) + 2, 1e-12);
+  EXPECT_NEAR(account(all), account(a) + account(b) + 2, 1e-12);
+  EXPECT_EQ(number(all, "entered", 0), 1);
+  EXPECT_NE(all.find("inlet"), nullptr); // b's
+  const auto inlet = masks(all, "inlet");
+  for (std::size_t v = 0; v < inlet.size(); ++v)
+    EXPECT_EQ(of_inlet(inlet[v], 0), 0U); // a's is released
+  EXPECT_EQ(formats::find_value_error(all), "");
+  EXPECT_EQ(a.find("inlet"), nullptr);
 }
 
 } // namespace

@@ -16,18 +16,18 @@ namespace {
 
 TEST(Read, EveryTable) {
   const Scene s = parse_scene(everything, "s", {}, "scenes");
-  const auto& annulus = std::get<Annulus>(s.sheet.shape);
+  const auto& annulus = std::get<Annulus>(s.sheets[0].shape);
   EXPECT_EQ(annulus.inner_radius, 0.1);
   EXPECT_EQ(annulus.outer_radius, 0.25);
-  EXPECT_EQ(s.sheet.edge_length, 0.01);
-  EXPECT_EQ(s.sheet.seed, 3);
-  EXPECT_EQ(std::get<double>(s.sheet.thickness), 0.002);
-  ASSERT_EQ(s.sheet.perturbations.size(), 2U);
-  EXPECT_EQ(std::get<Wave>(s.sheet.perturbations[0].form), (Wave{0.075, 0, WaveDirection::radial}));
-  EXPECT_TRUE(s.sheet.perturbations[1].of_thickness);
-  EXPECT_EQ(std::get<Noise>(s.sheet.perturbations[1].form).seed, 7);
-  EXPECT_EQ(s.sheet.rotation->angle, std::numbers::pi / 4);
-  EXPECT_EQ(s.sheet.velocity, Vector3d(0, -1, 0));
+  EXPECT_EQ(s.sheets[0].edge_length, 0.01);
+  EXPECT_EQ(s.sheets[0].seed, 3);
+  EXPECT_EQ(std::get<double>(s.sheets[0].thickness), 0.002);
+  ASSERT_EQ(s.sheets[0].perturbations.size(), 2U);
+  EXPECT_EQ(std::get<Wave>(s.sheets[0].perturbations[0].form), (Wave{0.075, 0, WaveDirection::radial}));
+  EXPECT_TRUE(s.sheets[0].perturbations[1].of_thickness);
+  EXPECT_EQ(std::get<Noise>(s.sheets[0].perturbations[1].form).seed, 7);
+  EXPECT_EQ(s.sheets[0].rotation->angle, std::numbers::pi / 4);
+  EXPECT_EQ(s.sheets[0].velocity, Vector3d(0, -1, 0));
   EXPECT_EQ(s.material, (Material{100, 978, 0.0728}));
   EXPECT_EQ(*s.environment.gravity, Vector3d(0, -9.81, 0));
   EXPECT_EQ(std::get<ConstantPressure>(*s.environment.pressure).value, 10);
@@ -46,7 +46,7 @@ TEST(Read, EveryTable) {
   EXPECT_EQ(mesh.file, "scenes/meshes/b.off");
   EXPECT_EQ(std::get<Rotating>(s.solids[0].motion).center, Vector3d(0, -1, 0)); // the solid's
   EXPECT_EQ(std::get<HalfSpace>(s.solids[1].shape).normal, Vector3d(0, 1, 0));  // against gravity
-  EXPECT_EQ(s.inflow->thickness, 0.002);                                        // the sheet's
+  EXPECT_EQ(s.inflows[0].thickness, 0.002);                                     // the sheet's
   EXPECT_EQ(s.tear, (Tear{0.0008, true}));
   EXPECT_EQ(s.contact->stiffness, 1.5);
 }
@@ -56,15 +56,15 @@ TEST(Read, WhatIsAbsentIsNotThere) {
   EXPECT_EQ(s.environment, Environment{});
   EXPECT_TRUE(s.model.inertia && s.model.bending);
   EXPECT_TRUE(s.holds.empty() && s.solids.empty());
-  EXPECT_FALSE(s.inflow || s.tear || s.contact);
-  EXPECT_EQ(s.sheet.plane, Plane::xz);
-  EXPECT_EQ(s.sheet.pattern, Pattern::irregular);
+  EXPECT_FALSE(!s.inflows.empty() || s.tear || s.contact);
+  EXPECT_EQ(s.sheets[0].plane, Plane::xz);
+  EXPECT_EQ(s.sheets[0].pattern, Pattern::irregular);
   EXPECT_FALSE(parse_scene(disk + liquid + "[environment]\ngravity = [0, 0, 0]\n", "s").environment.gravity);
 }
 
 TEST(Read, HorizontalIsWhatGravitySays) {
   const auto plane = [](const std::string& gravity) {
-    return parse_scene(disk + liquid + "[environment]\ngravity = " + gravity, "s").sheet.plane;
+    return parse_scene(disk + liquid + "[environment]\ngravity = " + gravity, "s").sheets[0].plane;
   };
   EXPECT_EQ(plane("[0, 0, -9.81]"), Plane::xy);
   EXPECT_EQ(plane("[9.81, 0, 1]"), Plane::yz);
@@ -217,6 +217,7 @@ TEST(Read, ProblemsOfTheOtherTables) {
            {"[model]\ninertia = 1", "s:10:11: inertia: expected true or false, got a number"},
            {"[model]\nbending = false\n[[hold]]\nregion = \"rim\"\nkind = \"clamped\"",
             "s:13:8: kind: a clamped hold needs bending, which [model] switches off; use \"pinned\""},
+           {"[[hold]]\nregion = \"rim\"\nsheet = \"lid\"", "s:11:9: sheet: no [[sheet]] has a name"},
            {"[[hold]]", "s:9:1: missing key \"region\" in [[hold]], such as region = \"rim\""},
            {"[hold]\nregion = \"rim\"", "s:9:1: hold: expected tables [[hold]], got a table"},
            {"[[hold]]\nregion = \"inner_rim\"",
@@ -370,6 +371,67 @@ TEST_F(ReadFile, UnreadableFiles) {
       EXPECT_EQ(error.code(), ExitCode::io);
       EXPECT_STREQ(error.what(), message);
     }
+}
+
+// Several sheets and inlets, named; borders belong to one of them.
+constexpr const char* two_sheets = R"([[sheet]]
+name = "left"
+shape = "rectangle"
+size = [1, 1]
+segments = [2, 2]
+pattern = "structured"
+thickness = 0.01
+[[sheet]]
+name = "right"
+shape = "disk"
+radius = 1
+edge_length = 0.5
+thickness = 0.02
+enters = "2 s"
+[material]
+viscosity = 1
+density = 1
+)";
+
+TEST(Read, SeveralSheets) {
+  const Scene s = parse_scene(std::string(two_sheets) + R"([[hold]]
+region = {sphere = {center = [0, 0, 0], radius = 1}}
+[[hold]]
+sheet = "right"
+region = "rim"
+[[inflow]]
+sheet = "left"
+region = "x_min"
+velocity = [1, 0, 0]
+[[inflow]]
+sheet = "left"
+region = "x_max"
+velocity = [-1, 0, 0]
+until = 3
+)",
+                              "s");
+  ASSERT_EQ(s.sheets.size(), 2U);
+  EXPECT_EQ(s.sheets[1].name, "right");
+  EXPECT_EQ(s.sheets[1].enters, 2);
+  EXPECT_EQ(s.holds[0].sheet, "");
+  EXPECT_EQ(s.holds[1].sheet, "right");
+  ASSERT_EQ(s.inflows.size(), 2U);
+  EXPECT_EQ(s.inflows[1].sheet, "left");
+  EXPECT_EQ(s.inflows[1].thickness, 0.01);
+}
+
+TEST(Read, ProblemsOfSeveralSheets) {
+  for (const auto& [text, expected] : std::vector<Case>{
+           {"[[hold]]\nregion = \"rim\"",
+            "s:18:1: missing key \"sheet\" in [[hold]], such as sheet = \"left\", as there are "
+            "several"},
+           {"[[hold]]\nregion = \"x_min\"\nsheet = \"right\"",
+            "s:19:10: region: this sheet has no \"x_min\"; it has rim, outer_rim"},
+           {"[inflow]\nregion = \"x_min\"\nvelocity = [0, 1, 0]\nsheet = \"middle\"",
+            "s:21:9: sheet: there is no [[sheet]] \"middle\"; there is \"left\", \"right\""},
+           {"[[sheet]]\nname = \"left\"\nshape = \"sphere\"\nradius = 1\nedge_length = 0.1\nthickness = 0.1",
+            "s:19:8: name: another [[sheet]] has this name"}})
+    EXPECT_EQ(problem(two_sheets + text), expected) << text;
 }
 
 } // namespace

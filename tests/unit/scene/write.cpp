@@ -103,7 +103,7 @@ public:
 
   Scene make() {
     Scene s;
-    SheetTable& sheet = s.sheet;
+    SheetTable& sheet = s.sheets[0];
     sheet.plane = pick<Plane>(3);
     sheet.thickness = positive();
     const int shape = below(7);
@@ -148,6 +148,13 @@ public:
       sheet.rotation = Rotation{direction(), number()};
     sheet.velocity = maybe(vector());
     s.material = {positive(), positive(), below(2) ? positive() : 0};
+    if (below(3) == 0) { // another one like it, which enters
+      sheet.name = "first \"one\"";
+      SheetTable other = sheet;
+      other.name = "other";
+      other.enters = maybe_positive();
+      s.sheets.push_back(other);
+    }
     if (below(2))
       s.environment.gravity = direction();
     if (below(2))
@@ -168,13 +175,15 @@ public:
       s.holds.push_back(hold(s));
     for (int i = below(4); i > 0; --i)
       s.solids.push_back(solid());
-    const auto borders = borders_of(sheet);
+    const auto borders = borders_of(s.sheets[0]);
     if (!borders.empty() && below(2))
-      s.inflow = Inflow{borders.back(), velocity(), positive(), maybe_positive()};
+      for (int i = below(2); i >= 0; --i)
+        s.inflows.push_back({s.sheets.size() > 1 ? s.sheets.back().name : "", borders.back(), velocity(), positive(),
+                             maybe_positive()});
     for (int i = below(3); i > 0; --i)
       s.outflows.push_back({vector(), direction()});
     if (below(2))
-      if (const double* h = std::get_if<double>(&sheet.thickness))
+      if (const double* h = std::get_if<double>(&s.sheets[0].thickness))
         s.tear = Tear{0.3 * *h, below(2) == 1};
     if (below(2))
       s.contact = Contact{below(2) == 1, maybe_positive(), maybe_positive(), maybe_positive()};
@@ -184,7 +193,7 @@ public:
 private:
   Hold hold(const Scene& s) {
     Hold h;
-    const auto borders = borders_of(s.sheet);
+    const auto borders = borders_of(s.sheets[0]);
     if (!borders.empty())
       h.region = borders[static_cast<std::size_t>(below(static_cast<int>(borders.size())))];
     if (borders.empty() || below(3) == 0)
@@ -193,6 +202,8 @@ private:
       const Vector3d corner = vector();
       h.region = BoxRegion{corner, corner + corner.cwiseAbs()};
     }
+    if (s.sheets.size() > 1 && (below(2) || std::holds_alternative<Border>(h.region)))
+      h.sheet = s.sheets[static_cast<std::size_t>(below(2))].name;
     h.motion = motion();
     if (s.model.bending && below(2))
       h.clamped = true;

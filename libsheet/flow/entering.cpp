@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/flow/entering.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "libsheet/shape/build.h"
+#include "libsheet/sheet/account.h"
+#include "libsheet/sheet/append.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::flow {
+
+using formats::Frame;
+
+namespace {
+
+// Numbers of the sheets that enter, in their order.
+std::vector<std::size_t> order_of_entry(const Scene& scene) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    if (scene.sheets[i].enters)
+      order.push_back(i);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return *scene.sheets[i].enters; });
+  return order;
+}
+
+std::size_t entered(const Frame& frame) { return static_cast<std::size_t>(number(frame, "entered", 0)); }
+
+} // namespace
+
+bool has_entered(const Scene& scene, const std::string& name, const Frame& frame) {
+  const std::vector<std::size_t> order = order_of_entry(scene);
+  const auto at = std::ranges::find_if(order, [&](std::size_t i) { return scene.sheets[i].name == name; });
+  return at == order.end() || static_cast<std::size_t>(at - order.begin()) < entered(frame);
+}
+
+double let_enter(Frame& frame, const Scene& scene) {
+  const std::vector<std::size_t> order = order_of_entry(scene);
+  double volume = 0;
+  std::size_t count = entered(frame);
+  for (; count < order.size() && frame.time >= *scene.sheets[order[count]].enters; ++count) {
+    const Frame sheet = build_sheet(scene, order[count]);
+    append(sheet, frame);
+    const auto volumes = sheet::volumes(sheet);
+    volume += std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  }
+  if (volume > 0) {
+    put_number(frame, "entered", "1", static_cast<double>(count));
+    add_to_account(frame, "emit.volume", "m^3", {&volume, 1});
+  }
+  return volume;
+}
+
+} // namespace sheet::flow
