@@ -15,6 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* html = "text/html; charset=utf-8";
+
 std::uint16_t checked_port(std::int64_t port) {
   if (port < 0 || port > 65535)
     fail(ExitCode::usage, "--port {} is none: they go from 1 to 65535, 0 stands for any that is free", port);
@@ -49,7 +51,7 @@ Json curve(const std::vector<StepFigures>& steps, double StepFigures::*figure) {
 } // namespace
 
 WatchStage::WatchStage(const WatchOptions& options)
-    : until_(options.until), page_(live_page()),
+    : until_(options.until), page_(std::make_shared<const std::string>(live_page())),
       measurer_([this](const std::stop_token& stop) { measure_frames(stop); }),
       server_(open_server(options, [this](std::string_view path) { return answer(path); })) {}
 
@@ -80,23 +82,31 @@ void WatchStage::measure_frames(const std::stop_token& stop) {
 
 Answer WatchStage::answer(std::string_view path) {
   if (path == "/")
-    return {.type = "text/html; charset=utf-8", .body = page_};
+    return {.type = html, .body = page_};
   if (path == "/state.json")
-    return {.type = "application/json", .body = state()};
-  if (path != "/frame.html")
-    return {.status = 404, .body = "there are /, /state.json and /frame.html\n"};
+    return {.type = "application/json", .body = std::make_shared<const std::string>(state())};
+  if (path == "/frame.html")
+    return frame_page();
+  return plain_answer(404, "there are /, /state.json and /frame.html\n");
+}
+
+Answer WatchStage::frame_page() {
   std::shared_ptr<const formats::Frame> frame;
   {
     const std::lock_guard lock(mutex_);
     frame = newest_;
   }
   if (!frame)
-    return {.status = 503, .body = "no frame has come yet\n"};
-  try {
-    return {.type = "text/html; charset=utf-8", .body = view::page_of(*frame, "newest frame")};
-  } catch (const std::exception& error) { // a solid's file, say; the run goes on
-    return {.status = 503, .body = std::string(error.what()) + "\n"};
+    return plain_answer(503, "no frame has come yet\n");
+  if (frame != packed_) {
+    try {
+      packed_page_ = std::make_shared<const std::string>(view::page_of(*frame, "newest frame"));
+    } catch (const std::exception& error) { // a solid's file, say; the run goes on
+      return plain_answer(503, std::string(error.what()) + "\n");
+    }
+    packed_ = frame;
   }
+  return {.type = html, .body = packed_page_};
 }
 
 std::string WatchStage::state() {
