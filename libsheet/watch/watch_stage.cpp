@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "libsheet/base/error.h"
+#include "libsheet/scene/frame_scene.h"
 #include "libsheet/view/page.h"
 #include "libsheet/watch/live_page.h"
 
@@ -39,6 +40,15 @@ std::unique_ptr<HttpServer> open_server(const WatchOptions& options, const Handl
   return std::make_unique<HttpServer>(options.address, last, handler);
 }
 
+// Null if it has none that can be read.
+const Scene* scene_of(const formats::Frame& frame, FrameScene& scenes) {
+  try {
+    return scenes.find(frame);
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
 Json to_json(std::optional<double> x) { return x && std::isfinite(*x) ? Json(*x) : Json(nullptr); }
 
 Json curve(const std::vector<StepFigures>& steps, double StepFigures::*figure) {
@@ -68,13 +78,14 @@ void WatchStage::show(const formats::Frame& frame) {
 }
 
 void WatchStage::measure_frames(const std::stop_token& stop) {
-  SceneDensity density;
+  SceneDensity density; // which tells of a scene that cannot be read
+  FrameScene scenes;
   std::unique_lock lock(mutex_);
   while (news_.wait(lock, stop, [this] { return !measured_; })) {
     const std::shared_ptr<const formats::Frame> frame = newest_;
     measured_ = true;
     lock.unlock();
-    const StepFigures figures = figures_of(*frame, measure(*frame, density.of(*frame)));
+    const StepFigures figures = figures_of(*frame, measure(*frame, density.of(*frame)), scene_of(*frame, scenes));
     lock.lock();
     history_.add(figures, Clock::now());
   }
@@ -132,7 +143,9 @@ std::string WatchStage::state() {
                     {"thickness_min", curve(steps, &StepFigures::thickness_min)},
                     {"thickness_mean", curve(steps, &StepFigures::thickness_mean)},
                     {"thickness_max", curve(steps, &StepFigures::thickness_max)},
-                    {"kinetic_energy", curve(steps, &StepFigures::kinetic_energy)}};
+                    {"kinetic_energy", curve(steps, &StepFigures::kinetic_energy)},
+                    {"gravity_energy", curve(steps, &StepFigures::gravity_energy)},
+                    {"surface_energy", curve(steps, &StepFigures::surface_energy)}};
   return json.dump();
 }
 

@@ -15,6 +15,7 @@ import unittest
 import urllib.error
 import urllib.request
 
+import numpy as np
 import sheetstream
 from browser import Browser
 
@@ -73,7 +74,8 @@ class Test(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         os.chdir(cls.folder.name)
-        subprocess.run(["bash", "-ec", "sheet-init --example | sed 's/^edge_length = .*/edge_length = 0.1/' > scene.toml; "
+        subprocess.run(["bash", "-ec", "sheet-init --example | sed -e 's/^edge_length = .*/edge_length = 0.1/' "
+                        "-e 's/^#surface_tension = .*/surface_tension = 0.04/' > scene.toml; "
                         "sheet-init scene.toml | sheet-loop -q --until 0.2 --keep 1 -o run.sheet -- 'sheet-step | sheet-collide';"
                         "sheet-info --csv run.sheet > run.csv"], check=True)
         with open("run.csv") as file:
@@ -104,6 +106,13 @@ class Test(unittest.TestCase):
                              (row["time"], row["vertices"], row["triangles"]))
         for name in ("time", "volume", "area", "thickness_min", "thickness_mean", "thickness_max", "kinetic_energy"):
             self.assertEqual(state["curves"][name], [row[name] for row in self.rows], name)
+        scene = self.run_of[0].scene()
+        for i, frame in enumerate(self.run_of):
+            weight = scene["material"]["density"] * frame["volume"][:, None] * frame["position"][frame["triangle"]].mean(axis=1)
+            self.assertAlmostEqual(state["curves"]["gravity_energy"][i],
+                                   -(weight @ np.array(scene["environment"]["gravity"])).sum(), places=9)
+            self.assertAlmostEqual(state["curves"]["surface_energy"][i],
+                                   2 * scene["material"]["surface_tension"] * frame.area().sum(), places=12)
         self.assertGreater(state["speed"], 0)
         self.assertAlmostEqual(state["left"] * state["speed"], 0.2, places=6)
         status, page = watch.get("frame.html")
@@ -220,8 +229,9 @@ class Test(unittest.TestCase):
         with Browser(1100, 700) as browser:
             browser.call("Page.navigate", url=watch.url)
             browser.until("document.getElementById('message')?.textContent.includes('waiting')")
+            eye_of = "new URLSearchParams(document.querySelector('#frames iframe').contentWindow.location.hash.slice(1)).get('eye')"
             shown = "document.querySelector('#frames iframe:not(.coming)')"
-            for number, frame in enumerate((self.run_of[0], self.run_of[-1])):
+            for number, frame in enumerate(self.run_of[i] for i in (0, 3, -1)):
                 watch.give(frame)
                 browser.until(f"document.querySelector('#figures dd')?.textContent === '{frame.step}'")
                 browser.until(f"{shown}?.src.includes('step={frame.step}') && "
@@ -229,6 +239,11 @@ class Test(unittest.TestCase):
                 if number == 0:
                     browser.js(f"{shown}.contentWindow.location.hash = 'colour=thickness'")
                     browser.until(f"{shown}.contentWindow.location.hash.includes('eye=')")
+                if number == 1:
+                    browser.drag(300, 400, 90, 20)
+                    time.sleep(0.5)  # the address is written now and then
+                    eye = browser.js(eye_of)
+            self.assertEqual(browser.js(eye_of), eye)
             self.assertIn("colour=thickness", browser.js(f"{shown}.contentWindow.location.hash"))
             self.assertEqual(browser.js("document.querySelectorAll('#curves canvas').length"), 4)
             figures = browser.js("document.getElementById('figures').textContent")
