@@ -12,6 +12,7 @@ KATEX = pathlib.Path("/usr/share/javascript/katex")
 here = pathlib.Path(__file__).resolve().parent
 FORMULA = re.compile(r"(?m)^ *\$\$([^$]+?)\$\$ *$|(?<![\\$`\w])\$(?=[^\s$])([^$\n]*(?:\n[^$\n]+)*?[^\s$])\$(?![\d\w$])")
 CODE = re.compile(r"```.*?```|`[^`\n]+`|(?:(?:^|(?<=\n))(?: {4,}.*(?:\n|$))+)", re.S)
+CODE_WITH_BAR = re.compile(r"`([^`\n]*\\\|[^`\n]*)`")
 _formulas = []
 
 
@@ -28,7 +29,13 @@ def on_page_markdown(markdown, **_):
         return f"SHEETFORMULA{len(_formulas) - 1}Z"
 
     text = FORMULA.sub(take, CODE.sub(keep, markdown))
-    return re.sub("\x02(\\d+)\x02", lambda match: kept[int(match[1])], text)
+    text = re.sub("\x02(\\d+)\x02", lambda match: kept[int(match[1])], text)
+    return re.sub(r"(?m)^\|.*$", lambda match: CODE_WITH_BAR.sub(bars, match[0]), text)
+
+
+def bars(code):
+    """Code of a table's cell that has bars, which Markdown would leave escaped."""
+    return "<code>" + html.escape(code[1].replace("\\|", "|")).replace("|", "&#124;") + "</code>"
 
 
 def on_post_build(config, **_):

@@ -8,12 +8,11 @@ int main(int argc, char** argv) {
   sheet::Tool tool(
       "sheet-watch", "show a run in a browser while it goes on",
       "Passes frames through unchanged and shows them on a page, whose address it prints: the newest frame to turn and "
-      "ask, step, time, the time that is left, and curves of volume, area, thickness and kinetic energy. As the last "
+      "ask, step, time, the time that is left, and curves of volume, area, thickness and energies. As the last "
       "stage of a ring it sees every step. The run waits for no browser: what comes faster than it can be "
       "measured or shown is passed over. When the stream ends, so does the page.\n"
       "Only this machine can see it, unless --address says otherwise; then anybody who reaches that address can. "
-      "Nothing "
-      "can be changed through it.");
+      "Nothing can be changed through it.");
   sheet::FilterOptions filter;
   filter.no_provenance = true; // the frames are those of a run that nobody looks at
   sheet::watch::WatchOptions o;

@@ -4,14 +4,14 @@
 #include <optional>
 #include <string>
 
-#include "formats/cpp/mesh_export.h"
-
 namespace sheet {
+
+enum class ExportFormat { vtu, ply, obj, off, stl, glb };
 
 struct ExportOptions {
   std::string input = "-", output; // output: a name, with %d or %04d for the number of the frame if there are several
-  std::optional<formats::MeshFormat> format; // absent: by the ending of the name
-  bool solidify = false;                     // the closed outer surface of the liquid instead of the mid-surface
+  std::optional<ExportFormat> format; // absent: by the ending of the name
+  bool solidify = false;              // the closed outer surface of the liquid instead of the mid-surface
 };
 
 // Errors: usage (no name, an ending that is no format, several frames for one name), those of reading and writing.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/watch/http_server.h"
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -21,32 +22,7 @@ namespace sheet::watch {
 
 namespace {
 
-constexpr std::size_t most_of_request = 8192; // [bytes]
-constexpr int patience = 5000;                // [ms] for a request, and for each piece of an answer
-
-std::string_view reason(int status) {
-  switch (status) {
-  case 200:
-    return "OK";
-  case 403:
-    return "Forbidden";
-  case 404:
-    return "Not Found";
-  case 405:
-    return "Method Not Allowed";
-  case 503:
-    return "Service Unavailable";
-  default:
-    return "Bad Request";
-  }
-}
-
-std::string message(const Answer& answer) {
-  return fmt::format("HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\nCache-Control: no-store\r\n"
-                     "X-Content-Type-Options: nosniff\r\nX-Frame-Options: SAMEORIGIN\r\nConnection: close\r\n\r\n",
-                     answer.status, reason(answer.status), answer.type, answer.body.size()) +
-         answer.body;
-}
+constexpr std::size_t most_connections = 256;
 
 // The value of the field, without blanks; empty if it is not there.
 std::string_view field(std::string_view request, std::string_view name) {
@@ -62,9 +38,22 @@ std::string_view field(std::string_view request, std::string_view name) {
   return "";
 }
 
+bool is_loopback(const in_addr& place) { return ntohl(place.s_addr) >> 24 == 127; }
+
+// In digits or as localhost; 127.example.org is a name of somebody else.
 bool names_loopback(std::string_view host) {
-  const std::string_view name = host.substr(0, host.find(':'));
-  return name == "localhost" || name.starts_with("127.");
+  const std::string name(host.substr(0, host.find(':')));
+  in_addr place{};
+  return name == "localhost" || (::inet_pton(AF_INET, name.c_str(), &place) == 1 && is_loopback(place));
+}
+
+// For poll: until the first deadline [ms]; -1: there is none.
+int time_left(const std::vector<HttpConnection>& connections) {
+  if (connections.empty())
+    return -1;
+  const auto first = std::ranges::min_element(connections, {}, &HttpConnection::deadline)->deadline();
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(first - HttpConnection::Clock::now());
+  return static_cast<int>(std::max<std::int64_t>(left.count(), 0));
 }
 
 } // namespace
@@ -76,13 +65,13 @@ HttpServer::HttpServer(const std::string& address, std::uint16_t port, std::func
   place.sin_port = htons(port);
   if (::inet_pton(AF_INET, address.c_str(), &place.sin_addr) != 1)
     fail(ExitCode::usage, "\"{}\" is no IPv4 address in digits, such as 127.0.0.1", address);
-  loopback_ = ntohl(place.sin_addr.s_addr) >> 24 == 127;
+  loopback_ = is_loopback(place.sin_addr);
   listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const int yes = 1;
   socklen_t size = sizeof place;
   auto* const generic = reinterpret_cast<sockaddr*>(&place);
   if (listener_ < 0 || ::setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
-      ::bind(listener_, generic, size) != 0 || ::listen(listener_, 16) != 0 ||
+      ::bind(listener_, generic, size) != 0 || ::listen(listener_, SOMAXCONN) != 0 ||
       ::getsockname(listener_, generic, &size) != 0 || (end_ = ::eventfd(0, EFD_CLOEXEC)) < 0) {
     const std::string why = std::strerror(errno);
     if (listener_ >= 0)
@@ -102,49 +91,28 @@ HttpServer::~HttpServer() {
   ::close(end_);
 }
 
-bool HttpServer::is_ready(int descriptor, short events, int milliseconds) const {
-  std::array<pollfd, 2> both{{{descriptor, events, 0}, {end_, POLLIN, 0}}};
-  return ::poll(both.data(), both.size(), milliseconds) > 0 && both[1].revents == 0;
-}
-
 void HttpServer::serve() {
+  std::vector<HttpConnection> connections;
+  const auto respond = [this](std::string_view request) { return answer_to(request); };
   for (;;) {
-    std::array<pollfd, 2> both{{{listener_, POLLIN, 0}, {end_, POLLIN, 0}}};
-    if (::poll(both.data(), both.size(), -1) < 0 && errno != EINTR)
+    std::vector<pollfd> watched = {{end_, POLLIN, 0}};
+    for (const HttpConnection& connection : connections)
+      watched.push_back({connection.descriptor(), connection.events(), 0});
+    if (connections.size() < most_connections)
+      watched.push_back({listener_, POLLIN, 0});
+    if (::poll(watched.data(), watched.size(), time_left(connections)) < 0 && errno != EINTR)
       return;
-    if (both[1].revents != 0)
+    if (watched[0].revents != 0)
       return;
-    const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    if (client < 0)
-      continue;
-    converse(client);
-    ::close(client);
-  }
-}
-
-void HttpServer::converse(int client) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience);
-  std::string request;
-  std::array<char, 2048> piece{};
-  while (request.find("\r\n\r\n") == std::string::npos) {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
-    if (request.size() > most_of_request || left.count() <= 0 ||
-        !is_ready(client, POLLIN, static_cast<int>(left.count())))
-      return;
-    const ssize_t got = ::recv(client, piece.data(), piece.size(), 0);
-    if (got <= 0)
-      return;
-    request.append(piece.data(), static_cast<std::size_t>(got));
-  }
-  const std::string text = message(answer_to(request));
-  for (std::size_t sent = 0; sent < text.size();) {
-    if (!is_ready(client, POLLOUT, patience))
-      return;
-    const ssize_t more = ::send(client, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-    if (more <= 0 && errno != EAGAIN)
-      return;
-    sent += more > 0 ? static_cast<std::size_t>(more) : 0;
+    const auto now = HttpConnection::Clock::now();
+    std::vector<HttpConnection> open;
+    for (std::size_t i = 0; i < connections.size(); ++i)
+      if (now < connections[i].deadline() && (watched[i + 1].revents == 0 || connections[i].go_on(respond)))
+        open.push_back(std::move(connections[i]));
+    connections = std::move(open);
+    if (watched.back().fd == listener_ && watched.back().revents != 0)
+      if (const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK); client >= 0)
+        connections.emplace_back(client);
   }
 }
 
@@ -153,11 +121,11 @@ Answer HttpServer::answer_to(std::string_view request) const {
   const std::size_t first = line.find(' '), second = line.find(' ', first + 1);
   if (first == std::string_view::npos || second == std::string_view::npos ||
       !line.substr(second + 1).starts_with("HTTP/1."))
-    return {400, "text/plain", "this is no request of HTTP\n"};
+    return plain_answer(400, "this is no request of HTTP\n");
   if (line.substr(0, first) != "GET")
-    return {405, "text/plain", "nothing can be changed here: GET only\n"};
+    return plain_answer(405, "nothing can be changed here: GET only\n");
   if (loopback_ && !names_loopback(field(request, "Host")))
-    return {403, "text/plain", "ask for localhost or 127.0.0.1\n"};
+    return plain_answer(403, "ask for localhost or 127.0.0.1\n");
   const std::string_view target = line.substr(first + 1, second - first - 1);
   return answer_(target.substr(0, target.find('?')));
 }

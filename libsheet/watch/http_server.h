@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small HTTP server that answers GET on a thread of its own: one request a connection, one connection at a time, each
-// bounded in size and time, so that no client can hold it up for longer than some seconds, and nobody but other clients
-// waits for it. [RFC 9110, 9112]
+// A small HTTP server that answers GET on a thread of its own: one request a connection, up to 256 connections at a
+// time, none of which waits for another, each bounded in size and time. [RFC 9110, 9112]
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -9,12 +8,9 @@
 #include <string_view>
 #include <thread>
 
-namespace sheet::watch {
+#include "libsheet/watch/http_connection.h"
 
-struct Answer {
-  int status = 200;
-  std::string type = "text/plain; charset=utf-8", body;
-};
+namespace sheet::watch {
 
 class HttpServer {
 public:
@@ -22,7 +18,7 @@ public:
   // server's thread. On loopback only requests to a name of loopback are answered, so that no page of elsewhere can
   // read through a name that leads here. Throws Error: usage (the address), io (it cannot be had).
   HttpServer(const std::string& address, std::uint16_t port, std::function<Answer(std::string_view path)> answer);
-  ~HttpServer(); // ends a connection that is open
+  ~HttpServer(); // ends connections that are open
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
@@ -31,9 +27,7 @@ public:
 
 private:
   void serve();
-  void converse(int client);
   [[nodiscard]] Answer answer_to(std::string_view request) const;
-  [[nodiscard]] bool is_ready(int descriptor, short events, int milliseconds) const; // false: too late, or the end
 
   std::function<Answer(std::string_view)> answer_;
   std::string url_;

@@ -3,9 +3,27 @@
 
 #include <algorithm>
 
+#include "libsheet/sheet/sheet.h"
+
 namespace sheet::watch {
 
-StepFigures figures_of(const formats::Frame& frame, const Measurements& measured) {
+namespace {
+
+double energy_of_gravity(const formats::Frame& frame, const Scene& scene) {
+  if (!scene.environment.gravity || scene.material.density <= 0)
+    return absent;
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  const auto v = volumes(frame);
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero(); // of volume [m⁴]
+  for (std::size_t t = 0; t < corners.size(); ++t)
+    moment += v[t] / 3 * (x[corners[t][0]] + x[corners[t][1]] + x[corners[t][2]]);
+  return -scene.material.density * scene.environment.gravity->dot(moment);
+}
+
+} // namespace
+
+StepFigures figures_of(const formats::Frame& frame, const Measurements& measured, const Scene* scene) {
   return {.time = frame.time,
           .step = frame.step,
           .vertices = frame.vertices,
@@ -15,7 +33,11 @@ StepFigures figures_of(const formats::Frame& frame, const Measurements& measured
           .thickness_min = measured.thickness.least,
           .thickness_mean = measured.thickness.mean,
           .thickness_max = measured.thickness.greatest,
-          .kinetic_energy = measured.kinetic_energy};
+          .kinetic_energy = measured.kinetic_energy,
+          .gravity_energy = scene != nullptr ? energy_of_gravity(frame, *scene) : absent,
+          .surface_energy = scene != nullptr && scene->material.surface_tension > 0
+                                ? 2 * scene->material.surface_tension * measured.area
+                                : absent};
 }
 
 void RunHistory::add(const StepFigures& figures, Clock::time_point now) {

@@ -10,21 +10,24 @@
 
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/measure/measure.h"
+#include "libsheet/scene/scene.h"
 
 namespace sheet::watch {
 
 using Clock = std::chrono::steady_clock;
 
-// NaN where there is none: kinetic energy without a density, thickness without triangles.
+// NaN where there is none: energies without density, gravity, tension; thickness without triangles.
 struct StepFigures {
   double time = 0; // [s]
   std::uint64_t step = 0, vertices = 0, triangles = 0;
-  double volume = 0, area = 0;                                     // [m³], [m²]
-  double thickness_min = 0, thickness_mean = 0, thickness_max = 0; // [m]
-  double kinetic_energy = 0;                                       // [J]
+  double volume = 0, area = 0;                                       // [m³], [m²]
+  double thickness_min = 0, thickness_mean = 0, thickness_max = 0;   // [m]
+  double kinetic_energy = 0, gravity_energy = 0, surface_energy = 0; // [J]
 };
 
-[[nodiscard]] StepFigures figures_of(const formats::Frame& frame, const Measurements& measured);
+// Energy of gravity: -Σ m g·x, x from the origin to the triangles' centres; of surface: 2 γ A, of both sides wherever
+// they lie. `scene` may be absent.
+[[nodiscard]] StepFigures figures_of(const formats::Frame& frame, const Measurements& measured, const Scene* scene);
 
 class RunHistory {
 public:

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "libsheet/base/error.h"
+#include "libsheet/scene/frame_scene.h"
 #include "libsheet/view/page.h"
 #include "libsheet/watch/live_page.h"
 
@@ -14,6 +15,8 @@ namespace sheet::watch {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* html = "text/html; charset=utf-8";
 
 std::uint16_t checked_port(std::int64_t port) {
   if (port < 0 || port > 65535)
@@ -37,6 +40,15 @@ std::unique_ptr<HttpServer> open_server(const WatchOptions& options, const Handl
   return std::make_unique<HttpServer>(options.address, last, handler);
 }
 
+// Null if it has none that can be read.
+const Scene* scene_of(const formats::Frame& frame, FrameScene& scenes) {
+  try {
+    return scenes.find(frame);
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
 Json to_json(std::optional<double> x) { return x && std::isfinite(*x) ? Json(*x) : Json(nullptr); }
 
 Json curve(const std::vector<StepFigures>& steps, double StepFigures::*figure) {
@@ -49,7 +61,7 @@ Json curve(const std::vector<StepFigures>& steps, double StepFigures::*figure) {
 } // namespace
 
 WatchStage::WatchStage(const WatchOptions& options)
-    : until_(options.until), page_(live_page()),
+    : until_(options.until), page_(std::make_shared<const std::string>(live_page())),
       measurer_([this](const std::stop_token& stop) { measure_frames(stop); }),
       server_(open_server(options, [this](std::string_view path) { return answer(path); })) {}
 
@@ -66,13 +78,14 @@ void WatchStage::show(const formats::Frame& frame) {
 }
 
 void WatchStage::measure_frames(const std::stop_token& stop) {
-  SceneDensity density;
+  SceneDensity density; // which tells of a scene that cannot be read
+  FrameScene scenes;
   std::unique_lock lock(mutex_);
   while (news_.wait(lock, stop, [this] { return !measured_; })) {
     const std::shared_ptr<const formats::Frame> frame = newest_;
     measured_ = true;
     lock.unlock();
-    const StepFigures figures = figures_of(*frame, measure(*frame, density.of(*frame)));
+    const StepFigures figures = figures_of(*frame, measure(*frame, density.of(*frame)), scene_of(*frame, scenes));
     lock.lock();
     history_.add(figures, Clock::now());
   }
@@ -80,23 +93,31 @@ void WatchStage::measure_frames(const std::stop_token& stop) {
 
 Answer WatchStage::answer(std::string_view path) {
   if (path == "/")
-    return {.type = "text/html; charset=utf-8", .body = page_};
+    return {.type = html, .body = page_};
   if (path == "/state.json")
-    return {.type = "application/json", .body = state()};
-  if (path != "/frame.html")
-    return {.status = 404, .body = "there are /, /state.json and /frame.html\n"};
+    return {.type = "application/json", .body = std::make_shared<const std::string>(state())};
+  if (path == "/frame.html")
+    return frame_page();
+  return plain_answer(404, "there are /, /state.json and /frame.html\n");
+}
+
+Answer WatchStage::frame_page() {
   std::shared_ptr<const formats::Frame> frame;
   {
     const std::lock_guard lock(mutex_);
     frame = newest_;
   }
   if (!frame)
-    return {.status = 503, .body = "no frame has come yet\n"};
-  try {
-    return {.type = "text/html; charset=utf-8", .body = view::page_of(*frame, "newest frame")};
-  } catch (const std::exception& error) { // a solid's file, say; the run goes on
-    return {.status = 503, .body = std::string(error.what()) + "\n"};
+    return plain_answer(503, "no frame has come yet\n");
+  if (frame != packed_) {
+    try {
+      packed_page_ = std::make_shared<const std::string>(view::page_of(*frame, "newest frame"));
+    } catch (const std::exception& error) { // a solid's file, say; the run goes on
+      return plain_answer(503, std::string(error.what()) + "\n");
+    }
+    packed_ = frame;
   }
+  return {.type = html, .body = packed_page_};
 }
 
 std::string WatchStage::state() {
@@ -122,7 +143,9 @@ std::string WatchStage::state() {
                     {"thickness_min", curve(steps, &StepFigures::thickness_min)},
                     {"thickness_mean", curve(steps, &StepFigures::thickness_mean)},
                     {"thickness_max", curve(steps, &StepFigures::thickness_max)},
-                    {"kinetic_energy", curve(steps, &StepFigures::kinetic_energy)}};
+                    {"kinetic_energy", curve(steps, &StepFigures::kinetic_energy)},
+                    {"gravity_energy", curve(steps, &StepFigures::gravity_energy)},
+                    {"surface_energy", curve(steps, &StepFigures::surface_energy)}};
   return json.dump();
 }
 

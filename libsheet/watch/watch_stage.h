@@ -36,10 +36,13 @@ public:
 private:
   void measure_frames(const std::stop_token& stop);
   [[nodiscard]] Answer answer(std::string_view path);
+  [[nodiscard]] Answer frame_page();
   [[nodiscard]] std::string state();
 
   std::optional<double> until_;
-  const std::string page_;
+  const std::shared_ptr<const std::string> page_;
+  std::shared_ptr<const formats::Frame> packed_; // the server's thread alone has these two
+  std::shared_ptr<const std::string> packed_page_;
   const Clock::time_point start_ = Clock::now();
   std::mutex mutex_; // of what follows
   std::condition_variable_any news_;

@@ -92,7 +92,7 @@ class Readers(unittest.TestCase):
     @unittest.skipUnless(PARAVIEW, "no pvpython and xvfb-run; tests/install --all installs them")
     def test_paraview_reads_every_frame_and_shows_thickness_and_touch(self):
         commands = re.findall(r"^    \$ (.+)$", (root / "docs/paraview.md").read_text(), re.M)
-        self.assertEqual(len(commands), 2)
+        self.assertEqual(len(commands), 3)
         os.makedirs("page")
         shell(f"ln -s ../run.sheet {root}/formats .; " +
               "; ".join(commands), cwd="page")

@@ -85,6 +85,12 @@ class Site(unittest.TestCase):
                 raw = re.search(r"\$[\\a-zA-Z][^$]{0,40}\\[a-z]+[^$]*\$", re.sub(r"\$ .*", "", page.text))
                 self.assertIsNone(raw, file)
 
+    def test_tables_show_bars_and_links_show_titles(self):
+        for file, page in self.pages.items():
+            self.assertNotIn("\\|", re.sub(r"<pre>.*?</pre>", "", file.read_text(), flags=re.S), file)
+            self.assertIsNone(re.search(r">[\w./-]+\.md</a>", file.read_text()), file)
+        self.assertIn("sheet-init scene.toml | sheet-loop", self.pages[self.site / "install.html"].text)
+
     def test_every_program_has_a_page_from_its_help(self):
         names = sorted(p.name for p in programs.glob("sheet-*"))
         self.assertGreater(len(names), 15)

@@ -15,6 +15,7 @@ import unittest
 import urllib.error
 import urllib.request
 
+import numpy as np
 import sheetstream
 from browser import Browser
 
@@ -27,7 +28,7 @@ class Watch:
         self.process = subprocess.Popen(["sheet-watch", "--port", "0", *options], stdin=subprocess.PIPE,
                                         stdout=self.passed, stderr=subprocess.PIPE)
         said = self.process.stderr.readline().decode()
-        self.url = re.search(r"http://127\.0\.0\.1:\d+/", said)[0]
+        self.url = re.search(r"http://[\d.]+:\d+/", said)[0]
         self.writer = sheetstream.Writer(self.process.stdin)
 
     def give(self, frame):
@@ -73,7 +74,8 @@ class Test(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         os.chdir(cls.folder.name)
-        subprocess.run(["bash", "-ec", "sheet-init --example | sed 's/^edge_length = .*/edge_length = 0.1/' > scene.toml; "
+        subprocess.run(["bash", "-ec", "sheet-init --example | sed -e 's/^edge_length = .*/edge_length = 0.1/' "
+                        "-e 's/^#surface_tension = .*/surface_tension = 0.04/' > scene.toml; "
                         "sheet-init scene.toml | sheet-loop -q --until 0.2 --keep 1 -o run.sheet -- 'sheet-step | sheet-collide';"
                         "sheet-info --csv run.sheet > run.csv"], check=True)
         with open("run.csv") as file:
@@ -104,6 +106,13 @@ class Test(unittest.TestCase):
                              (row["time"], row["vertices"], row["triangles"]))
         for name in ("time", "volume", "area", "thickness_min", "thickness_mean", "thickness_max", "kinetic_energy"):
             self.assertEqual(state["curves"][name], [row[name] for row in self.rows], name)
+        scene = self.run_of[0].scene()
+        for i, frame in enumerate(self.run_of):
+            weight = scene["material"]["density"] * frame["volume"][:, None] * frame["position"][frame["triangle"]].mean(axis=1)
+            self.assertAlmostEqual(state["curves"]["gravity_energy"][i],
+                                   -(weight @ np.array(scene["environment"]["gravity"])).sum(), places=9)
+            self.assertAlmostEqual(state["curves"]["surface_energy"][i],
+                                   2 * scene["material"]["surface_tension"] * frame.area().sum(), places=12)
         self.assertGreater(state["speed"], 0)
         self.assertAlmostEqual(state["left"] * state["speed"], 0.2, places=6)
         status, page = watch.get("frame.html")
@@ -123,7 +132,8 @@ class Test(unittest.TestCase):
                 urllib.request.urlopen(request, timeout=10)
             self.assertEqual(refused.exception.code, 405)
             refused.exception.close()
-        self.assertEqual(watch.get("", Host=f"evil.example:{port}")[0], 403)
+        for name in ("evil.example", "127.0.0.1.evil.example", "127.evil.example", ""):
+            self.assertEqual(watch.get("", Host=f"{name}:{port}")[0], 403, name)
         self.assertEqual(watch.get("", Host=f"localhost:{port}")[0], 200)
         self.assertEqual(watch.get("../../etc/passwd")[0], 404)
         for junk in (b"\r\n\r\n", b"GET\r\n\r\n", b"\0" * 20000, b"GET / HTTP/1.1\r\n" + b"a: b\r\n" * 5000):
@@ -139,20 +149,60 @@ class Test(unittest.TestCase):
         self.assertNotIn(f"00000000:{int(port):04X}", listening)
         self.assertEqual(watch.end(), 0)
 
-    def test_the_run_does_not_wait_for_a_browser_that_does_not_read(self):
+    def connect(self, watch, request=b""):
+        """A client that asks and does not read."""
+        client = socket.socket()
+        self.addCleanup(client.close)
+        client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
+        client.connect(("127.0.0.1", int(watch.url.split(":")[2][:-1])))
+        client.sendall(request)
+        return client
+
+    def test_neither_the_run_nor_other_browsers_wait_for_a_hundred_that_stall(self):
         watch = self.watch()
         watch.give(self.run_of[0])
         watch.state_at(self.rows[0]["step"])
-        place = ("127.0.0.1", int(watch.url.split(":")[2][:-1]))
-        with socket.create_connection(place) as client, socket.create_connection(place):  # the second one asks nothing
-            client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
-            client.sendall(b"GET /frame.html HTTP/1.1\r\nHost: localhost\r\n\r\n")  # and reads nothing
-            start = time.monotonic()
-            for frame in list(self.run_of)[1:]:
-                watch.give(frame)
-            self.assertEqual(watch.end(), 0)
-            self.assertLess(time.monotonic() - start, 3)
+        whole = b"GET /frame.html HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        stalled = [self.connect(watch, whole[:(len(whole) - i if i % 2 else len(whole))]) for i in range(100)]
+        start = time.monotonic()
+        for row, frame in zip(self.rows[1:], self.run_of[1:]):
+            watch.give(frame)
+            watch.state_at(row["step"])
+        self.assertEqual(watch.get("frame.html")[0], 200)
+        self.assertLess(time.monotonic() - start, 4)  # less than what a stalled request is given
+        self.assertEqual(len(stalled), 100)
+        start = time.monotonic()
+        self.assertEqual(watch.end(), 0)
+        self.assertLess(time.monotonic() - start, 2)
         self.assertEqual(pathlib.Path("passed.sheet").read_bytes(), pathlib.Path("run.sheet").read_bytes())
+
+    def test_a_request_that_does_not_end_is_given_up_and_a_slow_reader_gets_all(self):
+        watch = self.watch()
+        watch.give(self.run_of[0])
+        watch.state_at(self.rows[0]["step"])
+        unfinished = self.connect(watch, b"GET / HT")
+        slow = self.connect(watch, b"GET /frame.html HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        got, start = b"", time.monotonic()
+        while piece := slow.recv(1024):
+            got += piece
+            time.sleep(0.01)
+        self.assertGreater(time.monotonic() - start, 0.5)
+        self.assertEqual(got.split(b"\r\n\r\n", 1)[1].decode(), watch.get("frame.html")[1])
+        unfinished.settimeout(10)
+        self.assertEqual(unfinished.recv(100), b"")
+        self.assertGreater(time.monotonic() - start, 4)
+        self.assertEqual(watch.end(), 0)
+
+    def test_other_addresses_are_answered_only_when_asked_for(self):
+        watch = self.watch("--address", "0.0.0.0")
+        port = watch.url.split(":")[2][:-1]
+        for host in ("127.0.0.1", socket.gethostname(), "run.example"):
+            request = urllib.request.Request(f"http://127.0.0.1:{port}/", headers={"Host": f"{host}:{port}"})
+            with urllib.request.urlopen(request, timeout=10) as answer:
+                self.assertEqual(answer.status, 200)
+        listening = [line.split()[1] for line in pathlib.Path("/proc/net/tcp").read_text().splitlines() if " 0A " in line]
+        self.assertIn(f"00000000:{int(port):04X}", listening)
+        self.assertEqual(watch.end(), 0)
 
     def test_in_a_ring_the_run_is_the_same_byte_for_byte(self):
         ring = "sheet-init scene.toml | sheet-loop -q --no-provenance --steps 5 -- 'sheet-step --dt 0.01 | sheet-collide{}' > {}"
@@ -179,8 +229,9 @@ class Test(unittest.TestCase):
         with Browser(1100, 700) as browser:
             browser.call("Page.navigate", url=watch.url)
             browser.until("document.getElementById('message')?.textContent.includes('waiting')")
+            eye_of = "new URLSearchParams(document.querySelector('#frames iframe').contentWindow.location.hash.slice(1)).get('eye')"
             shown = "document.querySelector('#frames iframe:not(.coming)')"
-            for number, frame in enumerate((self.run_of[0], self.run_of[-1])):
+            for number, frame in enumerate(self.run_of[i] for i in (0, 3, -1)):
                 watch.give(frame)
                 browser.until(f"document.querySelector('#figures dd')?.textContent === '{frame.step}'")
                 browser.until(f"{shown}?.src.includes('step={frame.step}') && "
@@ -188,6 +239,11 @@ class Test(unittest.TestCase):
                 if number == 0:
                     browser.js(f"{shown}.contentWindow.location.hash = 'colour=thickness'")
                     browser.until(f"{shown}.contentWindow.location.hash.includes('eye=')")
+                if number == 1:
+                    browser.drag(300, 400, 90, 20)
+                    time.sleep(0.5)  # the address is written now and then
+                    eye = browser.js(eye_of)
+            self.assertEqual(browser.js(eye_of), eye)
             self.assertIn("colour=thickness", browser.js(f"{shown}.contentWindow.location.hash"))
             self.assertEqual(browser.js("document.querySelectorAll('#curves canvas').length"), 4)
             figures = browser.js("document.getElementById('figures').textContent")

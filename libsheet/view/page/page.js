@@ -201,8 +201,9 @@ const seconds = time => `${time.toFixed(Math.max(3, -Math.floor(Math.log10(times
 function tellLabels() {
   const made = streams.map((stream, i) => {
     const frame = stream.frameAt(now()), {x, y, width} = part(i), label = element("div");
-    label.append(element("b", stream.name), ` frame ${frame.number}, ${seconds(frame.time)}, step ${frame.step}, ` +
-                 `${frame.triangles.toLocaleString("en")} triangles`);
+    const number = times.length > 1 ? ` frame ${frame.number},` : "";
+    label.append(element("b", stream.name), element("span", `${number} ${seconds(frame.time)}, step ${frame.step}, ` +
+                                                            `${frame.triangles.toLocaleString("en")} triangles`));
     Object.assign(label.style, {left: `${x}px`, top: `${y}px`, maxWidth: `${width}px`});
     label.title = stream.scene;
     return label;
@@ -522,6 +523,9 @@ async function start() {
   findExtent();
   fit();
   $("time").max = times.length - 1;
+  for (const id of ["play", "time", "clock"])
+    $(id).hidden = times.length === 1;
+  document.querySelector("footer").classList.toggle("still", times.length === 1);
   listen();
   document.body.dataset.state = "unpacking";
   show(true);

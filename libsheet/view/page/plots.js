@@ -29,8 +29,9 @@ function ticks(low, high, count) {
   return out;
 }
 
-// lines: lists of [x, y]; cursor: an x. The y axis begins at 0 unless the values are close together.
-function plot(canvas, lines, units, cursor) {
+// lines: lists of [x, y]; cursor: an x; dashes: a pattern for each line, solid without. The y axis begins at 0 unless the
+// values are close together.
+function plot(canvas, lines, units, cursor, dashes = []) {
   const {pen, width, height} = sharp(canvas), all = lines.flat().filter(p => Number.isFinite(p[1]) && p[1] < 1e15);
   if (all.length === 0)
     return;
@@ -61,11 +62,11 @@ function plot(canvas, lines, units, cursor) {
     pen.fillText(x, px(x / fx), height - 6);
   pen.textAlign = "left";
   pen.fillText(uy, 4, 11);
-  pen.textAlign = "right";
-  pen.fillText(ux, width - 2, 11);
+  pen.fillText(ux, 4, height - 6);
   pen.lineWidth = 1.6;
   pen.strokeStyle = pen.fillStyle = themed("--accent");
-  for (const line of lines) {
+  for (const [number, line] of lines.entries()) {
+    pen.setLineDash(dashes[number] ?? []);
     pen.beginPath();
     line.forEach(([x, y], i) => i ? pen.lineTo(px(x), py(y)) : pen.moveTo(px(x), py(y)));
     pen.stroke();

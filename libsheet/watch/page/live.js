@@ -5,12 +5,15 @@ const pause = 1000, framePause = 2000; // [ms]
 const litres = [["m³", 1], ["l", 1e3], ["ml", 1e6]], squares = [["m²", 1], ["cm²", 1e4], ["mm²", 1e6]];
 const joules = [["J", 1], ["mJ", 1e3], ["µJ", 1e6]], metres = [["m", 1], ["mm", 1e3], ["µm", 1e6]];
 const panels = [
-  {title: "volume", names: ["volume"], units: litres},
-  {title: "thickness: least, mean, greatest", names: ["thickness_min", "thickness_mean", "thickness_max"], units: metres},
-  {title: "area", names: ["area"], units: squares},
-  {title: "kinetic energy", names: ["kinetic_energy"], units: joules},
+  {title: "volume", curves: {volume: ""}, units: litres},
+  {title: "thickness", curves: {thickness_min: "least", thickness_mean: "mean", thickness_max: "greatest"}, units: metres},
+  {title: "area", curves: {area: ""}, units: squares},
+  {title: "energy", curves: {kinetic_energy: "of motion", gravity_energy: "of height", surface_energy: "of surface"},
+   units: joules},
 ];
+const dashes = [[], [7, 3], [2, 2]], signs = ["\u2014", "\u2013 \u2013", "\u00b7\u00b7\u00b7"];
 let shownStep = null, coming = false;
+let turned = false; // the view is the user's; until then every frame is fitted into the picture
 
 function duration(seconds) {
   const s = Math.round(seconds), h = Math.floor(s / 3600), m = Math.floor(s / 60) % 60;
@@ -55,15 +58,29 @@ function canvasOf(panel) {
 
 function showCurves(curves) {
   for (const panel of panels) {
-    const values = panel.names.flatMap(name => curves[name]).filter(Number.isFinite);
-    if (values.length === 0)
+    const names = Object.keys(panel.curves).filter(name => curves[name].some(Number.isFinite));
+    if (names.length === 0)
       continue;
-    const most = Math.max(...values.map(Math.abs));
+    const most = Math.max(...names.flatMap(name => curves[name]).filter(Number.isFinite).map(Math.abs));
     const [unit, factor] = panel.units.find(([, f]) => most * f >= 1) ?? panel.units.at(-1);
-    const lines = panel.names.map(name => curves.time.map((t, i) => [t, (curves[name][i] ?? NaN) * factor]));
-    plot(canvasOf(panel), lines, ["s", ""]);
-    panel.caption.textContent = `${panel.title} [${unit}]`;
+    const lines = names.map(name => curves.time.map((t, i) => [t, (curves[name][i] ?? NaN) * factor]));
+    plot(canvasOf(panel), lines, ["s", ""], undefined, dashes);
+    const legend = names.map((name, i) => `${signs[i]} ${panel.curves[name]}`.replaceAll(" ", "\u00a0")).join(", ");
+    panel.caption.textContent = `${panel.title} [${unit}]` + (names.length > 1 ? `: ${legend}` : ` ${panel.curves[names[0]]}`);
   }
+}
+
+function noteTurning(page) {
+  const view = page.getElementById("view"), note = now => () => { turned = now; };
+  if (!view) // an error is shown
+    return;
+  for (const kind of ["pointerdown", "wheel"])
+    view.addEventListener(kind, note(true));
+  page.getElementById("fit").addEventListener("click", note(false));
+  page.addEventListener("keydown", event => {
+    if ("xyz+-f".includes(event.key))
+      turned = event.key !== "f";
+  });
 }
 
 function showFrame(step) {
@@ -73,12 +90,15 @@ function showFrame(step) {
   const place = document.getElementById("frames"), before = place.querySelector("iframe");
   const view = new URLSearchParams(before ? before.contentWindow.location.hash.slice(1) : "");
   view.delete("t");
+  if (!turned)
+    view.delete("eye");
   view.delete("ask"); // its triangle may be another one now
   const next = document.createElement("iframe");
   next.className = before ? "coming" : "";
   next.title = "newest frame";
   next.src = `frame.html?step=${step}` + (`${view}` ? `#${view}` : ""); // an empty # would scroll this page, too
   const swap = () => {
+    noteTurning(next.contentDocument);
     next.className = "";
     before?.remove();
     shownStep = step;
@@ -108,7 +128,7 @@ async function ask() {
       showFrame(state.step);
     }
   } catch {
-    message.textContent = "No answer: the run has ended, or its machine cannot be reached. What is shown was the last.";
+    message.textContent = "No answer: the run has ended, or its machine cannot be reached. What is shown came last.";
   }
   setTimeout(ask, pause);
 }
