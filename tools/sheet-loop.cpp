@@ -31,6 +31,11 @@ int main(int argc, char** argv) {
       "frame is kept there",
       Provenance::omit);
   tool.option(
+      "--set", o.sets, "KEY=VALUE",
+      "go on with another scene: change a key as sheet-init's --set does, in a run that has begun; may be given "
+      "again and again. Frames from here on carry the new scene, and their provenance says what was changed and "
+      "when. What the frames have settled stays: the sheet, which holds and solids there are, where they are now");
+  tool.option(
       "--checkpoint", o.checkpoint, "FILE",
       "keep the newest frame in FILE, replaced as a whole, also when the run fails; --resume starts from it if it is "
       "newer than the stream's last frame",
@@ -45,6 +50,8 @@ int main(int argc, char** argv) {
                "two seconds of a film");
   tool.example("sheet-loop --resume run.sheet --until 4 --fps 24 -- 'sheet-step | sheet-collide'",
                "two seconds more, or go on after an interruption");
+  tool.example("sheet-loop --resume run.sheet --set tear.below='1 mm' --until 6 --fps 24 -- 'sheet-tear | sheet-step'",
+               "and two more, in which thin places tear");
   tool.example("sheet-init a.toml | sheet-loop --steps 100 --keep 10 -- 'sheet-step --dt 0.001' > run.sheet",
                "a hundred steps, every tenth kept");
   int signal = 0;

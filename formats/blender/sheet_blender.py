@@ -20,7 +20,7 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 from bpy_extras.io_utils import ExportHelper, ImportHelper
-from mathutils import Matrix, Vector
+from mathutils import Matrix, Quaternion, Vector
 
 try:
     from . import sheetstream
@@ -406,7 +406,7 @@ def set_material(thing: bpy.types.Object, kind: str, scene: bpy.types.Scene) -> 
 
 def add_solids(described: dict[str, Any], parent: bpy.types.Object, scene: bpy.types.Scene) -> None:
     """Adds the scene's balls, boxes, cylinders, capsules, planes and meshes (OFF) in their places at time 0, as the parent's
-    children; motion at a constant velocity is keyed. Others are passed over, with a word on the terminal."""
+    children; motion at a constant velocity or by rows is keyed. Others are passed over, with a word on the terminal."""
     solids = described.get("solid", [])
     for number, solid in enumerate(solids if isinstance(solids, list) else []):
         try:
@@ -425,9 +425,36 @@ def _add_solid(solid: dict[str, Any], number: int, parent: bpy.types.Object, sce
         thing.rotation_mode = "AXIS_ANGLE"
         thing.rotation_axis_angle = (turn["angle"], *turn["axis"])
     thing.location = solid.get("center", (0, 0, 0))
+    if solid.get("motion", {}).get("kind") == "keyframed":
+        _key_rows(thing, solid["motion"], parent.sheet, scene)
+        return
     velocity = solid.get("motion", {}).get("velocity", [0, 0, 0])
     if np.shape(velocity) == (3,) and any(velocity):
         _key_motion(thing, np.array(velocity, float), parent.sheet, scene)
+
+
+def _key_rows(thing: bpy.types.Object, motion: dict[str, Any], settings: Any, scene: bpy.types.Scene) -> None:
+    """A key for each row; between them on straight lines, which the run's motion leaves by little."""
+    times = motion["times"]
+    still = [motion.get("center", (0, 0, 0))] * len(times)
+    frames = [Matrix.LocRotScale(Vector(place), Quaternion(turn), None) for place, turn in
+              zip(motion.get("places", still), motion.get("rotations", [(1, 0, 0, 0)] * len(times)))]
+    first = next((i for i, time in enumerate(times) if time >= 0), -1)
+    if times[first] > 0 and first > 0:
+        raise ValueError("its motion has no row at time 0")
+    own = frames[first].inverted() @ thing.matrix_basis
+    rate = scene.render.fps / scene.render.fps_base
+    thing.rotation_mode = "QUATERNION"
+    for time, frame in zip(times, frames):
+        thing.location, turn, _ = (frame @ own).decompose()
+        turn.make_compatible(thing.rotation_quaternion)
+        thing.rotation_quaternion = turn
+        at = settings.start + (time - settings.first_time) / settings.speed * rate
+        thing.keyframe_insert("location", frame=at)
+        thing.keyframe_insert("rotation_quaternion", frame=at)
+    for curve in thing.animation_data.action.fcurves:
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"
 
 
 def _key_motion(thing: bpy.types.Object, velocity: Any, settings: Any, scene: bpy.types.Scene) -> None:
@@ -507,8 +534,9 @@ def export_scene(path: str, thing: bpy.types.Object, thickness: float = 0.005, v
     """Writes an object's mesh, modifiers applied, as a scene (.toml) with its mesh beside it (.ply); returns the files.
 
     Thickness [m] is that of the mesh's attribute of this name, at vertices or faces, if it has one. Vertex groups whose
-    names begin with "pinned" or "clamped" become holds: vertices with a weight above 0.5. Other objects become solids.
-    Raises SheetError.
+    names begin with "pinned" or "clamped" become holds: vertices with a weight above 0.5. Other objects become solids;
+    those that move from the scene's frame on do so in the run, whose time 0 this frame is, by a file (.csv). Raises
+    SheetError.
     """
     if thing is None or thing.type != "MESH":
         raise SheetError("choose a mesh: the active object is none")
@@ -537,8 +565,45 @@ def export_scene(path: str, thing: bpy.types.Object, thickness: float = 0.005, v
         _write_ply(str(file), sx, sc, None)
         files.append(str(file))
         lines += ["", "[[solid]]", 'shape = "mesh"', f"file = {_quoted(file.name)}"]
+        rows = motion_of(solid, bpy.context.scene)
+        if (np.abs(rows[:, 1:] - rows[0, 1:]) > 1e-7).any():
+            file = file.with_suffix(".csv")
+            _write_rows(file, rows)
+            files.append(str(file))
+            lines += ["center = [0, 0, 0] # the mesh stands where it is at time 0",
+                      "rotation = {axis = [0, 0, 1], angle = 0}",
+                      f'motion = {{kind = "keyframed", file = {_quoted(file.name)}}}']
     target.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return files
+
+
+def motion_of(thing: bpy.types.Object, scene: bpy.types.Scene) -> Any:
+    """How an object moves from the scene's frame to its last: rows of time [s], place [m] and rotation (a unit quaternion
+    w, x, y, z), one a frame. Raises SheetError if its size changes."""
+    now, rate, length = scene.frame_current, scene.render.fps / scene.render.fps_base, scene.unit_settings.scale_length
+    rows = []
+    try:
+        for frame in range(now, max(scene.frame_end, now) + 1):
+            scene.frame_set(frame)
+            place, turn, scale = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.decompose()
+            size = scale if frame == now else size
+            if (scale - size).length > 1e-4 * size.length:
+                raise SheetError(f'"{thing.name}" changes its size at frame {frame}: solids move, but stay as they are')
+            rows.append(((frame - now) / rate, *(length * place), *turn))
+    finally:
+        scene.frame_set(now)
+    return np.array(rows)
+
+
+def export_motion(path: str, thing: bpy.types.Object) -> None:
+    """Writes an object's motion from the scene's frame on (motion_of) as a file (.csv) for scenes: motion = {kind =
+    "keyframed", file = "..."}. Raises SheetError."""
+    _write_rows(pathlib.Path(path), motion_of(thing, bpy.context.scene))
+
+
+def _write_rows(path: pathlib.Path, rows: Any) -> None:
+    lines = ["time [s], x [m], y [m], z [m], qw, qx, qy, qz", *(", ".join(repr(float(v)) for v in row) for row in rows)]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def _quoted(text: str) -> str:

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "libsheet/base/error.h"
-#include "libsheet/base/overloaded.h"
 
 namespace sheet::collide {
 namespace {
@@ -13,50 +12,17 @@ namespace {
 // Of a path in a solid's frame. Each vertex and each triangle is followed through all of them.
 constexpr double most_pieces = 1e4;
 
-double size_of(double value) { return std::abs(value); }
-double size_of(const Vector3& value) { return value.norm(); }
-
-// The largest slope of a piecewise linear quantity between two times.
-template <class T> double steepest(const scene::Timed<T>& timed, double from, double to) {
-  double result = 0;
-  for (std::size_t i = 1; i < timed.entries.size(); ++i) {
-    const auto &a = timed.entries[i - 1], &b = timed.entries[i];
-    if (a.time < to && b.time > from)
-      result = std::max(result, size_of(T(b.value - a.value)) / (b.time - a.time));
-  }
-  return result;
-}
-
-// Its largest magnitude between them: at one of them or at a bend.
-double largest(const scene::Timed<double>& timed, double from, double to) {
-  double result = std::max(std::abs(scene::value_at(timed, from)), std::abs(scene::value_at(timed, to)));
-  for (const auto& entry : timed.entries)
-    if (entry.time > from && entry.time < to)
-      result = std::max(result, std::abs(entry.value));
-  return result;
-}
-
 // How far and how fast points are.
 struct Reach {
-  double radius = 0, speed = 0; // from a rotation's center [m], in the world [m/s]
+  double radius = 0, speed = 0; // from where the motion's center is at first [m], in the world [m/s]
 };
 
-// A bound of the acceleration of such points as the moving frame sees it [m/s²]: for rotations those of Coriolis,
-// centrifugal and Euler.
-double acceleration_bound(const scene::Motion& motion, double from, double to, const Reach& reach) {
-  return std::visit(Overloaded{[](const scene::Fixed&) { return 0.0; },
-                               [&](const scene::Translating& m) { return steepest(m.velocity, from, to); },
-                               [&](const scene::Rotating& m) {
-                                 const double rate = largest(m.rate, from, to);
-                                 return 2 * rate * reach.speed +
-                                        (rate * rate + steepest(m.rate, from, to)) * reach.radius;
-                               }},
-                    motion);
-}
-
-Vector3 center_of(const scene::Motion& motion) {
-  const auto* rotating = std::get_if<scene::Rotating>(&motion);
-  return rotating != nullptr ? rotating->center : Vector3(Vector3::Zero());
+// A bound of the acceleration of such points as the moving frame sees it [m/s²]: its own, and for rotations those of
+// Coriolis, centrifugal and Euler.
+double acceleration_bound(const scene::MotionBounds& motion, double duration, const Reach& reach) {
+  const double radius = reach.radius + motion.speed * duration, speed = reach.speed + motion.speed;
+  return motion.acceleration + 2 * motion.turning * speed +
+         (motion.turning * motion.turning + motion.turning_change) * radius;
 }
 
 Reach reach_of(const StepPath& path, const Vector3& center) {
@@ -72,11 +38,11 @@ Reach reach_of(const StepPath& path, const Vector3& center) {
 
 SolidView::SolidView(const solid::Solids& solids, std::size_t solid, const StepPath& path, double deviation)
     : shape_(&solids.shape(solid)) {
-  const scene::Motion& motion = solids.scene(solid).motion;
+  const scene::MotionBounds motion = scene::bounds(solids.scene(solid).motion, path.start_time, path.end_time);
   const auto bent = [&](const Reach& reach, double time) {
-    return acceleration_bound(motion, path.start_time, path.end_time, reach) * time * time / 8;
+    return acceleration_bound(motion, path.length(), reach) * time * time / 8;
   };
-  const Vector3 center = center_of(motion);
+  const Vector3& center = motion.center;
   const double wanted = std::max(1.0, std::ceil(std::sqrt(bent(reach_of(path, center), path.length()) / deviation)));
   if (!(wanted <= most_pieces))
     fail(ExitCode::bad_input,

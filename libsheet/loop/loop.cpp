@@ -24,6 +24,7 @@
 #include "libsheet/loop/progress.h"
 #include "libsheet/loop/same_run.h"
 #include "libsheet/loop/signals.h"
+#include "libsheet/scene/change.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/ring.h"
 #include "libsheet/sheet/sheet.h"
@@ -141,11 +142,13 @@ private:
       if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint))
         take_checkpoint();
       log::detail("going on with {} at step {}, t = {} s", options_.resume, frame_.step, frame_.time);
+      change_scene();
     } else {
       const InputFile input(options_.input);
       frame_ = read_last_frame(input);
       claim_checkpoint();
       output_ = KeptStream::create(options_.output);
+      change_scene();
       record_once(frame_, provenance_line_);
       if (!keep_.last_only)
         first_ = frame_;
@@ -153,6 +156,28 @@ private:
     }
     record_once(frame_, provenance_line_);
     warn_of_missing_stages();
+  }
+
+  // By --set. The frame from which the new scene counts stands in the provenance; a run that is gone on with by the
+  // same command has it already.
+  void change_scene() {
+    if (options_.sets.empty())
+      return;
+    const std::string line = std::exchange(provenance_line_, {});
+    const formats::Array* old = frame_.find("scene");
+    if (old == nullptr)
+      fail(ExitCode::usage, "--set: the frame has no scene to change");
+    if (frame_.step == 0)
+      fail(ExitCode::usage, "--set: the run has not begun; give --set to sheet-init");
+    const std::string scene = scene::changed_scene(old->text(), options_.sets, frame_.time);
+    if (scene == old->text())
+      return log::detail("the scene is as --set wants it");
+    if (done())
+      fail(ExitCode::usage, "--set: the run is at its end, step {}, t = {} s; give a later --until, or more --steps",
+           frame_.step, frame_.time);
+    frame_.put_text("scene", scene);
+    if (!line.empty())
+      record_provenance(frame_, fmt::format("{} # from step {}, t = {} s", line, frame_.step, frame_.time));
   }
 
   // What the scene says and no stage does would go wrong silently.

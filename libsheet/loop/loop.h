@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sheet {
 
@@ -12,6 +13,7 @@ struct LoopOptions {
   std::string input = "-";           // stream whose last frame is the start
   std::string output = "-";          // stream of the frames kept
   std::string resume;                // stream to go on with, instead of input and output
+  std::vector<std::string> sets;     // changes of the scene from the first frame on, KEY=VALUE (scene/change.h)
   std::optional<double> until;       // [s] end when the frame's time is there
   std::optional<double> fps;         // output times are the multiples of 1/fps [1/s]
   std::optional<std::int64_t> steps; // end when the frame's step is there
@@ -25,7 +27,8 @@ void check(const LoopOptions& options);
 
 // Runs the ring. Throws Error when a stage fails (with the stage's exit code if it is one of ours, else internal), when
 // the time stands still though `until` asks for it (usage), on damaged input; StreamError (io) when the output cannot
-// be written. In each case the output holds whole frames only, and the message says where it ended and how to go on.
+// be written; what changed_scene throws. In each case the output holds whole frames only, and the message says where it
+// ended and how to go on.
 // Returns 0, or the number of the signal (SIGINT, SIGTERM) that ended the run in good order.
 [[nodiscard]] int run_loop(const LoopOptions& options, const std::string& provenance_line);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/loop/same_run.h"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -26,15 +27,15 @@ std::map<std::string, std::uint64_t> commands_of(const formats::Frame& frame) {
 } // namespace
 
 bool same_run(const formats::Frame& older, const formats::Frame& newer) {
-  if (text_of(older, "scene") != text_of(newer, "scene"))
-    return false;
-  const auto after = commands_of(newer);
-  for (const auto& [command, count] : commands_of(older)) {
+  const auto before = commands_of(older), after = commands_of(newer);
+  for (const auto& [command, count] : before) {
     const auto it = after.find(command);
     if (it == after.end() || it->second < count)
       return false;
   }
-  return true;
+  return text_of(older, "scene") == text_of(newer, "scene") || std::any_of(after.begin(), after.end(), [&](auto& line) {
+           return line.first.find(" --set ") != std::string::npos && !before.contains(line.first);
+         });
 }
 
 } // namespace sheet

@@ -10,7 +10,7 @@ namespace {
 // Part of gravity along the solid where it is steepest; all of it but along planes, which do not turn.
 double along(const Solid& solid, const Vector3d& gravity) {
   const auto* plane = std::get_if<HalfSpace>(&solid.shape);
-  if (plane == nullptr || std::holds_alternative<Rotating>(solid.motion))
+  if (plane == nullptr || turns(solid.motion))
     return gravity.norm();
   const Vector3d normal = plane->normal.normalized();
   return (gravity - normal.dot(gravity) * normal).norm();

@@ -47,11 +47,31 @@ template <class T> T integrate(const Timed<T>& timed, double t0, double t1, T ze
   return sum;
 }
 
-template <class T> double largest(const Timed<T>& timed) {
+// The largest slope between two times.
+template <class T> double steepest(const Timed<T>& timed, double from, double to) {
   double result = 0;
-  for (const auto& entry : timed.entries)
-    result = std::max(result, magnitude(entry.value));
+  for (std::size_t i = 1; i < timed.entries.size(); ++i) {
+    const auto &a = timed.entries[i - 1], &b = timed.entries[i];
+    if (a.time < to && b.time > from)
+      result = std::max(result, magnitude(T(b.value - a.value)) / (b.time - a.time));
+  }
   return result;
+}
+
+// The largest magnitude between two times: at one of them or at a bend.
+template <class T> double largest(const Timed<T>& timed, double from, double to) {
+  double result = std::max(magnitude(value_at(timed, from)), magnitude(value_at(timed, to)));
+  for (const auto& entry : timed.entries)
+    if (entry.time > from && entry.time < to)
+      result = std::max(result, magnitude(entry.value));
+  return result;
+}
+
+template <class T> std::vector<double> times_of(const Timed<T>& timed) {
+  std::vector<double> times;
+  for (const auto& entry : timed.entries)
+    times.push_back(entry.time);
+  return times;
 }
 
 const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -68,15 +88,17 @@ Eigen::Vector3d integral(const Timed<Eigen::Vector3d>& timed, double t0, double 
 
 Eigen::Isometry3d motion_between(const Motion& motion, double t0, double t1) {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  std::visit(Overloaded{[](const Fixed&) {},
-                        [&](const Translating& moving) { result.translation() = integral(moving.velocity, t0, t1); },
-                        [&](const Rotating& turning) {
-                          const double angle = integral(turning.rate, t0, t1);
-                          const Eigen::AngleAxisd turn(angle, turning.axis.stableNormalized());
-                          result.linear() = turn.toRotationMatrix();
-                          result.translation() = turning.center - result.linear() * turning.center;
-                        }},
-             motion);
+  std::visit(
+      Overloaded{[](const Fixed&) {},
+                 [&](const Translating& moving) { result.translation() = integral(moving.velocity, t0, t1); },
+                 [&](const Rotating& turning) {
+                   const double angle = integral(turning.rate, t0, t1);
+                   const Eigen::AngleAxisd turn(angle, turning.axis.stableNormalized());
+                   result.linear() = turn.toRotationMatrix();
+                   result.translation() = turning.center - result.linear() * turning.center;
+                 },
+                 [&](const Keyframed& keyed) { result = keyed.frames->pose(t1) * keyed.frames->pose(t0).inverse(); }},
+      motion);
   return result;
 }
 
@@ -86,14 +108,42 @@ Eigen::Vector3d velocity_at(const Motion& motion, double t, const Eigen::Vector3
                  [&](const Translating& moving) -> Eigen::Vector3d { return value_at(moving.velocity, t); },
                  [&](const Rotating& turning) -> Eigen::Vector3d {
                    return value_at(turning.rate, t) * turning.axis.stableNormalized().cross(x - turning.center);
+                 },
+                 [&](const Keyframed& keyed) -> Eigen::Vector3d {
+                   const auto [velocity, turning] = keyed.frames->rates(t);
+                   return velocity + turning.cross(x - keyed.frames->pose(t).translation());
                  }},
       motion);
 }
 
-double largest_rate(const Motion& motion) {
-  return std::visit(Overloaded{[](const Fixed&) { return 0.0; },
-                               [](const Translating& moving) { return largest(moving.velocity); },
-                               [](const Rotating& turning) { return largest(turning.rate); }},
+MotionBounds bounds(const Motion& motion, double from, double to) {
+  return std::visit(
+      Overloaded{[](const Fixed&) { return MotionBounds{}; },
+                 [&](const Translating& m) {
+                   return MotionBounds{origin, largest(m.velocity, from, to), steepest(m.velocity, from, to), 0, 0};
+                 },
+                 [&](const Rotating& m) {
+                   return MotionBounds{m.center, 0, 0, largest(m.rate, from, to), steepest(m.rate, from, to)};
+                 },
+                 [&](const Keyframed& m) {
+                   const auto [speed, acceleration, turning, change] = m.frames->bounds(from, to);
+                   return MotionBounds{m.frames->pose(from).translation(), speed, acceleration, turning, change};
+                 }},
+      motion);
+}
+
+bool turns(const Motion& motion) {
+  const auto* keyed = std::get_if<Keyframed>(&motion);
+  return std::holds_alternative<Rotating>(motion) || (keyed != nullptr && !keyed->frames->rotations().empty());
+}
+
+std::vector<double> events(const Motion& motion) {
+  return std::visit(Overloaded{[](const Fixed&) { return std::vector<double>(); },
+                               [](const Translating& m) { return times_of(m.velocity); },
+                               [](const Rotating& m) { return times_of(m.rate); },
+                               [](const Keyframed& m) {
+                                 return std::vector{m.frames->times().front(), m.frames->times().back()};
+                               }},
                     motion);
 }
 

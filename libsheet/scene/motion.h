@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prescribed rigid motions of holds and solids.
 #pragma once
+#include <memory>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Geometry>
+
+#include "libsheet/scene/keyframes.h"
 
 namespace sheet::scene {
 
@@ -36,7 +39,13 @@ struct Rotating {
   bool operator==(const Rotating&) const = default;
 };
 
-using Motion = std::variant<Fixed, Translating, Rotating>;
+// As the frame moves that stands at the keyframes: only how it moves counts, not where it is.
+struct Keyframed {
+  std::shared_ptr<const Keyframes> frames; // never null
+  bool operator==(const Keyframed& other) const { return *frames == *other.frames; }
+};
+
+using Motion = std::variant<Fixed, Translating, Rotating, Keyframed>;
 
 // The value at time t.
 [[nodiscard]] double value_at(const Timed<double>& timed, double t);
@@ -52,7 +61,19 @@ using Motion = std::variant<Fixed, Translating, Rotating>;
 // Velocity at time t of the material point that is at x [m/s].
 [[nodiscard]] Eigen::Vector3d velocity_at(const Motion& motion, double t, const Eigen::Vector3d& x);
 
-// Largest speed that the motion reaches at any time: translation [m/s], rotation [rad/s].
-[[nodiscard]] double largest_rate(const Motion& motion);
+// What a motion does at most between two times. All points within `reach` of `center` [m] at the time `from` have at
+// most the speed speed + turning * reach.
+struct MotionBounds {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(); // about which it turns, at the time `from` [m]
+  double speed = 0, acceleration = 0;               // of the center [m/s, m/s²]
+  double turning = 0, turning_change = 0;           // [rad/s, rad/s²]
+};
+[[nodiscard]] MotionBounds bounds(const Motion& motion, double from, double to);
+
+// Whether the motion turns things, at any time.
+[[nodiscard]] bool turns(const Motion& motion);
+
+// The times at which the velocity is not smooth [s], increasing: sheet-step ends steps there.
+[[nodiscard]] std::vector<double> events(const Motion& motion);
 
 } // namespace sheet::scene

@@ -45,6 +45,19 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
   if (environment.pressure && flat && !without_volume)
     problems.add(place("environment", "pressure"),
                  "pressure: this law needs a shape that encloses a volume, or a mesh");
+  std::size_t rows = 0;
+  const auto count = [&](const Motion& motion) {
+    if (const auto* keyed = std::get_if<Keyframed>(&motion))
+      rows += keyed->frames->times().size();
+  };
+  for (const Hold& hold : holds)
+    count(hold.motion);
+  for (const Solid& solid : solids)
+    count(solid.motion);
+  if (rows > most_keyframes)
+    problems.add(document.place, fmt::format("its motions have {} rows; a scene, which every frame carries, takes {}: "
+                                             "take every n-th, they are joined smoothly",
+                                             rows, most_keyframes));
 }
 
 // The tables [[key]], at most so many.
@@ -128,7 +141,7 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     scene.model = read_model(*table);
   scene.sheets = read_sheets(sheets, scene.environment, files);
   for (TableReader& table : list("hold", most_holds))
-    scene.holds.push_back(read_hold(table, scene.sheets, scene.model));
+    scene.holds.push_back(read_hold(table, scene.sheets, scene.model, files));
   for (TableReader& table : list("solid", std::numeric_limits<std::size_t>::max()))
     scene.solids.push_back(read_solid(table, scene.environment, files));
   for (TableReader& table : one_or_several("inflow", most_inlets))

@@ -8,7 +8,7 @@
 
 namespace sheet::scene {
 
-Motion read_motion(TableReader& parent, const Vector3d& center) {
+Motion read_motion(TableReader& parent, const Vector3d& center, const Files& files) {
   auto table = parent.table("motion");
   if (!table)
     return Fixed{};
@@ -28,13 +28,15 @@ Motion read_motion(TableReader& parent, const Vector3d& center) {
     motion = Rotating{table->direction_or("axis", Vector3d::UnitY()),
                       table->vector("center", quantity::length).value_or(center),
                       table->timed_rate("rate").value_or(Timed<double>{})};
+  } else if (kind == 3) {
+    if (auto frames = read_keyframes(*table, center, files))
+      motion = Keyframed{std::move(frames)};
   }
-  const auto because = kind ? fmt::format("a {} motion takes {}", words::motions[*kind],
-                                          *kind == 0   ? "nothing else"
-                                          : *kind == 1 ? "velocity"
-                                                       : "axis, center, rate")
+  constexpr std::array<std::string_view, 4> takes{"nothing else", "velocity", "axis, center, rate",
+                                                  "file, or times with places, rotations or both"};
+  const auto because = kind ? fmt::format("a {} motion takes {}", words::motions[*kind], takes[*kind])
                             : "the motion's kind is not known";
-  table->has_no_meaning({"velocity", "rate", "axis", "center"}, because);
+  table->has_no_meaning({"velocity", "rate", "axis", "center", "file", "times", "places", "rotations"}, because);
   table->finish();
   return motion;
 }

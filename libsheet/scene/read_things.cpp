@@ -149,9 +149,23 @@ void read_contact_with(TableReader& table, Solid& solid) {
   }
 }
 
+// A solid that does not say where it is at time 0 is where the rows of its motion have it.
+void put_at_keyframes(const TableReader& table, Solid& solid) {
+  const auto* keyed = std::get_if<Keyframed>(&solid.motion);
+  if (keyed == nullptr)
+    return;
+  const Eigen::Isometry3d start = keyed->frames->pose(0);
+  if (table.absent("center") && !keyed->frames->places().empty())
+    solid.center = start.translation();
+  const bool turnable = !std::holds_alternative<Sphere>(solid.shape) && !std::holds_alternative<HalfSpace>(solid.shape);
+  const Eigen::AngleAxisd turn(start.linear());
+  if (turnable && table.absent("rotation") && turn.angle() != 0)
+    solid.rotation = Rotation{turn.axis(), turn.angle()};
+}
+
 } // namespace
 
-Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Model& model) {
+Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Model& model, const Files& files) {
   Hold hold;
   const Node* region = table.take("region");
   const bool in_space = region != nullptr && region->type == Node::Type::table;
@@ -160,7 +174,7 @@ Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Mode
   hold.region = read_region(table, sheet).value_or(Border::rim);
   hold.clamped = table.choice("kind", words::holds).value_or(0) == 1;
   hold.axes = read_axes(table);
-  hold.motion = read_motion(table, sheet.center);
+  hold.motion = read_motion(table, sheet.center, files);
   hold.until = table.quantity("until", quantity::time, Bound::positive);
   hold.roll = table.boolean("roll").value_or(false);
   if (hold.roll && std::holds_alternative<Border>(hold.region))
@@ -173,8 +187,8 @@ Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Mode
     table.wrong("kind", "a clamped hold needs bending, which [model] switches off; use \"pinned\"");
   if (hold.clamped && hold.axes != all_axes)
     table.wrong("axes", "a clamped hold holds all axes; use kind = \"pinned\"");
-  if (std::holds_alternative<Rotating>(hold.motion) && hold.axes != all_axes)
-    table.wrong("axes", "a rotating hold holds all axes");
+  if (turns(hold.motion) && hold.axes != all_axes)
+    table.wrong("axes", "a hold that turns holds all axes");
   table.finish();
   return hold;
 }
@@ -199,7 +213,8 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
          {"radius", "size", "length", "height", "normal", "file", "scale", "voxel_size", "checksum", "rotation"})
       table.take(key); // judged when the shape is known
   }
-  solid.motion = read_motion(table, solid.center);
+  solid.motion = read_motion(table, solid.center, files);
+  put_at_keyframes(table, solid);
   solid.surface_velocity = table.vector("surface_velocity", quantity::velocity).value_or(Vector3d::Zero());
   read_contact_with(table, solid);
   table.finish();

@@ -32,8 +32,9 @@ void offer(Scales& scales, double speed, std::string_view source) {
 }
 
 void offer(Scales& scales, const Motion& motion, std::string_view source) {
-  const double arm = std::holds_alternative<Rotating>(motion) ? scales.length.value_or(0) : 1;
-  offer(scales, largest_rate(motion) * arm, source);
+  constexpr double ever = std::numeric_limits<double>::max();
+  const MotionBounds most = bounds(motion, -ever, ever);
+  offer(scales, most.speed + most.turning * scales.length.value_or(0), source);
 }
 
 void offer_forces(Scales& scales, const Scene& scene) {

@@ -2,6 +2,7 @@
 // One function a table of the scene file, for read.cpp. Each reports what is wrong and returns what it could read.
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,15 +23,20 @@ Material read_material(TableReader table);
 Environment read_environment(TableReader table);
 Model read_model(TableReader table);
 // `sheets`: those of the scene, at least one.
-Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Model& model);
+Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Model& model, const Files& files);
 Solid read_solid(TableReader table, const Environment& environment, const Files& files);
 Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets);
 Outflow read_outflow(TableReader table);
 Tear read_tear(TableReader table, std::span<const SheetTable> sheets);
 Contact read_contact(TableReader table);
 
+// Rows of motions that a scene may have in all: every frame carries them, and a scene's text has 4 MiB at most.
+inline constexpr std::size_t most_keyframes = 16000;
+
 // Parts that several tables have.
-Motion read_motion(TableReader& parent, const Vector3d& center);
+Motion read_motion(TableReader& parent, const Vector3d& center, const Files& files);
+// The rows of a motion: `times` with `places`, `rotations` or both, or a CSV `file` of them. Null if they are wrong.
+std::shared_ptr<const Keyframes> read_keyframes(TableReader& motion, const Vector3d& center, const Files& files);
 std::optional<Rotation> read_rotation(TableReader& parent);
 std::string read_file(TableReader& table, const Files& files, std::span<const std::string_view> extensions);
 // The sheet that the key "sheet" names, and its name. Without the key: none, if that is enough (`any`), or the only

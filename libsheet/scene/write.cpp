@@ -59,6 +59,26 @@ std::string timed(const Timed<Vector3d>& velocity) {
                [](const Vector3d& v) { return fmt::format("{}, {}, {}", number(v[0]), number(v[1]), number(v[2])); });
 }
 
+template <class T, class Item> std::string items(const std::vector<T>& values, Item item) {
+  std::string text;
+  for (const T& value : values)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", item(value));
+  return "[" + text + "]";
+}
+
+std::string keyframes(const Keyframes& frames) {
+  std::string text = "{kind = \"keyframed\", times = " + items(frames.times(), number);
+  if (!frames.places().empty())
+    text += ", places = " + items(frames.places(), list);
+  if (!frames.rotations().empty())
+    text += ", rotations = " + items(frames.rotations(), [](const Eigen::Quaterniond& q) {
+              return fmt::format("[{}, {}, {}, {}]", number(q.w()), number(q.x()), number(q.y()), number(q.z()));
+            });
+  if (frames.places().empty())
+    text += ", center = " + list(frames.center());
+  return text + "}";
+}
+
 void write_motion(Writer& out, const Motion& motion) {
   std::visit(Overloaded{[](const Fixed&) {},
                         [&](const Translating& m) {
@@ -68,7 +88,8 @@ void write_motion(Writer& out, const Motion& motion) {
                         [&](const Rotating& m) {
                           out.line("motion", fmt::format("{{kind = \"rotating\", axis = {}, center = {}, rate = {}}}",
                                                          list(m.axis), list(m.center), timed(m.rate)));
-                        }},
+                        },
+                        [&](const Keyframed& m) { out.line("motion", keyframes(*m.frames)); }},
              motion);
 }
 
@@ -218,7 +239,10 @@ void write_solid(Writer& out, const Solid& solid) {
                             out.line("checksum", toml_text(s.checksum));
                         }},
              solid.shape);
-  out.line_unless_zero("center", solid.center);
+  if (std::holds_alternative<Keyframed>(solid.motion)) // else it is where the rows say
+    out.line("center", list(solid.center));
+  else
+    out.line_unless_zero("center", solid.center);
   write_rotation(out, solid.rotation);
   write_motion(out, solid.motion);
   out.line_unless_zero("surface_velocity", solid.surface_velocity);

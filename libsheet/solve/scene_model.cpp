@@ -244,16 +244,8 @@ double next_event(const Scene& scene, double t) {
       next = std::min(next, event);
   };
   const auto consider_motion = [&](const scene::Motion& motion) {
-    std::visit(Overloaded{[](const scene::Fixed&) {},
-                          [&](const scene::Translating& m) {
-                            for (const auto& entry : m.velocity.entries)
-                              consider(entry.time);
-                          },
-                          [&](const scene::Rotating& m) {
-                            for (const auto& entry : m.rate.entries)
-                              consider(entry.time);
-                          }},
-               motion);
+    for (const double event : scene::events(motion))
+      consider(event);
   };
   for (const scene::Hold& hold : scene.holds) {
     consider_motion(hold.motion);

@@ -5,6 +5,7 @@ imports against sheet-info, what it exports through sheet-init, its errors, and 
     blender -b --factory-startup --python-exit-code 1 --python test_add_on.py -- sheet-blender.zip
 """
 import csv
+import math
 import os
 import pathlib
 import re
@@ -16,7 +17,7 @@ import unittest
 import bmesh
 import bpy
 import numpy as np
-from mathutils import Vector
+from mathutils import Quaternion, Vector
 
 root = pathlib.Path(__file__).resolve().parents[2]
 archive = sys.argv[sys.argv.index("--") + 1]
@@ -144,6 +145,49 @@ class AddOn(unittest.TestCase):
         np.testing.assert_allclose(sorted(ball.dimensions), [0.4] * 3, rtol=1e-3)
         np.testing.assert_allclose(sorted(capsule.dimensions), [0.2, 0.2, 0.6], rtol=1e-2)
 
+    def test_solids_follow_the_rows_of_their_motion(self):
+        half = math.sqrt(0.5)
+        shell("cat scene.toml - > led.toml << 'END'\n[[solid]]\nshape = \"box\"\nsize = [0.2, 0.1, 0.3]\ncenter = [0, -1, 0.5]\n"
+              "motion = {kind = \"keyframed\", times = [0, 1, 2], places = [[0, -1, 0], [0.3, -1, 0], [0.3, -1, 0]], "
+              f"rotations = [[1, 0, 0, 0], [1, 0, 0, 0], [{half}, 0, {half}, 0]]}}\nEND\nsheet-init led.toml -o led.sheet")
+        self.add_on.import_run("led.sheet")
+        box = bpy.data.objects["led box 1"]
+        for frame, place in ((1, (0, -1, 0.5)), (1 + FPS, (0.3, -1, 0.5)), (1 + 2 * FPS, (0.8, -1, 0))):
+            bpy.context.scene.frame_set(frame)
+            np.testing.assert_allclose(box.matrix_basis.translation, place, atol=1e-6)  # it turns about its place
+        np.testing.assert_allclose(box.matrix_basis.to_quaternion(), (half, 0, half, 0), atol=1e-6)
+
+    def test_an_animated_solid_moves_in_the_run_as_it_does_here(self):
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=8, y_subdivisions=8, size=1.0)
+        sheet = bpy.context.object
+        bpy.ops.object.empty_add(location=(0, 0, -0.5))
+        arm = bpy.context.object
+        bpy.ops.mesh.primitive_cube_add(size=0.2, location=(0.4, 0, 0))
+        cube, scene = bpy.context.object, bpy.context.scene
+        cube.parent, cube.scale = arm, (1, 2, 0.5)
+        scene.frame_end, scene.unit_settings.scale_length = 20, 0.1
+        for frame, angle in ((1, 0.0), (12, 2.0), (20, 1.0)):
+            arm.rotation_euler.z, arm.location.x = angle, 0.1 * angle
+            arm.keyframe_insert("rotation_euler", frame=frame)
+            arm.keyframe_insert("location", frame=frame)
+        scene.frame_set(3)  # the run's time 0
+        self.assertEqual(self.add_on.export_scene("arm.toml", sheet, solids=(cube,))[-1], "arm_solid_0.csv")
+        shell("sheet-init arm.toml -o arm.sheet; rm arm_solid_0.csv")
+        motion = self.add_on.sheetstream.Run("arm.sheet")[0].scene()["solid"][0]["motion"]
+        self.assertEqual((scene.frame_current, len(motion["times"])), (3, 18))
+        for i in (0, 4, 17):
+            scene.frame_set(3 + i)
+            self.assertAlmostEqual(motion["times"][i], i / FPS, places=12)
+            np.testing.assert_allclose(motion["places"][i], 0.1 * np.array(cube.matrix_world.translation), atol=1e-8)
+            turn = cube.matrix_world.to_quaternion()
+            self.assertAlmostEqual(abs(turn.dot(Quaternion(motion["rotations"][i]))), 1, places=6)
+        cube.keyframe_insert("scale", frame=3)
+        cube.scale.x = 3
+        cube.keyframe_insert("scale", frame=10)
+        scene.frame_set(3)
+        self.assert_error('"Cube" changes its size at frame 4', self.add_on.export_motion, "arm.csv", cube)
+        self.assertFalse(pathlib.Path("arm.csv").exists())
+
     def test_a_painted_scene_goes_through_sheet_init(self):
         bpy.ops.mesh.primitive_grid_add(x_subdivisions=12, y_subdivisions=8, size=1.0)
         thing = bpy.context.object
@@ -213,7 +257,7 @@ class AddOn(unittest.TestCase):
 class Page(unittest.TestCase):
     def test_commands_run_and_the_picture_shows_the_sheet(self):
         commands = re.findall(r"^    \$ (.+)$", (root / "docs/blender.md").read_text(), re.M)
-        self.assertEqual(len(commands), 4)
+        self.assertEqual(len(commands), 6)
         os.makedirs("page/build/share")
         os.symlink(archive, "page/build/share/sheet-blender.zip")
         os.symlink(root / "formats", "page/formats")

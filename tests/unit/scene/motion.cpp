@@ -39,7 +39,9 @@ TEST(Motion, Translation) {
   EXPECT_TRUE(motion_between(motion, 0, 2).isApprox(Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.4)), 1e-15));
   EXPECT_TRUE(motion_between(motion, 2, 0).isApprox(Eigen::Isometry3d(Eigen::Translation3d(0, 0, -0.4)), 1e-15));
   EXPECT_EQ(velocity_at(motion, 1, Vector3d(5, 5, 5)), Vector3d(0, 0, 0.2));
-  EXPECT_EQ(largest_rate(motion), 0.4);
+  EXPECT_EQ(bounds(motion, -1, 1).speed, 0.2);
+  EXPECT_EQ(bounds(motion, 0, 1).acceleration, 0.2);
+  EXPECT_FALSE(turns(motion));
 }
 
 TEST(Motion, RotationIsRightHandedAboutItsCenter) {
@@ -48,7 +50,9 @@ TEST(Motion, RotationIsRightHandedAboutItsCenter) {
   EXPECT_LT((turn * Vector3d(2, 0, 7) - Vector3d(1, 1, 7)).norm(), 1e-15);
   EXPECT_LT((turn * Vector3d(1, 0, 3) - Vector3d(1, 0, 3)).norm(), 1e-15);
   EXPECT_LT((velocity_at(motion, 2, Vector3d(3, 0, 0)) - Vector3d(0, std::numbers::pi, 0)).norm(), 1e-15);
-  EXPECT_EQ(largest_rate(motion), std::numbers::pi / 2);
+  EXPECT_EQ(bounds(motion, -100, 100).turning, std::numbers::pi / 2);
+  EXPECT_EQ(bounds(motion, 0, 1).turning_change, std::numbers::pi / 4);
+  EXPECT_TRUE(turns(motion));
 }
 
 TEST(Motion, StepsComposeToTheWhole) {
@@ -62,7 +66,7 @@ TEST(Motion, StepsComposeToTheWhole) {
 TEST(Motion, FixedStays) {
   EXPECT_TRUE(motion_between(Fixed{}, 0, 100).matrix().isIdentity(0));
   EXPECT_EQ(velocity_at(Fixed{}, 1, Vector3d(1, 2, 3)), Vector3d(0, 0, 0));
-  EXPECT_EQ(largest_rate(Fixed{}), 0);
+  EXPECT_EQ(bounds(Fixed{}, 0, 1).speed, 0);
 }
 
 } // namespace

@@ -235,7 +235,7 @@ TEST(Read, ProblemsOfTheOtherTables) {
            {"[[hold]]\nregion = \"rim\"\naxes = \"y\"\nkind = \"clamped\"",
             "s:11:8: axes: a clamped hold holds all axes; use kind = \"pinned\""},
            {"[[hold]]\nregion = \"rim\"\naxes = \"y\"\nmotion = {kind = \"rotating\", axis = [0, 1, 0], rate = 1}",
-            "s:11:8: axes: a rotating hold holds all axes"},
+            "s:11:8: axes: a hold that turns holds all axes"},
            {"[[hold]]\nregion = \"rim\"\nuntil = 0", "s:11:9: until must be positive, got 0 s"},
            {"[[hold]]\nregion = \"rim\"\nmotion = {}",
             "s:11:10: missing key \"kind\" in motion, such as kind = \"rotating\""},

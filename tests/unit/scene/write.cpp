@@ -207,7 +207,7 @@ private:
     h.motion = motion();
     if (s.model.bending && below(2))
       h.clamped = true;
-    else if (!std::holds_alternative<Rotating>(h.motion))
+    else if (!turns(h.motion))
       h.axes = static_cast<Axes>(axis_bit(0) | below(2) * axis_bit(1) | below(2) * axis_bit(2));
     h.until = maybe_positive();
     h.roll = !std::holds_alternative<Border>(h.region) && !std::holds_alternative<Fixed>(h.motion) && below(2);
@@ -232,6 +232,8 @@ private:
       s.rotation = Rotation{direction(), number()};
     s.center = maybe(vector());
     s.motion = motion();
+    if (std::holds_alternative<Keyframed>(s.motion) && turns(s.motion) && !s.rotation && shape != 0 && shape != 4)
+      s.rotation = Rotation{direction(), number()}; // else the rows' own
     s.surface_velocity = maybe(vector());
     s.contact = static_cast<SolidContact>(below(3));
     if (s.contact != SolidContact::stick && below(2))
@@ -247,10 +249,29 @@ private:
       return Translating{velocity()};
     if (below(2) == 0)
       return Fixed{};
+    if (below(2) == 0)
+      return Keyframed{keyframes()};
     Rotating r{direction(), vector(), {}};
     for (double& t : times())
       r.rate.entries.push_back({t, number()});
     return r;
+  }
+  std::shared_ptr<const Keyframes> keyframes() {
+    std::vector<double> when = times();
+    when.push_back(when.back() + std::max(1.0, std::abs(when.back())));
+    std::vector<Vector3d> places;
+    std::vector<Eigen::Quaterniond> rotations;
+    const int kind = below(3);
+    Eigen::Quaterniond q(0.5, 0.5, -0.5, 0.5);
+    for (std::size_t i = 0; i < when.size(); ++i) {
+      if (kind != 0)
+        places.push_back(vector());
+      if (kind != 1)
+        rotations.push_back(q);
+      q = (q * Eigen::AngleAxisd(unit(), direction().normalized())).normalized();
+    }
+    return std::make_shared<const Keyframes>(when, places, rotations,
+                                             kind == 0 ? vector() : Vector3d(Vector3d::Zero()));
   }
   Timed<Vector3d> velocity() {
     Timed<Vector3d> result;
