@@ -36,13 +36,16 @@ double quantile(std::vector<double> values, double part) {
 
 Range most_of(const std::vector<double>& values) { return {quantile(values, 0.01), quantile(values, 0.99)}; }
 
+// The shortest edge, but no less than an eighth of the one that a tenth are shorter than: a sliver must not cost all of
+// the frame its bits.
 double short_edge(const formats::Frame& frame) {
   const Vectors x = positions(frame);
   std::vector<double> lengths;
   for (const Corners& t : sheet::triangles(frame))
     for (std::size_t i = 0; i < 3; ++i)
       lengths.push_back((x[t[(i + 1) % 3]] - x[t[i]]).norm());
-  return quantile(std::move(lengths), 0.1);
+  const double shortest = lengths.empty() ? 0 : *std::ranges::min_element(lengths);
+  return std::max(shortest, quantile(std::move(lengths), 0.1) / 8);
 }
 
 // A step as long as `kept`, if that is no longer than `most` and not much shorter: differences then stay small.

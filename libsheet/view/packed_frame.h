@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A frame as the page holds it: whole numbers of steps, whose sizes the description says. Half a step is the error:
-//   positions  one step for all coordinates of a frame, a power of two, at most 1/512 of the edge that a tenth of the
-//              edges are shorter than: less than a thousandth of that edge is the error
+//   positions  one step for all coordinates of a frame, a power of two, at most 1/512 of the shortest edge: less than a
+//              thousandth of any edge is the error (of those that are shorter than an eighth of the edge that a tenth
+//              of the edges are shorter than, it is more)
 //   thickness  steps of a ten-thousandth of the logarithm: the error is 0.005 % of the thickness
 //   velocity   a power of two, at most 1/16384 of the frame's greatest speed
 //   curvature  a power of two, at most 1/4096 of the frame's greatest

@@ -25,6 +25,30 @@ TEST(FramePacker, RoundsByLessThanAThousandthOfAnEdge) {
   }
 }
 
+// A strip of 20 squares of side 1, the last of which is but `least` long.
+formats::Frame strip(double least) {
+  std::vector<Eigen::Vector3d> x;
+  std::vector<Corners> corners;
+  for (std::uint32_t i = 0; i <= 20; ++i) {
+    const double at = i < 20 ? i : 19 + least;
+    x.insert(x.end(), {{at, 0, 0}, {at, 1, 0}});
+    if (i > 0)
+      corners.insert(corners.end(), {{2 * i - 2, 2 * i, 2 * i + 1}, {2 * i - 2, 2 * i + 1, 2 * i - 1}});
+  }
+  return make_frame(x, corners, std::vector<double>(corners.size(), 1e-3));
+}
+
+TEST(FramePacker, RoundsByLessThanAThousandthOfTheShortestEdgeUnlessThatIsASliver) {
+  const auto error = [](double least) { return FramePacker().pack(strip(least)).description.position_step / 2; };
+  EXPECT_GT(error(1), 0.2 / 1000);
+  for (const double least : {0.5, 0.2, 0.126})
+    EXPECT_LT(error(least), least / 1000);
+  for (const double least : {0.124, 1e-3, 0.0}) {
+    EXPECT_LT(error(least), 0.125 / 1000);
+    EXPECT_GT(error(least), 0.125 / 3000);
+  }
+}
+
 TEST(FramePacker, TakesALargerStepFarAway) {
   FramePacker packer;
   const double away = 1e12;
