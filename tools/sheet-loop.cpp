@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
                "two seconds of a film");
   tool.example("sheet-loop --resume run.sheet --until 4 --fps 24 -- 'sheet-step | sheet-collide'",
                "two seconds more, or go on after an interruption");
-  tool.example("sheet-loop --resume run.sheet --set tear.below='1 mm' --until 6 --fps 24 -- 'sheet-tear | sheet-step'",
+  tool.example("sheet-loop --resume run.sheet --set tear.below='1 mm' --until 6 -- 'sheet-tear | sheet-step'",
                "and two more, in which thin places tear");
   tool.example("sheet-init a.toml | sheet-loop --steps 100 --keep 10 -- 'sheet-step --dt 0.001' > run.sheet",
                "a hundred steps, every tenth kept");

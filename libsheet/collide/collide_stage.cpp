@@ -260,12 +260,25 @@ struct CollideStage::Impl {
                       shares(path.triangles, volumes(frame), path.end).area);
   }
 
+  // How each solid moves in the step; none if all stand still.
+  [[nodiscard]] std::vector<RigidStep> solid_steps(const StepPath& path) const {
+    std::vector<RigidStep> steps;
+    bool moving = false;
+    for (std::size_t i = 0; solids && i < solids->size(); ++i) {
+      const Eigen::Isometry3d step = scene::motion_between(solids->scene(i).motion, path.start_time, path.end_time);
+      steps.push_back({step.linear(), step.translation()});
+      moving = moving || !step.isApprox(Eigen::Isometry3d::Identity(), 0);
+    }
+    return moving ? steps : std::vector<RigidStep>{};
+  }
+
   // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
   void resolve_self_beside_solids(StepPath& path, std::span<const double> reach, std::uint64_t step) {
     const StepPath asked = path;
+    const std::vector<RigidStep> steps = solid_steps(path);
     SelfReport report;
     for (int round = 1;; ++round) {
-      report = resolve_self(path, *search, reach, asked.fixed);
+      report = resolve_self(path, *search, reach, asked.fixed, steps);
       if (!solids || report.hits == 0 || round == rounds_with_solids)
         break;
       std::vector<Axes> fixed = path.fixed;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "libsheet/collide/rigid_group.h"
-
 namespace sheet::collide {
 
 namespace {
@@ -26,9 +24,10 @@ struct Inequality {
 
 class Response {
 public:
-  Response(StepPath& path, SelfSearch& search, std::span<const double> reach, std::vector<Axes> prescribed)
-      : path_(path), search_(search), reach_(reach), prescribed_(std::move(prescribed)), islands_(path.start.size()),
-        mobility_(path.start.size()) {
+  Response(StepPath& path, SelfSearch& search, std::span<const double> reach, std::vector<Axes> prescribed,
+           std::span<const RigidStep> solids)
+      : path_(path), search_(search), reach_(reach), prescribed_(std::move(prescribed)), solids_(solids),
+        islands_(path.start.size()), mobility_(path.start.size()) {
     for (std::size_t v = 0; v < mobility_.size(); ++v)
       mobility_[v] = free_part(path.fixed[v]) / path.mass[v];
   }
@@ -173,13 +172,42 @@ private:
                          : common_motion(fixed, path_.start, wanted);
   }
 
+  // The solid that an island goes with where it cannot go its own way: the one that vertices of it touch, if there is
+  // only one and nothing else is prescribed to any.
+  [[nodiscard]] std::int32_t solid_of(const std::vector<std::uint32_t>& island,
+                                      const std::vector<std::uint8_t>& stays) const {
+    std::int32_t solid = no_solid;
+    for (const std::uint32_t v : island) {
+      const std::int32_t touch = path_.touch[v];
+      if (stays[v] != 0 || (touch == no_solid && path_.fixed[v] != 0) ||
+          (touch != no_solid && solid != no_solid && touch != solid))
+        return no_solid;
+      solid = touch != no_solid ? touch : solid;
+    }
+    return solid;
+  }
+
+  // Where vertices end that have nothing left of their way: where they started, or where their island's solid takes
+  // that. As one rigid motion takes a whole island, it keeps apart what is apart.
+  [[nodiscard]] std::vector<Vector3> ends_without_way(const std::vector<std::uint8_t>& stays) const {
+    std::vector<Vector3> ends(path_.start.begin(), path_.start.end());
+    if (solids_.empty())
+      return ends;
+    for (const auto& island : islands_.all())
+      if (const std::int32_t solid = solid_of(island, stays); solid != no_solid)
+        for (const std::uint32_t v : island)
+          ends[v] = solids_[static_cast<std::size_t>(solid)](path_.start[v]);
+    return ends;
+  }
+
   void pull_back(std::vector<Hit> hits) {
     const std::vector<Vector3> wanted = path_.end;
-    std::vector<std::uint8_t> level(wanted.size(), 0), driven(wanted.size(), 0);
+    std::vector<std::uint8_t> level(wanted.size(), 0), driven(wanted.size(), 0), stays(wanted.size(), 0);
     for (std::size_t v = 0; v < driven.size(); ++v) // moved along an axis that is prescribed
       driven[v] = with_fixed(path_.fixed[v], wanted[v], path_.start[v]) != path_.start[v];
     constexpr std::uint8_t last = parts_of_way.size() - 1;
     while (!hits.empty()) {
+      const std::vector<Vector3> without = ends_without_way(stays);
       std::vector<std::uint8_t> next = level;
       for (const Hit& hit : hits) {
         const auto& v = hit.pair.vertices;
@@ -187,12 +215,14 @@ private:
         for (const std::uint32_t i : v)
           if (level[i] < last && (!some_free || !driven[i]))
             next[i] = static_cast<std::uint8_t>(level[i] + 1);
+        if (std::all_of(v.begin(), v.end(), [&](auto i) { return level[i] == last && path_.end[i] == without[i]; }))
+          stays[v[0]] = 1; // by round-off they come too near on the way with the solid
       }
       const std::vector<Vector3> before = path_.end;
       for (std::size_t v = 0; v < level.size(); ++v)
-        if (next[v] != level[v]) {
+        if (next[v] > 0) {
           const double part = parts_of_way[next[v]];
-          path_.end[v] = part == 0 ? path_.start[v] : Vector3(path_.start[v] + part * (wanted[v] - path_.start[v]));
+          path_.end[v] = part == 0 ? without[v] : Vector3(without[v] + part * (wanted[v] - without[v]));
         }
       level = std::move(next);
       hits = remaining(std::move(hits), before);
@@ -234,6 +264,7 @@ private:
   SelfSearch& search_;
   std::span<const double> reach_;
   std::vector<Axes> prescribed_; // velocities
+  std::span<const RigidStep> solids_;
   Sets islands_;
   std::vector<Vector3> mobility_; // inverse mass along each axis [1/kg]
   std::vector<Inequality> inequalities_;
@@ -243,8 +274,8 @@ private:
 } // namespace
 
 SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
-                        std::optional<std::vector<Axes>> prescribed) {
-  return Response(path, search, reach, std::move(prescribed).value_or(path.fixed)).run();
+                        std::optional<std::vector<Axes>> prescribed, std::span<const RigidStep> solids) {
+  return Response(path, search, reach, std::move(prescribed).value_or(path.fixed), solids).run();
 }
 
 } // namespace sheet::collide

@@ -14,10 +14,13 @@
 //    turn. (A straight path between two places of a rigid body is an affine map
 //    that keeps what is apart apart, for turns by less than half a circle.)
 // 3. Pull-back. What still hits ends at 1/2, 1/4, then none of its way; free vertices and those at rest first, then,
-//    because nothing else is left, those whose motion is prescribed.
+//    because nothing else is left, those whose motion is prescribed. Where an island (vertices joined by hits) touches
+//    one solid and nothing else is prescribed to it, this is its way in the solid's frame: without any it goes on with
+//    the solid, which else would go through what stays behind.
 //
 // It ends: the first two have a number of rounds; each round of the third shortens the way of at least one vertex of
-// each hit, three times at most, and four vertices without any way do not hit.
+// each hit, three times at most, and four vertices without any way do not hit: one rigid motion takes them all, or
+// if round-off is too much for that, they stay where they started.
 // It guarantees, because the search for hits never misses one: if no triangles intersect at the start, none does at any
 // time of the step, whatever is prescribed to held vertices or by solids. Where what they prescribe cannot be had
 // without an intersection, they stay behind; the report counts them. What touches a solid may then be inside of it; the
@@ -33,6 +36,7 @@
 #include <span>
 #include <vector>
 
+#include "libsheet/collide/rigid_group.h"
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/step_path.h"
 
@@ -48,8 +52,10 @@ struct SelfReport {
 };
 
 // Corrects end and velocity of the path. `reach`: contact distance at each vertex [m]; `prescribed`: axes along which
-// each vertex has a prescribed velocity, those of path.fixed if not given.
+// each vertex has a prescribed velocity, those of path.fixed if not given; `solids`: how each solid that path.touch
+// names moves in the step, if any moves.
 SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
-                        std::optional<std::vector<Axes>> prescribed = std::nullopt);
+                        std::optional<std::vector<Axes>> prescribed = std::nullopt,
+                        std::span<const RigidStep> solids = {});
 
 } // namespace sheet::collide

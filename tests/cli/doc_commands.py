@@ -28,6 +28,7 @@ while i < len(lines):
     script.append(command)
 
 for command in script:
-    command = re.sub(r"--until [0-9.]+", "--until 0.02", command)
+    changed = "--resume" in command and "--set" in command  # refused if there is nothing left to run
+    command = re.sub(r"--until [0-9.]+", "--until 0.03" if changed else "--until 0.02", command)
     command = re.sub(r"--steps [0-9]+", "--steps 2", command)
     print(command.replace("your-stage", "sheet-pass"))

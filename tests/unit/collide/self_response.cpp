@@ -48,12 +48,12 @@ struct Case {
     path.velocity[v] = way / path.length();
   }
 
-  SelfReport resolve() {
+  SelfReport resolve(std::span<const RigidStep> solids = {}) {
     path.triangles = triangles;
     path.start = start;
     const Connectivity mesh = connect(start.size(), triangles);
     SelfSearch search(mesh);
-    return resolve_self(path, search, reach);
+    return resolve_self(path, search, reach, std::nullopt, solids);
   }
 
   [[nodiscard]] std::uint64_t intersections(double time) const {
@@ -136,6 +136,29 @@ TEST(SelfResponse, WhatASolidBringsOutAndStaysBehindIsAtRest) {
   c.expect_safe();
   for (const Vector3& velocity : c.path.velocity)
     EXPECT_EQ(velocity, Vector3::Zero());
+}
+
+// Layers that stick to a solid which turns and goes far, and whose places on it are not to be had: they go on with it.
+TEST(SelfResponse, WhatSticksToAMovingSolidGoesOnWithIt) {
+  const Matrix3 turn = Eigen::AngleAxisd(0.3, Vector3(1, 0.3, 0).normalized()).toRotationMatrix();
+  const std::vector<RigidStep> steps{{turn, Vector3(0.4, 0, -2)}};
+  for (const bool told : {false, true}) {
+    Case c(2, 4, 0.05);
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+      c.path.touch[v] = 0;
+      c.path.fixed[v] = all_axes;
+      c.path.end[v] = steps[0](c.start[v]) + 0.2 * Vector3(uniform(random), uniform(random), uniform(random));
+    }
+    const SelfReport report = c.resolve(told ? steps : std::vector<RigidStep>{});
+    EXPECT_GT(report.pulled_back, 0u);
+    c.expect_safe();
+    double farthest = 0; // from where the solid takes them
+    for (std::uint32_t v = 0; v < c.start.size(); ++v)
+      farthest = std::max(farthest, (c.path.end[v] - steps[0](c.start[v])).norm());
+    EXPECT_EQ(farthest < 0.35, told);
+  }
 }
 
 // Held vertices that are sent through the rest, or through each other, stay behind at worst.
