@@ -80,16 +80,16 @@ plot() {
 # (100: the last) beside or below each other, in 256 colours.
 panels() {
   [[ $FILM != no ]] || return 0
-  local folder percents=() frames=() inputs=() percent frame last
+  local folder percents=() shown=() inputs=() percent frame last
   last=$(($(wc -l < "$out/$2.csv") - 2))
   folder=$(mktemp -d "$out/.panels.XXXXXX")
   IFS=, read -ra percents <<< "$3"
   for percent in "${percents[@]}"; do
     frame=$(((percent * last + 50) / 100))
-    frames+=("$frame")
+    shown+=("$frame")
     inputs+=(-i "$folder/$frame.png")
   done
-  draw 4 "$2" --frames "$(IFS=,; echo "${frames[*]}")" "${@:5}" -o "$folder/%d.png"
+  draw 4 "$2" --frames "$(IFS=,; echo "${shown[*]}")" "${@:5}" -o "$folder/%d.png"
   ffmpeg -y -loglevel error "${inputs[@]}" -filter_complex \
     "$1=${#percents[@]},split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=none" "$out/$4"
   rm -r "$folder"

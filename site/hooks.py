@@ -11,7 +11,7 @@ import subprocess
 KATEX = pathlib.Path("/usr/share/javascript/katex")
 here = pathlib.Path(__file__).resolve().parent
 FORMULA = re.compile(r"(?m)^ *\$\$([^$]+?)\$\$ *$|(?<![\\$`\w])\$(?=[^\s$])([^$\n]*(?:\n[^$\n]+)*?[^\s$])\$(?![\d\w$])")
-CODE = re.compile(r"```.*?```|`[^`\n]+`|(?:(?:^|(?<=\n))(?: {4,}.*(?:\n|$))+)", re.S)
+CODE = re.compile(r"```.*?```|`[^`\n]+`|(?:(?:^|(?<=\n))(?: {4,}[^\n]*(?:\n|$))+)", re.S)
 CODE_WITH_BAR = re.compile(r"`([^`\n]*\\\|[^`\n]*)`")
 _formulas = []
 
