@@ -50,3 +50,11 @@ END
     END { exit !(high > 5 * low && low < 0.1) }' <<< "$output" || { echo "$output"; false; }
   [[ -s $t/ring/diagram.png && -s $t/ring/loop.png ]]
 }
+
+@test "neck-in: a film as wide as it is long keeps half of its width at a draw ratio of 5, a narrow one less" {
+  OUT=$t/neck run -0 pipelines/film-casting/neck-in 1,2 5 4
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i }
+    NR > 1 { if ($c["aspect"] == 1) one = $c["width_at_roll"]; else two = $c["width_at_roll"] }
+    END { exit !(one > 0.48 && one < 0.54 && two > 0.45 && two < one) }' "$t/neck/neck-in/results.csv"
+  [[ -s $t/neck/neck-in.png ]]
+}
