@@ -130,8 +130,10 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
 
   Scene scene;
   std::vector<TableReader> sheets = one_or_several("sheet", most_sheets);
-  if (top.absent("sheet"))
+  if (const Node* sheet = document.find("sheet"); !sheet)
     problems.add({}, "missing table [sheet]");
+  else if (sheet->type == Node::Type::list && sheet->items.empty())
+    problems.add(sheet->place, "sheet: an empty list; there must be a [sheet], or at least one [[sheet]]");
   const bool has_sheet = !sheets.empty(), has_material = required("material").has_value();
   if (has_material)
     scene.material = read_material(named("material", *document.find("material")));

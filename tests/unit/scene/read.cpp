@@ -421,6 +421,8 @@ until = 3
 }
 
 TEST(Read, ProblemsOfSeveralSheets) {
+  EXPECT_EQ(problem(std::string("sheet = []\n") + liquid),
+            "s:1:9: sheet: an empty list; there must be a [sheet], or at least one [[sheet]]");
   for (const auto& [text, expected] : std::vector<Case>{
            {"[[hold]]\nregion = \"rim\"",
             "s:18:1: missing key \"sheet\" in [[hold]], such as sheet = \"left\", as there are "
@@ -430,7 +432,9 @@ TEST(Read, ProblemsOfSeveralSheets) {
            {"[inflow]\nregion = \"x_min\"\nvelocity = [0, 1, 0]\nsheet = \"middle\"",
             "s:21:9: sheet: there is no [[sheet]] \"middle\"; there is \"left\", \"right\""},
            {"[[sheet]]\nname = \"left\"\nshape = \"sphere\"\nradius = 1\nedge_length = 0.1\nthickness = 0.1",
-            "s:19:8: name: another [[sheet]] has this name"}})
+            "s:19:8: name: another [[sheet]] has this name"},
+           {"[[sheet]]\nshape = \"mesh\"\nfile = \"a.off\"\nthickness = 1\nenters = 1",
+            "s:22:10: enters: a sheet from a mesh file is there from the start; a shape can enter"}})
     EXPECT_EQ(problem(two_sheets + text), expected) << text;
 }
 

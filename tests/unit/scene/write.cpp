@@ -152,7 +152,8 @@ public:
       sheet.name = "first \"one\"";
       SheetTable other = sheet;
       other.name = "other";
-      other.enters = maybe_positive();
+      if (!std::holds_alternative<SheetMesh>(sheet.shape))
+        other.enters = maybe_positive();
       s.sheets.push_back(other);
     }
     if (below(2))
