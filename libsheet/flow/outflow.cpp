@@ -20,7 +20,8 @@ constexpr double close = 0.25; // of a triangle's mean edge: what is not farther
 // Of x from the plane, positive beyond it [m].
 double past(const scene::Outflow& o, const Vector3& x) { return o.normal.dot(x - o.point) / o.normal.norm(); }
 
-std::vector<bool> beyond(const Frame& frame, const std::vector<scene::Outflow>& outflows) {
+// Triangles that reach beyond a plane, and at most `inside` of their mean edge to this side.
+std::vector<bool> beyond(const Frame& frame, const std::vector<scene::Outflow>& outflows, double inside) {
   const auto x = positions(frame);
   const auto inlet = masks(frame, "inlet");
   std::vector<bool> leaves(frame.triangles, false);
@@ -31,7 +32,7 @@ std::vector<bool> beyond(const Frame& frame, const std::vector<scene::Outflow>& 
     const double edge = ((x[c[1]] - x[c[0]]).norm() + (x[c[2]] - x[c[1]]).norm() + (x[c[0]] - x[c[2]]).norm()) / 3;
     leaves[t] = std::ranges::any_of(outflows, [&](const scene::Outflow& o) {
       const auto d = std::minmax({past(o, x[c[0]]), past(o, x[c[1]]), past(o, x[c[2]])});
-      return d.second > 0 && d.first > -close * edge;
+      return d.second > 0 && d.first > -inside * edge;
     });
   }
   return leaves;
@@ -83,7 +84,9 @@ Dropped let_out(Frame& frame, const Scene& scene) {
         return std::ranges::any_of(scene.outflows, [&](const scene::Outflow& o) { return past(o, at) > 0; });
       }))
     return {};
-  const std::vector<bool> leaves = beyond(frame, scene.outflows);
+  // Where the sheet must not pass through itself nothing is moved: layers that lie on each other would.
+  const bool straight = !(scene.contact && scene.contact->self);
+  const std::vector<bool> leaves = beyond(frame, scene.outflows, straight ? close : 0);
   Dropped out = sum_of(frame, leaves, scene.material.density);
   if (out.triangles == frame.triangles)
     fail(ExitCode::bad_input,
@@ -91,7 +94,9 @@ Dropped let_out(Frame& frame, const Scene& scene) {
          frame.time);
   if (out.triangles > 0)
     drop(frame, leaves);
-  const Dropped cut = pull_back(frame, scene);
+  const Dropped cut = straight ? pull_back(frame, scene) : Dropped{};
+  if (out.triangles == 0 && cut.volume == 0)
+    return {};
   out.volume += cut.volume;
   out.momentum += cut.momentum;
   out.energy += cut.energy;

@@ -139,6 +139,15 @@ END
   interrupted INT bottle bottle 0.006 0.08 0.03
 }
 
+@test "enrobing, truffle after truffle: more leaves than comes; gone on with = straight" {
+  export FILM=no
+  OUT=$BATS_TEST_TMPDIR/straight pipelines/enrobing/line 0.04 1.25 2
+  OUT=$BATS_TEST_TMPDIR/resumed pipelines/enrobing/line 0.04 0.5 2
+  OUT=$BATS_TEST_TMPDIR/resumed pipelines/enrobing/line 0.04 1.25 2
+  cmp "$BATS_TEST_TMPDIR"/{straight,resumed}/line.sheet
+  awk -F, 'NR > 1 && $6 > most { most = $6 } END { exit !($6 < 0.8 * most) }' "$BATS_TEST_TMPDIR/straight/line.csv"
+}
+
 @test "coating: killed while a second sheet is there, and resumed = straight" {
   interrupted KILL coating coating 0.006 0.24 0.05
 }

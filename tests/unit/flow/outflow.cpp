@@ -53,6 +53,23 @@ TEST(Outflow, EndsTheSheetAtThePlaneAndKeepsAccount) {
   EXPECT_DOUBLE_EQ(account(frame, "outflow.energy"), 3 * left * 2 * 2 / 2.0);
 }
 
+// With self-contact what is wholly beyond goes, and no vertex moves but by what opens cracks, as in tearing.
+TEST(Outflow, MovesNothingWhereTheSheetMayTouchItself) {
+  const Frame whole = moving();
+  Frame frame = whole;
+  const Scene scene = with_outflow("[[outflow]]\npoint = [2.5, 0, 0]\nnormal = [1, 0, 0]\n[contact]\nself = true\n");
+  const double before = volume_of(frame);
+  EXPECT_EQ(let_out(frame, scene).triangles, 4U);
+  for (std::size_t v = 0; v < frame.vertices; ++v)
+    EXPECT_TRUE(std::ranges::any_of(positions(whole), [&](const Vector3& x) {
+      return (x - std::as_const(frame).find("position")->values<Vector3>()[v]).norm() < 2e-3;
+    }));
+  EXPECT_DOUBLE_EQ(volume_of(frame) + account(frame, "outflow.volume"), before);
+  const Frame once = frame;
+  EXPECT_EQ(let_out(frame, scene).triangles, 0U); // what hangs over the plane waits
+  EXPECT_EQ(frame, once);
+}
+
 // What would be a sliver goes whole.
 TEST(Outflow, LeavesNoSlivers) {
   Frame frame = moving();
