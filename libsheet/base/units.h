@@ -41,6 +41,7 @@ inline constexpr Quantity viscosity{"a viscosity", {1, -1, -1}, "Pa*s", "100 Pa*
 inline constexpr Quantity density{"a density", {1, -3, 0}, "kg/m^3", "1000 kg/m^3"};
 inline constexpr Quantity surface_tension{"a surface tension", {1, 0, -2}, "N/m", "30 mN/m"};
 inline constexpr Quantity stiffness{"a stiffness", {1, 0, -2}, "N/m", "1.5 N/m"};
+inline constexpr Quantity drag{"a drag", {1, -2, -1}, "Pa*s/m", "100 Pa*s/m"};
 inline constexpr Quantity pressure{"a pressure", {1, -1, -2}, "Pa", "10 Pa"};
 inline constexpr Quantity volume{"a volume", {0, 3, 0}, "m^3", "1e-3 m^3"};
 inline constexpr Quantity conductance{"a conductance", {-1, 4, 1}, "m^3/(Pa*s)", "1e-6 m^3/(Pa*s)"};

@@ -150,7 +150,7 @@ struct CollideStage::Impl {
       path.thickness.push_back(thickness_of(at_start, i));
       path.mass.push_back(at_start.volume[i] * density);
     }
-    if (flows_on_solids(*scene)) {
+    if (layers_flow(*scene)) {
       const Shares at_end = shares(path.triangles, volumes(frame), path.end);
       for (std::size_t i = 0; i < path.end.size(); ++i)
         path.end_thickness.push_back(thickness_of(at_end, i));
@@ -303,7 +303,8 @@ struct CollideStage::Impl {
 
   void set_springs(Frame& frame, StepPath& path, const std::vector<Axes>& fixed, std::span<const double> reach) {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
-    const SpringSheet sheet{path.start, path.end, reach, path.thickness, at_end.area, fixed, path.length()};
+    const SpringSheet sheet{path.start,  path.end, reach,         path.thickness,
+                            at_end.area, fixed,    path.length(), path.end_thickness};
     std::vector<ContactSpring> springs = read_springs(frame);
     const std::vector<ContactSpring> loose = take_loose(springs, *mesh.mesh(), path.start);
     follow(springs, *scene, sheet);

@@ -21,20 +21,6 @@ std::optional<Vector3> normal_of(const ContactSpring& s, std::span<const Vector3
   return n / length;
 }
 
-// Half of the area that a spring stands for.
-double area_of(const ContactSpring& s, std::span<const double> area) {
-  if (s.of_vertex())
-    return 0.5 * area[s.vertices[0]];
-  return 0.125 * (area[s.vertices[0]] + area[s.vertices[1]] + area[s.vertices[2]] + area[s.vertices[3]]);
-}
-
-double mean_at(std::span<const double> values, const ContactSpring& s) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    sum += std::abs(s.weights[i]) * values[s.vertices[i]];
-  return 0.5 * sum;
-}
-
 // The time in which a contact acts: a tenth of that of falling by its distance d, without gravity of coming by it. Of
 // the step only where nothing falls or comes, so that a contact is the same in short steps as in long ones.
 double time_of(const ContactSpring& s, double g, double d, const SpringSheet& sheet) {
@@ -47,7 +33,7 @@ double time_of(const ContactSpring& s, double g, double d, const SpringSheet& sh
 double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   if (scene.contact && scene.contact->stiffness)
     return *scene.contact->stiffness;
-  const double area = area_of(s, sheet.area), h = mean_at(sheet.thickness, s), d = mean_at(sheet.reach, s);
+  const double area = s.area(sheet.area), h = s.mean(sheet.thickness), d = s.mean(sheet.reach);
   const double mass = area * scene.material.density * h;
   const double g = scene.environment.gravity ? scene.environment.gravity->norm() : 0;
   const double time = time_of(s, g, d, sheet);
@@ -63,12 +49,14 @@ bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   const auto turn = Eigen::Quaterniond::FromTwoVectors(*before, *after);
   s.normal = (turn * s.normal).normalized();
   s.anchor = turn * s.anchor;
+  if (!sheet.end_thickness.empty())
+    s.rest *= s.mean(sheet.end_thickness) / s.mean(sheet.thickness);
   const double gap = s.normal.dot(s.offset(sheet.end));
   if (!(gap > 0))
     return false;
   if (!scene.contact || !scene.contact->adhesion)
     return true;
-  return s.stiffness[0] * (gap - s.rest) <= *scene.contact->adhesion * area_of(s, sheet.area);
+  return s.stiffness[0] * (gap - s.rest) <= *scene.contact->adhesion * s.area(sheet.area);
 }
 
 } // namespace
@@ -138,7 +126,8 @@ void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair
     s.anchor = pair->closest.offset;
     s.rest = s.anchor.norm();
     s.normal = s.anchor / s.rest;
-    s.stiffness.fill(stiffness_of(s, scene, sheet));
+    s.stiffness[0] = stiffness_of(s, scene, sheet);
+    s.stiffness[1] = layers_flow(scene) ? 0 : s.stiffness[0];
     springs.push_back(s);
     link(s);
   }

@@ -16,8 +16,10 @@
 // with h the mean thickness, d the contact distance, v the speed of approach. Terms: inertia (if it is modelled): what
 // falls from a height of d is stopped within a tenth of it; weight: ten layers compress by a twentieth of d; viscosity:
 // as stiff as the sheet itself is against stretching within T, so that what a viscous sheet presses together does not
-// go through either. The length of the step does not matter (where neither g nor v is, T is that), nor, under gravity,
-// how fast the features came, as impulses take that speed away, else the error of a step would not fall with it.
+// go through either. Where layers flow (layers_flow) the tangential part is 0 (contact_shear.h has it), and the rest
+// distance follows their mean thickness. The length of the step does not matter (where neither g nor v is, T is that),
+// nor, under gravity, how fast the features came, as impulses take that speed away, else the error of a step would not
+// fall with it.
 #pragma once
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/step_path.h"
@@ -28,12 +30,13 @@ namespace sheet::collide {
 
 // The sheet at the end of a step, as springs see it; one value a vertex.
 struct SpringSheet {
-  std::span<const Vector3> start, end; // [m]
-  std::span<const double> reach;       // contact distance [m]
-  std::span<const double> thickness;   // [m]
-  std::span<const double> area;        // a third of the area of its triangles [m²]
-  std::vector<Axes> fixed;             // pairs of fixed vertices alone get no spring
-  double step = 0;                     // its length [s]
+  std::span<const Vector3> start, end;        // [m]
+  std::span<const double> reach;              // contact distance [m]
+  std::span<const double> thickness;          // [m]
+  std::span<const double> area;               // a third of the area of its triangles [m²]
+  std::vector<Axes> fixed;                    // pairs of fixed vertices alone get no spring
+  double step = 0;                            // its length [s]
+  std::span<const double> end_thickness = {}; // where layers flow; their springs rest at what they thin to [m]
 };
 
 // Turns the springs with their features and takes away those that parted: whose features passed each other or became

@@ -37,7 +37,7 @@ struct StepPath {
       thickness; // at each vertex [m]: volume / area of its triangles, at most twice the length of its edges
   std::vector<double>
       mass; // of each vertex [kg]; a third of its triangles' (volume / 3 where the density is not given)
-  std::vector<double> end_thickness; // the same at the end, where liquid flows on solids; none: as at the start
+  std::vector<double> end_thickness; // the same at the end, where layers flow; none: as at the start
   std::vector<std::int32_t> touch;   // the solid that holds each vertex, or no_solid
   std::vector<Axes> fixed;           // where held or touching: moved by nothing else (infinite mass)
 

@@ -5,6 +5,9 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/bath.h"
+#include "libsheet/energy/bath_drag.h"
+#include "libsheet/energy/contact_shear.h"
+#include "libsheet/energy/contact_squeeze.h"
 #include "libsheet/energy/gravity.h"
 #include "libsheet/energy/hinge.h"
 #include "libsheet/energy/membrane.h"
@@ -34,14 +37,22 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
     terms.push_back(make_term(Gravity(model.density, model.gravity)));
   if (model.viscosity > 0 && std::ranges::any_of(model.walls, [](const Wall& w) { return w.slip_length != free_slip; }))
     terms.push_back(make_term(WallDrag(model.viscosity)));
-  if (!model.walls.empty() && model.density > 0 && model.gravity.squaredNorm() > 0)
-    terms.push_back(make_term(WallWeight(model.density, model.gravity)));
+  const bool spreads = model.bath && model.bath->spreads;
+  if ((!model.walls.empty() || spreads) && model.density > 0 && model.gravity.squaredNorm() > 0)
+    terms.push_back(make_term(WallWeight(model.density, model.gravity, spreads ? model.bath->level : no_bath)));
   if (model.pressure)
     terms.push_back(make_term(Pressure(*model.pressure)));
   if (model.bath && model.gravity.squaredNorm() > 0)
     terms.push_back(make_term(Bath(model.bath->density, model.gravity, model.bath->level, model.bath->clings)));
+  if (model.bath && model.bath->drag > 0 && model.gravity.squaredNorm() > 0)
+    terms.push_back(make_term(BathDrag(model.bath->drag, model.gravity, model.bath->level)));
   if (!model.contacts.empty())
     terms.push_back(make_term(Contact(model.contacts, model.contacts_adhere)));
+  if (!model.contacts.empty() && model.contacts_flow) {
+    terms.push_back(make_term(ContactSqueeze(model.contacts)));
+    if (model.viscosity > 0)
+      terms.push_back(make_term(ContactShear(model.contacts, model.viscosity)));
+  }
   if (terms.empty())
     fail(ExitCode::bad_input, "the model has no term: neither viscosity nor inertia nor any force");
   return terms;

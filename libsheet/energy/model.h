@@ -15,9 +15,11 @@ namespace sheet {
 
 // A bath below the sheet.
 struct BathModel {
-  double density = 0;  // [kg/m³]
-  double level = 0;    // of its surface, along the upward direction [m]
-  bool clings = false; // it pulls what is above its level
+  double density = 0;   // [kg/m³]
+  double level = 0;     // of its surface, along the upward direction [m]
+  bool clings = false;  // it pulls what is above its level
+  bool spreads = false; // what floats on it spreads by its own weight
+  double drag = 0;      // of what slides on it [Pa s/m]
 };
 
 enum class Bending { none, mid_edge, hinge, hinge_paper };
@@ -38,6 +40,7 @@ struct Model {
   bool reactions = false;  // whether the forces of holds and walls are wanted
   std::vector<ContactSpring> contacts;
   bool contacts_adhere = false;
+  bool contacts_flow = false; // they let layers flow along each other, and press them flat
 
   [[nodiscard]] bool has_inertia() const { return inertia && density > 0; }
   [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && viscosity > 0; }

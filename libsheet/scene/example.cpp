@@ -117,8 +117,10 @@ gravity = [0, "-9.81 m/s^2", 0]
 #pressure = {law = "gas", value = "2 Pa", exponent = 1.4, ambient = "1 bar", leak = "1e-8 m^3/(Pa*s)", more_volume = "1 cm^3"}
 
 # A heavy liquid below the sheet, up to the height `level` against gravity. It carries what is under its surface;
-# with clings = true it pulls down what is above it, too, so that the sheet cannot leave it.
-#bath = {density = "1200 kg/m^3", level = "-0.5 m", clings = false}
+# with clings = true it pulls down what is above it, too, so that the sheet cannot leave it. With spreads = true the sheet
+# spreads on it by its own weight, as glass on tin; drag: what slides on it is held back so, its viscosity over its depth
+# where that is shallow (default 0).
+#bath = {density = "1200 kg/m^3", level = "-0.5 m", clings = false, spreads = false, drag = "50 Pa*s/m"}
 
 [model] # ---------------------------------------------------------------- what to leave out; may be absent
 

@@ -74,9 +74,13 @@ std::vector<Term> terms_of(const Scene& scene) {
        "no pressure in [environment]");
   term("bath", environment.bath.has_value(),
        environment.bath
-           ? fmt::format("liquid of {} kg/m³ below level {} m, which {}", brief(environment.bath->density),
+           ? fmt::format("liquid of {} kg/m³ below level {} m, which {}{}{}", brief(environment.bath->density),
                          brief(environment.bath->level),
-                         environment.bath->clings ? "clings to the sheet" : "carries what is under its surface")
+                         environment.bath->clings ? "clings to the sheet" : "carries what is under its surface",
+                         environment.bath->spreads ? ", and on which it spreads" : "",
+                         environment.bath->drag > 0
+                             ? fmt::format(", dragging it with {} Pa s/m", brief(environment.bath->drag))
+                             : "")
            : "",
        "no bath in [environment]");
   term("holds", !holds.empty(), count(holds.size(), "hold"), "no [[hold]]");
@@ -232,8 +236,12 @@ std::vector<std::string> left_out_of(const Scene& scene) {
     left_out.push_back("what sticks to a solid does not spread on it");
   if (scene.contact && scene.contact->self)
     left_out.push_back("layers that touch never become one liquid");
-  if (scene.environment.bath)
-    left_out.push_back("the bath has no waves and no viscosity");
+  if (const auto& bath = scene.environment.bath) {
+    left_out.push_back(bath->drag > 0 ? "the bath has no waves and stays at rest"
+                                      : "the bath has no waves and no viscosity");
+    if (!bath->spreads)
+      left_out.push_back("what floats does not spread by its own weight (bath = {..., spreads = true})");
+  }
   if (const auto& pressure = scene.environment.pressure; pressure && std::holds_alternative<GasPressure>(*pressure))
     left_out.push_back("enclosed gas has one pressure everywhere, and stays in where the sheet is torn");
   else if (pressure)

@@ -76,8 +76,9 @@ Environment read_environment(TableReader table) {
   environment.pressure = read_pressure(table);
   if (auto bath = table.table("bath")) {
     const double density = bath->required("density", quantity::density);
-    environment.bath =
-        Bath{density, bath->quantity_or("level", quantity::length, 0), bath->boolean("clings").value_or(false)};
+    environment.bath = Bath{density, bath->quantity_or("level", quantity::length, 0),
+                            bath->boolean("clings").value_or(false), bath->boolean("spreads").value_or(false),
+                            bath->quantity_or("drag", quantity::drag, 0, Bound::not_negative)};
     bath->finish();
   }
   table.finish();

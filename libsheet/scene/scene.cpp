@@ -107,4 +107,8 @@ bool flows_on_solids(const Scene& scene) {
   return std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact != SolidContact::stick; });
 }
 
+bool layers_flow(const Scene& scene) {
+  return flows_on_solids(scene) || (scene.environment.bath && scene.environment.bath->spreads);
+}
+
 } // namespace sheet::scene

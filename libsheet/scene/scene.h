@@ -159,10 +159,13 @@ struct GasPressure {
 using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingPressure, GasPressure>;
 
 // Liquid below the height `level`, measured against gravity from the origin. It carries what is under its surface, and
-// pulls down what is above it if it clings.
+// pulls down what is above it if it clings. What floats on it spreads under its own weight if the scene says so, and is
+// dragged where it slides.
 struct Bath {
   double density, level;
   bool clings = false;
+  bool spreads = false;
+  double drag = 0; // of a square metre that slides on it, over its speed [Pa s/m]
   bool operator==(const Bath&) const = default;
 };
 
@@ -323,6 +326,9 @@ struct PlaneAxes {
 // Whether liquid that touches flows or slips along any of the scene's solids.
 [[nodiscard]] bool flows_on_solids(const Scene& scene);
 
+// Whether layers that lie on each other flow along each other: where liquid flows on solids or spreads on a bath.
+[[nodiscard]] bool layers_flow(const Scene& scene);
+
 // Whether liquid enters or leaves: what sheet-emit does.
 [[nodiscard]] bool flows_in_or_out(const Scene& scene);
 
@@ -334,6 +340,7 @@ struct PlaneAxes {
 namespace sheet {
 using scene::flows_in_or_out;
 using scene::flows_on_solids;
+using scene::layers_flow;
 using scene::Scene;
 using scene::sheet_named;
 using scene::SolidContact;

@@ -186,8 +186,10 @@ void write_environment(Writer& out, const Environment& environment) {
              fmt::format("{{law = {}, {}}}", word(words::pressures, environment.pressure->index()), values));
   }
   if (environment.bath)
-    out.line("bath", fmt::format("{{density = {}, level = {}, clings = {}}}", number(environment.bath->density),
-                                 number(environment.bath->level), environment.bath->clings));
+    out.line("bath", fmt::format("{{density = {}, level = {}, clings = {}{}{}}}", number(environment.bath->density),
+                                 number(environment.bath->level), environment.bath->clings,
+                                 environment.bath->spreads ? ", spreads = true" : "",
+                                 environment.bath->drag > 0 ? ", drag = " + number(environment.bath->drag) : ""));
 }
 
 void write_hold(Writer& out, const Hold& hold) {

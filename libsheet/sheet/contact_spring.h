@@ -3,6 +3,7 @@
 // vertex and a triangle, or two edges.
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,6 +29,19 @@ struct ContactSpring {
     for (std::size_t i = 1; i < 4; ++i) // from the first vertex, so that far from the origin no digits are lost
       c += weights[i] * (positions[vertices[i]] - positions[vertices[0]]);
     return c;
+  }
+  // The area that the spring stands for, given those of the vertices (a third of their triangles'): half of its
+  // vertex', as the vertices of both layers get springs; of edges half of the mean of their vertices' [m²].
+  [[nodiscard]] double area(std::span<const double> of_vertices) const {
+    const auto of = [&](std::size_t i) { return of_vertices[vertices[i]]; };
+    return of_vertex() ? 0.5 * of(0) : 0.125 * (of(0) + of(1) + of(2) + of(3));
+  }
+  // Mean of a value over both features.
+  [[nodiscard]] double mean(std::span<const double> of_vertices) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      sum += std::abs(weights[i]) * of_vertices[vertices[i]];
+    return 0.5 * sum;
   }
 };
 

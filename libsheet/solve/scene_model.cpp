@@ -43,6 +43,10 @@ PressureLaw pressure_law(const scene::Pressure& pressure) {
   return law;
 }
 
+BathModel bath_model(const scene::Bath& bath) {
+  return {bath.density, bath.level, bath.clings, bath.spreads, bath.drag};
+}
+
 // By a scene's motion, and by that of a belt's surface [m/s].
 void move(Hold& hold, const scene::Motion& motion, const Vector3& surface_velocity = Vector3::Zero()) {
   hold.motion = [=](double from, double to) {
@@ -224,14 +228,14 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (scene.environment.pressure)
     model.pressure = pressure_law(*scene.environment.pressure);
   if (scene.environment.bath)
-    model.bath =
-        BathModel{scene.environment.bath->density, scene.environment.bath->level, scene.environment.bath->clings};
+    model.bath = bath_model(*scene.environment.bath);
   const bool touching = add_touching(scene, frame, mesh, solids,
                                      model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
   add_inlets(scene, frame, mesh, model);
   model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
   model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
+  model.contacts_flow = layers_flow(scene);
   model.reactions =
       scene::wants_forces(scene) || (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene)));
   return model;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libsheet/base/error.h"
+#include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/levelling.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/area.h"
@@ -30,7 +31,7 @@ bool sound(const State& s) {
 
 // What holds and walls must add to the other forces, inertia included, so that the sum vanishes: the potential's
 // gradient in the directions that they prescribe, and the walls' drag.
-std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, double viscosity, const Stage& stage,
+std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const Model& model, const Stage& stage,
                                const Unknowns& u) {
   const Constraints constraints = system.constraints();
   Eigen::VectorXd gradient;
@@ -39,7 +40,12 @@ std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, double 
   Eigen::VectorXd free = gradient;
   constraints.project(free);
   gradient -= free;
-  std::vector<Vector3> result = drag_on_walls(stage, viscosity, u);
+  std::vector<Vector3> result = drag_on_walls(stage, model.viscosity, u);
+  if (model.contacts_flow && !model.contacts.empty()) {
+    ContactShear shear(model.contacts, model.viscosity);
+    shear.begin(stage);
+    shear.add_wall_forces(stage, u, result);
+  }
   for (std::size_t v = 0; v < result.size(); ++v)
     result[v] += gradient.segment<3>(static_cast<Eigen::Index>(3 * v));
   return result;
@@ -197,7 +203,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     change -= free;
     for (std::size_t v = 0; v < n; ++v)
       stage.inertial[v] += change.segment<3>(static_cast<Eigen::Index>(3 * v));
-    report.reactions = reactions(cache_->system, cache_->terms, model_.viscosity, stage, last);
+    report.reactions = reactions(cache_->system, cache_->terms, model_, stage, last);
   }
   if (level_layers(stage, {model_.viscosity, model_.density, model_.surface_tension, model_.gravity}, model_.holds, dt,
                    end))

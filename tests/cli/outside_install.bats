@@ -21,7 +21,11 @@ bats_require_minimum_version 1.5.0
   cd "$BATS_TEST_TMPDIR"
   cmake --install "$SHEET_BUILD" --prefix "$PWD/usr" --component formats-dev > log
   grep -q 'lib/python3/dist-packages/sheetstream/__init__.py' log
-  cmake -S "$SHEET_SOURCE/formats/cpp/example" -B example -DCMAKE_PREFIX_PATH="$PWD/usr" > log 2>&1 || { cat log; false; }
+  local more=()
+  if grep -q 'SHEET_SANITIZE:BOOL=ON' "$SHEET_BUILD/CMakeCache.txt"; then # the readers need its runtime
+    more=(-DCMAKE_CXX_FLAGS=-fsanitize=address,undefined)
+  fi
+  cmake -S "$SHEET_SOURCE/formats/cpp/example" -B example -DCMAKE_PREFIX_PATH="$PWD/usr" "${more[@]}" > log 2>&1 || { cat log; false; }
   cmake --build example > log 2>&1 || { cat log; false; }
   make_grid 3 > grid.sheet
   [[ $(example/least_volume < grid.sheet) == "0 1e-06" ]] # as sheet-print shows them

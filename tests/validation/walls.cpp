@@ -180,6 +180,21 @@ Result free_slip_spreading(const Settings& s) {
   return run.result(thickness_of(run.state()) / (thin / 2));
 }
 
+// On a bath twice as dense, on which it floats: h = h0/(1 + g' h0 t/(8 ν)), g' = g (1 - ρ/ρ_b) [Pegler and Worster
+// 2012]; to half the thickness.
+Result floating(const Settings& s) {
+  constexpr double denser = 2, buoyant = gravity * (1 - 1 / denser);
+  Channel c = channel(s, radius, thin);
+  for (Vector3& x : c.state.positions)
+    x.z() = -thin / denser;
+  Model m = layer(s, {0, 0, -gravity});
+  hold_channel(c, axis_bit(0), m);
+  m.bath = BathModel{.density = denser * density, .spreads = true};
+  Run run(std::move(c.state), m, s, radius);
+  run.advance(8 * kinematic / (buoyant * thin), s.steps);
+  return run.result(thickness_of(run.state()) / (thin / 2));
+}
+
 // The film on top of a cylinder: h = h0/sqrt(1 + 2 g h0² t/(3 ν R)); to half the thickness.
 Result on_a_cylinder(const Settings& s) {
   Channel c = channel(s, radius, thin);
@@ -256,8 +271,10 @@ Result v24(const Settings& s) {
     return on_a_cylinder(s);
   case 6:
     return spinning(s);
-  default:
+  case 7:
     return puddle(s);
+  default:
+    return floating(s);
   }
 }
 

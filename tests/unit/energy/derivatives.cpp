@@ -10,7 +10,10 @@
 
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/bath.h"
+#include "libsheet/energy/bath_drag.h"
 #include "libsheet/energy/contact.h"
+#include "libsheet/energy/contact_shear.h"
+#include "libsheet/energy/contact_squeeze.h"
 #include "libsheet/energy/gravity.h"
 #include "libsheet/energy/hinge.h"
 #include "libsheet/energy/inertia.h"
@@ -186,7 +189,9 @@ TEST(Derivatives, Membrane) { check(Membrane(2.0), {}); }
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(0.7), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(0.7), {}, true, crumpled, touch_walls); }
 TEST(Derivatives, WallDrag) { check(WallDrag(2.0), {false, false}, true, crumpled, touch_walls); }
-TEST(Derivatives, WallWeight) { check(WallWeight(3, {0.3, -9, 2}), {}, true, crumpled, touch_walls); }
+TEST(Derivatives, WallWeight) { check(WallWeight(3, {0.3, -9, 2}, no_bath), {}, true, crumpled, touch_walls); }
+TEST(Derivatives, WeightOnABath) { check(WallWeight(3, {0.3, -9, 2}, 0.1), {}); }
+TEST(Derivatives, BathDrag) { check(BathDrag(3, {0.3, -9, 2}, 0.1), {false, false}); }
 TEST(Derivatives, InertiaLumped) { check(Inertia(3, Mass::lumped), {false, false}); }
 TEST(Derivatives, InertiaConsistent) { check(Inertia(3, Mass::consistent), {false, false}); }
 TEST(Derivatives, Gravity) { check(Gravity(3, {0.3, -9, 2}), {false, false}); }
@@ -335,7 +340,7 @@ TEST(Derivatives, Hinges) {
   check(Hinge(2, true, *mesh), {});
 }
 
-TEST(Derivatives, Contact) {
+std::vector<ContactSpring> random_springs() {
   Random random;
   std::vector<ContactSpring> springs;
   for (std::uint32_t i = 0; i + 10 < 42; ++i)
@@ -345,8 +350,22 @@ TEST(Derivatives, Contact) {
                        0.1,
                        random.vector(0.1),
                        {3, 2}});
-  check(Contact(springs, true), {true, false});
-  check(Contact(springs, false), {true, false});
+  return springs;
+}
+
+TEST(Derivatives, Contact) {
+  check(Contact(random_springs(), true), {true, false});
+  check(Contact(random_springs(), false), {true, false});
+}
+
+TEST(Derivatives, ContactShear) {
+  check(ContactShear(random_springs(), 2), {true, false});
+  check(ContactShear(random_springs(), 2), {false, false}, true, crumpled, touch_walls); // walls take a part
+}
+
+TEST(Derivatives, ContactSqueeze) {
+  check(ContactSqueeze(random_springs()), {});
+  check(ContactSqueeze(random_springs()), {}, true, crumpled, touch_walls);
 }
 
 } // namespace

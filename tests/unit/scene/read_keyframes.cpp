@@ -67,10 +67,9 @@ TEST_F(MotionFile, ASolidThatDoesNotSayWhereItIsIsThere) {
 }
 
 TEST_F(MotionFile, NearlyUnitQuaternionsAreMadeUnit) {
-  const auto& motion = std::get<Keyframed>(
-      read("time, qw, qx, qy, qz\n0, 1.0009, 0, 0, 0\n1, 0.6, 0, 0.8, 0\n2, 0, 0, 1, 0", ball + "center = [0, 7, 0]\n")
-          .solids[0]
-          .motion);
+  const Scene scene =
+      read("time, qw, qx, qy, qz\n0, 1.0009, 0, 0, 0\n1, 0.6, 0, 0.8, 0\n2, 0, 0, 1, 0", ball + "center = [0, 7, 0]\n");
+  const auto& motion = std::get<Keyframed>(scene.solids[0].motion);
   EXPECT_EQ(motion.frames->rotations()[0].w(), 1);
   EXPECT_EQ(motion.frames->center(), Vector3d(0, 7, 0)); // the solid's
 }

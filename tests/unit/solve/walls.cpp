@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +102,109 @@ TEST(Walls, RigidTurnCostsNothing) {
   const Matrix3 turn = turned(0, s.time);
   for (std::size_t v = 0; v < s.positions.size(); ++v)
     EXPECT_LT((s.positions[v] - turn * start.positions[v]).norm(), 1e-12);
+}
+
+// A layer on a wall and one on it, half as thick, each vertex above another one, with the springs that sheet-collide
+// would make.
+struct Stack {
+  State state;
+  Model model;
+  std::size_t upper; // its first vertex
+};
+
+Stack stack(double lower, double upper) {
+  test::Mesh mesh = test::rectangle(1, 1, 4, 4, 0), above = mesh;
+  const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+  const std::size_t triangles = mesh.triangles.size();
+  for (Vector3& x : mesh.positions)
+    x.z() = lower / 2;
+  for (Vector3 x : above.positions)
+    mesh.positions.emplace_back(x.x(), x.y(), lower + upper / 2);
+  for (const Corners& t : above.triangles)
+    mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  Stack s{test::at_rest(mesh, lower), heavy_layer(), n};
+  for (std::size_t t = triangles; t < 2 * triangles; ++t)
+    s.state.volumes[t] *= upper / lower;
+  Wall wall = floor_of(s.state);
+  wall.vertices.resize(n);
+  s.model.walls.push_back(wall);
+  std::vector<char> seen(n, 0);
+  for (std::size_t t = 0; t < triangles; ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [a, b, d] =
+          std::array{mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3], mesh.triangles[t][(c + 2) % 3]};
+      if (std::exchange(seen[a], 1) != 0)
+        continue;
+      for (const bool up : {true, false}) {
+        ContactSpring spring;
+        spring.vertices = up ? std::array{a + n, a, b, d} : std::array{a, a + n, b + n, d + n};
+        spring.weights = {1, -1, 0, 0};
+        spring.rest = (lower + upper) / 2;
+        spring.normal = spring.anchor = Vector3(0, 0, up ? 1 : -1);
+        spring.anchor *= spring.rest;
+        spring.stiffness = {1e3, 0};
+        s.model.contacts.push_back(spring);
+      }
+    }
+  s.model.contacts_flow = true;
+  return s;
+}
+
+// Two layers run down an incline as one does of their thickness together: the means of its parabola below and above.
+TEST(Walls, StackedLayersShareAParabola) {
+  for (const double slip : {0.0, 0.02}) {
+    constexpr double lower = 0.1, upper = 0.05;
+    Stack s = stack(lower, upper);
+    s.model.inertia = false;
+    s.model.gravity = {1.5, 0, 0};
+    s.model.walls[0].slip_length = slip;
+    StepOptions options;
+    options.newton.tolerance = 1e-12;
+    Stepper stepper(s.model, options);
+    const StepReport report = stepper.step(s.state, 1e-3);
+    const double force = s.model.density * 1.5, height = lower + upper;
+    const auto volume = [&](double z) { // flux below z
+      return force / s.model.viscosity * (slip * height * z + height * z * z / 2 - z * z * z / 6);
+    };
+    for (std::size_t v = 0; v < s.upper; ++v) {
+      EXPECT_NEAR(s.state.velocities[v].x(), volume(lower) / lower, 1e-9 * force);
+      EXPECT_NEAR(s.state.velocities[v + s.upper].x(), (volume(height) - volume(lower)) / upper, 1e-9 * force);
+    }
+    Vector3 taken = Vector3::Zero();
+    for (const Vector3& f : report.reactions)
+      taken += f;
+    EXPECT_NEAR(taken.x(), -force * height, 1e-9 * force); // of one square metre
+  }
+}
+
+// What lies on a layer presses it out from under it. Without drag of the wall both spread as one layer of their
+// thickness together would, by the mean of their rates ρ g h/(12 μ) each way; shear lets the lower one go ahead only
+// near the rim.
+TEST(Walls, LayersFeelTheWeightAbove) {
+  constexpr double thickness = 0.1, dt = 1e-4;
+  Stack s = stack(thickness, thickness);
+  s.model.inertia = false;
+  s.model.gravity = {0, 0, -9};
+  s.model.walls[0].slip_length = free_slip;
+  const auto area = [&](bool upper) {
+    const std::size_t half = s.state.volumes.size() / 2;
+    double sum = 0;
+    for (std::size_t t = upper ? half : 0; t < (upper ? 2 : 1) * half; ++t) {
+      const Corners& c = s.state.mesh->triangles[t];
+      sum += TriangleArea(s.state.positions[c[0]], s.state.positions[c[1]], s.state.positions[c[2]]).area;
+    }
+    return sum;
+  };
+  Stepper stepper(s.model, {});
+  for (int k = 0; k < 10; ++k) // the springs take up the weight
+    (void)stepper.step(s.state, 20 * dt);
+  const double lower = area(false), upper = area(true);
+  (void)stepper.step(s.state, dt);
+  const double rate = 2 * s.model.density * 9 * (2 * thickness) / (12 * s.model.viscosity);
+  const double lower_rate = (area(false) / lower - 1) / dt, upper_rate = (area(true) / upper - 1) / dt;
+  EXPECT_NEAR((lower_rate + upper_rate) / 2, rate, 0.01 * rate);
+  EXPECT_GT(lower_rate, upper_rate);
+  EXPECT_LT(lower_rate, 1.3 * upper_rate);
 }
 
 // Between two walls what touches both keeps to their line.

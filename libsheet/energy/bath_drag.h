@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drag of a bath on what slides on it, k u [Pa] at a speed u along its surface; k is the bath's viscosity over its
+// depth where that is shallow and its flow is Couette's. For each corner of a triangle that starts under its surface
+//   W = (Â/3) k |P (x - x̄)|²/(2 τ),
+// Â predicted for the end of the stage, P along the surface, x̄ the start of the step, in a second stage extrapolated
+// from the first. The bath itself rests.
+#pragma once
+#include "libsheet/energy/element.h"
+
+namespace sheet {
+
+class BathDrag {
+public:
+  static constexpr Stencil stencil = Stencil::triangle;
+  // drag: k [Pa s/m]; level: of the surface, against gravity [m].
+  BathDrag(double drag, const Vector3& gravity, double level)
+      : drag_(drag), up_(-gravity.normalized()), level_(level) {}
+  [[nodiscard]] const char* name() const { return "drag of the bath"; }
+  [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }
+  void begin(const Stage& stage) { stage_ = &stage; }
+
+  [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c)
+      sum += 0.5 * stiffness(i, c) * slid(i, c, u).squaredNorm();
+    return sum;
+  }
+
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian, bool) const {
+    hessian.setZero();
+    for (int c = 0; c < 3; ++c) {
+      gradient.segment<3>(3 * c) = stiffness(i, c) * slid(i, c, u);
+      hessian.block<3, 3>(3 * c, 3 * c) = stiffness(i, c) * (Matrix3::Identity() - up_ * up_.transpose());
+    }
+    return value(i, u);
+  }
+
+private:
+  [[nodiscard]] std::uint32_t vertex(std::size_t i, int c) const {
+    return stage_->start->mesh->triangles[i][static_cast<std::size_t>(c)];
+  }
+  // 0 above the surface [N/m].
+  [[nodiscard]] double stiffness(std::size_t i, int c) const {
+    return up_.dot(stage_->start->positions[vertex(i, c)]) < level_
+               ? stage_->raised[i].area() / 3 * drag_ / stage_->duration
+               : 0;
+  }
+  // P (x - x̄) [m].
+  [[nodiscard]] Vector3 slid(std::size_t i, int c, const VectorN<9>& u) const {
+    const Vector3& start = stage_->start->positions[vertex(i, c)];
+    Vector3 moved = u.segment<3>(3 * c) - start;
+    if (stage_->previous != nullptr)
+      moved -= stage_->ratio * (stage_->position(*stage_->previous, vertex(i, c)) - start);
+    return moved - up_.dot(moved) * up_;
+  }
+
+  double drag_; // [Pa s/m]
+  Vector3 up_;
+  double level_; // [m]
+  const Stage* stage_ = nullptr;
+};
+
+} // namespace sheet

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/contact_shear.h"
+
+#include "libsheet/energy/layers.h"
+#include "libsheet/energy/walls.h"
+
+namespace sheet {
+
+namespace {
+
+// The sites of a feature's corners and its mean thickness.
+struct Feature {
+  double thickness = 0;
+  const WallSite* site = nullptr; // of one of its corners
+};
+
+Feature feature(const ContactSpring& s, std::size_t first, std::size_t end, const Stage& stage,
+                std::span<const double> thickness) {
+  Feature f;
+  for (std::size_t i = first; i < end; ++i) {
+    f.thickness += std::abs(s.weights[i]) * thickness[s.vertices[i]];
+    if (const WallSite* site = site_at(stage, s.vertices[i]))
+      f.site = site;
+  }
+  return f;
+}
+
+} // namespace
+
+void ContactShear::begin(const Stage& stage) {
+  const LayerShares shares = layer_shares(stage);
+  links_.assign(springs_.size(), {});
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const ContactSpring& s = springs_[i];
+    const std::size_t middle = s.of_vertex() ? 1 : 2;
+    const Feature one = feature(s, 0, middle, stage, shares.thickness);
+    const Feature other = feature(s, middle, 4, stage, shares.thickness);
+    // Where both touch walls, or none, neither carries the other one.
+    const bool on_wall = (one.site == nullptr) != (other.site == nullptr);
+    const Feature& lower = one.site != nullptr ? one : other;
+    const Feature& upper = one.site != nullptr ? other : one;
+    const LayerShear shear = on_wall ? shear_on_wall(lower.thickness, upper.thickness, lower.site->slip_length)
+                                     : shear_in_stack(lower.thickness, upper.thickness);
+    Link& link = links_[i];
+    const double rate = s.area(shares.area) * viscosity_ / stage.duration;
+    link.shear = rate / shear.depth;
+    link.squeeze = 3 * rate / ((lower.thickness + upper.thickness) / 2);
+    link.before.setZero();
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Vector3& start = stage.start->positions[s.vertices[c]];
+      Vector3 before = start;
+      if (stage.previous != nullptr)
+        before += stage.ratio * (stage.position(*stage.previous, s.vertices[c]) - start);
+      link.weights[c] = s.weights[c];
+      link.before += s.weights[c] * before;
+      link.thickness += s.weights[c] * s.normal.dot(before);
+      const WallSite* site = site_at(stage, s.vertices[c]);
+      if (!on_wall || site == nullptr)
+        continue;
+      link.weights[c] *= shear.carries;
+      link.before += (link.weights[c] - s.weights[c]) * site->carried;
+    }
+  }
+}
+
+void ContactShear::add_wall_forces(const Stage& stage, const Unknowns& u, std::span<Vector3> force) const {
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const ContactSpring& s = springs_[i];
+    VectorN<12> x;
+    for (int c = 0; c < 4; ++c)
+      x.segment<3>(3 * c) = stage.position(u, s.vertices[static_cast<std::size_t>(c)]);
+    for (std::size_t c = 0; c < 4; ++c)
+      force[s.vertices[c]] -= (links_[i].weights[c] - s.weights[c]) * links_[i].shear * way(i, x);
+  }
+}
+
+} // namespace sheet

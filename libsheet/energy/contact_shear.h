@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shear between layers that lie on each other and flow, in place of a spring that glues them along each other. For
+// each contact spring, of the area A, between layers of thickness h below and h' above, on a wall or not (layers.h),
+//   W = A μ/(2 τ) (|P e|²/depth + 3 (n·f)²/d),   e = Σ v_i (x_i - x̄_i),   f = Σ w_i (x_i - x̄_i),   d = (h + h')/2,
+// n the spring's normal, P along the layers, e the way of the upper layer less `carries` times that of the lower one,
+// both relative to the wall: v are the spring's weights w, but for corners that touch one `carries` times these. x̄ is
+// the start of the step, in a second stage extrapolated from the first, and what a corner does beyond its own weight
+// counts from WallSite::carried. What this does not give back to the upper layer the wall takes (add_wall_forces). The
+// second part is that of liquid which is drawn out or squeezed between the middles of the layers [Trouton 1906];
+// without it they would bounce on their springs whenever contacts change.
+#pragma once
+#include "libsheet/energy/element.h"
+#include "libsheet/sheet/contact_spring.h"
+
+namespace sheet {
+
+class ContactShear {
+public:
+  static constexpr Stencil stencil = Stencil::four;
+  ContactShear(std::vector<ContactSpring> springs, double viscosity)
+      : springs_(std::move(springs)), viscosity_(viscosity) {}
+  [[nodiscard]] const char* name() const { return "shear of layers"; }
+  [[nodiscard]] std::size_t size() const { return springs_.size(); }
+  [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
+  void begin(const Stage& stage);
+
+  [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const {
+    const double gap = thickening(i, u);
+    return 0.5 * links_[i].shear * way(i, u).squaredNorm() + 0.5 * links_[i].squeeze * gap * gap;
+  }
+
+  double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian, bool) const {
+    const Link& link = links_[i];
+    const Vector3 e = link.shear * way(i, u), &n = springs_[i].normal;
+    const Matrix3 nn = n * n.transpose(), along = link.shear * (Matrix3::Identity() - nn), across = link.squeeze * nn;
+    const Vector3 f = link.squeeze * thickening(i, u) * n;
+    const auto& w = springs_[i].weights;
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto row = static_cast<Eigen::Index>(3 * a);
+      gradient.segment<3>(row) = link.weights[a] * e + w[a] * f;
+      for (std::size_t b = 0; b < 4; ++b)
+        hessian.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) =
+            link.weights[a] * link.weights[b] * along + w[a] * w[b] * across;
+    }
+    return value(i, u);
+  }
+
+  // Adds to each vertex' force what the wall that it touches takes of the shear: what the layers do not give each
+  // other [N].
+  void add_wall_forces(const Stage& stage, const Unknowns& u, std::span<Vector3> force) const;
+
+private:
+  struct Link {
+    std::array<double, 4> weights{}; // v
+    Vector3 before;                  // Σ v_i x̄_i [m]
+    double thickness = 0;            // n·Σ w_i x̄_i [m]
+    double shear = 0, squeeze = 0;   // stiffnesses [N/m]
+  };
+
+  // P e [m].
+  [[nodiscard]] Vector3 way(std::size_t i, const VectorN<12>& u) const {
+    const Vector3 e = sum(links_[i].weights, u) - links_[i].before;
+    return e - springs_[i].normal.dot(e) * springs_[i].normal;
+  }
+  // n·f [m].
+  [[nodiscard]] double thickening(std::size_t i, const VectorN<12>& u) const {
+    return springs_[i].normal.dot(sum(springs_[i].weights, u)) - links_[i].thickness;
+  }
+  static Vector3 sum(const std::array<double, 4>& weights, const VectorN<12>& u) {
+    return weights[0] * u.segment<3>(0) + weights[1] * u.segment<3>(3) + weights[2] * u.segment<3>(6) +
+           weights[3] * u.segment<3>(9);
+  }
+
+  std::vector<ContactSpring> springs_;
+  double viscosity_;
+  std::vector<Link> links_;
+};
+
+} // namespace sheet

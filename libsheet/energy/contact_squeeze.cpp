@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/contact_squeeze.h"
+
+#include "libsheet/energy/layers.h"
+#include "libsheet/energy/walls.h"
+
+namespace sheet {
+
+namespace {
+
+// Of each vertex: what springs press with, added up [N].
+std::vector<double> presses(std::span<const ContactSpring> springs, const Stage& stage) {
+  std::vector<double> force(stage.vertices(), 0);
+  for (const ContactSpring& s : springs) {
+    Vector3 offset = Vector3::Zero();
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::uint32_t v = s.vertices[c];
+      offset +=
+          s.weights[c] * (stage.previous != nullptr ? stage.position(*stage.previous, v) : stage.start->positions[v]);
+    }
+    const double press = s.stiffness[0] * (s.rest - s.normal.dot(offset));
+    for (std::size_t c = 0; c < 4 && press > 0; ++c)
+      force[s.vertices[c]] += std::abs(s.weights[c]) * press;
+  }
+  return force;
+}
+
+} // namespace
+
+void ContactSqueeze::begin(const Stage& stage) {
+  const auto& triangles = stage.start->mesh->triangles;
+  const auto& x = stage.start->positions;
+  const LayerShares shares = layer_shares(stage);
+  const std::vector<double> force = presses(springs_, stage);
+  work_.assign(triangles.size(), 0);
+  start_area_.assign(triangles.size(), 1);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (const auto v : triangles[t])
+      work_[t] += (site_at(stage, v) != nullptr ? 1 : 0.5) * force[v] / shares.area[v] / 3 * stage.start->volumes[t];
+    start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
+  }
+}
+
+} // namespace sheet

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Layers that others press on flow out from under them. Between the pressures P below and p above, a layer of thickness
+// h has the thrust (P + p) h/2 [N/m]; on a wall, which bears its own weight, P = p + ρ g_n h, and wall_weight.h has the
+// rest [Huppert 1982, for the pressure of a layer at rest]. For each triangle
+//   W = -q V ln(A/A0),
+// q the mean over its corners of p on walls, of (P + p)/2 elsewhere [Pa]: from the forces of the contact springs at the
+// start of the step, in a second stage at the end of the first, by the vertices' areas. Springs that pull do not count:
+// layers that hang from each other would be unstable at wavelengths that no such equation bounds.
+#pragma once
+#include <cmath>
+
+#include "libsheet/energy/element.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/sheet/contact_spring.h"
+
+namespace sheet {
+
+class ContactSqueeze {
+public:
+  static constexpr Stencil stencil = Stencil::triangle;
+  static constexpr Kind kind = Kind::elastic;
+  explicit ContactSqueeze(std::vector<ContactSpring> springs) : springs_(std::move(springs)) {}
+  [[nodiscard]] const char* name() const { return "squeeze of layers"; }
+  [[nodiscard]] std::size_t size() const { return work_.size(); }
+  void begin(const Stage& stage);
+
+  [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
+    return work_[i] == 0 ? 0 : since_start(i, TriangleArea(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)).area);
+  }
+
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
+                     bool definite) const {
+    if (work_[i] == 0) {
+      gradient.setZero();
+      hessian.setZero();
+      return 0;
+    }
+    const TriangleArea a(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
+    const double slope = work_[i] / a.area;
+    gradient << a.gradient(0), a.gradient(1), a.gradient(2);
+    hessian = slope / a.area * gradient * gradient.transpose();
+    if (!definite)
+      hessian -= slope * a.hessian(true);
+    gradient *= -slope;
+    return since_start(i, a.area);
+  }
+
+private:
+  [[nodiscard]] double since_start(std::size_t i, double area) const {
+    return -work_[i] * std::log(area / start_area_[i]);
+  }
+
+  std::vector<ContactSpring> springs_;
+  std::vector<double> work_, start_area_; // q V [J], [m²]
+};
+
+} // namespace sheet
