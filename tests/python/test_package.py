@@ -117,6 +117,14 @@ class Runs(WithRun):
         with self.assertRaisesRegex(IndexError, "run.sheet: frame 99 of 9"):
             run[99]
 
+    def test_a_stream_is_read_by_its_name_too(self):
+        with open("run.sheet", "rb") as file:
+            times = [frame.time for frame in sheetstream.read(file)]
+        self.assertEqual([frame.time for frame in sheetstream.read("run.sheet")], times)
+        self.assertGreater(len(times), 1)
+        with self.assertRaises(FileNotFoundError):
+            list(sheetstream.read("none.sheet"))
+
     def test_only_what_is_asked_for_is_read(self):
         data = bytearray(pathlib.Path("run.sheet").read_bytes())
         start = Run("run.sheet")._starts[3]

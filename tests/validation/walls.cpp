@@ -214,7 +214,7 @@ Result on_a_cylinder(const Settings& s) {
   for (std::size_t t = 0; t < end.volumes.size(); ++t) {
     const Corners& k = end.mesh->triangles[t];
     const Vector3 &a = end.positions[k[0]], &b = end.positions[k[1]], &d = end.positions[k[2]];
-    if (std::max({a.x(), b.x(), d.x()}) > 0.25 * radius)
+    if (std::max({a.x(), b.x(), d.x()}) > std::max(0.25, 2.5 * s.edge) * radius)
       continue;
     volume += end.volumes[t];
     area += TriangleArea(a, b, d).area;

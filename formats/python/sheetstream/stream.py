@@ -606,9 +606,13 @@ class Reader:
         array.values = np.frombuffer(block, dtype, rows * components).reshape(shape) if rows else np.zeros(shape, dtype)
 
 
-def read(file: BinaryIO, name: str | None = None, check_values: bool = True) -> Iterator[Frame]:
-    """Iterates over the frames of a binary file object."""
-    return iter(Reader(file, name, check_values))
+def read(file: BinaryIO | str | os.PathLike[str], name: str | None = None, check_values: bool = True) -> Iterator[Frame]:
+    """Iterates over the frames of a binary file object, or of the file of that name."""
+    if isinstance(file, (str, os.PathLike)):
+        with open(file, "rb") as opened:
+            yield from Reader(opened, name, check_values)
+    else:
+        yield from Reader(file, name, check_values)
 
 
 def encode(frame: Frame) -> list[bytes | memoryview]:
