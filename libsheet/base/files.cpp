@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/base/files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/base/log.h"
 
+#include <algorithm>
+
 #include <unistd.h>
 
 #include "formats/cpp/printable.h"

@@ -3,6 +3,7 @@
 #include "libsheet/base/tool.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -220,6 +221,21 @@ void Tool::example(std::string command, std::string text) {
 void Tool::exit_status(std::string text) { exit_status_ = std::move(text); }
 void Tool::section(std::string title, std::string text) { sections_.emplace_back(std::move(title), std::move(text)); }
 
+// What is asked of the program itself comes before everything that may be wrong with the rest of the line.
+void Tool::tell_of_itself(int argc, char** argv) const {
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "-h" || word == "--help")
+      print_to_stdout(help_text());
+    if (word == "--version")
+      print_to_stdout(fmt::format("{} {}\n", name_, version_text));
+    if (word == "--man")
+      print_to_stdout(man_page());
+    if (word == "--completion")
+      print_to_stdout(completion_script());
+  }
+}
+
 void Tool::parse(int argc, char** argv) {
   CLI::App app;
   app.set_help_flag();
@@ -255,18 +271,7 @@ void Tool::parse(int argc, char** argv) {
   app.add_flag("--version", version);
   app.add_flag("--man", man);
   app.add_flag("--completion", completion);
-  // What is asked of the program itself comes before everything that may be wrong with the rest of the line.
-  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
-    const std::string_view word = argv[i];
-    if (word == "-h" || word == "--help")
-      print_to_stdout(help_text());
-    if (word == "--version")
-      print_to_stdout(fmt::format("{} {}\n", name_, version_text));
-    if (word == "--man")
-      print_to_stdout(man_page());
-    if (word == "--completion")
-      print_to_stdout(completion_script());
-  }
+  tell_of_itself(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

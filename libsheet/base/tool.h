@@ -93,6 +93,7 @@ private:
   void choice_of_word(std::string_view names, std::vector<std::string> words, std::string_view text,
                       std::function<void(std::size_t)> set, std::function<std::size_t()> get);
   void parse(int argc, char** argv);
+  void tell_of_itself(int argc, char** argv) const;
   [[nodiscard]] std::string synopsis() const;
   [[nodiscard]] std::string help_text() const;
   [[nodiscard]] std::string man_page() const;          // --man: troff

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Help, man page and bash completion, made from a Tool's declarations.
+#include <algorithm>
+#include <cctype>
+
 #include <fmt/core.h>
 
 #include "libsheet/base/tool.h"

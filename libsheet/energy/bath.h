@@ -7,6 +7,7 @@
 // of the one vertex above it is what a triangle lacks of which two are under it.
 // The normals must point upwards. ρ in kg/m³, g in m/s².
 #pragma once
+#include <algorithm>
 #include <tuple>
 
 #include "libsheet/energy/element.h"

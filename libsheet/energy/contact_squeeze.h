@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "libsheet/energy/element.h"
+#include "libsheet/energy/falls_with_area.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/sheet/contact_spring.h"
 
@@ -37,11 +38,7 @@ public:
     }
     const TriangleArea a(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
     const double slope = work_[i] / a.area;
-    gradient << a.gradient(0), a.gradient(1), a.gradient(2);
-    hessian = slope / a.area * gradient * gradient.transpose();
-    if (!definite)
-      hessian -= slope * a.hessian(true);
-    gradient *= -slope;
+    falls_with_area(a, slope, slope / a.area, gradient, hessian, definite);
     return since_start(i, a.area);
   }
 

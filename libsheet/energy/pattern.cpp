@@ -52,12 +52,28 @@ void project(double* block, int rows, int columns, const Slide* row, const Slide
 
 } // namespace
 
+// Every pair of nodes of an element, sorted by column (the node eliminated earlier), then row, then place in the
+// buffer.
+struct MatrixPattern::Pairs {
+  struct Pair {
+    std::uint32_t row, source; // rank of the row's node; place in the buffer
+  };
+  std::vector<std::uint32_t> start; // of each column, in elimination order
+  std::vector<Pair> pairs;
+};
+
 MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<const ElementGroup> groups, int stride,
                              std::span<const std::uint32_t> order)
     : vertices_(vertices), stride_(stride), order_(order.begin(), order.end()) {
-  const std::size_t nodes = vertices + edges;
+  number_columns(vertices + edges);
+  note_reversed(groups);
+  make_blocks(sorted_pairs(groups));
+  list_rows();
+  place_gradient(groups);
+}
+
+void MatrixPattern::number_columns(std::size_t nodes) {
   rank_.resize(nodes);
-  const std::vector<std::uint32_t>& rank = rank_;
   column_start_.resize(nodes + 1, 0);
   for (std::uint32_t k = 0; k < nodes; ++k) {
     rank_[order_[k]] = k;
@@ -65,12 +81,23 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
     for (int d = 0; d < width(order_[k]); ++d)
       permutation_.push_back(first_unknown(order_[k]) + static_cast<std::uint32_t>(d));
   }
+}
 
-  // Every pair of nodes of an element, sorted by column (the earlier node), then row, then element.
-  struct Pair {
-    std::uint32_t row, source; // rank of the row's node; place in the buffer
-  };
-  std::vector<std::uint32_t> start(nodes + 1, 0), gradient_count(nodes + 1, 0);
+void MatrixPattern::note_reversed(std::span<const ElementGroup> groups) {
+  for (const ElementGroup& group : groups)
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const std::uint32_t* n = &group.nodes[i * static_cast<std::size_t>(group.width)];
+      unsigned mask = 0;
+      for (int a = 1, bit = 0; a < stencil_vertices(group.stencil); ++a)
+        for (int b = 0; b < a; ++b, ++bit)
+          mask |= static_cast<unsigned>(rank_[n[a]] < rank_[n[b]]) << bit;
+      reversed_.push_back(static_cast<std::uint8_t>(mask));
+    }
+}
+
+MatrixPattern::Pairs MatrixPattern::sorted_pairs(std::span<const ElementGroup> groups) const {
+  using Pair = Pairs::Pair;
+  const std::size_t nodes = order_.size();
   const auto each_pair = [&](auto&& visit) {
     for (const ElementGroup& group : groups) {
       const std::size_t count = group.size();
@@ -80,35 +107,31 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
             static_cast<std::uint32_t>(group.first_hessian + i * static_cast<std::size_t>(packed_size(group.stencil)));
         for (int a = 0; a < group.width; ++a)
           for (int b = 0; b < group.width; ++b)
-            if (rank[n[a]] >= rank[n[b]])
-              visit(rank[n[b]], Pair{rank[n[a]], base + static_cast<std::uint32_t>(packed_block(group.stencil, a, b))});
+            if (rank_[n[a]] >= rank_[n[b]])
+              visit(rank_[n[b]],
+                    Pair{rank_[n[a]], base + static_cast<std::uint32_t>(packed_block(group.stencil, a, b))});
       }
     }
   };
+  Pairs sorted{std::vector<std::uint32_t>(nodes + 1, 0), {}};
+  auto& [start, pairs] = sorted;
   each_pair([&](std::uint32_t column, const Pair&) { ++start[column + 1]; });
   for (std::size_t k = 0; k < nodes; ++k)
     start[k + 1] += start[k];
-  std::vector<Pair> pairs(start[nodes]);
-  {
-    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-    each_pair([&](std::uint32_t column, const Pair& pair) { pairs[next[column]++] = pair; });
-  }
+  pairs.resize(start[nodes]);
+  std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+  each_pair([&](std::uint32_t column, const Pair& pair) { pairs[next[column]++] = pair; });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, columns_at_once), [&](const auto& range) {
     for (std::size_t k = range.begin(); k < range.end(); ++k)
-      std::sort(pairs.begin() + start[k], pairs.begin() + start[k + 1],
+      std::sort(pairs.begin() + sorted.start[k], pairs.begin() + sorted.start[k + 1],
                 [](const Pair& p, const Pair& q) { return p.row != q.row ? p.row < q.row : p.source < q.source; });
   });
+  return sorted;
+}
 
-  for (const ElementGroup& group : groups)
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const std::uint32_t* n = &group.nodes[i * static_cast<std::size_t>(group.width)];
-      unsigned mask = 0;
-      for (int a = 1, bit = 0; a < stencil_vertices(group.stencil); ++a)
-        for (int b = 0; b < a; ++b, ++bit)
-          mask |= static_cast<unsigned>(rank[n[a]] < rank[n[b]]) << bit;
-      reversed_.push_back(static_cast<std::uint8_t>(mask));
-    }
-
+void MatrixPattern::make_blocks(const Pairs& sorted) {
+  const auto& [start, pairs] = sorted;
+  const std::size_t nodes = order_.size();
   sources_.resize(pairs.size() + ahead);
   block_start_.assign(nodes + 1, 0);
   structure_.size = static_cast<int>(permutation_.size());
@@ -134,25 +157,30 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
   blocks_.push_back({0, 0, static_cast<std::uint32_t>(pairs.size())}); // the end of the last block's sources
   for (std::size_t c = 0; c < permutation_.size(); ++c)
     structure_.starts[c + 1] += structure_.starts[c];
+}
+
+void MatrixPattern::list_rows() {
   structure_.rows.resize(static_cast<std::size_t>(structure_.starts.back()));
   structure_.values.assign(structure_.rows.size(), 0.0);
-  for (std::uint32_t k = 0; k < nodes; ++k)
+  for (std::uint32_t k = 0; k < order_.size(); ++k)
     for (int d = 0; d < width(order_[k]); ++d) {
       int* rows = &structure_.rows[static_cast<std::size_t>(structure_.starts[column_start_[k] + d])];
       for (std::uint32_t b = block_start_[k]; b < block_start_[k + 1]; ++b) {
-        const std::uint32_t row = column_start_[rank[blocks_[b].row_node]];
+        const std::uint32_t row = column_start_[rank_[blocks_[b].row_node]];
         for (int r = b == block_start_[k] ? d : 0; r < width(blocks_[b].row_node); ++r)
           *rows++ = static_cast<int>(row) + r;
       }
     }
+}
 
-  // The gradient: each node's places in the gradient buffer.
+void MatrixPattern::place_gradient(std::span<const ElementGroup> groups) {
+  const std::size_t nodes = order_.size();
   const auto each_node = [&](auto&& visit) {
     for (const ElementGroup& group : groups)
       for (std::size_t i = 0, n = group.size() * static_cast<std::size_t>(group.width), p = 0; i < n; ++i) {
         const std::uint32_t node = group.nodes[i];
         if (i % static_cast<std::size_t>(group.width) == 0)
-          p = (group.first + i / static_cast<std::size_t>(group.width)) * static_cast<std::size_t>(stride);
+          p = (group.first + i / static_cast<std::size_t>(group.width)) * static_cast<std::size_t>(stride_);
         visit(node, static_cast<std::uint32_t>(p));
         p += static_cast<std::size_t>(width(node));
       }

@@ -65,6 +65,13 @@ private:
     std::uint32_t offset;       // of its first row among the rows of its column's nodes, counted from the node's own
     std::uint32_t first_source; // in sources_
   };
+  struct Pairs;
+  void number_columns(std::size_t nodes);                   // rank_, column_start_, permutation_
+  void note_reversed(std::span<const ElementGroup> groups); // reversed_
+  [[nodiscard]] Pairs sorted_pairs(std::span<const ElementGroup> groups) const;
+  void make_blocks(const Pairs& sorted);                     // blocks_, block_start_, sources_, structure_'s starts
+  void list_rows();                                          // structure_'s rows
+  void place_gradient(std::span<const ElementGroup> groups); // gradient_start_, gradient_sources_
   [[nodiscard]] std::uint32_t first_unknown(std::uint32_t node) const {
     return node < vertices_ ? 3 * node : static_cast<std::uint32_t>(3 * vertices_ + (node - vertices_));
   }

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "libsheet/energy/element.h"
+#include "libsheet/energy/falls_with_area.h"
 #include "libsheet/energy/walls.h"
 #include "libsheet/geometry/area.h"
 
@@ -61,11 +62,7 @@ public:
     }
     const TriangleArea a(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
     const double slope = thrust_[i] / (a.area * a.area);
-    gradient << a.gradient(0), a.gradient(1), a.gradient(2);
-    hessian = 2 * slope / a.area * gradient * gradient.transpose();
-    if (!definite)
-      hessian -= slope * a.hessian(true);
-    gradient *= -slope;
+    falls_with_area(a, slope, 2 * slope / a.area, gradient, hessian, definite);
     return since_start(i, a.area);
   }
 

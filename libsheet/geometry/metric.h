@@ -3,6 +3,7 @@
 // k. The first fundamental form is then the squared edge lengths [m²]; no edge is singled out and no basis chosen.
 // With u = e_2 and v = -e_1 as basis: M_uu = m_2, M_vv = m_1, M_uv = (m_1 + m_2 - m_0)/2.
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "libsheet/geometry/types.h"

@@ -137,17 +137,19 @@ double cone_volume(const EditableSheet& sheet, std::span<const std::uint32_t> tr
   return sum;
 }
 
-bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit) {
-  const Mesh& mesh = sheet.mesh();
-  if (!keeps_manifold(mesh, side))
-    return false;
-  const std::uint32_t u = mesh.from(side), v = mesh.to(side);
-  const bool rim_u = mesh.on_rim(u), rim_v = mesh.on_rim(v);
+namespace {
+// Which end of a side stays, and whether at its place; no_index if neither may go.
+struct Stays {
+  std::uint32_t vertex = no_index;
+  bool in_place = false;
+};
+
+// An end may insist on its place as a corner of the rim, as held more than the other, as the one on the rim; if both do
+// for different reasons, neither can go.
+Stays which_stays(const EditableSheet& sheet, std::uint32_t u, std::uint32_t v) {
   const bool under_v = sheet.held_within(u, v), under_u = sheet.held_within(v, u);
   if (!under_u && !under_v)
-    return false;
-  // An end may insist on its place as a corner of the rim, as held more than the other, as the one on the rim; if both
-  // do for different reasons, neither can go.
+    return {};
   std::uint32_t kept = no_index;
   const auto insist = [&](bool u_does, bool v_does) {
     if (u_does == v_does)
@@ -159,11 +161,44 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
     return true;
   };
   const bool corner_u = is_corner(sheet, u), corner_v = is_corner(sheet, v);
-  if ((corner_u && corner_v) || !insist(corner_u, corner_v) || !insist(!under_v, !under_u) || !insist(rim_u, rim_v))
+  if ((corner_u && corner_v) || !insist(corner_u, corner_v) || !insist(!under_v, !under_u) ||
+      !insist(sheet.mesh().on_rim(u), sheet.mesh().on_rim(v)))
+    return {};
+  const bool in_place = kept != no_index || sheet.fixed(u);
+  return {kept == no_index ? u : kept, in_place};
+}
+
+// Where an edge of which neither end insists on its place contracts to: on the rim's arc, or where the faces around
+// want it, with the volume that they had and, as far as `pay` reaches, what is owed.
+Vector3 contracted(const EditableSheet& sheet, std::uint32_t u, std::uint32_t v, double pay, const Edit& edit) {
+  const Vector3 a = sheet.at(edit.vertex), b = sheet.at(edit.removed_vertex), middle = 0.5 * (a + b);
+  Vector3 position;
+  if (sheet.mesh().on_rim(u)) {
+    const std::uint32_t start = rim_neighbours(sheet.mesh(), u).before, end = rim_neighbours(sheet.mesh(), v).after;
+    position = rim_point(sheet, sheet.at(u), sheet.at(v), start, end);
+  } else {
+    const double before = cone_volume(sheet, edit.removed, middle);
+    const Vector3 best = quadric_point(sheet, edit.removed, middle);
+    const double owed = 6 * (sheet.swept(u) + sheet.swept(v));
+    const Vector3 exact = with_volume(sheet, edit, best, middle, before, (b - a).norm());
+    position = with_volume(sheet, edit, exact, middle, before - owed, pay);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (has_axis(sheet.held_axes(edit.vertex), axis))
+      position[axis] = middle[axis];
+  return position;
+}
+} // namespace
+
+bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit) {
+  const Mesh& mesh = sheet.mesh();
+  if (!keeps_manifold(mesh, side))
     return false;
-  const bool stays = kept != no_index || sheet.fixed(u);
-  kept = kept == no_index ? u : kept;
-  const std::uint32_t gone = kept == u ? v : u;
+  const std::uint32_t u = mesh.from(side), v = mesh.to(side);
+  const Stays stays = which_stays(sheet, u, v);
+  if (stays.vertex == no_index)
+    return false;
+  const std::uint32_t kept = stays.vertex, gone = kept == u ? v : u;
 
   edit.clear();
   edit.kind = Edit::Kind::collapse;
@@ -173,27 +208,12 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
   if (edit.added.empty())
     return false;
   const Vector3 a = sheet.at(kept), b = sheet.at(gone), middle = 0.5 * (a + b);
-  const double before = cone_volume(sheet, edit.removed, middle);
-  if (stays) {
-    edit.position = a;
-  } else if (rim_u) {
-    const std::uint32_t start = rim_neighbours(mesh, u).before, end = rim_neighbours(mesh, v).after;
-    edit.position = rim_point(sheet, sheet.at(u), sheet.at(v), start, end);
-  } else {
-    const Vector3 best = quadric_point(sheet, edit.removed, middle);
-    const double owed = 6 * (sheet.swept(u) + sheet.swept(v));
-    const double reach = (b - a).norm();
-    const Vector3 exact = with_volume(sheet, edit, best, middle, before, reach);
-    edit.position = with_volume(sheet, edit, exact, middle, before - owed, pay);
-  }
-  if (!stays)
-    for (int axis = 0; axis < 3; ++axis)
-      if (has_axis(sheet.held_axes(kept), axis))
-        edit.position[axis] = middle[axis];
+  edit.position = stays.in_place ? a : contracted(sheet, u, v, pay, edit);
   if ((edit.position - middle).norm() > 1.5 * (b - a).norm())
     return false;
-  edit.swept = rim_u && rim_v ? 0 : (six_cones(sheet, edit, middle) - before) / 6;
-  if (stays)
+  const double before = cone_volume(sheet, edit.removed, middle);
+  edit.swept = mesh.on_rim(u) && mesh.on_rim(v) ? 0 : (six_cones(sheet, edit, middle) - before) / 6;
+  if (stays.in_place)
     edit.parents = {{kept, 1, 1}, {gone, 0, 1}};
   else {
     const double along = std::clamp((edit.position - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);

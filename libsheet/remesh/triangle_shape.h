@@ -2,6 +2,7 @@
 // Area, normal and angles of a triangle, without trigonometric functions: angles are compared by their cosines.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <Eigen/Geometry>

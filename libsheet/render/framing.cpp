@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/render/framing.h"
 
+#include <algorithm>
+
 namespace sheet::render {
 
 void Extent::add(const Vector3& center, double radius) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/render/render_stage.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libsheet/base/error.h"

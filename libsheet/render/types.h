@@ -2,6 +2,8 @@
 // Short names of what pictures are computed in. Directions are unit vectors; colours are linear, with the primaries and
 // the white of sRGB [IEC 61966-2-1]: red, green, blue.
 #pragma once
+#include <cmath>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 

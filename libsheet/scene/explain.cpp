@@ -33,6 +33,41 @@ std::string what_touches(const std::vector<Solid>& solids) {
   return text;
 }
 
+std::string law_of(const Pressure& pressure) {
+  return std::visit(
+      Overloaded{[](const ConstantPressure& p) { return fmt::format("constant, {} Pa", brief(p.value)); },
+                 [](const InverseSquarePressure& p) {
+                   return fmt::format("{} Pa at radius {} m, falling with its square", brief(p.value),
+                                      brief(p.reference_radius));
+                 },
+                 [](const DrainingPressure& p) {
+                   return fmt::format("enclosed gas leaves at {} m³/s per Pa", brief(p.conductance));
+                 },
+                 [](const GasPressure& p) {
+                   const std::string start = p.amount ? fmt::format("that fills {} m³ outside", brief(*p.amount))
+                                                      : fmt::format("of {} Pa at the start", brief(p.value));
+                   return fmt::format("enclosed gas {}, {} Pa outside, p ~ V^-{}{}", start, brief(p.ambient),
+                                      brief(p.exponent),
+                                      p.leak > 0 ? fmt::format(", leaving at {} m³/s per Pa", brief(p.leak)) : "");
+                 }},
+      pressure);
+}
+
+std::string what_it_does(const Bath& bath) {
+  return fmt::format("liquid of {} kg/m³ below level {} m, which {}{}{}", brief(bath.density), brief(bath.level),
+                     bath.clings ? "clings to the sheet" : "carries what is under its surface",
+                     bath.spreads ? ", and on which it spreads" : "",
+                     bath.drag > 0 ? fmt::format(", dragging it with {} Pa s/m", brief(bath.drag)) : "");
+}
+
+std::string what_comes(const std::vector<Inflow>& inflows) {
+  if (inflows.size() != 1)
+    return fmt::format("new liquid at {} borders", inflows.size());
+  const Inflow& inflow = inflows[0];
+  return fmt::format("new liquid, {} m thick, {}", brief(inflow.thickness),
+                     inflow.until ? fmt::format("until {} s", brief(*inflow.until)) : "without end");
+}
+
 std::vector<Term> terms_of(const Scene& scene) {
   const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, contact] = scene;
   std::vector<Term> terms;
@@ -51,48 +86,15 @@ std::vector<Term> terms_of(const Scene& scene) {
   term("gravity", environment.gravity.has_value(),
        environment.gravity ? fmt::format("{} m/s²", brief(environment.gravity->norm())) : "",
        "no gravity in [environment]");
-  const auto law = [](const Pressure& pressure) {
-    return std::visit(
-        Overloaded{[](const ConstantPressure& p) { return fmt::format("constant, {} Pa", brief(p.value)); },
-                   [](const InverseSquarePressure& p) {
-                     return fmt::format("{} Pa at radius {} m, falling with its square", brief(p.value),
-                                        brief(p.reference_radius));
-                   },
-                   [](const DrainingPressure& p) {
-                     return fmt::format("enclosed gas leaves at {} m³/s per Pa", brief(p.conductance));
-                   },
-                   [](const GasPressure& p) {
-                     const std::string start = p.amount ? fmt::format("that fills {} m³ outside", brief(*p.amount))
-                                                        : fmt::format("of {} Pa at the start", brief(p.value));
-                     return fmt::format("enclosed gas {}, {} Pa outside, p ~ V^-{}{}", start, brief(p.ambient),
-                                        brief(p.exponent),
-                                        p.leak > 0 ? fmt::format(", leaving at {} m³/s per Pa", brief(p.leak)) : "");
-                   }},
-        pressure);
-  };
-  term("pressure", environment.pressure.has_value(), environment.pressure ? law(*environment.pressure) : "",
+  term("pressure", environment.pressure.has_value(), environment.pressure ? law_of(*environment.pressure) : "",
        "no pressure in [environment]");
-  term("bath", environment.bath.has_value(),
-       environment.bath
-           ? fmt::format("liquid of {} kg/m³ below level {} m, which {}{}{}", brief(environment.bath->density),
-                         brief(environment.bath->level),
-                         environment.bath->clings ? "clings to the sheet" : "carries what is under its surface",
-                         environment.bath->spreads ? ", and on which it spreads" : "",
-                         environment.bath->drag > 0
-                             ? fmt::format(", dragging it with {} Pa s/m", brief(environment.bath->drag))
-                             : "")
-           : "",
+  term("bath", environment.bath.has_value(), environment.bath ? what_it_does(*environment.bath) : "",
        "no bath in [environment]");
   term("holds", !holds.empty(), count(holds.size(), "hold"), "no [[hold]]");
   term("solids", !solids.empty(), count(solids.size(), "solid") + "; " + what_touches(solids), "no [[solid]]");
   term("contact", contact && contact->self, "the sheet cannot pass through itself",
        contact ? "[contact] self = false" : "no [contact]: the sheet may pass through itself");
-  term("inflow", !inflows.empty(),
-       inflows.size() == 1
-           ? fmt::format("new liquid, {} m thick, {}", brief(inflows[0].thickness),
-                         inflows[0].until ? fmt::format("until {} s", brief(*inflows[0].until)) : "without end")
-           : fmt::format("new liquid at {} borders", inflows.size()),
-       "no [inflow]: the volume stays the same");
+  term("inflow", !inflows.empty(), what_comes(inflows), "no [inflow]: the volume stays the same");
   term("outflow", !outflows.empty(), count(outflows.size(), "plane") + " beyond which the sheet ends",
        "no [[outflow]]: nothing leaves");
   term("tear", tear.has_value(), tear ? fmt::format("where thinner than {} m", brief(tear->below)) : "",

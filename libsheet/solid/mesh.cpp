@@ -2,6 +2,7 @@
 #include "libsheet/solid/mesh.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 

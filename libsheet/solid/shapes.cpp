@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/solid/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libsheet/solid/convex_distance.h"

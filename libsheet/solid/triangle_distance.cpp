@@ -2,6 +2,7 @@
 #include "libsheet/solid/triangle_distance.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sheet::solid {
 namespace {

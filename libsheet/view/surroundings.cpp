@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/view/surroundings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libsheet/render/framing.h"

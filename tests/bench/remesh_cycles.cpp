@@ -4,6 +4,7 @@
 // intersect.
 //   bench_remesh_cycles [CYCLES, default 1000] [NAME]
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 

@@ -2,6 +2,7 @@
 // Angles of triangles over whole runs in prescribed flows.
 //   bench_remesh_flows [EDGE]            all flows; the edge length of the first is half of it (default 0.02)
 //   bench_remesh_flows EDGE FLOW FILE    one flow, by its number from 0, with smoothing; its frames go to FILE
+#include <cstdio>
 #include <cstdlib>
 
 #include <fcntl.h>

@@ -43,3 +43,12 @@ check() { "$BATS_TEST_DIRNAME/includes" "$PWD"; }
   run check
   [[ $status == 1 && $output == *"libsheet/measure/a.h: without #pragma once"* ]]
 }
+@test "a name whose include is missing" {
+  printf '%s\n' '#include <vector>' 'std::vector<double> a(std::max(1, 2)); // std::sort' > libsheet/measure/a.cpp
+  echo '#include <Eigen/Core>' > libsheet/sheet/b.h
+  printf '%s\n' '#include "libsheet/sheet/b.h"' 'Eigen::Index i;' 'auto s = fmt::format("");' > libsheet/solve/a.cpp
+  run "$BATS_TEST_DIRNAME/direct_includes" "$PWD"
+  [[ $status == 1 && ${#lines[@]} == 2 ]]
+  [[ ${lines[0]} == "libsheet/measure/a.cpp:2: std::max without <algorithm>" ]]
+  [[ ${lines[1]} == "libsheet/solve/a.cpp:3: fmt::format without <fmt/...>" ]]
+}

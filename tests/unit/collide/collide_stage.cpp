@@ -2,6 +2,8 @@
 // What the stage does with frames, good and bad.
 #include "libsheet/collide/collide_stage.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

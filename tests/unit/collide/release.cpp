@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/collide/release.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace sheet::collide {

@@ -2,6 +2,8 @@
 // No pair of points of the two features is nearer than the closest points, and these are points of the features.
 #include "libsheet/geometry/closest_points.h"
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>

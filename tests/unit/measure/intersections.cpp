@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/measure/intersections.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <random>
 
 #include <Eigen/Geometry>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Samplers and lights.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of a motion in the scene and by file.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 

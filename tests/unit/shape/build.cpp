@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first frame: where its inlet is.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/gltf.h"
 
+#include <cmath>
 #include <cstring>
 
 #include <Eigen/Geometry>

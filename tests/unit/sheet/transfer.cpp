@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Arrays through a change of the mesh: every rule, row by row and for whole frames.
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <stdexcept>

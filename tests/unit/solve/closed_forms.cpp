@@ -2,6 +2,7 @@
 // Closed forms of docs/model.md at small sizes: V4 viscous sphere with inertia, V8 contracting disk, V12 strips in
 // plane strain, V17 pinned film.
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <gtest/gtest.h>

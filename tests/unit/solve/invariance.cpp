@@ -2,6 +2,7 @@
 // What must hold to round-off: rigid motion costs nothing (V19), momentum is constant (V20), the result does not depend
 // on the number of threads nor on the unit of length, and a failed step leaves the state alone.
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <gtest/gtest.h>

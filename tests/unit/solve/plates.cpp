@@ -2,6 +2,7 @@
 // Bending against closed forms (docs/model.md): V11 circular plate, clamped and simply supported; V12 strips in plane
 // strain. Start velocity under gravity, without inertia; D = μ h³/3.
 #include <cmath>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 

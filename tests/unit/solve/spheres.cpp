@@ -3,6 +3,7 @@
 // contraction under surface tension. Time orders are measured against a fine step on the same mesh, errors against the
 // formula.
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <gtest/gtest.h>

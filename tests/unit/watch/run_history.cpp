@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/watch/run_history.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace {
