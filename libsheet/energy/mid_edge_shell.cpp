@@ -2,6 +2,7 @@
 #include "libsheet/energy/mid_edge_shell.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -27,17 +28,27 @@ Vector3 arc_lengths(const Vector3& lengths, const Vector3& beta) { return length
 
 } // namespace
 
-MidEdgeShell::Heights MidEdgeShell::heights(std::size_t t, const Unknowns& u) const {
+void MidEdgeShell::carry(const Unknowns& u, std::vector<CarriedDirector>& directors) const {
+  const std::size_t edges = mesh_->edges.size();
+  directors.resize(edges);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges, at_once), [&](const auto& range) {
+    for (std::size_t e = range.begin(); e < range.end(); ++e) {
+      const Vector3 along = stage_->position(u, mesh_->edges[e][1]) - stage_->position(u, mesh_->edges[e][0]);
+      directors[e] = {stage_->frames[e], along.normalized(), u[static_cast<Eigen::Index>(3 * stage_->vertices() + e)]};
+    }
+  });
+}
+
+MidEdgeShell::Heights MidEdgeShell::heights(std::size_t t, const Unknowns& u,
+                                            const std::vector<CarriedDirector>& directors) const {
   const Corners& v = mesh_->triangles[t];
+  const std::array<Vector3, 3> x{stage_->position(u, v[0]), stage_->position(u, v[1]), stage_->position(u, v[2])};
   Heights result;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t edge = mesh_->triangle_edges[t][k];
-    const Vector3 low = stage_->position(u, mesh_->edges[edge][0]), high = stage_->position(u, mesh_->edges[edge][1]);
-    const HeightAndSide both =
-        height_and_side(stage_->frames[edge], (high - low).normalized(), 0.5 * (low + high) - stage_->position(u, v[k]),
-                        u[static_cast<Eigen::Index>(3 * stage_->vertices() + edge)]);
-    result.heights[static_cast<Eigen::Index>(k)] = both.height;
-    result.sides[static_cast<Eigen::Index>(k)] = both.side;
+    const Vector3 w = 0.5 * (x[(k + 1) % 3] + x[(k + 2) % 3]) - x[k];
+    const CarriedDirector& n = directors[mesh_->triangle_edges[t][k]];
+    result.heights[static_cast<Eigen::Index>(k)] = n.director.dot(w);
+    result.sides[static_cast<Eigen::Index>(k)] = n.beside.dot(w);
   }
   return result;
 }
@@ -47,6 +58,9 @@ void MidEdgeShell::begin(const Stage& stage) {
   mesh_ = stage.start->mesh.get();
   triangles_ = mesh_->triangles.size();
   references_.resize((triangles_ + lane_count - 1) / lane_count);
+  carry(stage.begin, at_begin_);
+  if (stage.previous)
+    carry(*stage.previous, at_previous_);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count), [&](const auto& range) {
         for (std::size_t t = lane_count * range.begin(); t < std::min(lane_count * range.end(), triangles_); ++t)
@@ -65,10 +79,10 @@ void MidEdgeShell::refer(std::size_t lane_of_all, const Stage& stage) {
   const auto lengths = [&](const Unknowns& u) {
     return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
   };
-  const Heights start = heights(t, stage.begin);
+  const Heights start = heights(t, stage.begin, at_begin_);
   Vector3 g = start.heights, c = start.sides, beta = curvature(g), squared = arc_lengths(lengths(stage.begin), beta);
   if (stage.previous) {
-    const Heights previous = heights(t, *stage.previous);
+    const Heights previous = heights(t, *stage.previous, at_previous_);
     const Vector3 beta_previous = curvature(previous.heights);
     g += stage.ratio * (previous.heights - g);
     c += stage.ratio * (previous.sides - c);

@@ -58,7 +58,8 @@ private:
   struct Heights { // of a triangle's directors, and their sides [m]
     Vector3 heights, sides;
   };
-  [[nodiscard]] Heights heights(std::size_t t, const Unknowns& u) const;
+  void carry(const Unknowns& u, std::vector<CarriedDirector>& directors) const; // of all edges to where u has them
+  [[nodiscard]] Heights heights(std::size_t t, const Unknowns& u, const std::vector<CarriedDirector>& directors) const;
 
   double viscosity_; // [Pa s]
   bool arcs_;
@@ -66,7 +67,8 @@ private:
   const Connectivity* mesh_ = nullptr;
   std::size_t triangles_ = 0;
   std::vector<MidEdgeReference> references_; // of lane_count triangles each
-  std::vector<double> cosine_, sine_;        // of the edges' angles
+  std::vector<CarriedDirector> at_begin_, at_previous_;
+  std::vector<double> cosine_, sine_; // of the edges' angles
 };
 
 } // namespace sheet

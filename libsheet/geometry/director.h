@@ -29,19 +29,22 @@ struct EdgeFrame {
   }
 };
 
-// Of edge i with t, w = m_i - x_i and θ: the height g = n·w [m], and its side c, by which it changes if n turns: with α
-// the angle from the triangle's normal to n, g = |w| sin α and c = ±|w| cos α for w across the edge.
-struct HeightAndSide {
-  double height, side;
-};
+// A director n over the direction t of its edge, and n' = ∂n/∂θ, so that of edge i with w = m_i - x_i the height is g =
+// n·w [m], and its side c = n'·w, by which it changes if n turns: with α the angle from the triangle's normal to n, g =
+// |w| sin α and c = ±|w| cos α for w across the edge.
+struct CarriedDirector {
+  Vector3 director, beside;
 
-[[nodiscard]] inline HeightAndSide height_and_side(const EdgeFrame& frame, const Vector3& t, const Vector3& w,
-                                                   double theta) {
-  const Vector3 s = frame.tangent + t, across = w - (s.dot(w) / (1 + frame.tangent.dot(t))) * t;
-  const double up = frame.director.dot(across), beside = frame.binormal.dot(across);
-  const double cosine = std::cos(theta), sine = std::sin(theta);
-  return {cosine * up + sine * beside, cosine * beside - sine * up};
-}
+  CarriedDirector() = default;
+  CarriedDirector(const EdgeFrame& frame, const Vector3& t, double theta) {
+    const double cosine = std::cos(theta), sine = std::sin(theta), k = 1 / (1 + frame.tangent.dot(t));
+    const Vector3 s = frame.tangent + t;
+    const Vector3 q = cosine * frame.director + sine * frame.binormal,
+                  r = cosine * frame.binormal - sine * frame.director;
+    director = q - (k * t.dot(q)) * s;
+    beside = r - (k * t.dot(r)) * s;
+  }
+};
 
 // Value, gradient and second derivative of g = n·w in terms of e = x_high - x_low, w = (x_low + x_high)/2 - x_apex, θ.
 struct DirectorHeight {

@@ -34,6 +34,7 @@ struct Library {
       setenv("OPENBLAS_CORETYPE", "SkylakeX", 0);
     else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
       setenv("OPENBLAS_CORETYPE", "Haswell", 0);
+    setenv("OPENBLAS_NUM_THREADS", "1", 1); // else its threads wait by spinning while the program starts
     void* blas = dlopen("libopenblas.so.0", RTLD_NOW | RTLD_GLOBAL);
     void* cholmod = dlopen("libcholmod.so.3", RTLD_NOW | RTLD_LOCAL);
     if (!cholmod)

@@ -51,6 +51,9 @@ public:
   [[nodiscard]] bool factorize(double shift, Precision precision);
   [[nodiscard]] bool has_factor() const { return has_factor_; }
   void forget_factor() { has_factor_ = false; }
+  // Whether the factor alone, without products with the Hessian, is known or hoped to lead to the solution quickly.
+  [[nodiscard]] bool factor_serves() const { return has_factor_ && factor_serves_; }
+  void set_factor_serves(bool serves) { factor_serves_ = serves; }
 
   // Of rows; the floor is a part of the operator.
   [[nodiscard]] Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
@@ -107,7 +110,7 @@ private:
   double floor_ = 0;
   std::vector<RankOne> of_hessian_, of_operator_; // of unknowns, of rows
   std::vector<SolvedRankOne> of_factor_;
-  bool has_factor_ = false;
+  bool has_factor_ = false, factor_serves_ = false;
   double seconds_analysis_ = 0;
 };
 

@@ -26,46 +26,44 @@ constexpr double greatest_forcing = 0.1;
 constexpr int most_products = 60; // with the Hessian, a direction
 constexpr int few_products = 8;   // as many a direction takes if the factor is close to the Hessian
 constexpr int many_products = 5;  // then the factor is made anew
+constexpr double served = 0.3;    // of what remained, what a step by the factor alone may leave
+constexpr double sharper = 1e-2;  // of the tolerance, after such a step: others leave the square of what remained
 constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what may remain at most
 
 class Minimizer {
 public:
   Minimizer(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale, const Unknowns& extrapolated,
-            const NewtonOptions& options, Unknowns& u)
-      : system_(system), terms_(terms), scale_(scale), extrapolated_(extrapolated), options_(options), u_(u) {}
+            const NewtonOptions& options, FirstEvaluation first, Unknowns& u)
+      : system_(system), terms_(terms), scale_(scale), extrapolated_(extrapolated), options_(options), u_(u),
+        energy_(first.energy), start_(first.energy.value), gradient_(std::move(first.gradient)),
+        linearized_(first.linearized) {}
 
   NewtonReport run() {
-    if (evaluate_first())
+    if (std::isfinite(energy_.value) && gradient_.allFinite())
       iterate();
     return report_;
   }
 
 private:
-  bool evaluate_first() {
-    Stopwatch watch;
-    // Without a factor the Hessian is needed here anyhow.
-    energy_ =
-        system_.has_factor() ? system_.gradient(terms_, u_, gradient_) : system_.hessian(terms_, u_, false, gradient_);
-    linearized_ = !system_.has_factor();
-    report_.seconds_assembly += watch.lap();
-    start_ = energy_.value;
-    return std::isfinite(energy_.value) && gradient_.allFinite();
-  }
-
   void iterate() {
     for (;;) {
       if (!system_.has_factor() && !factorize())
         return;
       measure_remainder();
-      if (!std::isfinite(remains_) || report_.iterations >= options_.iterations)
+      if (!std::isfinite(remains_))
         return;
       if (converged()) {
         take_remainder();
         return;
       }
-      linearize();
-      find_direction();
-      ++report_.iterations;
+      if (system_.factor_serves()) {
+        follow_factor();
+      } else if (report_.iterations < options_.iterations) {
+        linearize();
+        find_direction();
+      } else {
+        return;
+      }
       if (!std::isfinite(report_.last_step))
         return;
       if (report_.last_step <= lost_step) {
@@ -88,6 +86,8 @@ private:
     }
   }
 
+  [[nodiscard]] int steps() const { return report_.iterations + report_.followed; }
+
   // The exact Hessian's factor, else the positive form's, in single precision; else that in full precision, with a
   // shift that grows. Where motions are free that the potential does not see, full precision is needed to tell them
   // apart.
@@ -103,10 +103,12 @@ private:
       const bool good = system_.factorize(0, precision);
       report_.seconds_factor += watch.lap();
       exact_ = good;
+      system_.set_factor_serves(good);
       if (good)
         return true;
     }
     exact_ = false;
+    system_.set_factor_serves(false);
     Eigen::VectorXd ignored;
     (void)system_.hessian(terms_, u_, true, ignored);
     linearized_ = false;
@@ -144,8 +146,10 @@ private:
     remainder_ = system_.to_unknowns(preconditioned_);
     previous_norm_ = norm_;
     norm_ = std::sqrt(std::max(0.0, force_.dot(preconditioned_)));
-    if (report_.iterations == 0)
+    if (steps() == 0)
       first_norm_ = norm_;
+    if (followed_)
+      system_.set_factor_serves(norm_ <= served * previous_norm_);
     remains_ = remainder_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     const Eigen::Index positions = 3 * static_cast<Eigen::Index>(system_.assembly().vertices());
     const auto greatest = [&](const Eigen::VectorXd& x) {
@@ -157,11 +161,12 @@ private:
   }
 
   bool converged() {
-    const bool strict = trusted() && remains_ <= options_.tolerance;
+    const bool strict = trusted() && remains_ <= (followed_ ? sharper : 1) * options_.tolerance;
     const bool lenient = options_.of_step_error > 0 && trusted() && norm_ <= options_.of_step_error * first_norm_ &&
                          positions_remain_ <= std::min(largest, options_.of_step_error * way_);
+    // A direction with the Hessian knows the soft modes too, of which the potential tells little.
     const bool nothing_to_gain =
-        report_.iterations > 0 && full_ && remains_ <= small_step && norm_ * norm_ <= round_off * energy_.magnitude;
+        steps() > 0 && !followed_ && full_ && remains_ <= small_step && norm_ * norm_ <= round_off * energy_.magnitude;
     report_.converged = remains_ <= lost_step || strict || lenient || nothing_to_gain;
     return report_.converged;
   }
@@ -175,36 +180,57 @@ private:
   // Whether the preconditioner tells what remains: it does if it is the Hessian's, or served well for the last
   // direction.
   bool trusted() const {
-    return report_.iterations == 0 ? fresh_ && exact_ : full_ && !negative_ && products_ <= few_products;
+    if (steps() == 0)
+      return fresh_ && exact_;
+    return full_ && !negative_ && (followed_ ? system_.factor_serves() : products_ <= few_products);
   }
 
   // Eisenstat and Walker's second choice, no sharper than what ends the iterations.
   double forcing() const {
-    if (report_.iterations == 0)
+    if (steps() == 0)
       return first_forcing;
     const double ratio = norm_ / previous_norm_;
     const double enough = std::max(options_.of_step_error * first_norm_ / norm_, options_.tolerance / remains_);
     return std::clamp(std::max(0.9 * ratio * ratio, 0.3 * enough), least_forcing, greatest_forcing);
   }
 
+  // The step by the factor alone, of this Hessian or an earlier one: a product and a solution less, and no Hessian, for
+  // as long as each leaves little of what remained.
+  void follow_factor() {
+    Stopwatch watch;
+    system_.balance(force_, preconditioned_);
+    products_ = 0;
+    negative_ = false;
+    followed_ = true;
+    ++report_.followed;
+    take_direction(preconditioned_);
+    report_.seconds_solve += watch.lap();
+  }
+
+  void take_direction(const Eigen::VectorXd& rows) {
+    step_ = system_.to_unknowns(rows);
+    slope_ = gradient_.dot(step_);
+    report_.last_step = step_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+    report_.gained = start_ - energy_.value;
+    report_.promised = -slope_;
+  }
+
   void find_direction() {
     Stopwatch watch;
+    followed_ = false;
     const auto multiply = [&](const Eigen::VectorXd& x) { return system_.multiply(x); };
     const auto precondition = [&](const Eigen::VectorXd& b) { return system_.solve(b); };
     ConjugateGradients cg =
         conjugate_gradients(multiply, precondition, force_, preconditioned_, forcing(), most_products);
     if (!cg.negative)
       system_.balance(force_, cg.x);
-    step_ = system_.to_unknowns(cg.x);
-    slope_ = gradient_.dot(step_);
+    take_direction(cg.x);
     products_ = cg.products;
     negative_ = cg.negative;
     if (products_ > many_products && !fresh_)
       stale_ = true;
     report_.products += products_;
-    report_.last_step = step_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
-    report_.gained = start_ - energy_.value;
-    report_.promised = -slope_;
+    ++report_.iterations;
     report_.seconds_solve += watch.lap();
   }
 
@@ -250,17 +276,18 @@ private:
   Unknowns& u_;
   NewtonReport report_;
   EnergySum energy_;
-  double start_ = 0; // of the potential
+  double start_; // of the potential
   Eigen::VectorXd gradient_, trial_, force_, preconditioned_, remainder_, step_;
   double slope_ = 0, norm_ = 0, previous_norm_ = 0, first_norm_ = 0, remains_ = 0, positions_remain_ = 0, way_ = 0;
   int products_ = 0;
-  bool linearized_ = false; // the system has the exact Hessian at u
-  bool fresh_ = false;      // the factor was made at u
-  bool exact_ = false;      // of the exact Hessian
-  bool positive_ = false;   // of the positive form, as the exact one's direction failed
-  bool negative_ = false;   // curvature, of the last direction
-  bool stale_ = false;      // the factor took too many products
-  bool full_ = true;        // the last step was
+  bool linearized_;       // the system has the exact Hessian at u
+  bool fresh_ = false;    // the factor was made at u
+  bool exact_ = false;    // of the exact Hessian
+  bool positive_ = false; // of the positive form, as the exact one's direction failed
+  bool negative_ = false; // curvature, of the last direction
+  bool stale_ = false;    // the factor took too many products
+  bool followed_ = false; // the factor alone gave the last direction
+  bool full_ = true;      // the last step was
 };
 
 } // namespace
@@ -269,6 +296,7 @@ NewtonReport& NewtonReport::operator+=(const NewtonReport& r) {
   converged = r.converged;
   monotone = monotone && r.monotone;
   iterations += r.iterations;
+  followed += r.followed;
   products += r.products;
   factorizations += r.factorizations;
   positive += r.positive;
@@ -282,9 +310,17 @@ NewtonReport& NewtonReport::operator+=(const NewtonReport& r) {
   return *this;
 }
 
+FirstEvaluation evaluate_first(LinearSystem& system, const Terms& terms, const Unknowns& u) {
+  FirstEvaluation first;
+  first.linearized = !system.has_factor();
+  first.energy =
+      first.linearized ? system.hessian(terms, u, false, first.gradient) : system.gradient(terms, u, first.gradient);
+  return first;
+}
+
 NewtonReport minimize(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale,
-                      const Unknowns& extrapolated, const NewtonOptions& options, Unknowns& u) {
-  return Minimizer(system, terms, scale, extrapolated, options, u).run();
+                      const Unknowns& extrapolated, const NewtonOptions& options, FirstEvaluation first, Unknowns& u) {
+  return Minimizer(system, terms, scale, extrapolated, options, std::move(first), u).run();
 }
 
 } // namespace sheet

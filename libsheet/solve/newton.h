@@ -18,13 +18,14 @@ struct NewtonOptions {
   // If positive, it also ends when what remains is below this part of the way from the extrapolated state, in the norm
   // of the potential and at every vertex: the error of a step of order two is a part of that way.
   double of_step_error = 0;
-  int iterations = 50;
+  int iterations = 50; // with the Hessian; those by the factor alone end by themselves
 };
 
 struct NewtonReport {
   bool converged = false;
   bool monotone = true; // the potential never rose by more than round-off
-  int iterations = 0;   // Newton steps
+  int iterations = 0;   // Newton steps, each with the Hessian where it starts
+  int followed = 0;     // steps by the factor alone
   int products = 0;     // of the Hessian with a direction
   int factorizations = 0;
   int positive = 0;                // of them of the positive form
@@ -34,13 +35,25 @@ struct NewtonReport {
   double gained = 0, promised = 0; // fall of the potential up to the last step, and what that one promised to add [J]
   double seconds_assembly = 0, seconds_factor = 0, seconds_solve = 0, seconds_search = 0;
 
+  [[nodiscard]] int spent() const { return iterations + followed; } // of what a step may take
   NewtonReport& operator+=(const NewtonReport& other);
 };
 
+// The potential at a start, so that no one evaluates it twice.
+struct FirstEvaluation {
+  EnergySum energy;
+  Eigen::VectorXd gradient;
+  bool linearized = false; // the system has the exact Hessian there
+};
+
+// The Hessian is evaluated as well if there is no factor, as it is then needed anyhow.
+[[nodiscard]] FirstEvaluation evaluate_first(LinearSystem& system, const Terms& terms, const Unknowns& u);
+
 // The potential's Hessian may have a factor from an earlier stage of the same step; system.hold says what is held.
 // scale: for each unknown the length [m] (or angle, 1) that what remains is measured in. extrapolated: where the
-// stage would end by extrapolation. u: start, and result.
+// stage would end by extrapolation. u: start, and result; first: what is known at the start.
 [[nodiscard]] NewtonReport minimize(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale,
-                                    const Unknowns& extrapolated, const NewtonOptions& options, Unknowns& u);
+                                    const Unknowns& extrapolated, const NewtonOptions& options, FirstEvaluation first,
+                                    Unknowns& u);
 
 } // namespace sheet

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
+#include "libsheet/base/stopwatch.h"
 #include "libsheet/solve/damped_newton.h"
 
 namespace sheet {
@@ -20,21 +21,23 @@ StageSolve::StageSolve(LinearSystem& system, const Terms& terms, const std::vect
 
 // The one of lowest potential among the extrapolated state, the last known one, the sheet moved rigidly with what is
 // held, and, if what is held leaves the others behind, the linear response to its motion.
-Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, const Unknowns& safe) {
-  Unknowns best;
-  double least = std::numeric_limits<double>::infinity();
+Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, const Unknowns& safe,
+                                    FirstEvaluation& first) {
+  Unknowns best = guess;
+  place(stage, best);
+  first = evaluate_first(system_, terms_, best); // nearly always the one
+  const double left_behind = (best - guess).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+  double least = first.energy.value;
+  bool is_first = true;
   const auto consider = [&](const Unknowns& u) {
     const double potential = system_.value(terms_, u).value;
-    if (best.size() == 0 || potential < least || !std::isfinite(least)) {
+    if (potential < least || !std::isfinite(least)) {
       least = potential;
       best = u;
+      is_first = false;
     }
   };
-  Unknowns trial = guess;
-  place(stage, trial);
-  const double left_behind = (trial - guess).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
-  consider(trial);
-  trial = safe;
+  Unknowns trial = safe;
   place(stage, trial);
   const Unknowns target = trial;
   consider(trial);
@@ -44,9 +47,12 @@ Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, c
   }
   if (left_behind >= far_behind) {
     trial = safe;
+    is_first = false; // the Hessian is then another
     if (system_.spread_held_motion(terms_, target, trial))
       consider(trial);
   }
+  if (!is_first)
+    first = evaluate_first(system_, terms_, best);
   return best;
 }
 
@@ -65,8 +71,11 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
     return false;
   for (const auto& term : terms_)
     term->begin(stage);
-  u = starting_guess(stage, guess, safe);
-  NewtonReport r = minimize(system_, terms_, scale_, guess, newton, u);
+  Stopwatch watch;
+  FirstEvaluation first;
+  u = starting_guess(stage, guess, safe, first);
+  report.seconds_assembly += watch.lap();
+  NewtonReport r = minimize(system_, terms_, scale_, guess, newton, std::move(first), u);
   report += r;
   if (r.converged || demand_ == Demand::converged)
     return r.converged;

@@ -28,7 +28,9 @@ public:
 
 private:
   void place(const Stage& stage, Unknowns& u) const;
-  [[nodiscard]] Unknowns starting_guess(const Stage& stage, const Unknowns& guess, const Unknowns& safe);
+  // first: what is known there.
+  [[nodiscard]] Unknowns starting_guess(const Stage& stage, const Unknowns& guess, const Unknowns& safe,
+                                        FirstEvaluation& first);
 
   LinearSystem& system_;
   const Terms& terms_;

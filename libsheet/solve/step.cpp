@@ -142,7 +142,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   const auto solve = [&](const Unknowns& guess, const Unknowns& safe, Unknowns& u) {
     if (options_.thickness == Thickness::as_started)
       raise_as_started(stage);
-    return solver.solve(stage, guess, safe, options_.iterations - report.newton.iterations, report.newton, u);
+    return solver.solve(stage, guess, safe, options_.iterations - report.newton.spent(), report.newton, u);
   };
 
   Unknowns guess = stage.begin, first, last;

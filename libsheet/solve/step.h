@@ -35,7 +35,8 @@ struct StepOptions {
   Thickness thickness = Thickness::coupled;
   NewtonOptions newton;
   int retries = 12;     // halvings of a step that does not converge
-  int iterations = 400; // of Newton in a step with all its retries, so that a hopeless one is given up soon
+  int iterations = 400; // of Newton, with or without the Hessian, in a step with all its retries, so that a hopeless
+                        // one is given up soon
 };
 
 struct TermTime {

@@ -89,7 +89,7 @@ private:
     for (int tries = 0; !best_ || best_->error > tolerance_; ++tries) {
       too_short_ = trial.dt < shortest_;
       if (too_short_ || tries > 4 * stepper_.options_.retries || leads_nowhere(trial.dt) ||
-          report_.newton.iterations >= stepper_.options_.iterations)
+          report_.newton.spent() >= stepper_.options_.iterations)
         return;
       report_.error = 0;
       if (stepper_.attempt_either(state_, trial.dt, trial.end, trial.flat, report_) != Outcome::done) {
@@ -132,7 +132,7 @@ private:
       ++report_.failed;
       trial.dt *= least_factor;
       report_.error = 0;
-      if (report_.newton.iterations >= stepper_.hopeless_iterations() || leads_nowhere(trial.dt))
+      if (report_.newton.spent() >= stepper_.hopeless_iterations() || leads_nowhere(trial.dt))
         fail(ExitCode::not_converged, "the step at t = {} s did not converge ({} Newton iterations, last tried {} s)",
              state_.time, report_.newton.iterations, trial.dt);
     }

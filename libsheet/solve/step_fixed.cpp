@@ -54,7 +54,7 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   const bool too_far = outcome == Outcome::slides_too_far;
-  const bool exhausted = report.newton.iterations >= options_.iterations;
+  const bool exhausted = report.newton.spent() >= options_.iterations;
   if (!exhausted && !too_far && options_.scheme != Scheme::backward_euler && depth >= halvings_before_euler &&
       attempt(state, dt, Scheme::backward_euler, Demand::converged, end, report) == Outcome::done) {
     ++report.substeps;
@@ -70,7 +70,7 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     state = std::move(end);
     return;
   }
-  if (divisible && report.newton.iterations < hopeless_iterations()) {
+  if (divisible && report.newton.spent() < hopeless_iterations()) {
     const double middle = state.time + 0.5 * dt, until = state.time + dt;
     advance(state, middle - state.time, depth + 1, report);
     advance(state, until - state.time, depth + 1, report);

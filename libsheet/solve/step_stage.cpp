@@ -231,10 +231,11 @@ void StepStage::report() const {
               t.steps, t.substeps, t.failed, t.rejected, t.fallbacks, t.flat, t.unfinished, t.inaccurate,
               t.newton.iterations, t.seconds);
   log::detail(
-      "  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it",
+      "  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it; "
+      "{} steps by the factor alone",
       100 * t.analysis / t.seconds, 100 * t.newton.seconds_assembly / t.seconds,
       100 * t.newton.seconds_factor / t.seconds, 100 * t.newton.seconds_solve / t.seconds,
-      100 * t.newton.seconds_search / t.seconds);
+      100 * t.newton.seconds_search / t.seconds, t.newton.followed);
   for (const TermTime& term : t.terms)
     log::detail("  term {:<40} {:8.3f} s {:5.1f} %", term.name, term.seconds, 100 * term.seconds / t.seconds);
 }

@@ -93,7 +93,8 @@ double power_ratio(double thickness, double k, bool arcs, Bending bending, doubl
   place_held(m.holds, stage, dt, u);
   system.constrain({.held = held_unknowns(m.holds, stage)}, 0);
   const Unknowns start = u;
-  const NewtonReport r = minimize(system, terms, step_scale(s, u.size()), start, {}, u);
+  const NewtonReport r =
+      minimize(system, terms, step_scale(s, u.size()), start, {}, evaluate_first(system, terms, u), u);
   const double exact = 0.5 * thickness * thickness * thickness / 3 * step * step * nx * ny / dt;
   return r.converged ? system.value(terms, u).value / exact : NAN;
 }

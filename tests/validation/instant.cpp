@@ -30,7 +30,8 @@ Instant solve_instant(const State& s, const Model& model, double dt, const Place
   options.tolerance = 1e-12;
   system.constrain({.held = held}, 1e-10);
   const Unknowns start = r.end;
-  const NewtonReport report = minimize(system, terms, scale, start, options, r.end);
+  const NewtonReport report =
+      minimize(system, terms, scale, start, options, evaluate_first(system, terms, r.end), r.end);
   r.iterations = report.iterations;
   if (!report.converged && !(report.last_step < 1e-9))
     fail(ExitCode::not_converged, "an instant did not converge (last step {})", report.last_step);

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/solve/step.h"
+#include "tests/support/meshes.h"
+
+namespace sheet {
+namespace {
+
+// A sheet that is thrown and falls.
+State thrown(double speed) {
+  test::Mesh mesh = test::rectangle(1, 1, 10, 10, 0.2);
+  for (Vector3& x : mesh.positions)
+    x.z() = 0.2 * std::sin(2 * x.x()) * std::cos(1.5 * x.y());
+  State s = test::at_rest(mesh, 0.02);
+  for (std::size_t v = 0; v < s.positions.size(); ++v)
+    s.velocities[v] =
+        speed * Vector3(std::sin(3 * s.positions[v].y()), s.positions[v].z(), std::cos(4 * s.positions[v].x()));
+  return s;
+}
+
+Model syrup() {
+  Model m;
+  m.viscosity = 50;
+  m.density = 1000;
+  m.surface_tension = 0.1;
+  m.gravity = {0, 0, -9.81};
+  m.bending = Bending::mid_edge;
+  m.arcs = true;
+  return m;
+}
+
+NewtonReport step(State& s, double dt, double tolerance) {
+  StepOptions options;
+  options.newton.tolerance = tolerance;
+  const StepReport report = Stepper(syrup(), options).step(s, dt);
+  EXPECT_EQ(report.failed, 0);
+  return report.newton;
+}
+
+double greatest_difference(const State& a, const State& b) {
+  double most = 0;
+  for (std::size_t v = 0; v < a.positions.size(); ++v)
+    most = std::max(most, (a.positions[v] - b.positions[v]).norm());
+  return most;
+}
+
+TEST(Newton, FollowsTheFactorAloneWhileThatServes) {
+  State s = thrown(0.5), exact = s;
+  const NewtonReport report = step(s, 1e-3, 1e-5);
+  EXPECT_EQ(report.products, 0);
+  EXPECT_EQ(report.factorizations, 1);
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_GE(report.followed, 1);
+  (void)step(exact, 1e-3, 1e-11);
+  EXPECT_LE(greatest_difference(s, exact), 1e-5 * 0.1);
+}
+
+TEST(Newton, TurnsToTheHessianWhereTheFactorServesNoMore) {
+  State s = thrown(5), exact = s;
+  const NewtonReport report = step(s, 1e-2, 1e-5);
+  EXPECT_GT(report.products, 0);
+  (void)step(exact, 1e-2, 1e-11);
+  EXPECT_LE(greatest_difference(s, exact), 1e-5 * 0.1);
+}
+
+} // namespace
+} // namespace sheet
