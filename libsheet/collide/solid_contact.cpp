@@ -117,11 +117,12 @@ private:
         }
         if (rides_[v] != no_solid) {
           const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
-          hold(v, view.own(view.pieces(), path_.end[v]));
+          const Vector3 own = view.own(view.pieces(), path_.end[v]);
+          hold(v, own, slides(v) ? half(v) : standing_distance(v));
         } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
           rides_[v] = static_cast<std::int32_t>(hit->solid);
           caught[v] = 1;
-          hold(v, slides(v) ? slid(v, *hit) : Vector3(hit->place + views_[hit->solid].belt(1 - hit->s)));
+          hold(v, slides(v) ? slid(v, *hit) : Vector3(hit->place + views_[hit->solid].belt(1 - hit->s)), half(v));
         }
       }
     });
@@ -151,11 +152,26 @@ private:
     return view.shape().distance(view.own(0, path_.start[v]), thickness) >= thickness;
   }
 
-  // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, out of the others.
-  void hold(std::uint32_t v, Vector3 own) {
-    const double offset = (slides(v) && !path_.end_thickness.empty() ? path_.end_thickness : path_.thickness)[v] / 2;
+  // Half the sheet's thickness where the vertex is on its solid.
+  [[nodiscard]] double half(std::uint32_t v) const {
+    return (slides(v) && !path_.end_thickness.empty() ? path_.end_thickness : path_.thickness)[v] / 2;
+  }
+
+  // The distance at which a vertex that sticks ends from its solid: that at which it starts, but from half the thickness
+  // to nine tenths of it. Set to half each time, it would sink as the sheet thins until a triangle beside it is too near
+  // and pushes it out, and come back at once, at every few steps.
+  [[nodiscard]] double standing_distance(std::uint32_t v) const {
     const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
-    own = settle(view.shape(), own, offset);
+    const double distance = view.shape().nearest(view.own(0, path_.start[v])).distance;
+    return std::clamp(distance, path_.thickness[v] / 2, 0.9 * path_.thickness[v]);
+  }
+
+  // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, at this distance from
+  // it, out of the others.
+  void hold(std::uint32_t v, Vector3 own, double distance) {
+    const double offset = half(v);
+    const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
+    own = settle(view.shape(), own, distance);
     Vector3 end = view.world_at_end(own);
     // Between solids that nearly meet, in turns: out of the others, back to the own one.
     for (int turn = 0; turn < 10; ++turn) {
@@ -169,7 +185,7 @@ private:
       }
       if (!moved)
         break;
-      end = view.world_at_end(settle(view.shape(), view.own(view.pieces(), end), offset));
+      end = view.world_at_end(settle(view.shape(), view.own(view.pieces(), end), distance));
     }
     path_.end[v] = prescribed_[v] == 0 ? end : beside_hold(v, end);
   }
@@ -213,7 +229,7 @@ private:
                "they start apart; where solids close on the sheet, leave it room",
                v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
         rides_[v] = static_cast<std::int32_t>(i);
-        hold(v, views_[i].own(0, x));
+        hold(v, views_[i].own(0, x), half(v));
         ++report_.brought_out;
         break;
       }

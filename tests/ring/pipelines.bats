@@ -179,8 +179,8 @@ END
 }
 
 @test "folding: frequency goes as speed to three quarters, or nearly" {
-  OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/folding/law 0.01 3 "0.1 0.2" "0.07"
-  [[ $(grep -cE "goes as speed to 0\.[6-9]" <<< "$output") == 3 ]]
+  OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/folding/law 0.005 4 "0.1 0.2" "0.07"
+  [[ $(grep -cE "goes as speed to 0\.[67]" <<< "$output") == 3 ]]
 }
 
 @test "gallery: a scene that is ended ends it, it goes on from there, and what is done is not done again" {

@@ -215,6 +215,20 @@ TEST(SolidContact, WhatLeavesIsLetGo) {
   EXPECT_NEAR(stuck.path.end[0].y(), thickness_of_sheet / 2, 1e-12);
 }
 
+// Within limits it stays where it stands, or it would go up and down at the edge of what the triangles beside it allow.
+TEST(SolidContact, WhatSticksStaysWhereItStands) {
+  const solid::Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
+  const auto end_of = [&](double start) {
+    FallingSheet stuck = falling(0, start * thickness_of_sheet);
+    stuck.path.touch.assign(stuck.start.size(), 0);
+    resolve_solids(stuck.path, ground);
+    return stuck.path.end[0].y() / thickness_of_sheet;
+  };
+  EXPECT_NEAR(end_of(0.4), 0.5, 1e-9);
+  EXPECT_NEAR(end_of(0.7), 0.7, 1e-9);
+  EXPECT_NEAR(end_of(0.95), 0.9, 1e-9);
+}
+
 TEST(SolidContact, HoldsAreLeftAlone) {
   const solid::Solids ball = solids_of({solid(scene::Sphere{0.03}, {0, -0.03, 0})});
   FallingSheet sheet = falling(1);
