@@ -118,11 +118,12 @@ private:
         if (rides_[v] != no_solid) {
           const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
           const Vector3 own = view.own(view.pieces(), path_.end[v]);
-          hold(v, own, slides(v) ? half(v) : standing_distance(v));
+          hold(v, own, slides(v) ? half_thickness(v) : standing_distance(v));
         } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
           rides_[v] = static_cast<std::int32_t>(hit->solid);
           caught[v] = 1;
-          hold(v, slides(v) ? slid(v, *hit) : Vector3(hit->place + views_[hit->solid].belt(1 - hit->s)), half(v));
+          hold(v, slides(v) ? slid(v, *hit) : Vector3(hit->place + views_[hit->solid].belt(1 - hit->s)),
+               half_thickness(v));
         }
       }
     });
@@ -153,13 +154,13 @@ private:
   }
 
   // Half the sheet's thickness where the vertex is on its solid.
-  [[nodiscard]] double half(std::uint32_t v) const {
+  [[nodiscard]] double half_thickness(std::uint32_t v) const {
     return (slides(v) && !path_.end_thickness.empty() ? path_.end_thickness : path_.thickness)[v] / 2;
   }
 
-  // The distance at which a vertex that sticks ends from its solid: that at which it starts, but from half the thickness
-  // to nine tenths of it. Set to half each time, it would sink as the sheet thins until a triangle beside it is too near
-  // and pushes it out, and come back at once, at every few steps.
+  // The distance at which a vertex that sticks ends from its solid: that at which it starts, but from half the
+  // thickness to nine tenths of it. Set to half each time, it would sink as the sheet thins until a triangle beside it
+  // is too near and pushes it out, and come back at once, at every few steps.
   [[nodiscard]] double standing_distance(std::uint32_t v) const {
     const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
     const double distance = view.shape().nearest(view.own(0, path_.start[v])).distance;
@@ -169,7 +170,7 @@ private:
   // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, at this distance from
   // it, out of the others.
   void hold(std::uint32_t v, Vector3 own, double distance) {
-    const double offset = half(v);
+    const double offset = half_thickness(v);
     const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
     own = settle(view.shape(), own, distance);
     Vector3 end = view.world_at_end(own);
@@ -229,70 +230,83 @@ private:
                "they start apart; where solids close on the sheet, leave it room",
                v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
         rides_[v] = static_cast<std::int32_t>(i);
-        hold(v, views_[i].own(0, x), half(v));
+        hold(v, views_[i].own(0, x), half_thickness(v));
         ++report_.brought_out;
         break;
       }
     }
   }
 
-  // An inelastic impulse without slip: the point that hits first goes on with the solid. Equal and opposite impulses
-  // at a point of weights w move the corners by w_i / m_i in proportion.
-  void push(const FoundHit& hit) {
+  // A point of a triangle, and what an impulse there does: equal and opposite impulses at a point of weights w move the
+  // corners by w_i / m_i in proportion.
+  struct Lever {
+    double half = std::numeric_limits<double>::infinity();     // the thickness
+    Vector3 end = Vector3::Zero(), velocity = Vector3::Zero(); // of the point, in the solid's frame; in the world
+    std::array<Vector3, 3> share;                              // of the point's way, of each corner, along each axis
+    Vector3 compliance = Vector3::Zero();                      // along each axis
+    double longest = 0;                                        // of the shares
+  };
+
+  [[nodiscard]] Lever lever_of(const FoundHit& hit) const {
     const SolidView& view = views_[hit.solid];
     const Corners& corners = path_.triangles[hit.triangle];
-    double half = std::numeric_limits<double>::infinity();
-    // Of the point, in the solid's frame; in the world; along each axis.
-    Vector3 end = Vector3::Zero(), velocity = Vector3::Zero(), compliance = Vector3::Zero();
-    std::array<Vector3, 3> share; // along each axis
     const double least_mass =
         least_mass_part * std::max({path_.mass[corners[0]], path_.mass[corners[1]], path_.mass[corners[2]]});
+    Lever lever;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = corners[c];
       const double weight = hit.point.weights[c];
-      half = std::min(half, path_.thickness[v] / 2);
-      end += weight * view.own(view.pieces(), path_.end[v]);
-      velocity += weight * path_.velocity[v];
-      share[c] = weight / std::max(path_.mass[v], least_mass) * free_part(prescribed_[v]);
-      compliance += weight * share[c];
+      lever.half = std::min(lever.half, path_.thickness[v] / 2);
+      lever.end += weight * view.own(view.pieces(), path_.end[v]);
+      lever.velocity += weight * path_.velocity[v];
+      lever.share[c] = weight / std::max(path_.mass[v], least_mass) * free_part(prescribed_[v]);
+      lever.compliance += weight * lever.share[c];
     }
-    double most = 0;
-    for (Vector3& s : share) {
-      s = (compliance.array() > 0).select(s.cwiseQuotient(compliance), 0.0);
-      most = std::max(most, s.maxCoeff());
+    for (Vector3& s : lever.share) {
+      s = (lever.compliance.array() > 0).select(s.cwiseQuotient(lever.compliance), 0.0);
+      lever.longest = std::max(lever.longest, s.maxCoeff());
     }
+    return lever;
+  }
+
+  // An inelastic impulse without slip: the point that hits first goes on with the solid.
+  void push(const FoundHit& hit) {
+    const SolidView& view = views_[hit.solid];
+    const Corners& corners = path_.triangles[hit.triangle];
+    const Lever lever = lever_of(hit);
+    const bool meets = hit.kind == FoundHit::Kind::meeting;
     // Nearly all of the point is held: left to the other means; all of it, and driven into the solid: to be told.
-    if (most > longest_lever || (compliance.isZero(0) && hit.kind == FoundHit::Kind::meeting)) {
+    if (lever.longest > longest_lever || (lever.compliance.isZero(0) && meets)) {
       for (const std::uint32_t v : corners)
         changed_[v] = 1;
       return;
     }
     const solid::Near& near = hit.point.near;
-    // What only must come out does so along the normal, and loses the speed at which it approaches.
-    const Vector3 comes_out = std::max(0.0, target * half - near.distance) * near.normal;
-    Vector3 move = view.belt(1 - hit.s), change = Vector3::Zero(); // in the solid's frame
-    if (hit.kind == FoundHit::Kind::meeting) {
-      move += hit.place - end;
-      if (solids_.scene(hit.solid).contact != SolidContact::stick) // it slides on
-        move = near.normal.dot(move) * near.normal;
-      change = move / path_.length();
-    } else {
-      const Vector3 solid = solids_.surface_velocity(hit.solid, view.world_at_end(end), path_.end_time);
-      const double approach = view.turned_at_end(near.normal).dot(solid - velocity);
-      change = std::max(0.0, approach) * near.normal;
+    // Out to the target along the normal, without speed, what an impulse of this round at the same place (an edge that
+    // two triangles share) has not yet brought it out.
+    const double out = std::max(0.0, target * lever.half - near.distance);
+    const double already = std::clamp((lever.end - hit.place).dot(near.normal), 0.0, out);
+    const bool sticks = solids_.scene(hit.solid).contact == SolidContact::stick;
+    Vector3 move = (out - already) * near.normal; // in the solid's frame
+    if (meets) {
+      const Vector3 back = view.belt(1 - hit.s) + hit.place - lever.end + already * near.normal;
+      move += sticks ? back : Vector3(near.normal.dot(back) * near.normal);
     }
-    move += comes_out;
-    if (hit.kind != FoundHit::Kind::meeting) // another impulse of this round may have brought it out
-      move -= std::clamp((end - hit.place).dot(near.normal), 0.0, comes_out.norm()) * near.normal;
-    const auto outward = [&](const Vector3& x) { return Vector3(std::max(0.0, x.dot(near.normal)) * near.normal); };
+    move = view.turned_at_end(move);
+    const Vector3 normal = view.turned_at_end(near.normal);
+    const auto outward = [&](const Vector3& x) { return Vector3(std::max(0.0, x.dot(normal)) * normal); };
+    // To the surface's velocity at once: the part of the step after the hit would leave the other part of the speed.
+    Vector3 change = solids_.surface_velocity(hit.solid, view.world_at_end(lever.end), path_.end_time) - lever.velocity;
+    if (!meets || !sticks)
+      change = outward(change);
     for (std::size_t c = 0; c < 3; ++c) {
-      if (share[c].isZero(0))
+      if (lever.share[c].isZero(0))
         continue;
       const std::uint32_t v = corners[c];
       // A vertex that touches does not slide.
       const bool free = rides_[v] == no_solid;
-      path_.end[v] += share[c].cwiseProduct(view.turned_at_end(free ? move : outward(move)));
-      path_.velocity[v] += share[c].cwiseProduct(view.turned_at_end(free ? change : outward(change)));
+      path_.end[v] += lever.share[c].cwiseProduct(free ? move : outward(move));
+      path_.velocity[v] += lever.share[c].cwiseProduct(free ? change : outward(change));
       changed_[v] = 1;
     }
   }

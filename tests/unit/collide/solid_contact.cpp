@@ -215,6 +215,24 @@ TEST(SolidContact, WhatLeavesIsLetGo) {
   EXPECT_NEAR(stuck.path.end[0].y(), thickness_of_sheet / 2, 1e-12);
 }
 
+// The middle of an edge that two triangles share falls on a small ball. Both have the same hit, and the point comes to
+// rest once: at half of half the thickness from the ball, however short the step.
+TEST(SolidContact, WhatTwoTrianglesShareIsPushedOnce) {
+  for (const double length : {step_length, step_length / 10, step_length / 1000}) {
+    const double speed = 1e-4 / length;
+    FallingSheet sheet{0.1, 10, thickness_of_sheet, 0, Vector3(0, -speed, 0), length};
+    const Corners corners = sheet.path.triangles[sheet.path.triangles.size() / 2];
+    const Vector3 middle = (sheet.start[corners[0]] + sheet.start[corners[1]]) / 2;
+    const double radius = 1e-3;
+    const solid::Solids ball = solids_of({solid(scene::Sphere{radius}, middle - Vector3(0, radius + 3e-4, 0))});
+    EXPECT_GE(resolve_solids(sheet.path, ball).pushed, 2U);
+    const Vector3 end = (sheet.path.end[corners[0]] + sheet.path.end[corners[1]]) / 2;
+    const Vector3 velocity = (sheet.path.velocity[corners[0]] + sheet.path.velocity[corners[1]]) / 2;
+    EXPECT_NEAR((end - middle).y(), 2e-4, 2e-5) << length;
+    EXPECT_LT(velocity.norm(), 0.01 * speed) << length;
+  }
+}
+
 // Within limits it stays where it stands, or it would go up and down at the edge of what the triangles beside it allow.
 TEST(SolidContact, WhatSticksStaysWhereItStands) {
   const solid::Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
