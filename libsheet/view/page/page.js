@@ -246,7 +246,7 @@ function tell() {
 // --- the address
 
 // Browsers take no more than 100 addresses in 30 seconds.
-let addressAt = 0, addressTimer = 0;
+let addressAt = 0, addressTimer = 0, knownAddress = location.hash;
 function writeAddressSoon() {
   clearTimeout(addressTimer);
   addressTimer = setTimeout(() => {
@@ -273,12 +273,16 @@ function writeAddress() {
   if (document.documentElement.dataset.theme)
     words.set("theme", document.documentElement.dataset.theme);
   const hash = "#" + words.toString().replaceAll("%2C", ",");
+  if (location.hash !== knownAddress)
+    return; // a new one, which is about to be read
   if (hash !== location.hash)
     history.replaceState(null, "", hash);
+  knownAddress = location.hash;
 }
 
 // What makes no sense is passed over.
 function readAddress() {
+  knownAddress = location.hash;
   const words = new URLSearchParams(location.hash.slice(1));
   const numbers = (name, count) => {
     const list = (words.get(name) || "").split(",").map(x => x === "" ? NaN : Number(x));
