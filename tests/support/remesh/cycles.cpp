@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "libsheet/shape/shapes.h"
+#include "tests/support/remesh/options.h"
 
 namespace sheet::test {
 
@@ -28,12 +29,6 @@ public:
 private:
   double sum_ = 0, rest_ = 0;
 };
-
-MeshOptions edges(double length) {
-  MeshOptions options;
-  options.edge_length = length;
-  return options;
-}
 
 } // namespace
 

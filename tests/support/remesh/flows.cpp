@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "libsheet/shape/shapes.h"
+#include "tests/support/remesh/options.h"
 
 namespace sheet::test {
 
@@ -26,12 +27,6 @@ TriangleMesh moved(TriangleMesh mesh, const Vector3& by) {
   for (Vector3& x : mesh.positions)
     x += by;
   return mesh;
-}
-
-MeshOptions edges(double length) {
-  MeshOptions options;
-  options.edge_length = length;
-  return options;
 }
 
 double angle(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / pi; }

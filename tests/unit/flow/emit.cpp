@@ -81,10 +81,7 @@ void move(Frame& frame, const Scene& scene, double dt) {
 
 double account(const Frame& frame) { return number(frame, "emit.volume", 0); }
 
-std::string value_error(const Frame& frame) {
-  const std::string form = formats::find_form_error(frame);
-  return form.empty() ? formats::find_value_error(frame) : form;
-}
+using test::value_error;
 
 // Vertices that are in the inlet, by what they are.
 std::size_t count(const Frame& frame, std::uint64_t bits) {

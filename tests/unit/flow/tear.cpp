@@ -22,14 +22,14 @@ using testing::HasSubstr;
 
 constexpr double thin = 0.01, thick = 0.1, below = 0.05;
 
-Scene scene_of(const std::string& more = "", double threshold = below) {
+Scene tearing_scene(const std::string& more = "", double threshold = below) {
   return parse_scene("[sheet]\nshape = \"sphere\"\nradius = 10\nedge_length = 1\nthickness = 10000000\n[material]\n"
                      "viscosity = 1\ndensity = 3\n[tear]\nbelow = " +
                          std::to_string(threshold) + "\n" + more,
                      "scene");
 }
 
-const Scene keep = scene_of(), drop = scene_of("crumbs = \"drop\"\n");
+const Scene keep = tearing_scene(), drop = tearing_scene("crumbs = \"drop\"\n");
 
 Frame frame_of(const test::Mesh& mesh) {
   Frame frame = make_frame(mesh.positions, mesh.triangles, std::vector<double>(mesh.triangles.size(), 1));
@@ -120,10 +120,7 @@ void set_turning(Frame& frame) {
     v[i] = Vector3(1, 2, 3).cross(positions(frame)[i]) + Vector3(0.5, 0, 0);
 }
 
-std::string value_error(const Frame& frame) {
-  const std::string form = formats::find_form_error(frame);
-  return form.empty() ? formats::find_value_error(frame) : form;
-}
+using test::value_error;
 
 TEST(Tear, NothingThinNothingChanges) {
   Frame frame = frame_of(test::disk(1, 4, 0.2));
@@ -364,14 +361,14 @@ TEST(Tear, WhatIsHeldByTheSameThingOrInTheInletStaysWhole) {
     std::ranges::fill(origins.values<double>(), 0.0);
     return tear(frame, scene).edges;
   };
-  const Scene held = scene_of("[[hold]]\nregion = {box = [[0,0,0],[1,1,1]]}\n[[hold]]\nregion = {box = "
-                              "[[0,0,0],[1,1,1]]}\nmotion = {kind = \"translating\", velocity = [0, 1, 0]}\n");
+  const Scene held = tearing_scene("[[hold]]\nregion = {box = [[0,0,0],[1,1,1]]}\n[[hold]]\nregion = {box = "
+                                   "[[0,0,0],[1,1,1]]}\nmotion = {kind = \"translating\", velocity = [0, 1, 0]}\n");
   EXPECT_EQ(torn_edges(held, "hold", 1, 1), 0);
   EXPECT_GT(torn_edges(held, "hold", 0, 0), 0);
   EXPECT_EQ(torn_edges(keep, "touch", 4, 4), 0);
   EXPECT_EQ(torn_edges(keep, "inlet", 1, 1), 0);
   // Sides that hold only one coordinate can part along it; so can a hold that has let go.
-  const Scene guided = scene_of("[[hold]]\nregion = {box = [[0,0,0],[1,1,1]]}\naxes = \"z\"\n");
+  const Scene guided = tearing_scene("[[hold]]\nregion = {box = [[0,0,0],[1,1,1]]}\naxes = \"z\"\n");
   EXPECT_GT(torn_edges(guided, "hold", 1, 1), 0);
   Scene late = held;
   late.holds[0].until = 0;

@@ -10,6 +10,7 @@
 #include "libsheet/shape/shapes.h"
 #include "tests/support/remesh/cycles.h"
 #include "tests/support/remesh/flows.h"
+#include "tests/support/remesh/options.h"
 
 namespace sheet::remesh {
 namespace {
@@ -25,12 +26,7 @@ formats::Frame disk(double edge_length) {
   return test::frame_of(make_disk(1, options), 0.01);
 }
 
-Options options(double edge_length) {
-  Options o;
-  o.size.edge_length = edge_length;
-  o.smooth = true;
-  return o;
-}
+using test::options;
 
 double sum(const Array& array) {
   const auto v = array.values<double>();

@@ -13,16 +13,12 @@
 #include "tests/support/remesh/consistency.h"
 #include "tests/support/remesh/cycles.h"
 #include "tests/support/remesh/flows.h"
+#include "tests/support/remesh/options.h"
 
 namespace sheet::remesh {
 namespace {
 
-Options options(double edge_length) {
-  Options o;
-  o.size.edge_length = edge_length;
-  o.smooth = true;
-  return o;
-}
+using test::options;
 
 formats::Frame frame_of(const std::vector<Vector3>& x, const std::vector<Corners>& t, double volume = 0.01) {
   return make_frame(x, t, std::vector<double>(t.size(), volume));

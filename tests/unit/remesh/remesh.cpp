@@ -11,22 +11,13 @@
 #include "libsheet/shape/shapes.h"
 #include "tests/support/remesh/cycles.h"
 #include "tests/support/remesh/flows.h"
+#include "tests/support/remesh/options.h"
 
 namespace sheet::remesh {
 namespace {
 
-MeshOptions edges(double length) {
-  MeshOptions options;
-  options.edge_length = length;
-  return options;
-}
-
-Options options(double edge_length, bool smooth = true) {
-  Options o;
-  o.size.edge_length = edge_length;
-  o.smooth = smooth;
-  return o;
-}
+using test::edges;
+using test::options;
 
 std::uint64_t intersecting_pairs(const formats::Frame& frame) {
   const std::vector<bool> usable(frame.triangles, true);

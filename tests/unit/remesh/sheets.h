@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/cpp/stream_frame.h"
 #include "libsheet/base/error.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/read.h"
@@ -32,6 +33,11 @@ inline formats::Frame grid(std::uint32_t columns, std::uint32_t rows, double cel
       }
     }
   return make_frame(x, t, std::vector<double>(t.size(), thickness * cell * cell / 2));
+}
+
+inline std::string value_error(const formats::Frame& frame) {
+  const std::string form = formats::find_form_error(frame);
+  return form.empty() ? formats::find_value_error(frame) : form;
 }
 
 inline double total(std::span<const double> v) { return std::accumulate(v.begin(), v.end(), 0.0); }

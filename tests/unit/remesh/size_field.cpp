@@ -9,15 +9,12 @@
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/shapes.h"
 #include "tests/support/remesh/flows.h"
+#include "tests/support/remesh/options.h"
 
 namespace sheet::remesh {
 namespace {
 
-MeshOptions edges(double length) {
-  MeshOptions options;
-  options.edge_length = length;
-  return options;
-}
+using test::edges;
 
 using Velocity = std::function<Vector3(const Vector3&)>;
 formats::Frame moving(const TriangleMesh& mesh, double thickness, const Velocity& velocity) {

@@ -13,7 +13,7 @@
 namespace sheet::render {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Sampler, EachPairOfDimensionsIsANet) {
   // 16 points: one in each of 16 columns, rows and 4 x 4 cells, in every pair, for every pixel.

@@ -12,7 +12,7 @@
 namespace sheet::render {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Solids, HaveTheirVolumeAndFaceOutwards) {
   const std::pair<scene::SolidShape, double> cases[] = {{scene::Sphere{0.5}, 4 * pi / 3 * 0.125},
