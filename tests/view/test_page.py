@@ -6,7 +6,6 @@ import math
 import os
 import subprocess
 import tempfile
-import time
 import unittest
 import urllib.parse
 
@@ -77,7 +76,8 @@ class Page(unittest.TestCase):
         return self.browser.js(f"document.querySelector('#panel dd[data-of=\"{word}\"]')?.dataset.value")
 
     def address(self):
-        time.sleep(0.5)  # it is written now and then
+        self.browser.settle()
+        self.browser.until("document.body.dataset.address === 'written'")  # which it is now and then
         return dict(urllib.parse.parse_qsl(self.browser.js("location.hash.slice(1)")))
 
     def go(self, address):

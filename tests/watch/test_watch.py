@@ -241,7 +241,7 @@ class Test(unittest.TestCase):
                     browser.until(f"{shown}.contentWindow.location.hash.includes('eye=')")
                 if number == 1:
                     browser.drag(300, 400, 90, 20)
-                    time.sleep(0.5)  # the address is written now and then
+                    browser.until(f"{shown}.contentDocument.body.dataset.address === 'written'")
                     eye = browser.js(eye_of)
             self.assertEqual(browser.js(eye_of), eye)
             self.assertIn("colour=thickness", browser.js(f"{shown}.contentWindow.location.hash"))

@@ -249,9 +249,11 @@ function tell() {
 let addressAt = 0, addressTimer = 0, knownAddress = location.hash;
 function writeAddressSoon() {
   clearTimeout(addressTimer);
+  document.body.dataset.address = "behind";
   addressTimer = setTimeout(() => {
     addressAt = performance.now();
     writeAddress();
+    document.body.dataset.address = "written";
   }, Math.max(0, addressAt + 400 - performance.now()));
 }
 
