@@ -7,6 +7,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # GCC 12 is wrong about "literal" + std::string (PR105651) and about variants that may hold a std::string.
   target_compile_options(sheet_flags INTERFACE -Wno-restrict -Wno-free-nonheap-object)
 endif()
+if(CMAKE_UNITY_BUILD)
+  # Where sources are compiled together, those with an Impl of their own are not the main file, and GCC takes it for one of
+  # a header.
+  target_compile_options(sheet_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 if(SHEET_WERROR)
   target_compile_options(sheet_flags INTERFACE -Werror)
 endif()

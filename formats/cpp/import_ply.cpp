@@ -32,7 +32,7 @@ struct Header {
   std::vector<Element> elements;
 };
 
-std::optional<NumberType> number_type(std::string_view name) {
+std::optional<NumberType> ply_number_type(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, NumberType>, 16> names = {{
       {"char", NumberType::i8},
       {"int8", NumberType::i8},
@@ -59,7 +59,7 @@ std::optional<NumberType> number_type(std::string_view name) {
 
 NumberType read_type(TextScan& text, bool integer) {
   const std::string_view word = text.word();
-  const std::optional<NumberType> type = number_type(word);
+  const std::optional<NumberType> type = ply_number_type(word);
   if (!type || (integer && is_real(*type)))
     text.fail("unknown number type " + quoted(word) + (integer ? " for the length of a list" : ""));
   return *type;
@@ -100,7 +100,7 @@ Header read_header(TextScan& text, const std::string& file) {
       if (word == "list") {
         property.list_count = read_type(text, true);
         property.type = read_type(text, false);
-      } else if (const std::optional<NumberType> type = number_type(word)) {
+      } else if (const std::optional<NumberType> type = ply_number_type(word)) {
         property.type = *type;
       } else {
         text.fail("unknown number type " + quoted(word));

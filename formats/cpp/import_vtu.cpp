@@ -23,7 +23,7 @@ struct Piece {
 
 enum class Section { none, points, cells, point_data, cell_data };
 
-std::optional<NumberType> number_type(std::string_view name) {
+std::optional<NumberType> vtu_number_type(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, NumberType>, 10> names = {{{"Int8", NumberType::i8},
                                                                               {"UInt8", NumberType::u8},
                                                                               {"Int16", NumberType::i16},
@@ -182,7 +182,7 @@ private:
     VtuDeclaration array;
     array.name = name.empty() ? "Points" : name;
     array.start = tag.start;
-    const std::optional<NumberType> type = number_type(tag.attribute("type"));
+    const std::optional<NumberType> type = vtu_number_type(tag.attribute("type"));
     if (!type)
       fail(tag.start, "array " + quoted(array.name) + " has the unknown type " + quoted(tag.attribute("type")));
     array.type = *type;

@@ -7,7 +7,7 @@ namespace sheet::formats {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_white_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
          c == ':' || c == '.';
@@ -27,7 +27,7 @@ void XmlScan::fail(std::size_t at, const std::string& problem) const {
 }
 
 void XmlScan::skip_blanks() {
-  while (at_ < text_.size() && is_blank(text_[at_]))
+  while (at_ < text_.size() && is_white_space(text_[at_]))
     ++at_;
 }
 

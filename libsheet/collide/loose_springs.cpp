@@ -9,7 +9,7 @@ namespace sheet::collide {
 
 namespace {
 
-constexpr double facing = 0.5; // cosine
+constexpr double kept_facing = 0.5; // cosine
 
 // The index of the edge; no_index if there is none.
 std::uint32_t edge_of(const Connectivity& mesh, std::uint32_t a, std::uint32_t b) {
@@ -33,7 +33,7 @@ bool is_loose(const ContactSpring& s, const Connectivity& mesh, std::span<const 
   const bool there = s.of_vertex() ? has_triangle(mesh, v[1], v[2], v[3])
                                    : edge_of(mesh, v[0], v[1]) != no_index && edge_of(mesh, v[2], v[3]) != no_index;
   const Vector3 c = s.offset(x);
-  return !there || !(s.normal.dot(c) > facing * c.norm());
+  return !there || !(s.normal.dot(c) > kept_facing * c.norm());
 }
 
 struct Force {
@@ -73,7 +73,7 @@ void hand_over(std::span<const ContactSpring> loose, std::span<const Vector3> po
     for (const std::uint32_t v : old.vertices)
       if (const auto found = at.find(v); found != at.end())
         for (const std::size_t i : found->second)
-          if (std::abs(springs[i].normal.dot(old.normal)) > facing)
+          if (std::abs(springs[i].normal.dot(old.normal)) > kept_facing)
             ++shared[i];
     int most = 0;
     for (const auto& [i, count] : shared)

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <numbers>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -13,6 +14,8 @@ using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 using Corners = std::array<std::uint32_t, 3>; // vertices of a triangle, counter-clockwise from its positive side
 inline constexpr std::uint32_t no_index = 0xffffffffU; // in place of that of a vertex, an edge, a triangle
+
+inline constexpr double two_pi = 2 * std::numbers::pi;
 
 template <int N> using VectorN = Eigen::Matrix<double, N, 1>;
 template <int N> using MatrixN = Eigen::Matrix<double, N, N>;

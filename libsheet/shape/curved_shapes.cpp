@@ -15,8 +15,6 @@ namespace sheet {
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
-
 void append_parallel(double radius, double polar, std::uint32_t count, double phase, Points& points) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const double angle = two_pi * (i + phase) / count;

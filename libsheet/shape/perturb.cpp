@@ -2,19 +2,17 @@
 #include "libsheet/shape/perturb.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/types.h"
 #include "libsheet/shape/mesh_measure.h"
 #include "libsheet/shape/random.h"
 
 namespace sheet {
 
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 void check(double amplitude, double wavelength) {
   if (!std::isfinite(amplitude) || !std::isfinite(wavelength) || !(wavelength > 0.0))

@@ -14,7 +14,7 @@ namespace {
 
 using Triangles = std::vector<std::uint32_t>;
 
-std::string place(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()); }
+std::string written(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()); }
 
 void check_points(const SolidSurface& surface, const std::string& name) {
   if (surface.triangles.size() < 4)
@@ -28,14 +28,16 @@ void check_points(const SolidSurface& surface, const std::string& name) {
     const Vector3 u = surface.points[b] - x, v = surface.points[c] - x;
     if (u.cross(v).norm() <= 1e-14 * std::max(u.squaredNorm(), v.squaredNorm()))
       fail(ExitCode::bad_input, "{}: triangle {} at {} has no area; collapse or remove such triangles", name, t,
-           place(x));
+           written(x));
   }
 }
 
 // The neighbour of each triangle across each side; fails where a side has not exactly one.
 std::vector<std::array<std::uint32_t, 3>> check_closed(const SolidSurface& surface, const std::string& name) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sides; // directed, with their triangle
-  const auto at = [&](std::uint32_t a, std::uint32_t b) { return place((surface.points[a] + surface.points[b]) / 2); };
+  const auto at = [&](std::uint32_t a, std::uint32_t b) {
+    return written((surface.points[a] + surface.points[b]) / 2);
+  };
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = surface.triangles[t][i], b = surface.triangles[t][(i + 1) % 3];
@@ -117,7 +119,7 @@ std::vector<double> check_volumes(const SolidSurface& surface, const std::vector
     volumes.push_back(volume_of(surface, part));
     if (std::abs(volumes.back()) <= 1e-12 * std::pow(box.diagonal().norm(), 3))
       fail(ExitCode::bad_input, "{}: the surface at {} encloses no volume; give it some, or take it away", name,
-           place(surface.points[surface.triangles[part.front()][0]]));
+           written(surface.points[surface.triangles[part.front()][0]]));
   }
   return volumes;
 }
@@ -133,7 +135,7 @@ void check_sides(const SolidSurface& surface, const std::vector<Triangles>& part
         around += std::abs(winding(surface, parts[k], x));
     const bool hollow = std::lround(around) % 2 == 1;
     if (hollow != (volumes[i] < 0))
-      fail(ExitCode::bad_input, "{}: the surface at {} is inside out; turn its triangles round", name, place(x));
+      fail(ExitCode::bad_input, "{}: the surface at {} is inside out; turn its triangles round", name, written(x));
   }
 }
 
@@ -161,7 +163,7 @@ void check_simple(const SolidSurface& surface, const std::string& name) {
   if (found.pairs > 0)
     fail(ExitCode::bad_input,
          "{}: the surface intersects itself, {} pairs of triangles, the first at {}; unite its parts or repair it",
-         name, found.pairs, place(surface.points[surface.triangles[found.first][0]]));
+         name, found.pairs, written(surface.points[surface.triangles[found.first][0]]));
 }
 
 } // namespace

@@ -10,8 +10,7 @@ namespace {
 constexpr double first_damping = 1e-3, least_damping = 1e-12; // damping, of a matrix with a unit diagonal
 constexpr int most_tries = 30;                                // of dampings, an iteration
 constexpr double damping_factor = 8;
-constexpr double good = 0.75, poor = 0.25, accepted = 1e-3; // gain over the predicted one
-constexpr double round_off = 1e-14;                         // of the sum of the magnitudes of the energies
+constexpr double good_gain = 0.75, poor_gain = 0.25, accepted_gain = 1e-3; // gain over the predicted one
 } // namespace
 
 NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale,
@@ -26,7 +25,7 @@ NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eig
       return report;
     if (report.iterations == 0)
       start = energy.value;
-    const double noise = round_off * energy.magnitude;
+    const double noise = energy.noise();
     ++report.iterations;
     double used = 0;
     bool moved = false;
@@ -49,16 +48,16 @@ NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eig
       report.gained = start - energy.value;
       report.promised = predicted;
       const double ratio = predicted <= noise ? 1 : gain / predicted;
-      if (!(ratio > accepted)) { // also where the gain is no number
+      if (!(ratio > accepted_gain)) { // also where the gain is no number
         damping = std::max(least_damping, damping_factor * damping);
         ++report.halvings;
         continue;
       }
       u += step;
       moved = true;
-      if (ratio > good)
+      if (ratio > good_gain)
         damping = damping > least_damping ? damping / damping_factor : 0;
-      else if (ratio < poor)
+      else if (ratio < poor_gain)
         damping *= damping_factor;
     }
     if (!moved)

@@ -15,7 +15,6 @@ constexpr double least_shift = 1e-14; // the first one tried when the positive f
 constexpr double greatest_shift = 1e2;
 constexpr double shift_of_free = 1e-3; // of the positive form where motions are free that the potential does not see
 constexpr double sufficient = 1e-4;    // of the predicted decrease [Armijo]
-constexpr double round_off = 1e-14;    // of the sum of the magnitudes of the elements' energies
 constexpr int most_halvings = 40;
 constexpr double slope_kept = 0.5;     // of the slope that may remain after a step accepted for its slope
 constexpr double small_step = 1e-3;    // steps below this are done if the potential has no more to gain
@@ -166,7 +165,7 @@ private:
                          positions_remain_ <= std::min(largest, options_.of_step_error * way_);
     // A direction with the Hessian knows the soft modes too, of which the potential tells little.
     const bool nothing_to_gain =
-        steps() > 0 && !followed_ && full_ && remains_ <= small_step && norm_ * norm_ <= round_off * energy_.magnitude;
+        steps() > 0 && !followed_ && full_ && remains_ <= small_step && norm_ * norm_ <= energy_.noise();
     report_.converged = remains_ <= lost_step || strict || lenient || nothing_to_gain;
     return report_.converged;
   }
@@ -237,7 +236,7 @@ private:
   // Takes the step, as much of it as lowers the potential enough; returns that part, or 0.
   double search() {
     Stopwatch watch;
-    const double noise = round_off * energy_.magnitude;
+    const double noise = energy_.noise();
     double length = 1, taken = 0;
     for (int halvings = 0; halvings <= most_halvings && taken == 0; ++halvings, length *= 0.5) {
       const Unknowns there = u_ + length * step_;
