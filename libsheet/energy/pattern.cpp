@@ -114,7 +114,8 @@ MatrixPattern::Pairs MatrixPattern::sorted_pairs(std::span<const ElementGroup> g
     }
   };
   Pairs sorted{std::vector<std::uint32_t>(nodes + 1, 0), {}};
-  auto& [start, pairs] = sorted;
+  std::vector<std::uint32_t>& start = sorted.start;
+  std::vector<Pair>& pairs = sorted.pairs;
   each_pair([&](std::uint32_t column, const Pair&) { ++start[column + 1]; });
   for (std::size_t k = 0; k < nodes; ++k)
     start[k + 1] += start[k];
@@ -123,7 +124,7 @@ MatrixPattern::Pairs MatrixPattern::sorted_pairs(std::span<const ElementGroup> g
   each_pair([&](std::uint32_t column, const Pair& pair) { pairs[next[column]++] = pair; });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, columns_at_once), [&](const auto& range) {
     for (std::size_t k = range.begin(); k < range.end(); ++k)
-      std::sort(pairs.begin() + sorted.start[k], pairs.begin() + sorted.start[k + 1],
+      std::sort(pairs.begin() + start[k], pairs.begin() + start[k + 1],
                 [](const Pair& p, const Pair& q) { return p.row != q.row ? p.row < q.row : p.source < q.source; });
   });
   return sorted;

@@ -32,7 +32,8 @@ std::vector<NamedForce> SceneForces::of(const formats::Frame& frame) {
   const formats::Array *held = frame.find("hold_force"), *touched = frame.find("touch_force");
   const auto bits = holds(frame);
   for (std::size_t i = 0; i < holds_; ++i) {
-    NamedForce& sum = forces.emplace_back("hold " + std::to_string(i), Eigen::Vector3d::Constant(held ? 0 : unknown));
+    NamedForce& sum =
+        forces.emplace_back(NamedForce{"hold " + std::to_string(i), Eigen::Vector3d::Constant(held ? 0 : unknown)});
     for (std::size_t v = 0; held != nullptr && v < bits.size(); ++v)
       if ((bits[v] >> i & 1) != 0)
         sum.force += held->values<Vector3>()[v];
@@ -40,7 +41,7 @@ std::vector<NamedForce> SceneForces::of(const formats::Frame& frame) {
   const auto solids = touched_solids(frame, solids_);
   for (std::size_t i = 0; i < solids_; ++i) {
     NamedForce& sum =
-        forces.emplace_back("solid " + std::to_string(i), Eigen::Vector3d::Constant(touched ? 0 : unknown));
+        forces.emplace_back(NamedForce{"solid " + std::to_string(i), Eigen::Vector3d::Constant(touched ? 0 : unknown)});
     for (std::size_t v = 0; touched != nullptr && v < solids.size(); ++v)
       if (solids[v] == static_cast<std::int32_t>(i))
         sum.force += touched->values<Vector3>()[v];

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/types.h"
 #include "libsheet/shape/delaunay.h"
 #include "libsheet/shape/grids.h"
 #include "libsheet/shape/scatter.h"
