@@ -6,7 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include "libsheet/base/each.h"
 
 namespace sheet {
 
@@ -31,11 +34,9 @@ Vector3 arc_lengths(const Vector3& lengths, const Vector3& beta) { return length
 void MidEdgeShell::carry(const Unknowns& u, std::vector<CarriedDirector>& directors) const {
   const std::size_t edges = mesh_->edges.size();
   directors.resize(edges);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges, at_once), [&](const auto& range) {
-    for (std::size_t e = range.begin(); e < range.end(); ++e) {
-      const Vector3 along = stage_->position(u, mesh_->edges[e][1]) - stage_->position(u, mesh_->edges[e][0]);
-      directors[e] = {stage_->frames[e], along.normalized(), u[static_cast<Eigen::Index>(3 * stage_->vertices() + e)]};
-    }
+  each_in_parallel(edges, [&](std::size_t e) {
+    const Vector3 along = stage_->position(u, mesh_->edges[e][1]) - stage_->position(u, mesh_->edges[e][0]);
+    directors[e] = {stage_->frames[e], along.normalized(), u[static_cast<Eigen::Index>(3 * stage_->vertices() + e)]};
   });
 }
 
@@ -133,12 +134,10 @@ void MidEdgeShell::prepare(const Unknowns& u) {
   const std::size_t edges = mesh_->edges.size(), vertices = stage_->vertices();
   cosine_.resize(edges);
   sine_.resize(edges);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges, at_once), [&](const auto& range) {
-    for (std::size_t e = range.begin(); e < range.end(); ++e) {
-      const double angle = u[static_cast<Eigen::Index>(3 * vertices + e)];
-      cosine_[e] = std::cos(angle);
-      sine_[e] = std::sin(angle);
-    }
+  each_in_parallel(edges, [&](std::size_t e) {
+    const double angle = u[static_cast<Eigen::Index>(3 * vertices + e)];
+    cosine_[e] = std::cos(angle);
+    sine_[e] = std::sin(angle);
   });
 }
 

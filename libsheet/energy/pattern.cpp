@@ -8,23 +8,30 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 namespace sheet {
 
 namespace {
 constexpr std::size_t columns_at_once = 256;
+constexpr int most_nodes = 6;     // of a stencil
 constexpr std::size_t ahead = 24; // sources are asked for this early, as they lie all over the buffer
 
-// The place of the block of the local nodes a and b among an element's packed numbers: pairs of vertices first, then of
-// an edge and a vertex, then of edges.
-int packed_block(Stencil s, int a, int b) {
-  const int v = stencil_vertices(s), high = std::max(a, b), low = std::min(a, b);
-  if (high < v)
-    return 9 * (high * (high + 1) / 2 + low);
-  const int edge = high - v, vertices = 9 * v * (v + 1) / 2;
-  if (low < v)
-    return vertices + 3 * (edge * v + low);
-  return vertices + 3 * v * stencil_edges(s) + edge * (edge + 1) / 2 + (low - v);
+// The places of the blocks of each local node a and those b <= a before it, among an element's packed numbers: pairs of
+// vertices first, then of an edge and a vertex, then of edges.
+std::vector<std::uint32_t> packed_blocks(Stencil s) {
+  std::vector<std::uint32_t> places;
+  const int v = stencil_vertices(s), e = stencil_edges(s);
+  const int edge_vertex = 9 * v * (v + 1) / 2, edges = edge_vertex + 3 * v * e;
+  for (int a = 0; a < v + e; ++a)
+    for (int b = 0; b <= a; ++b) {
+      const int edge = a - v;
+      const int place = a < v   ? 9 * (a * (a + 1) / 2 + b)
+                        : b < v ? edge_vertex + 3 * (edge * v + b)
+                                : edges + edge * (edge + 1) / 2 + (b - v);
+      places.push_back(static_cast<std::uint32_t>(place));
+    }
+  return places;
 }
 
 // A block (rows x columns, by columns) on the free directions of its row and column nodes, which have a slide or none.
@@ -66,10 +73,11 @@ MatrixPattern::MatrixPattern(std::size_t vertices, std::size_t edges, std::span<
                              std::span<const std::uint32_t> order)
     : vertices_(vertices), stride_(stride), order_(order.begin(), order.end()) {
   number_columns(vertices + edges);
-  note_reversed(groups);
-  make_blocks(sorted_pairs(groups));
-  list_rows();
-  place_gradient(groups);
+  tbb::parallel_invoke([&] { make_blocks(sorted_pairs(groups)); },
+                       [&] {
+                         note_reversed(groups);
+                         place_gradient(groups);
+                       });
 }
 
 void MatrixPattern::number_columns(std::size_t nodes) {
@@ -100,16 +108,17 @@ MatrixPattern::Pairs MatrixPattern::sorted_pairs(std::span<const ElementGroup> g
   const std::size_t nodes = order_.size();
   const auto each_pair = [&](auto&& visit) {
     for (const ElementGroup& group : groups) {
-      const std::size_t count = group.size();
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t* n = &group.nodes[i * static_cast<std::size_t>(group.width)];
-        const auto base =
-            static_cast<std::uint32_t>(group.first_hessian + i * static_cast<std::size_t>(packed_size(group.stencil)));
-        for (int a = 0; a < group.width; ++a)
-          for (int b = 0; b < group.width; ++b)
-            if (rank_[n[a]] >= rank_[n[b]])
-              visit(rank_[n[b]],
-                    Pair{rank_[n[a]], base + static_cast<std::uint32_t>(packed_block(group.stencil, a, b))});
+      const std::vector<std::uint32_t> block = packed_blocks(group.stencil);
+      const auto size = static_cast<std::size_t>(packed_size(group.stencil));
+      const std::uint32_t* n = group.nodes.data();
+      auto base = static_cast<std::uint32_t>(group.first_hessian);
+      for (std::size_t i = 0; i < group.size(); ++i, n += group.width, base += static_cast<std::uint32_t>(size)) {
+        std::uint32_t rank[most_nodes];
+        for (int a = 0, pair = 0; a < group.width; ++a) {
+          rank[a] = rank_[n[a]];
+          for (int b = 0; b <= a; ++b, ++pair)
+            visit(std::min(rank[a], rank[b]), Pair{std::max(rank[a], rank[b]), base + block[pair]});
+        }
       }
     }
   };
@@ -135,8 +144,6 @@ void MatrixPattern::make_blocks(const Pairs& sorted) {
   const std::size_t nodes = order_.size();
   sources_.resize(pairs.size() + ahead);
   block_start_.assign(nodes + 1, 0);
-  structure_.size = static_cast<int>(permutation_.size());
-  structure_.starts.assign(permutation_.size() + 1, 0);
   for (std::uint32_t k = 0; k < nodes; ++k) {
     std::uint32_t offset = 0;
     // A node without elements still has its diagonal.
@@ -152,26 +159,53 @@ void MatrixPattern::make_blocks(const Pairs& sorted) {
       }
     }
     block_start_[k + 1] = static_cast<std::uint32_t>(blocks_.size());
-    for (int d = 0; d < width(order_[k]); ++d)
-      structure_.starts[column_start_[k] + d + 1] = static_cast<int>(offset) - d;
   }
   blocks_.push_back({0, 0, static_cast<std::uint32_t>(pairs.size())}); // the end of the last block's sources
-  for (std::size_t c = 0; c < permutation_.size(); ++c)
-    structure_.starts[c + 1] += structure_.starts[c];
 }
 
-void MatrixPattern::list_rows() {
-  structure_.rows.resize(static_cast<std::size_t>(structure_.starts.back()));
-  structure_.values.assign(structure_.rows.size(), 0.0);
-  for (std::uint32_t k = 0; k < order_.size(); ++k)
+SparseLower MatrixPattern::structure() const {
+  SparseLower a;
+  a.size = static_cast<int>(permutation_.size());
+  a.starts.reserve(permutation_.size() + 1);
+  a.starts.push_back(0);
+  for (std::uint32_t k = 0; k < order_.size(); ++k) {
+    const Block& last = blocks_[block_start_[k + 1] - 1];
+    const int rows = static_cast<int>(last.offset) + width(last.row_node);
+    for (int d = 0; d < width(order_[k]); ++d)
+      a.starts.push_back(a.starts.back() + rows - d);
+  }
+  a.rows.resize(static_cast<std::size_t>(a.starts.back()));
+  a.values.resize(a.rows.size());
+  const auto list_rows = [&](std::uint32_t k) {
     for (int d = 0; d < width(order_[k]); ++d) {
-      int* rows = &structure_.rows[static_cast<std::size_t>(structure_.starts[column_start_[k] + d])];
+      int* rows = &a.rows[static_cast<std::size_t>(a.starts[column_start_[k] + d])];
       for (std::uint32_t b = block_start_[k]; b < block_start_[k + 1]; ++b) {
         const std::uint32_t row = column_start_[rank_[blocks_[b].row_node]];
         for (int r = b == block_start_[k] ? d : 0; r < width(blocks_[b].row_node); ++r)
           *rows++ = static_cast<int>(row) + r;
       }
     }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(order_.size()), columns_at_once),
+                    [&](const auto& range) {
+                      for (std::uint32_t k = range.begin(); k < range.end(); ++k)
+                        list_rows(k);
+                    });
+  return a;
+}
+
+NodeGraph MatrixPattern::node_graph() const {
+  NodeGraph graph;
+  graph.first.assign(column_start_.begin(), column_start_.end());
+  graph.start.reserve(order_.size() + 1);
+  graph.start.push_back(0);
+  graph.later.reserve(blocks_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    for (std::uint32_t b = block_start_[k] + 1; b < block_start_[k + 1]; ++b) // after the diagonal
+      graph.later.push_back(static_cast<int>(rank_[blocks_[b].row_node]));
+    graph.start.push_back(static_cast<int>(graph.later.size()));
+  }
+  return graph;
 }
 
 void MatrixPattern::place_gradient(std::span<const ElementGroup> groups) {
@@ -275,6 +309,31 @@ void MatrixPattern::gather_matrix(const std::vector<double>& buffer, const Const
                       for (std::uint32_t k = range.begin(); k < range.end(); ++k)
                         gather(k);
                     });
+}
+
+Vector3 MatrixPattern::sum_of_blocks(const SparseLower& matrix) const {
+  // In pieces that do not depend on the number of threads, each added up in its order.
+  std::vector<Vector3> sums((order_.size() + columns_at_once - 1) / columns_at_once, Vector3::Zero());
+  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t piece) {
+    const auto end = static_cast<std::uint32_t>(std::min(order_.size(), (piece + 1) * columns_at_once));
+    for (auto k = static_cast<std::uint32_t>(piece * columns_at_once); k < end; ++k) {
+      if (order_[k] >= vertices_)
+        continue;
+      for (std::uint32_t b = block_start_[k]; b < block_start_[k + 1]; ++b) {
+        if (blocks_[b].row_node >= vertices_)
+          continue;
+        const double times = b == block_start_[k] ? 1 : 2; // the other half is not stored
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+          const auto diagonal = static_cast<std::size_t>(matrix.starts[column_start_[k] + axis]);
+          sums[piece][axis] += times * matrix.values[diagonal + blocks_[b].offset];
+        }
+      }
+    }
+  });
+  Vector3 sum = Vector3::Zero();
+  for (const Vector3& s : sums)
+    sum += s;
+  return sum;
 }
 
 } // namespace sheet

@@ -22,6 +22,18 @@ struct SparseLower {
   std::vector<double> values;
 };
 
+// Which nodes have elements in common; nodes and rows are numbered in the order of elimination. Node k has the columns
+// first[k] to first[k + 1] of the matrix, and each of these has the rows of the node from the column's own on, then all
+// rows of the nodes later[start[k]] to later[start[k + 1]], which ascend.
+struct NodeGraph {
+  std::vector<int> first, start, later;
+  [[nodiscard]] int nodes() const { return static_cast<int>(first.size()) - 1; }
+  [[nodiscard]] int width(int node) const { return first[node + 1] - first[node]; }
+  [[nodiscard]] std::span<const int> neighbours(int node) const {
+    return {later.data() + start[node], static_cast<std::size_t>(start[node + 1] - start[node])};
+  }
+};
+
 // Elements of one stencil: the nodes of element i are nodes[i * width ...].
 struct ElementGroup {
   Stencil stencil;
@@ -49,15 +61,19 @@ public:
   [[nodiscard]] const std::vector<std::uint32_t>& permutation() const { return permutation_; }
   // The first of the three rows of a vertex.
   [[nodiscard]] Eigen::Index first_row(std::uint32_t vertex) const { return column_start_[rank_[vertex]]; }
-  [[nodiscard]] const SparseLower& structure() const { return structure_; }
+  // The matrix, of zeros.
+  [[nodiscard]] SparseLower structure() const;
+  [[nodiscard]] NodeGraph node_graph() const;
 
   // Puts the Hessian of an element (column major, stride x stride; its lower triangle counts) into its place,
   // packed_size(group.stencil) numbers.
   void pack(const ElementGroup& group, std::size_t element, const double* hessian, double* packed) const;
   void gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const;
   // Rows and columns of held unknowns become those of the unit matrix, blocks of vertices that slide are projected on
-  // what is free. matrix must be a copy of structure().
+  // what is free. matrix must be one of structure().
   void gather_matrix(const std::vector<double>& buffer, const Constraints& constraints, SparseLower& matrix) const;
+  // For each axis the sum of the (whole) matrix over all pairs of vertices: what resists a translation.
+  [[nodiscard]] Vector3 sum_of_blocks(const SparseLower& matrix) const;
 
 private:
   struct Block {
@@ -69,8 +85,7 @@ private:
   void number_columns(std::size_t nodes);                   // rank_, column_start_, permutation_
   void note_reversed(std::span<const ElementGroup> groups); // reversed_
   [[nodiscard]] Pairs sorted_pairs(std::span<const ElementGroup> groups) const;
-  void make_blocks(const Pairs& sorted);                     // blocks_, block_start_, sources_, structure_'s starts
-  void list_rows();                                          // structure_'s rows
+  void make_blocks(const Pairs& sorted);                     // blocks_, block_start_, sources_
   void place_gradient(std::span<const ElementGroup> groups); // gradient_start_, gradient_sources_
   [[nodiscard]] std::uint32_t first_unknown(std::uint32_t node) const {
     return node < vertices_ ? 3 * node : static_cast<std::uint32_t>(3 * vertices_ + (node - vertices_));
@@ -86,7 +101,6 @@ private:
   std::vector<std::uint32_t> sources_; // places in the Hessian buffer
   std::vector<std::uint8_t> reversed_; // for each element: bit a(a-1)/2 + b, whether vertex a > b is eliminated first
   std::vector<std::uint32_t> gradient_start_, gradient_sources_;
-  SparseLower structure_;
 };
 
 } // namespace sheet

@@ -2,8 +2,10 @@
 #include "libsheet/energy/stage_setup.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
+#include "libsheet/base/each.h"
 #include "libsheet/geometry/mean_normals.h"
 
 namespace sheet {
@@ -65,7 +67,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
   stage.raised.resize(mesh.triangles.size());
   const auto& x = state.positions;
   const auto& v = state.velocities;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  each_in_parallel(mesh.triangles.size(), [&](std::size_t t) {
     const Corners& c = mesh.triangles[t];
     Vector3 change;
     for (int k = 0; k < 3; ++k) {
@@ -73,7 +75,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
       change[k] = 2 * duration * (x[b] - x[a]).dot(v[b] - v[a]);
     }
     stage.raised[t] = predicted_metric(squared_lengths(x[c[0]], x[c[1]], x[c[2]]), change);
-  }
+  });
   return stage;
 }
 
@@ -90,16 +92,17 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
     stage.inertial[v] = x0 + stage.ratio * moved + stage.duration * velocity;
     stage.predicted[v] = x0 + moved / gamma;
   }
-  bool possible = true;
-  for (std::size_t t = 0; t < state.mesh->triangles.size(); ++t) {
+  std::atomic<bool> possible = true;
+  each_in_parallel(state.mesh->triangles.size(), [&](std::size_t t) {
     const Corners& c = state.mesh->triangles[t];
     const auto& x = state.positions;
     const Vector3 start = squared_lengths(x[c[0]], x[c[1]], x[c[2]]);
     const Vector3 end =
         squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
     stage.raised[t] = predicted_metric(start, (end - start) / gamma);
-    possible = possible && Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= least_ratio - 1;
-  }
+    if (!(Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= least_ratio - 1))
+      possible.store(false, std::memory_order_relaxed);
+  });
   return possible;
 }
 
@@ -108,23 +111,23 @@ void turn_with_normals(const Stage& stage, Unknowns& u) {
     return;
   const std::vector<EdgeFrame> means = mean_normal_frames_of(stage, u);
   const std::vector<double>& angles = stage.start->director_angles;
-  for (std::size_t e = 0; e < means.size(); ++e) {
+  each_in_parallel(means.size(), [&](std::size_t e) {
     const Vector3 &t = means[e].tangent, wanted = means[e].turned(angles.empty() ? 0 : angles[e]);
     const Vector3 brought = stage.frames[e].carried(0, t);
     u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] =
         std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
-  }
+  });
 }
 
 std::vector<double> director_angles(const Stage& stage, const Unknowns& u) {
-  std::vector<double> angles;
+  std::vector<double> angles(stage.frames.size());
   if (stage.frames.empty())
     return angles;
-  angles.reserve(stage.frames.size());
   const std::vector<EdgeFrame> means = mean_normal_frames_of(stage, u);
-  for (std::size_t e = 0; e < means.size(); ++e)
-    angles.push_back(means[e].angle_to(
-        stage.frames[e].carried(u[static_cast<Eigen::Index>(3 * stage.vertices() + e)], means[e].tangent)));
+  each_in_parallel(means.size(), [&](std::size_t e) {
+    const double angle = u[static_cast<Eigen::Index>(3 * stage.vertices() + e)];
+    angles[e] = means[e].angle_to(stage.frames[e].carried(angle, means[e].tangent));
+  });
   return angles;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/geometry/mean_normals.h"
 
+#include "libsheet/base/each.h"
 #include "libsheet/geometry/area.h"
 
 namespace sheet {
@@ -15,12 +16,12 @@ Vector3 across(const Vector3& n, const Vector3& t) { return n - n.dot(t) * t; }
 
 std::vector<EdgeFrame> mean_normal_frames(const Connectivity& mesh, std::span<const Vector3> positions) {
   std::vector<Vector3> normals(mesh.triangles.size());
-  for (std::size_t t = 0; t < normals.size(); ++t) {
+  each_in_parallel(normals.size(), [&](std::size_t t) {
     const Corners& v = mesh.triangles[t];
     normals[t] = TriangleArea(positions[v[0]], positions[v[1]], positions[v[2]]).normal;
-  }
+  });
   std::vector<EdgeFrame> frames(mesh.edges.size());
-  for (std::size_t e = 0; e < frames.size(); ++e) {
+  each_in_parallel(frames.size(), [&](std::size_t e) {
     const Vector3 t = (positions[mesh.edges[e][1]] - positions[mesh.edges[e][0]]).normalized();
     const auto& sides = mesh.edge_triangles[e];
     Vector3 n = Vector3::Zero();
@@ -32,18 +33,19 @@ std::vector<EdgeFrame> mean_normal_frames(const Connectivity& mesh, std::span<co
       n = normals[sides[0] != no_index ? sides[0] : sides[1]].cross(t);
     n = across(n, t).normalized();
     frames[e] = {t, n, t.cross(n)};
-  }
+  });
   return frames;
 }
 
 std::vector<EdgeFrame> director_frames(const Connectivity& mesh, std::span<const Vector3> positions,
                                        std::span<const double> angles) {
   std::vector<EdgeFrame> frames = mean_normal_frames(mesh, positions);
-  for (std::size_t e = 0; e < angles.size(); ++e)
-    if (angles[e] != 0) {
-      const Vector3 n = frames[e].turned(angles[e]);
-      frames[e] = {frames[e].tangent, n, frames[e].tangent.cross(n)};
-    }
+  each_in_parallel(angles.size(), [&](std::size_t e) {
+    if (angles[e] == 0)
+      return;
+    const Vector3 n = frames[e].turned(angles[e]);
+    frames[e] = {frames[e].tangent, n, frames[e].tangent.cross(n)};
+  });
   return frames;
 }
 

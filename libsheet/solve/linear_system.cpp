@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/solve/cholesky.h"
@@ -24,10 +23,12 @@ void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms
   const std::size_t vertices = mesh->vertices;
   assembly_ = Assembly(std::move(mesh), terms, angles);
   assembly_.set_order(nested_dissection(vertices, assembly_.vertex_graph()));
-  matrix_ = assembly_.pattern().structure();
-  scaled_ = matrix_;
-  product_.analyze(matrix_);
-  single_.analyze(matrix_);
+  const NodeGraph graph = assembly_.pattern().node_graph();
+  tbb::parallel_invoke([&] { single_.analyze(graph); },
+                       [&] {
+                         matrix_ = assembly_.pattern().structure();
+                         product_.analyze(graph);
+                       });
   full_is_analyzed_ = false;
   has_factor_ = false;
   seconds_analysis_ = watch.lap();
@@ -71,7 +72,7 @@ void LinearSystem::rank_ones_to_rows() {
 
 // The factors that bring the matrix to a diagonal of ones (of mean one over the three coordinates of a vertex). Held
 // rows keep theirs.
-void LinearSystem::scale_to_unit_diagonal() {
+void LinearSystem::find_scale() {
   const auto& permutation = assembly_.pattern().permutation();
   scale_.resize(matrix_.size);
   const std::vector<char>& held = constraints_.held;
@@ -89,27 +90,21 @@ void LinearSystem::scale_to_unit_diagonal() {
       scale_[row] = fixed(row) || sum == 0 ? 1 : std::sqrt(count / sum);
     k += width;
   }
-  tbb::parallel_for(tbb::blocked_range<int>(0, matrix_.size, 1024), [&](const auto& range) {
-    for (int c = range.begin(); c < range.end(); ++c)
-      for (auto p = static_cast<std::size_t>(matrix_.starts[static_cast<std::size_t>(c)]);
-           p < static_cast<std::size_t>(matrix_.starts[static_cast<std::size_t>(c) + 1]); ++p)
-        scaled_.values[p] = matrix_.values[p] * scale_[c] * scale_[matrix_.rows[p]];
-  });
 }
 
-bool LinearSystem::factorize_scaled(double shift, Precision precision) {
+bool LinearSystem::factorize_matrix(double shift, Precision precision) {
   precision_ = precision;
   if (precision == Precision::single)
-    return single_.factorize(scaled_, shift);
+    return single_.factorize(matrix_, scale_, shift);
   if (!full_is_analyzed_)
-    full_.analyze(matrix_);
+    full_.analyze(assembly_.pattern().node_graph());
   full_is_analyzed_ = true;
-  return full_.factorize(scaled_, shift);
+  return full_.factorize(matrix_, scale_, shift);
 }
 
 bool LinearSystem::factorize(double shift, Precision precision) {
-  scale_to_unit_diagonal();
-  has_factor_ = factorize_scaled(std::max(shift, floor_), precision);
+  find_scale();
+  has_factor_ = factorize_matrix(std::max(shift, floor_), precision);
   if (!has_factor_)
     return false;
   of_factor_.clear();
@@ -177,18 +172,26 @@ void LinearSystem::balance(const Eigen::VectorXd& force, Eigen::VectorXd& step) 
   if (floor_ > 0 || !constraints_.slides.empty() || std::find(held.begin(), held.end(), char{1}) != held.end())
     return;
   const Eigen::VectorXd residual = force - multiply(step);
-  const auto& permutation = assembly_.pattern().permutation();
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    // A translation in rows, and the force that it takes.
-    Eigen::VectorXd translation = Eigen::VectorXd::Zero(residual.size());
-    for (Eigen::Index k = 0; k < residual.size(); ++k)
-      if (const auto unknown = permutation[static_cast<std::size_t>(k)];
-          unknown < 3 * assembly_.vertices() && unknown % 3 == axis)
-        translation[k] = 1 / scale_[k];
-    const double stiffness = translation.dot(multiply(translation));
-    if (stiffness > 0)
-      step += (translation.dot(residual) / stiffness) * translation;
-  }
+  // Rows of a unit translation are 1 / scale.
+  Vector3 stiffness = assembly_.pattern().sum_of_blocks(matrix_), left = Vector3::Zero();
+  const auto each_vertex = [&](const auto& visit) {
+    for (std::uint32_t v = 0; v < assembly_.vertices(); ++v)
+      visit(assembly_.pattern().first_row(v));
+  };
+  std::vector<Vector3> of_parts(of_operator_.size(), Vector3::Zero());
+  each_vertex([&](Eigen::Index row) {
+    const Vector3 scale = scale_.segment<3>(row);
+    left += residual.segment<3>(row).cwiseQuotient(scale);
+    for (std::size_t p = 0; p < of_parts.size(); ++p)
+      of_parts[p] += of_operator_[p].g.segment<3>(row).cwiseQuotient(scale);
+  });
+  for (std::size_t p = 0; p < of_parts.size(); ++p)
+    stiffness += of_operator_[p].stiffness * of_parts[p].cwiseAbs2();
+  Vector3 shift = Vector3::Zero();
+  for (int axis = 0; axis < 3; ++axis)
+    if (stiffness[axis] > 0)
+      shift[axis] = left[axis] / stiffness[axis];
+  each_vertex([&](Eigen::Index row) { step.segment<3>(row) += shift.cwiseQuotient(scale_.segment<3>(row)); });
 }
 
 Eigen::VectorXd LinearSystem::respond(Eigen::VectorXd force) const {
@@ -231,8 +234,8 @@ bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target
   for (Eigen::Index k = 0; k < u.size(); ++k)
     if (held[permutation[static_cast<std::size_t>(k)]])
       rhs[k] = move[k];
-  scale_to_unit_diagonal();
-  if (!factorize_scaled(spread_shift, Precision::single))
+  find_scale();
+  if (!factorize_matrix(spread_shift, Precision::single))
     return false;
   const Eigen::VectorXd step = single_.solve(rhs.cwiseProduct(scale_));
   for (Eigen::Index k = 0; k < u.size(); ++k) {

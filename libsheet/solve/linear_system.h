@@ -92,8 +92,8 @@ private:
     double part = 0;
   };
   void find_rank_ones(const Terms& terms, const Unknowns& u);
-  void scale_to_unit_diagonal();
-  [[nodiscard]] bool factorize_scaled(double shift, Precision precision);
+  void find_scale();
+  [[nodiscard]] bool factorize_matrix(double shift, Precision precision);
   void rank_ones_to_rows();
 
   Assembly assembly_;
@@ -101,7 +101,7 @@ private:
   SupernodalFactor<double> full_;
   Precision precision_ = Precision::single; // of the present factor
   bool full_is_analyzed_ = false;           // it is when first needed
-  SparseLower matrix_, scaled_;
+  SparseLower matrix_;
   SymmetricProduct product_;
   Eigen::VectorXd scale_; // of rows
   void project_rows(Eigen::VectorXd& rows) const;

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -22,6 +23,7 @@ namespace {
 constexpr double task_part = 1.0 / 48; // of all products: subtrees below it are one task
 constexpr double least_task = 2e6;     // products of a subtree that is never divided
 constexpr std::size_t ahead = 1 << 14; // bytes of the next front that a solution asks for
+constexpr int most_unknowns = 3;       // of a node, which has three or one
 constexpr int fronts_at_once = 64;     // of a task that only places entries
 
 // Numbers too small for full precision count as zero while it lives: processors are slow with them, and the factors of
@@ -56,27 +58,28 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
     bool shared;        // the update matrix lies in upper
   };
 
-  // Where a node's rows lie in the front at work, and in its panel's columns.
-  struct RowPlace {
-    std::uint32_t row, at;
-    std::int32_t width; // negative if a strip ends within them
+  // What is factorised.
+  struct Matrix {
+    const SparseLower& a;
+    const Eigen::VectorXd& scale;
+    Real shift;
   };
 
+  NodeGraph graph;
   Supernodes symbolic;
   std::vector<Place> place;
-  std::vector<int> tasks;               // fronts: roots of subtrees, and those above that have no children
-  std::vector<int> task_first;          // first front of each task's subtree
-  std::vector<std::size_t> entry_start; // by node as given: of its first column's entries in entry_at
-  std::vector<double> work;             // products of a front's subtree
+  std::vector<int> tasks;      // fronts: roots of subtrees, and those above that have no children
+  std::vector<int> task_first; // first front of each task's subtree
+  std::vector<double> work;    // products of a front's subtree
   std::vector<std::size_t> stack[2], space;
   std::vector<char> odd; // depth of a front
   std::size_t stack_size[2] = {0, 0};
-  KeptBuffer<std::uint32_t> entry_at; // where an entry goes, from its column's start in the panel
-  KeptBuffer<std::uint32_t> places;   // rows of the parent's front
+  std::vector<std::uint32_t> block_row; // of each entry of graph.later: its first row in the column's front
+  KeptBuffer<std::uint32_t> places;     // rows of the parent's front
   KeptBuffer<Real> panels, upper;
   mutable KeptBuffer<Real> vectors;
-  mutable std::vector<std::atomic<int>> waiting;                     // children of a front above that are not done
-  tbb::enumerable_thread_specific<std::vector<RowPlace>> row_places; // by node
+  mutable std::vector<std::atomic<int>> waiting; // children of a front above that are not done
+  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> row_of_node; // in the front at work
   tbb::enumerable_thread_specific<KeptBuffer<Real>> stacks;
   mutable tbb::enumerable_thread_specific<KeptBuffer<Real>> sums;
   int widest = 0; // pivots
@@ -87,9 +90,9 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
   void divide_into_tasks();
   void plan_stacks();
   void plan_upper();
-  void plan_fronts(const SparseLower& structure);
-  void place_entries();
-  void place_front(int s, std::vector<RowPlace>& place_of);
+  void plan_fronts();
+  void place_blocks();
+  void place_front(int s, std::vector<std::uint32_t>& row_of);
 
   Real* update_of(int s, Real* stack_base) const {
     return (place[s].shared ? upper.data() : stack_base) + place[s].update;
@@ -97,8 +100,8 @@ template <class Real> struct SupernodalFactor<Real>::Impl {
   ChildUpdate<Real> child(int c, Real* stack_base) const {
     return {shape(c), update_of(c, stack_base), places.data() + place[c].places, place[c].in_panel};
   }
-  void scatter(const SparseLower& a, Real shift, int s) const;
-  bool eliminate(const SparseLower& a, Real shift, int s, Real* stack_base) const;
+  void scatter(const Matrix& matrix, int s) const;
+  bool eliminate(const Matrix& matrix, int s, Real* stack_base) const;
   void ask_for(int s) const;
   void forward(int s, const Eigen::VectorXd& b) const;
   void backward(int s, Eigen::VectorXd& x) const;
@@ -189,8 +192,8 @@ template <class Real> void SupernodalFactor<Real>::Impl::plan_upper() {
   upper.reserve(all);
 }
 
-template <class Real> void SupernodalFactor<Real>::Impl::plan_fronts(const SparseLower& structure) {
-  std::size_t panel = 0, vector = 0, update_rows = 0, entries = 0;
+template <class Real> void SupernodalFactor<Real>::Impl::plan_fronts() {
+  std::size_t panel = 0, vector = 0, update_rows = 0;
   widest = 0;
   for (int s = 0; s < count(); ++s) {
     const Shape f = shape(s);
@@ -204,50 +207,28 @@ template <class Real> void SupernodalFactor<Real>::Impl::plan_fronts(const Spars
     update_rows += static_cast<std::size_t>(f.rows - f.pivots);
     widest = std::max(widest, f.pivots);
   }
-  const std::size_t nodes = symbolic.node_at.size();
-  entry_start.resize(nodes);
-  for (std::size_t v = 0; v < nodes; ++v) {
-    const int c = symbolic.node_first[v];
-    entry_start[v] = entries;
-    entries += static_cast<std::size_t>(structure.starts[c + 1] - structure.starts[c]);
-  }
   panels.reserve(panel);
   vectors.reserve(vector);
   places.reserve(update_rows);
-  entry_at.reserve(entries);
+  block_row.resize(graph.later.size());
 }
 
-// Where the entries of the front's columns go, and the rows of its children. place_of: for each node, scratch.
-template <class Real> void SupernodalFactor<Real>::Impl::place_front(int s, std::vector<RowPlace>& place_of) {
+// Where the blocks of the front's columns go, and the rows of its children. row_of: for each node, scratch.
+template <class Real> void SupernodalFactor<Real>::Impl::place_front(int s, std::vector<std::uint32_t>& row_of) {
   const Supernode& f = symbolic.fronts[s];
-  const Shape front = shape(s);
-  const auto at = [&](std::uint32_t r) {
-    return static_cast<std::uint32_t>(front.panel_strip(static_cast<int>(r / S)) + r % S);
-  };
   std::uint32_t row = 0;
   const auto number = [&](int node) {
-    const auto width = static_cast<std::uint32_t>(symbolic.width_at[node]);
-    const auto rows = static_cast<std::int32_t>(width);
-    place_of[node] = {row, at(row), row % S + width <= S ? rows : -rows};
-    row += width;
+    row_of[node] = row;
+    row += static_cast<std::uint32_t>(symbolic.width_at[node]);
   };
   for (int k = f.first_node; k < f.end_node; ++k)
     number(k);
   for (std::size_t p = f.first_touched; p < f.end_touched; ++p)
     number(symbolic.touched[p]);
   for (int k = f.first_node; k < f.end_node; ++k) {
-    const int node = symbolic.node_at[k];
-    std::uint32_t* out = entry_at.data() + entry_start[node];
-    const auto put = [&](const RowPlace& r) {
-      for (int d = 0; d < r.width; ++d)
-        *out++ = r.at + d;
-      for (int d = 0; d < -r.width; ++d)
-        *out++ = at(r.row + d);
-    };
-    if (symbolic.diagonal[node])
-      put(place_of[k]);
+    std::uint32_t* out = block_row.data() + graph.start[symbolic.node_at[k]];
     for (const int other : symbolic.neighbours(k))
-      put(place_of[other]);
+      *out++ = row_of[other];
   }
   for (int i = 0; i < f.children; ++i) {
     const int c = symbolic.children[f.first_child + i];
@@ -257,49 +238,75 @@ template <class Real> void SupernodalFactor<Real>::Impl::place_front(int s, std:
     for (std::size_t p = child.first_touched; p < child.end_touched; ++p) {
       const int node = symbolic.touched[p], width = symbolic.width_at[node];
       for (int d = 0; d < width; ++d)
-        *out++ = place_of[node].row + d;
+        *out++ = row_of[node] + static_cast<std::uint32_t>(d);
       in_panel += node < f.end_node ? width : 0;
     }
     place[c].in_panel = in_panel;
   }
 }
 
-template <class Real> void SupernodalFactor<Real>::Impl::place_entries() {
+template <class Real> void SupernodalFactor<Real>::Impl::place_blocks() {
   tbb::parallel_for(tbb::blocked_range<int>(0, count(), fronts_at_once), [&](const auto& range) {
-    std::vector<RowPlace>& rows = row_places.local();
-    if (rows.size() < symbolic.node_at.size())
-      rows.resize(symbolic.node_at.size());
+    std::vector<std::uint32_t>& row_of = row_of_node.local();
+    if (row_of.size() < symbolic.node_at.size())
+      row_of.resize(symbolic.node_at.size());
     for (int s = range.begin(); s < range.end(); ++s)
-      place_front(s, rows);
+      place_front(s, row_of);
   });
 }
 
-template <class Real> void SupernodalFactor<Real>::Impl::scatter(const SparseLower& a, Real shift, int s) const {
+// The columns of the pivots, by blocks of two nodes.
+template <class Real> void SupernodalFactor<Real>::Impl::scatter(const Matrix& matrix, int s) const {
   const Supernode& f = symbolic.fronts[s];
   const Shape front = shape(s);
   Real* const panel = panels.data() + place[s].panel;
   std::memset(panel, 0, sizeof(Real) * static_cast<std::size_t>(front.panel_size()));
-  Real* column = panel;
+  const double* const scale = matrix.scale.data();
+  int pivot = 0; // the node's first
   for (int k = f.first_node; k < f.end_node; ++k) {
-    const int node = symbolic.node_at[k];
-    const std::uint32_t* at = entry_at.data() + entry_start[node];
-    for (int c = symbolic.node_first[node]; c < symbolic.node_first[node + 1]; ++c, ++at, column += S) {
-      const double* values = a.values.data() + a.starts[c];
-      const int entries = a.starts[c + 1] - a.starts[c];
-      for (int i = 0; i < entries; ++i)
-        column[at[i]] = static_cast<Real>(values[i]);
+    const int node = symbolic.node_at[k], first = graph.first[node], width = graph.width(node);
+    const double* from[most_unknowns]; // of each column, from the node's first row on
+    for (int d = 0; d < width; ++d)
+      from[d] = matrix.a.values.data() + matrix.a.starts[first + d] - d;
+    Real* const column = panel + std::ptrdiff_t{S} * pivot;
+    for (int d = 0; d < width; ++d)
+      for (int r = d; r < width; ++r)
+        column[front.panel_strip((pivot + r) / S) + (pivot + r) % S + std::ptrdiff_t{S} * d] =
+            static_cast<Real>(from[d][r] * scale[first + d] * scale[first + r]);
+    int above = width; // rows of the node's blocks that have been placed, counted in its first column
+    for (int p = graph.start[node]; p < graph.start[node + 1]; ++p) {
+      const int other = graph.later[p], rows = graph.width(other), row = static_cast<int>(block_row[p]);
+      const double* const row_scale = scale + graph.first[other];
+      Real* const to = column + front.panel_strip(row / S) + row % S;
+      const auto whole = [&]<int Rows>(std::integral_constant<int, Rows>) {
+        for (int d = 0; d < width; ++d)
+          for (int r = 0; r < Rows; ++r)
+            to[std::ptrdiff_t{S} * d + r] = static_cast<Real>(from[d][above + r] * scale[first + d] * row_scale[r]);
+      };
+      if (row % S + rows > S) // a strip ends within them
+        for (int r = 0; r < rows; ++r) {
+          Real* const part = column + front.panel_strip((row + r) / S) + (row + r) % S;
+          for (int d = 0; d < width; ++d)
+            part[std::ptrdiff_t{S} * d] = static_cast<Real>(from[d][above + r] * scale[first + d] * row_scale[r]);
+        }
+      else if (rows == 3)
+        whole(std::integral_constant<int, 3>());
+      else
+        whole(std::integral_constant<int, 1>());
+      above += rows;
     }
+    pivot += width;
   }
   for (int k = 0; k < f.pivots; ++k)
-    panel[front.panel_strip(k / S) + std::ptrdiff_t{S} * k + k % S] += shift;
+    panel[front.panel_strip(k / S) + std::ptrdiff_t{S} * k + k % S] += matrix.shift;
 }
 
 template <class Real>
-bool SupernodalFactor<Real>::Impl::eliminate(const SparseLower& a, Real shift, int s, Real* stack_base) const {
+bool SupernodalFactor<Real>::Impl::eliminate(const Matrix& matrix, int s, Real* stack_base) const {
   const Supernode& f = symbolic.fronts[s];
   const Shape front = shape(s);
   Real* const panel = panels.data() + place[s].panel;
-  scatter(a, shift, s);
+  scatter(matrix, s);
   const int* children = symbolic.children.data() + f.first_child;
   for (int i = 0; i < f.children; ++i)
     add_child_to_panel(child(children[i], stack_base), front, panel);
@@ -368,7 +375,7 @@ template <class Real> void SupernodalFactor<Real>::Impl::forward(int s, const Ei
   Real* out = x;
   for (int k = f.first_node; k < f.end_node; ++k) {
     const int node = symbolic.node_at[k];
-    for (int c = symbolic.node_first[node]; c < symbolic.node_first[node + 1]; ++c)
+    for (int c = graph.first[node]; c < graph.first[node + 1]; ++c)
       *out++ = static_cast<Real>(b[c]);
   }
   for (int i = 0; i < f.children; ++i) {
@@ -401,7 +408,7 @@ template <class Real> void SupernodalFactor<Real>::Impl::backward(int s, Eigen::
   const Real* in = own;
   for (int k = f.first_node; k < f.end_node; ++k) {
     const int node = symbolic.node_at[k];
-    for (int c = symbolic.node_first[node]; c < symbolic.node_first[node + 1]; ++c)
+    for (int c = graph.first[node]; c < graph.first[node + 1]; ++c)
       x[c] = *in++;
   }
 }
@@ -411,17 +418,20 @@ template <class Real> SupernodalFactor<Real>::~SupernodalFactor() = default;
 template <class Real> SupernodalFactor<Real>::SupernodalFactor(SupernodalFactor&&) noexcept = default;
 template <class Real> SupernodalFactor<Real>& SupernodalFactor<Real>::operator=(SupernodalFactor&&) noexcept = default;
 
-template <class Real> void SupernodalFactor<Real>::analyze(const SparseLower& structure) {
-  impl_->symbolic.analyze(structure);
+template <class Real> void SupernodalFactor<Real>::analyze(const NodeGraph& graph) {
+  impl_->graph = graph;
+  impl_->symbolic.analyze(graph);
   impl_->place.assign(impl_->symbolic.fronts.size(), {});
   impl_->divide_into_tasks();
   impl_->plan_stacks();
   impl_->plan_upper();
-  impl_->plan_fronts(structure);
-  impl_->place_entries();
+  impl_->plan_fronts();
+  impl_->place_blocks();
 }
 
-template <class Real> bool SupernodalFactor<Real>::factorize(const SparseLower& a, double shift) {
+template <class Real>
+bool SupernodalFactor<Real>::factorize(const SparseLower& a, const Eigen::VectorXd& scale, double shift) {
+  const typename Impl::Matrix matrix{a, scale, static_cast<Real>(shift)};
   std::atomic<bool> good = true;
   impl_->upwards([&](int s) {
     if (!good.load(std::memory_order_relaxed))
@@ -432,7 +442,7 @@ template <class Real> bool SupernodalFactor<Real>::factorize(const SparseLower& 
       own.reserve(impl_->stack_size[0] + impl_->stack_size[1]);
       stack = own.data();
     }
-    if (!impl_->eliminate(a, static_cast<Real>(shift), s, stack))
+    if (!impl_->eliminate(matrix, s, stack))
       good = false;
   });
   return good;
@@ -455,7 +465,8 @@ template <class Real> double SupernodalFactor<Real>::flops() const {
 
 template <class Real> std::size_t SupernodalFactor<Real>::bytes() const {
   const Impl& i = *impl_;
-  std::size_t sum = i.panels.bytes() + i.upper.bytes() + i.vectors.bytes() + i.places.bytes() + i.entry_at.bytes();
+  std::size_t sum = i.panels.bytes() + i.upper.bytes() + i.vectors.bytes() + i.places.bytes() +
+                    sizeof(std::uint32_t) * i.block_row.size();
   for (const auto& stack : i.stacks)
     sum += stack.bytes();
   return sum;

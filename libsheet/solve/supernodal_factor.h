@@ -20,10 +20,12 @@ public:
   SupernodalFactor(SupernodalFactor&&) noexcept;
   SupernodalFactor& operator=(SupernodalFactor&&) noexcept;
 
-  // Symbolic analysis of a structure that already is in a fill-reducing order (nested_dissection gives one).
-  void analyze(const SparseLower& structure);
-  // Factorises A + shift I. False if that is not positive definite (to working precision).
-  [[nodiscard]] bool factorize(const SparseLower& a, double shift);
+  // Symbolic analysis of matrices of this graph, which already is in a fill-reducing order (nested_dissection gives
+  // one).
+  void analyze(const NodeGraph& graph);
+  // Factorises S A S + shift I, with S the diagonal matrix of `scale`. False if that is not positive definite (to
+  // working precision).
+  [[nodiscard]] bool factorize(const SparseLower& a, const Eigen::VectorXd& scale, double shift);
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
   [[nodiscard]] double flops() const;      // of a factorisation

@@ -3,7 +3,6 @@
 #include "libsheet/solve/supernodes.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace sheet {
 
@@ -22,9 +21,10 @@ double seconds_of(double pivots, double rows) {
 
 } // namespace
 
-void Supernodes::analyze(const SparseLower& structure) {
-  find_nodes(structure);
-  build_graph(structure);
+void Supernodes::analyze(const NodeGraph& graph) {
+  first_unknown_ = graph.first;
+  graph_start_ = graph.start;
+  graph_ = graph.later;
   find_tree();
   find_postorder();
   count_columns();
@@ -33,85 +33,12 @@ void Supernodes::analyze(const SparseLower& structure) {
   find_rows();
 }
 
-// Columns whose rows are the same from the diagonal on, and that stand together in every earlier column too.
-void Supernodes::find_nodes(const SparseLower& a) {
-  const int n = a.size;
-  begins_.assign(static_cast<std::size_t>(n) + 1, 1);
-  node_of_.resize(static_cast<std::size_t>(n) + 1); // for now the end of the node that begins here
-  const int* rows = a.rows.data();
-  for (int c = 1, begin = 0; c <= n; ++c) {
-    bool same = false;
-    if (c < n) {
-      const int s = a.starts[c - 1], e = a.starts[c], length = a.starts[c + 1] - e;
-      same = length > 0 && e - s == length + 1 && rows[s] == c - 1 && rows[e] == c &&
-             std::memcmp(rows + s + 1, rows + e, sizeof(int) * static_cast<std::size_t>(length)) == 0;
-    }
-    begins_[c] = !same;
-    if (!same) {
-      node_of_[begin] = c;
-      begin = c;
-    }
-  }
-  const auto split = [&](int at) {
-    int begin = at;
-    while (!begins_[begin])
-      --begin;
-    if (begin == at)
-      return;
-    node_of_[at] = node_of_[begin];
-    node_of_[begin] = at;
-    begins_[at] = 1;
-  };
-  for (int c = 0; c < n; ++c)
-    if (begins_[c])
-      for (int p = a.starts[c]; p < a.starts[c + 1];) {
-        split(rows[p]);
-        int inside = 1; // of the node's rows, how many this column has
-        const int width = node_of_[rows[p]] - rows[p], left = a.starts[c + 1] - p;
-        if (width <= left && rows[p + width - 1] == rows[p] + width - 1)
-          inside = width;
-        else {
-          while (inside < left && inside < width && rows[p + inside] == rows[p] + inside)
-            ++inside;
-          split(rows[p] + inside);
-        }
-        p += inside;
-      }
-}
-
-void Supernodes::build_graph(const SparseLower& a) {
-  node_first.clear();
-  for (int c = 0; c < a.size; ++c)
-    if (begins_[c]) {
-      node_of_[c] = static_cast<int>(node_first.size());
-      node_first.push_back(c);
-    }
-  const std::size_t nodes = node_first.size();
-  node_first.push_back(a.size);
-  graph_start_.resize(nodes + 1);
-  graph_.resize(std::max(graph_.size(), a.rows.size()));
-  upper_start_.assign(nodes + 1, 0);
-  diagonal.resize(nodes);
-  int end = 0;
-  for (std::size_t v = 0; v < nodes; ++v) {
-    graph_start_[v] = end;
-    const int c = node_first[v];
-    diagonal[v] = a.starts[c] < a.starts[c + 1] && a.rows[a.starts[c]] == c;
-    for (int p = a.starts[c]; p < a.starts[c + 1];) {
-      const int node = node_of_[a.rows[p]];
-      graph_[end] = node;
-      const bool other = node != static_cast<int>(v);
-      end += other;
-      upper_start_[node + 1] += other;
-      p += width(node);
-    }
-  }
-  graph_start_[nodes] = end;
-}
-
 // [Liu 1990], from the rows of the lower triangle, with compressed paths.
 void Supernodes::find_tree() {
   const int nodes = static_cast<int>(graph_start_.size()) - 1;
+  upper_start_.assign(static_cast<std::size_t>(nodes) + 1, 0);
+  for (const int v : graph_)
+    ++upper_start_[v + 1];
   for (int v = 0; v < nodes; ++v)
     upper_start_[v + 1] += upper_start_[v];
   next_.assign(upper_start_.begin(), upper_start_.end());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Symbolic analysis of a sparse Cholesky factorisation: which columns are eliminated together (supernodes), in what
-// order, and which rows each of them touches. Unknowns with the same neighbours (the coordinates of a vertex) are one
-// node throughout. Elimination tree [Liu 1990], column counts [Gilbert, Ng and Peyton 1994], supernodes merged with
-// their parents where that saves time by a model of the machine [after Ashcraft and Grimes 1989].
+// order, and which rows each of them touches. It knows nodes only (the coordinates of a vertex are one). Elimination
+// tree [Liu 1990], column counts [Gilbert, Ng and Peyton 1994], supernodes merged with their parents where that saves
+// time by a model of the machine [after Ashcraft and Grimes 1989].
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -25,27 +25,23 @@ struct Supernode {
 
 class Supernodes {
 public:
-  // The structure must be in a fill-reducing order.
-  void analyze(const SparseLower& structure);
+  // The graph must be in a fill-reducing order.
+  void analyze(const NodeGraph& graph);
 
   std::vector<Supernode> fronts; // every subtree in one piece, ascending
   std::vector<int> children;
-  std::vector<int> touched;    // nodes in the order of elimination, ascending in each front
-  std::vector<int> node_first; // first unknown of a node as given, and the end
-  std::vector<int> node_at;    // the given number of the node that is eliminated k-th
-  std::vector<int> width_at;   // its unknowns
-  std::vector<char> diagonal;  // whether a node as given has entries on the diagonal
+  std::vector<int> touched;  // nodes in the order of elimination, ascending in each front
+  std::vector<int> node_at;  // the given number of the node that is eliminated k-th
+  std::vector<int> width_at; // its unknowns
 
-  // The k-th node's neighbours after it, by their order of elimination, in the order of the matrix's rows.
+  // The k-th node's neighbours after it, by their order of elimination, in the order of the given graph.
   [[nodiscard]] std::span<const int> neighbours(int k) const { return of_graph(node_at[k]); }
 
 private:
-  [[nodiscard]] int width(int node) const { return node_first[node + 1] - node_first[node]; }
+  [[nodiscard]] int width(int node) const { return first_unknown_[node + 1] - first_unknown_[node]; }
   [[nodiscard]] std::span<const int> of_graph(int node) const {
     return {graph_.data() + graph_start_[node], static_cast<std::size_t>(graph_start_[node + 1] - graph_start_[node])};
   }
-  void find_nodes(const SparseLower& a);
-  void build_graph(const SparseLower& a);
   void find_tree();
   void find_postorder();
   void count_columns();
@@ -53,9 +49,7 @@ private:
   void number_fronts();
   void find_rows();
 
-  std::vector<char> begins_; // whether an unknown is the first of its node
-  std::vector<int> node_of_; // of an unknown that begins one
-  std::vector<int> graph_start_, graph_;
+  std::vector<int> first_unknown_, graph_start_, graph_; // as given
   std::vector<int> upper_start_, upper_, next_;
   std::vector<int> parent_, post_, post_rank_;             // of nodes as given; post_[k] is the k-th in postorder
   std::vector<int> count_;                                 // rows of the node's first column in the factor

@@ -12,13 +12,21 @@ namespace sheet {
 
 class SymmetricProduct {
 public:
-  void analyze(const SparseLower& structure);
-  // a must have the structure that was analysed.
+  void analyze(const NodeGraph& graph);
+  // a must be of the graph that was analysed.
   void multiply(const SparseLower& a, const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
 private:
-  // Of each row, the entries left of the diagonal: their columns, and places in the values.
-  std::vector<int> starts_, columns_, places_;
+  // A block left of the diagonal.
+  struct Left {
+    int node; // of its columns
+    int rows; // of the column's node's blocks above it, counted in the node's first column
+  };
+  template <int Width> void multiply_rows(const SparseLower& a, int node, const double* x, double* y) const;
+
+  NodeGraph graph_;
+  std::vector<int> left_start_; // of each node's rows, in left_
+  std::vector<Left> left_;
 };
 
 } // namespace sheet

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Constraints in the matrix.
+// Constraints in the matrix, and what it makes of translations.
+#include <cmath>
+#include <numeric>
+
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
@@ -60,6 +63,31 @@ TEST(Constraints, ProjectTheMatrix) {
   EXPECT_LT((free * hc * across).cwiseAbs().maxCoeff(), 1e-12 * h.cwiseAbs().maxCoeff());
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hc + free).eigenvalues()[0], 0);
   EXPECT_LT((gc - free * g).cwiseAbs().maxCoeff(), 1e-12 * g.cwiseAbs().maxCoeff());
+}
+
+TEST(MatrixPattern, AddsUpWhatResistsATranslation) {
+  const State s = test::at_rest(test::disk(1, 25, 0.1), 0.3); // more nodes than are added up in one piece
+  Terms terms;
+  terms.push_back(make_term(SurfaceTension(0.7)));
+  terms.push_back(make_term(MidEdgeShell(2.0, true)));
+  const Stage stage = first_stage(s, 0.05, 0.05, true);
+  for (const auto& term : terms)
+    term->begin(stage);
+  Assembly assembly(s.mesh, terms, true);
+  std::vector<std::uint32_t> order(s.positions.size());
+  std::iota(order.rbegin(), order.rend(), 0);
+  assembly.set_order(order);
+  SparseLower matrix = assembly.pattern().structure();
+  for (std::size_t p = 0; p < matrix.values.size(); ++p)
+    matrix.values[p] = std::sin(static_cast<double>(p));
+  const Eigen::MatrixXd h = dense(matrix, assembly.pattern());
+  const Vector3 sum = assembly.pattern().sum_of_blocks(matrix);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    Eigen::VectorXd translation = Eigen::VectorXd::Zero(h.cols());
+    for (Eigen::Index v = 0; v < static_cast<Eigen::Index>(s.positions.size()); ++v)
+      translation[3 * v + axis] = 1;
+    EXPECT_NEAR(sum[axis], translation.dot(h * translation), 1e-10);
+  }
 }
 
 } // namespace
