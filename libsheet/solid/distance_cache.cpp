@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include <fcntl.h>
-#include <openvdb/version.h>
 #include <unistd.h>
 #include <xxhash.h>
 
@@ -42,7 +41,7 @@ std::string cache_key(const SolidSurface& surface, double voxel_size, double ban
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
   XXH3_128bits_reset(state.get());
   const auto add = [&](const void* data, std::size_t size) { XXH3_128bits_update(state.get(), data, size); };
-  const std::array<std::uint64_t, 4> counts{cache_format, openvdb::OPENVDB_LIBRARY_VERSION, surface.points.size(),
+  const std::array<std::uint64_t, 4> counts{cache_format, level_set_version(), surface.points.size(),
                                             surface.triangles.size()};
   const std::array<double, 2> sizes{voxel_size, band};
   add(counts.data(), sizeof counts);

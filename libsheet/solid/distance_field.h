@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signed distances on the voxels near a closed surface: an OpenVDB level set.
+// Signed distances on the voxels near a closed surface: an OpenVDB level set. OpenVDB is loaded when the first is made
+// (vdb/level_sets.h).
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -9,6 +11,8 @@
 #include "libsheet/solid/mesh.h"
 
 namespace sheet::solid {
+
+class LevelSet;
 
 class DistanceField {
 public:
@@ -35,10 +39,12 @@ public:
   [[nodiscard]] static DistanceField parse(const std::string& bytes);
 
 private:
-  struct Grid;
-  explicit DistanceField(std::unique_ptr<const Grid> grid);
-  std::unique_ptr<const Grid> grid_;
+  explicit DistanceField(std::unique_ptr<const LevelSet> values);
+  std::unique_ptr<const LevelSet> values_;
 };
+
+// Of what makes the fields, which other versions might do otherwise.
+[[nodiscard]] std::uint64_t level_set_version();
 
 // The zero level of the first level set in a .vdb file, as triangles. Throws Error (io, bad_input) naming the file.
 [[nodiscard]] SolidSurface read_level_set(const std::string& file);
