@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libsheet/base/each.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/mean_normals.h"
 
@@ -15,10 +16,11 @@ namespace {
 constexpr double greatest_lean = 80 * std::numbers::pi / 180;
 
 std::vector<Vector3> normals_of(const State& state) {
-  std::vector<Vector3> normals;
-  normals.reserve(state.mesh->triangles.size());
-  for (const Corners& t : state.mesh->triangles)
-    normals.push_back(TriangleArea(state.positions[t[0]], state.positions[t[1]], state.positions[t[2]]).normal);
+  std::vector<Vector3> normals(state.mesh->triangles.size());
+  each_in_parallel(normals.size(), [&](std::size_t i) {
+    const Corners& t = state.mesh->triangles[i];
+    normals[i] = TriangleArea(state.positions[t[0]], state.positions[t[1]], state.positions[t[2]]).normal;
+  });
   return normals;
 }
 
@@ -31,14 +33,14 @@ void limit_leaning(State& state, const std::vector<Hold>& holds) {
   const std::vector<double> before = angles;
   const std::vector<EdgeFrame> means = mean_normal_frames(*state.mesh, state.positions);
   const std::vector<Vector3> normals = normals_of(state);
-  for (std::size_t e = 0; e < angles.size(); ++e) {
+  each_in_parallel(angles.size(), [&](std::size_t e) {
     double cosine = 1; // of the angle from the mean to the normals of the edge's triangles
     for (const auto side : state.mesh->edge_triangles[e])
       if (side != no_index)
         cosine = std::min(cosine, normals[side].dot(means[e].director));
     const double most = std::max(0.0, greatest_lean - std::acos(std::max(cosine, -1.0)));
     angles[e] = std::clamp(angles[e], -most, most);
-  }
+  });
   for (const Hold& hold : holds)
     for (const std::uint32_t edge : hold.clamped_edges)
       angles[edge] = before[edge];
