@@ -20,7 +20,8 @@ target_compile_options(sheet_flags INTERFACE -ffp-contract=off)
 if(SHEET_SANITIZE)
   target_compile_options(sheet_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                                -fno-omit-frame-pointer)
-  target_link_options(sheet_flags INTERFACE -fsanitize=address,undefined)
+  # The sanitizer opens modules in a program's stead, and only the older kind of path is known to it then.
+  target_link_options(sheet_flags INTERFACE -fsanitize=address,undefined -Wl,--disable-new-dtags)
 endif()
 if(SHEET_FUZZ)
   target_compile_options(sheet_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
