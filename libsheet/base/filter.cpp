@@ -37,8 +37,8 @@ void report_time(const std::string& name, std::uint64_t frames, Clock::duration 
   [[maybe_unused]] const ssize_t ignored = ::write(descriptor, line.data(), line.size());
 }
 
-// A frame needs about what the one before it needed, so what is freed is kept, but for the largest pieces (above 32 MiB,
-// the most that the C library takes): fresh pages cost a twentieth of a step's time.
+// A frame needs about what the one before it needed, so what is freed is kept, but for the largest pieces (above 32
+// MiB, the most that the C library takes): fresh pages cost a twentieth of a step's time.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, INT_MAX);

@@ -17,6 +17,31 @@ bats_require_minimum_version 1.5.0
     sheet-diff - grid.sheet
 }
 
+@test "an installed program finds what it loads for a mesh, and says what is missing without it" {
+  cd "$BATS_TEST_TMPDIR"
+  cmake --install "$SHEET_BUILD" --prefix "$PWD/usr" --component programs > log
+  printf '%s\n' OFF '4 4 0' '0 0 0' '1 0 0' '0 1 0' '0 0 1' '3 0 2 1' '3 0 1 3' '3 0 3 2' '3 1 2 3' > tetrahedron.off
+  cat > scene.toml << 'END'
+[material]
+viscosity = "10 Pa s"
+density = "1000 kg/m^3"
+[sheet]
+shape = "rectangle"
+size = ["1 m", "1 m"]
+center = ["0 m", "0 m", "3 m"]
+edge_length = "100 mm"
+thickness = "10 mm"
+[[solid]]
+shape = "mesh"
+file = "tetrahedron.off"
+END
+  export SHEET_CACHE_DIR=
+  usr/bin/sheet-init --check scene.toml
+  rm usr/lib/sheet/modules/sheet-level-sets.so
+  run ! usr/bin/sheet-init --check scene.toml
+  [[ $output == *"distances of meshes cannot be loaded"*"$PWD/usr/lib/sheet/modules/sheet-level-sets.so"* ]]
+}
+
 @test "27: a C++ program outside finds the readers and reads a stream with them" {
   cd "$BATS_TEST_TMPDIR"
   cmake --install "$SHEET_BUILD" --prefix "$PWD/usr" --component formats-dev > log
