@@ -3,6 +3,7 @@
 #include "libsheet/energy/assembly.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include <tbb/parallel_for.h>
@@ -15,11 +16,21 @@ namespace {
 
 constexpr std::size_t chunk = 16; // elements
 
+bool on_triangles(Stencil s) { return s == Stencil::triangle || s == Stencil::triangle_edges; }
+
+// Of all triangles, or all vertices, whose terms share the places of their elements.
+bool shared(Stencil s) { return on_triangles(s) || s == Stencil::vertex; }
+
 ElementGroup make_group(const Connectivity& mesh, const Term& term) {
   ElementGroup group;
   group.stencil = term.stencil();
   group.width = stencil_vertices(group.stencil) + stencil_edges(group.stencil);
-  const bool triangles = group.stencil == Stencil::triangle || group.stencil == Stencil::triangle_edges;
+  if (group.stencil == Stencil::vertex) {
+    group.nodes.resize(mesh.vertices);
+    std::iota(group.nodes.begin(), group.nodes.end(), 0U);
+    return group;
+  }
+  const bool triangles = on_triangles(group.stencil);
   const std::size_t count = triangles ? mesh.triangles.size() : term.size();
   group.nodes.reserve(count * static_cast<std::size_t>(group.width));
   for (std::size_t i = 0; i < count; ++i)
@@ -40,27 +51,19 @@ ElementGroup make_group(const Connectivity& mesh, const Term& term) {
 
 Assembly::Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles)
     : mesh_(std::move(mesh)), angles_(angles) {
-  // Terms on triangles share one group, with the edges if any of them needs those.
-  const auto on_triangles = [](Stencil s) { return s == Stencil::triangle || s == Stencil::triangle_edges; };
-  bool edges = false;
-  for (const auto& term : terms)
-    edges = edges || term->stencil() == Stencil::triangle_edges;
-  int triangle_group = -1;
+  // Terms on triangles share one group, with the edges if any of them needs those; so do terms on vertices.
+  const auto with_edges =
+      std::ranges::find_if(terms, [](const auto& t) { return t->stencil() == Stencil::triangle_edges; });
+  int of_triangles = -1, of_vertices = -1;
   for (const auto& term : terms) {
-    if (on_triangles(term->stencil()) && triangle_group >= 0) {
-      group_of_term_.push_back(triangle_group);
-      continue;
+    int own = -1;
+    int& group = on_triangles(term->stencil()) ? of_triangles : term->stencil() == Stencil::vertex ? of_vertices : own;
+    if (group < 0) {
+      group = static_cast<int>(groups_.size());
+      const bool widen = on_triangles(term->stencil()) && with_edges != terms.end();
+      groups_.push_back(make_group(*mesh_, widen ? **with_edges : *term));
     }
-    if (on_triangles(term->stencil())) {
-      triangle_group = static_cast<int>(groups_.size());
-      const auto widest = std::find_if(terms.begin(), terms.end(), [&](const auto& t) {
-        return t->stencil() == (edges ? Stencil::triangle_edges : Stencil::triangle);
-      });
-      groups_.push_back(make_group(*mesh_, **widest));
-    } else {
-      groups_.push_back(make_group(*mesh_, *term));
-    }
-    group_of_term_.push_back(static_cast<int>(groups_.size()) - 1);
+    group_of_term_.push_back(group);
   }
   for (std::size_t t = 0; t < terms.size(); ++t)
     term_order_.push_back(t);
@@ -75,15 +78,17 @@ Assembly::Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms,
     elements += group.size();
     entries += group.size() * static_cast<std::size_t>(packed_size(group.stencil));
   }
-  gradients_.resize(elements * static_cast<std::size_t>(stride_));
-  hessians_.resize(entries);
+  gradient_numbers_ = elements * static_cast<std::size_t>(stride_);
+  gradients_ = std::make_unique_for_overwrite<double[]>(gradient_numbers_);
+  // A cache line more, as MatrixPattern asks for what follows early.
+  hessians_ = std::make_unique_for_overwrite<double[]>(entries + 8);
   seconds_.assign(terms.size() + 1, 0.0);
 }
 
 std::vector<Edge> Assembly::vertex_graph() const {
   std::vector<Edge> graph = mesh_->edges;
   for (const ElementGroup& group : groups_) {
-    if (group.stencil == Stencil::triangle || group.stencil == Stencil::triangle_edges)
+    if (shared(group.stencil))
       continue;
     for (std::size_t i = 0; i < group.nodes.size(); i += 4)
       for (int a = 0; a < 4; ++a)
@@ -91,7 +96,8 @@ std::vector<Edge> Assembly::vertex_graph() const {
           graph.push_back({std::min(group.nodes[i + a], group.nodes[i + b]), //
                            std::max(group.nodes[i + a], group.nodes[i + b])});
   }
-  std::sort(graph.begin(), graph.end());
+  if (!std::ranges::is_sorted(graph))
+    std::ranges::sort(graph);
   graph.erase(std::unique(graph.begin(), graph.end()), graph.end());
   return graph;
 }
@@ -183,7 +189,7 @@ EnergySum Assembly::value(const Terms& terms, const Unknowns& u) {
 }
 
 void Assembly::gather_gradient(const Constraints& constraints, Eigen::VectorXd& gradient) {
-  pattern_->gather_gradient(gradients_, gradient);
+  pattern_->gather_gradient(gradients_.get(), gradient);
   constraints.project(gradient);
 }
 
@@ -236,7 +242,7 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
   });
   Stopwatch watch;
   gather_gradient(constraints, gradient);
-  pattern_->gather_matrix(hessians_, constraints, matrix);
+  pattern_->gather_matrix(hessians_.get(), constraints, matrix);
   seconds_.back() += watch.lap();
   EnergySum sum;
   for (std::size_t c = 0; c < total; ++c) {
@@ -249,7 +255,7 @@ EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool defi
 
 Eigen::VectorXd Assembly::multiply(const Terms& terms, Kind kind, const Unknowns& u, const Eigen::VectorXd& x) {
   prepare(terms, u);
-  std::fill(gradients_.begin(), gradients_.end(), 0.0);
+  std::fill_n(gradients_.get(), gradient_numbers_, 0.0);
   each_chunk([&](std::size_t, int g, std::size_t first, std::size_t last) {
     double at[chunk * 12], along[chunk * 12], unused[chunk * 12], hessians[chunk * 144];
     const auto stride = static_cast<std::size_t>(stride_);

@@ -59,7 +59,8 @@ private:
   std::vector<int> group_of_term_;
   std::vector<std::size_t> term_order_; // a group's first term has all of its nodes, so it need not add, but sets
   std::optional<MatrixPattern> pattern_;
-  std::vector<double> gradients_, hessians_;
+  std::unique_ptr<double[]> gradients_, hessians_; // of all elements; not read before they are written
+  std::size_t gradient_numbers_ = 0;
   std::vector<double> seconds_;
 };
 

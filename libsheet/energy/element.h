@@ -32,14 +32,17 @@ enum class Kind {
 };
 
 enum class Stencil {
+  vertex,         // itself: element i is vertex i
   triangle,       // its three vertices
   triangle_edges, // its three vertices, then its three edges (edge i opposite vertex i)
   hinge,          // four vertices: an interior edge, then the two apices
   four            // any four vertices
 };
 
-constexpr int stencil_unknowns(Stencil s) { return s == Stencil::triangle ? 9 : 12; }
-constexpr int stencil_vertices(Stencil s) { return s == Stencil::hinge || s == Stencil::four ? 4 : 3; }
+constexpr int stencil_vertices(Stencil s) {
+  return s == Stencil::vertex ? 1 : s == Stencil::hinge || s == Stencil::four ? 4 : 3;
+}
 constexpr int stencil_edges(Stencil s) { return s == Stencil::triangle_edges ? 3 : 0; }
+constexpr int stencil_unknowns(Stencil s) { return 3 * stencil_vertices(s) + stencil_edges(s); }
 
 } // namespace sheet

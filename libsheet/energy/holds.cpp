@@ -13,7 +13,7 @@ namespace {
 // The angle that a director needs, beyond the smallest rotation of its edge, to turn as a rigid motion says.
 double angle_after(const RigidMotion& motion, const EdgeFrame& frame) {
   const Vector3 t = motion.rotation * frame.tangent, wanted = motion.rotation * frame.director;
-  const Vector3 brought = frame.carried(0, t);
+  const Vector3 brought = frame.carried(t);
   return std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
 }
 

@@ -27,6 +27,15 @@ struct alignas(64) MidEdgeState {
   LaneNumbers cosine[3], sine[3]; // of the edges' angles
 };
 
+// What a stage's references follow from, besides the frames in them and, in a second stage, the first one's result.
+struct alignas(64) MidEdgeStart {
+  LaneNumbers x[9];              // corners at the start of the step [m]
+  LaneNumbers metric[3], volume; // squared lengths of the raised metric [m²], [m³]
+  LaneNumbers sign[3];           // 1 where edge k runs from its lower to its higher vertex, else -1
+  double ratio;                  // of the stage, see stage.h
+  double rate;                   // μ/(2 τ) [Pa]
+};
+
 struct alignas(64) MidEdgeResult {
   LaneNumbers value;        // [J]
   LaneNumbers gradient[12]; // [N], [N m]
@@ -35,7 +44,12 @@ struct alignas(64) MidEdgeResult {
 
 using MidEdgeKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, bool arcs, MidEdgeResult&);
 
+// Fills a reference whose frames are set. previous: the first stage's result; it counts if the ratio is not 0.
+using MidEdgeReferenceKernel = void (*)(const MidEdgeStart& start, const MidEdgeState& previous,
+                                        MidEdgeReference& reference);
+
 struct MidEdgeKernels {
+  MidEdgeReferenceKernel reference;
   MidEdgeKernel value, gradient, hessian; // each with those before it
   MidEdgeKernel definite;                 // as `hessian`, with the positive semidefinite approximation
 };

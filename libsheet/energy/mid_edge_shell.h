@@ -47,19 +47,8 @@ public:
                      bool definite) const;
 
 private:
-  struct Cap {            // nothing where it is none
-    int longest = 0;      // edge
-    double stiffness = 0; // k [J/m²]
-    double height = 0;    // ḡ of its longest edge [m]
-  };
-  void refer(std::size_t t, const Stage& stage);
-  [[nodiscard]] static Cap cap_of(double weight, const RaisedMetric& metric, const Vector3& heights);
+  void refer(std::size_t batch);
   [[nodiscard]] static MidEdgeState state_of(const VectorN<12>& u);
-  struct Heights { // of a triangle's directors, and their sides [m]
-    Vector3 heights, sides;
-  };
-  void carry(const Unknowns& u, std::vector<CarriedDirector>& directors) const; // of all edges to where u has them
-  [[nodiscard]] Heights heights(std::size_t t, const Unknowns& u, const std::vector<CarriedDirector>& directors) const;
 
   double viscosity_; // [Pa s]
   bool arcs_;
@@ -67,8 +56,7 @@ private:
   const Connectivity* mesh_ = nullptr;
   std::size_t triangles_ = 0;
   std::vector<MidEdgeReference> references_; // of lane_count triangles each
-  std::vector<CarriedDirector> at_begin_, at_previous_;
-  std::vector<double> cosine_, sine_; // of the edges' angles
+  std::vector<double> cosine_, sine_;        // of the edges' angles
 };
 
 } // namespace sheet

@@ -32,7 +32,7 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
   if (model.surface_tension > 0)
     terms.push_back(make_term(SurfaceTension(model.surface_tension)));
   if (model.has_inertia())
-    terms.push_back(make_term(Inertia(model.density, model.mass)));
+    terms.push_back(make_term(Inertia(model.density)));
   if (model.density > 0 && model.gravity.squaredNorm() > 0)
     terms.push_back(make_term(Gravity(model.density, model.gravity)));
   if (model.viscosity > 0 && std::ranges::any_of(model.walls, [](const Wall& w) { return w.slip_length != free_slip; }))

@@ -33,8 +33,7 @@ struct Model {
   std::optional<BathModel> bath; // needs gravity
   bool inertia = true;
   Bending bending = Bending::none;
-  bool arcs = false; // with mid-edge bending: edges are arcs in the membrane's strain
-  Mass mass = Mass::lumped;
+  bool arcs = false;       // with mid-edge bending: edges are arcs in the membrane's strain
   std::vector<Hold> holds; // of two that hold the same unknown, the later one
   std::vector<Wall> walls; // along which liquid flows
   bool reactions = false;  // whether the forces of holds and walls are wanted

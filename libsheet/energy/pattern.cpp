@@ -15,7 +15,8 @@ namespace sheet {
 namespace {
 constexpr std::size_t columns_at_once = 256;
 constexpr int most_nodes = 6;     // of a stencil
-constexpr std::size_t ahead = 24; // sources are asked for this early, as they lie all over the buffer
+constexpr std::size_t ahead = 48; // sources are asked for this early, as they lie all over the buffer
+constexpr std::size_t line = 8;   // numbers in a cache line; the buffer has one more at its end
 
 // The places of the blocks of each local node a and those b <= a before it, among an element's packed numbers: pairs of
 // vertices first, then of an edge and a vertex, then of edges.
@@ -248,7 +249,7 @@ void MatrixPattern::pack(const ElementGroup& group, std::size_t element, const d
       *packed++ = hessian[(3 * vertices + f) * stride_ + 3 * vertices + e];
 }
 
-void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const {
+void MatrixPattern::gather_gradient(const double* buffer, Eigen::VectorXd& gradient) const {
   gradient.resize(static_cast<Eigen::Index>(permutation_.size()));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order_.size(), 4 * columns_at_once), [&](const auto& range) {
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
@@ -263,8 +264,7 @@ void MatrixPattern::gather_gradient(const std::vector<double>& buffer, Eigen::Ve
   });
 }
 
-void MatrixPattern::gather_matrix(const std::vector<double>& buffer, const Constraints& constraints,
-                                  SparseLower& matrix) const {
+void MatrixPattern::gather_matrix(const double* buffer, const Constraints& constraints, SparseLower& matrix) const {
   const std::vector<char>& held = constraints.held;
   const auto slide = [&](std::uint32_t node) { return node < vertices_ ? constraints.slide(node) : nullptr; };
   const auto gather = [&](std::uint32_t k) {
@@ -277,7 +277,9 @@ void MatrixPattern::gather_matrix(const std::vector<double>& buffer, const Const
       double sum[9] = {}; // by columns
       const auto add = [&]<int Size>(std::integral_constant<int, Size>) {
         for (std::uint32_t s = block.first_source; s < blocks_[b + 1].first_source; ++s) {
-          __builtin_prefetch(&buffer[sources_[s + ahead]]);
+          const double* next = buffer + sources_[s + ahead]; // a block may lie in two cache lines
+          __builtin_prefetch(next);
+          __builtin_prefetch(next + line);
           for (int at = 0; at < Size; ++at)
             sum[at] += buffer[sources_[s] + static_cast<std::size_t>(at)];
         }

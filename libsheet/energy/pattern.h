@@ -68,10 +68,10 @@ public:
   // Puts the Hessian of an element (column major, stride x stride; its lower triangle counts) into its place,
   // packed_size(group.stencil) numbers.
   void pack(const ElementGroup& group, std::size_t element, const double* hessian, double* packed) const;
-  void gather_gradient(const std::vector<double>& buffer, Eigen::VectorXd& gradient) const;
+  void gather_gradient(const double* buffer, Eigen::VectorXd& gradient) const;
   // Rows and columns of held unknowns become those of the unit matrix, blocks of vertices that slide are projected on
   // what is free. matrix must be one of structure().
-  void gather_matrix(const std::vector<double>& buffer, const Constraints& constraints, SparseLower& matrix) const;
+  void gather_matrix(const double* buffer, const Constraints& constraints, SparseLower& matrix) const;
   // For each axis the sum of the (whole) matrix over all pairs of vertices: what resists a translation.
   [[nodiscard]] Vector3 sum_of_blocks(const SparseLower& matrix) const;
 

@@ -39,6 +39,7 @@ struct Stage {
   const Unknowns* previous = nullptr; // the first stage's result, null in a first stage
   std::vector<EdgeFrame> frames;      // of the directors, at the start of the step; empty without directors
   std::vector<RaisedMetric> raised;   // for each triangle: the metric that raises indices and weighs by area
+  std::vector<double> vertex_volumes; // of each vertex: a third of the volume of each triangle there [m³]
   std::vector<Vector3> inertial;      // where the vertices would go without force [m]
   std::vector<Vector3> predicted;     // the extrapolated end of the stage, for what is lagged [m]
   std::vector<WallSite> sites;        // of what touches walls, ascending

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libsheet/base/each.h"
+#include "libsheet/geometry/angles.h"
 #include "libsheet/geometry/mean_normals.h"
 
 namespace sheet {
@@ -62,6 +63,10 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
     stage.predicted[v] = state.positions[v] + duration * state.velocities[v];
   }
   stage.inertial = stage.predicted;
+  stage.vertex_volumes.assign(n, 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const auto c : mesh.triangles[t])
+      stage.vertex_volumes[c] += state.volumes[t] / 3;
   if (angles)
     stage.frames = director_frames(mesh, state.positions, state.director_angles);
   stage.raised.resize(mesh.triangles.size());
@@ -110,13 +115,17 @@ void turn_with_normals(const Stage& stage, Unknowns& u) {
   if (stage.frames.empty())
     return;
   const std::vector<EdgeFrame> means = mean_normal_frames_of(stage, u);
-  const std::vector<double>& angles = stage.start->director_angles;
+  const std::span<double> turns{u.data() + 3 * stage.vertices(), means.size()};
+  std::vector<double> along(means.size()), sine(means.size(), 0), cosine(means.size(), 1);
+  if (!stage.start->director_angles.empty())
+    sines_and_cosines(stage.start->director_angles, sine, cosine);
   each_in_parallel(means.size(), [&](std::size_t e) {
-    const Vector3 &t = means[e].tangent, wanted = means[e].turned(angles.empty() ? 0 : angles[e]);
-    const Vector3 brought = stage.frames[e].carried(0, t);
-    u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] =
-        std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
+    const Vector3 &t = means[e].tangent, wanted = cosine[e] * means[e].director + sine[e] * means[e].binormal;
+    const Vector3 brought = stage.frames[e].carried(t);
+    turns[e] = brought.cross(wanted).dot(t);
+    along[e] = brought.dot(wanted);
   });
+  angles_of(along, turns);
 }
 
 std::vector<double> director_angles(const Stage& stage, const Unknowns& u) {
@@ -124,10 +133,14 @@ std::vector<double> director_angles(const Stage& stage, const Unknowns& u) {
   if (stage.frames.empty())
     return angles;
   const std::vector<EdgeFrame> means = mean_normal_frames_of(stage, u);
+  std::vector<double> along(means.size()), sine(means.size()), cosine(means.size());
+  sines_and_cosines({u.data() + 3 * stage.vertices(), means.size()}, sine, cosine);
   each_in_parallel(means.size(), [&](std::size_t e) {
-    const double angle = u[static_cast<Eigen::Index>(3 * stage.vertices() + e)];
-    angles[e] = means[e].angle_to(stage.frames[e].carried(angle, means[e].tangent));
+    const Vector3 n = stage.frames[e].carried(sine[e], cosine[e], means[e].tangent);
+    angles[e] = n.dot(means[e].binormal);
+    along[e] = n.dot(means[e].director);
   });
+  angles_of(along, angles);
   return angles;
 }
 

@@ -2,6 +2,7 @@
 #include "libsheet/geometry/mean_normals.h"
 
 #include "libsheet/base/each.h"
+#include "libsheet/geometry/angles.h"
 #include "libsheet/geometry/area.h"
 
 namespace sheet {
@@ -40,10 +41,12 @@ std::vector<EdgeFrame> mean_normal_frames(const Connectivity& mesh, std::span<co
 std::vector<EdgeFrame> director_frames(const Connectivity& mesh, std::span<const Vector3> positions,
                                        std::span<const double> angles) {
   std::vector<EdgeFrame> frames = mean_normal_frames(mesh, positions);
+  std::vector<double> sine(angles.size()), cosine(angles.size());
+  sines_and_cosines(angles, sine, cosine);
   each_in_parallel(angles.size(), [&](std::size_t e) {
     if (angles[e] == 0)
       return;
-    const Vector3 n = frames[e].turned(angles[e]);
+    const Vector3 n = cosine[e] * frames[e].director + sine[e] * frames[e].binormal;
     frames[e] = {frames[e].tangent, n, frames[e].tangent.cross(n)};
   });
   return frames;

@@ -71,10 +71,7 @@ const Library& library() {
   return instance;
 }
 
-// Parts of fewer vertices are not dissected further: METIS takes longer for them than the minimum degree does, and the
-// factorisation is as fast (docs/speed-error.md).
-constexpr std::size_t least_dissected = 20000;
-constexpr int csymamd = 2;
+constexpr int by_csymamd = 2;
 
 void quiet(int, const char*, int, const char*) {}
 
@@ -117,30 +114,18 @@ cholmod_sparse view(const SparseLower& a, bool values) {
 
 std::string blas_core_name() { return library().core; }
 
-std::vector<std::uint32_t> nested_dissection(std::size_t vertices, std::span<const Edge> graph) {
-  SparseLower a;
-  a.size = static_cast<int>(vertices);
-  a.starts.assign(vertices + 1, 0);
-  for (const Edge& e : graph)
-    ++a.starts[e[0] + 1];
-  for (std::size_t v = 0; v < vertices; ++v)
-    a.starts[v + 1] += a.starts[v];
-  for (const Edge& e : graph) // sorted by the lower vertex, then the higher
-    a.rows.push_back(static_cast<int>(e[1]));
-  if (graph.empty())
-    a.rows.push_back(0);
+void nested_dissection(const SparseLower& structure, std::size_t least, std::vector<int>& order) {
   cholmod_common common = started();
   common.current = 0;
-  common.method[0].nd_small = least_dissected;
-  common.method[0].nd_camd = csymamd;
+  common.method[0].nd_small = least;
+  common.method[0].nd_camd = by_csymamd;
   common.method[0].nd_compress = 0; // no two vertices of a sheet have the same neighbours
-  cholmod_sparse s = view(a, false);
-  std::vector<int> order(vertices), parents(vertices), parts(vertices);
+  cholmod_sparse s = view(structure, false);
+  std::vector<int> parents(s.nrow), parts(s.nrow);
   const auto found = library().nested_dissection(&s, nullptr, 0, order.data(), parents.data(), parts.data(), &common);
   library().finish(&common);
   if (found < 0)
-    fail(ExitCode::internal, "no order found for {} vertices (status {})", vertices, common.status);
-  return {order.begin(), order.end()};
+    fail(ExitCode::internal, "no order found for {} vertices (status {})", s.nrow, common.status);
 }
 
 struct Cholesky::Impl {

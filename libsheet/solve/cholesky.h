@@ -3,26 +3,22 @@
 // their defaults can be mended first: OpenBLAS takes new processors for an old one (OPENBLAS_CORETYPE, unless the user
 // set it), and CHOLMOD opens OpenMP threads of its own.
 #pragma once
-#include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "libsheet/energy/pattern.h"
-#include "libsheet/geometry/connectivity.h"
 
 namespace sheet {
 
 // The processor that OpenBLAS works for, e.g. "SkylakeX"; print it with every benchmark.
 [[nodiscard]] std::string blas_core_name();
 
-// A fill-reducing order of the vertices of a graph: nested dissection [George 1973] with METIS's separators, parts
-// below 20,000 vertices by minimum degree (CSYMAMD). Of the graph alone, not of positions, so that a resumed run
-// has the same one.
-[[nodiscard]] std::vector<std::uint32_t> nested_dissection(std::size_t vertices, std::span<const Edge> graph);
+// A fill-reducing order of the rows of a matrix, of which only the structure is read: nested dissection [George 1973]
+// with METIS's separators, parts below `least` rows by minimum degree (CSYMAMD). order: at least as long as the rows.
+void nested_dissection(const SparseLower& structure, std::size_t least, std::vector<int>& order);
 
 class Cholesky {
 public:

@@ -20,7 +20,7 @@ NewtonReport minimize_damped(LinearSystem& system, const Terms& terms, const Eig
   Eigen::VectorXd gradient;
   double damping = first_damping, start = 0, previous_step = 0;
   while (report.iterations < options.iterations) {
-    const EnergySum energy = system.hessian(terms, u, false, gradient);
+    const EnergySum energy = system.hessian(terms, u, gradient);
     if (!std::isfinite(energy.value) || !gradient.allFinite())
       return report;
     if (report.iterations == 0)

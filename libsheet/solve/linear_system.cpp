@@ -7,8 +7,8 @@
 #include <tbb/parallel_invoke.h>
 
 #include "libsheet/base/stopwatch.h"
-#include "libsheet/solve/cholesky.h"
 #include "libsheet/solve/conjugate_gradients.h"
+#include "libsheet/solve/elimination_order.h"
 
 namespace sheet {
 
@@ -22,13 +22,14 @@ void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms
   Stopwatch watch;
   const std::size_t vertices = mesh->vertices;
   assembly_ = Assembly(std::move(mesh), terms, angles);
-  assembly_.set_order(nested_dissection(vertices, assembly_.vertex_graph()));
+  assembly_.set_order(elimination_order(vertices, assembly_.vertex_graph()));
   const NodeGraph graph = assembly_.pattern().node_graph();
   tbb::parallel_invoke([&] { single_.analyze(graph); },
                        [&] {
                          matrix_ = assembly_.pattern().structure();
                          product_.analyze(graph);
                        });
+  positive_.size = 0;
   full_is_analyzed_ = false;
   has_factor_ = false;
   seconds_analysis_ = watch.lap();
@@ -44,12 +45,20 @@ EnergySum LinearSystem::gradient(const Terms& terms, const Unknowns& u, Eigen::V
   return assembly_.gradient(terms, u, constraints_, g);
 }
 
-EnergySum LinearSystem::hessian(const Terms& terms, const Unknowns& u, bool definite, Eigen::VectorXd& g) {
-  const EnergySum energy = assembly_.derivatives(terms, u, definite, constraints_, g, matrix_);
+EnergySum LinearSystem::hessian(const Terms& terms, const Unknowns& u, Eigen::VectorXd& g) {
+  const EnergySum energy = assembly_.derivatives(terms, u, false, constraints_, g, matrix_);
   find_rank_ones(terms, u);
   if (has_factor_)
     rank_ones_to_rows();
   return energy;
+}
+
+void LinearSystem::find_positive_form(const Terms& terms, const Unknowns& u) {
+  if (positive_.size == 0)
+    positive_ = matrix_;
+  Eigen::VectorXd gradient;
+  (void)assembly_.derivatives(terms, u, true, constraints_, gradient, positive_);
+  find_rank_ones(terms, u);
 }
 
 void LinearSystem::find_rank_ones(const Terms& terms, const Unknowns& u) {
@@ -72,18 +81,18 @@ void LinearSystem::rank_ones_to_rows() {
 
 // The factors that bring the matrix to a diagonal of ones (of mean one over the three coordinates of a vertex). Held
 // rows keep theirs.
-void LinearSystem::find_scale() {
+void LinearSystem::find_scale(const SparseLower& matrix) {
   const auto& permutation = assembly_.pattern().permutation();
-  scale_.resize(matrix_.size);
+  scale_.resize(matrix.size);
   const std::vector<char>& held = constraints_.held;
   const auto fixed = [&](int row) { return !held.empty() && held[permutation[static_cast<std::size_t>(row)]] != 0; };
-  for (int k = 0; k < matrix_.size;) {
+  for (int k = 0; k < matrix.size;) {
     const int width = permutation[static_cast<std::size_t>(k)] < 3 * assembly_.vertices() ? 3 : 1;
     double sum = 0;
     int count = 0;
     for (int row = k; row < k + width; ++row)
       if (!fixed(row)) {
-        sum += std::abs(matrix_.values[static_cast<std::size_t>(matrix_.starts[static_cast<std::size_t>(row)])]);
+        sum += std::abs(matrix.values[static_cast<std::size_t>(matrix.starts[static_cast<std::size_t>(row)])]);
         ++count;
       }
     for (int row = k; row < k + width; ++row)
@@ -92,19 +101,20 @@ void LinearSystem::find_scale() {
   }
 }
 
-bool LinearSystem::factorize_matrix(double shift, Precision precision) {
+bool LinearSystem::factorize_matrix(const SparseLower& matrix, double shift, Precision precision) {
   precision_ = precision;
   if (precision == Precision::single)
-    return single_.factorize(matrix_, scale_, shift);
+    return single_.factorize(matrix, scale_, shift);
   if (!full_is_analyzed_)
     full_.analyze(assembly_.pattern().node_graph());
   full_is_analyzed_ = true;
-  return full_.factorize(matrix_, scale_, shift);
+  return full_.factorize(matrix, scale_, shift);
 }
 
-bool LinearSystem::factorize(double shift, Precision precision) {
-  find_scale();
-  has_factor_ = factorize_matrix(std::max(shift, floor_), precision);
+bool LinearSystem::factorize(double shift, Precision precision, Form form) {
+  const SparseLower& matrix = form == Form::exact ? matrix_ : positive_;
+  find_scale(matrix);
+  has_factor_ = factorize_matrix(matrix, std::max(shift, floor_), precision);
   if (!has_factor_)
     return false;
   of_factor_.clear();
@@ -234,8 +244,8 @@ bool LinearSystem::spread_held_motion(const Terms& terms, const Unknowns& target
   for (Eigen::Index k = 0; k < u.size(); ++k)
     if (held[permutation[static_cast<std::size_t>(k)]])
       rhs[k] = move[k];
-  find_scale();
-  if (!factorize_matrix(spread_shift, Precision::single))
+  find_scale(matrix_);
+  if (!factorize_matrix(matrix_, spread_shift, Precision::single))
     return false;
   const Eigen::VectorXd step = single_.solve(rhs.cwiseProduct(scale_));
   for (Eigen::Index k = 0; k < u.size(); ++k) {

@@ -21,6 +21,8 @@ enum class Precision {
   full
 };
 
+enum class Form { exact, positive };
+
 class LinearSystem {
 public:
   LinearSystem() = default;
@@ -43,12 +45,14 @@ public:
   [[nodiscard]] EnergySum value(const Terms& terms, const Unknowns& u) { return assembly_.value(terms, u); }
   // Value [J] and gradient [N, N m]; held unknowns have none.
   EnergySum gradient(const Terms& terms, const Unknowns& u, Eigen::VectorXd& g);
-  // The same, and the Hessian: exact or, if definite, a positive semidefinite approximation.
-  EnergySum hessian(const Terms& terms, const Unknowns& u, bool definite, Eigen::VectorXd& g);
+  // The same, and the exact Hessian.
+  EnergySum hessian(const Terms& terms, const Unknowns& u, Eigen::VectorXd& g);
+  // The Hessian's positive semidefinite approximation, to be factorised; the operator stays as it is.
+  void find_positive_form(const Terms& terms, const Unknowns& u);
 
-  // Factorises the present Hessian + shift (of the scaled matrix). False if that is not positive definite in this
-  // precision; the factor is then gone.
-  [[nodiscard]] bool factorize(double shift, Precision precision);
+  // Factorises the present Hessian, or its positive form, + shift (of the scaled matrix). False if that is not positive
+  // definite in this precision; the factor is then gone.
+  [[nodiscard]] bool factorize(double shift, Precision precision, Form form = Form::exact);
   [[nodiscard]] bool has_factor() const { return has_factor_; }
   void forget_factor() { has_factor_ = false; }
   // Whether the factor alone, without products with the Hessian, is known or hoped to lead to the solution quickly.
@@ -92,8 +96,8 @@ private:
     double part = 0;
   };
   void find_rank_ones(const Terms& terms, const Unknowns& u);
-  void find_scale();
-  [[nodiscard]] bool factorize_matrix(double shift, Precision precision);
+  void find_scale(const SparseLower& matrix);
+  [[nodiscard]] bool factorize_matrix(const SparseLower& matrix, double shift, Precision precision);
   void rank_ones_to_rows();
 
   Assembly assembly_;
@@ -101,7 +105,7 @@ private:
   SupernodalFactor<double> full_;
   Precision precision_ = Precision::single; // of the present factor
   bool full_is_analyzed_ = false;           // it is when first needed
-  SparseLower matrix_;
+  SparseLower matrix_, positive_;           // exact; positive form, whose structure is made when first needed
   SymmetricProduct product_;
   Eigen::VectorXd scale_; // of rows
   void project_rows(Eigen::VectorXd& rows) const;

@@ -28,27 +28,59 @@ constexpr int many_products = 5;  // then the factor is made anew
 constexpr double served = 0.3;    // of what remained, what a step by the factor alone may leave
 constexpr double sharper = 1e-2;  // of the tolerance, after such a step: others leave the square of what remained
 constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what may remain at most
+constexpr double far_away = 0.1;  // of an edge, or radians: if more remains at a start, there may be a better one,
+constexpr double much = 0.1;      // or if so much of the energies there can be gained
 
 class Minimizer {
 public:
   Minimizer(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale, const Unknowns& extrapolated,
-            const NewtonOptions& options, FirstEvaluation first, Unknowns& u)
+            const NewtonOptions& options, FirstEvaluation first, Unknowns& u, const OtherStart& other)
       : system_(system), terms_(terms), scale_(scale), extrapolated_(extrapolated), options_(options), u_(u),
-        energy_(first.energy), start_(first.energy.value), gradient_(std::move(first.gradient)),
-        linearized_(first.linearized) {}
+        other_(other) {
+    start_from(std::move(first));
+  }
 
   NewtonReport run() {
-    if (std::isfinite(energy_.value) && gradient_.allFinite())
+    if (starts_well() || (start_elsewhere() && starts_well()))
       iterate();
     return report_;
   }
 
 private:
+  void start_from(FirstEvaluation first) {
+    energy_ = first.energy;
+    start_ = first.energy.value;
+    gradient_ = std::move(first.gradient);
+    linearized_ = first.linearized;
+  }
+
+  [[nodiscard]] bool starts_well() const { return std::isfinite(energy_.value) && gradient_.allFinite(); }
+
+  [[nodiscard]] bool starts_near() const { return remains_ <= far_away && norm_ * norm_ <= much * energy_.magnitude; }
+
+  // At a start of lower potential, if there is one and no one has asked before.
+  bool start_elsewhere() {
+    if (steps() > 0 || asked_ || !other_)
+      return false;
+    asked_ = true;
+    if (!other_(energy_.value, u_))
+      return false;
+    if (fresh_)
+      system_.forget_factor();
+    start_from(evaluate_first(system_, terms_, u_));
+    return true;
+  }
+
   void iterate() {
     for (;;) {
       if (!system_.has_factor() && !factorize())
         return;
       measure_remainder();
+      if (!starts_near() && start_elsewhere()) {
+        if (!starts_well())
+          return;
+        continue;
+      }
       if (!std::isfinite(remains_))
         return;
       if (converged()) {
@@ -77,7 +109,6 @@ private:
           return;
         positive_ = fresh_;
         system_.forget_factor();
-        linearized_ = false;
       } else if (length < 0.5 && !was_fresh) {
         system_.forget_factor();
       }
@@ -108,15 +139,13 @@ private:
     }
     exact_ = false;
     system_.set_factor_serves(false);
-    Eigen::VectorXd ignored;
-    (void)system_.hessian(terms_, u_, true, ignored);
-    linearized_ = false;
+    system_.find_positive_form(terms_, u_);
     report_.seconds_assembly += watch.lap();
     const auto attempt = [&](double shift, Precision with) {
       ++report_.factorizations;
       ++report_.positive;
       report_.shifted += shift > 0;
-      return system_.factorize(shift, with);
+      return system_.factorize(shift, with, Form::positive);
     };
     bool good = !free && attempt(0, Precision::single);
     for (double shift = free ? shift_of_free : 0; !good && shift <= greatest_shift;
@@ -132,7 +161,7 @@ private:
       return;
     Stopwatch watch;
     Eigen::VectorXd same;
-    (void)system_.hessian(terms_, u_, false, same);
+    (void)system_.hessian(terms_, u_, same);
     linearized_ = true;
     report_.seconds_assembly += watch.lap();
   }
@@ -273,20 +302,22 @@ private:
   const Unknowns& extrapolated_;
   const NewtonOptions& options_;
   Unknowns& u_;
+  const OtherStart& other_;
   NewtonReport report_;
   EnergySum energy_;
-  double start_; // of the potential
+  double start_ = 0; // of the potential
   Eigen::VectorXd gradient_, trial_, force_, preconditioned_, remainder_, step_;
   double slope_ = 0, norm_ = 0, previous_norm_ = 0, first_norm_ = 0, remains_ = 0, positions_remain_ = 0, way_ = 0;
   int products_ = 0;
-  bool linearized_;       // the system has the exact Hessian at u
-  bool fresh_ = false;    // the factor was made at u
-  bool exact_ = false;    // of the exact Hessian
-  bool positive_ = false; // of the positive form, as the exact one's direction failed
-  bool negative_ = false; // curvature, of the last direction
-  bool stale_ = false;    // the factor took too many products
-  bool followed_ = false; // the factor alone gave the last direction
-  bool full_ = true;      // the last step was
+  bool asked_ = false;      // for another start
+  bool linearized_ = false; // the system has the exact Hessian at u
+  bool fresh_ = false;      // the factor was made at u
+  bool exact_ = false;      // of the exact Hessian
+  bool positive_ = false;   // of the positive form, as the exact one's direction failed
+  bool negative_ = false;   // curvature, of the last direction
+  bool stale_ = false;      // the factor took too many products
+  bool followed_ = false;   // the factor alone gave the last direction
+  bool full_ = true;        // the last step was
 };
 
 } // namespace
@@ -313,13 +344,14 @@ FirstEvaluation evaluate_first(LinearSystem& system, const Terms& terms, const U
   FirstEvaluation first;
   first.linearized = !system.has_factor();
   first.energy =
-      first.linearized ? system.hessian(terms, u, false, first.gradient) : system.gradient(terms, u, first.gradient);
+      first.linearized ? system.hessian(terms, u, first.gradient) : system.gradient(terms, u, first.gradient);
   return first;
 }
 
 NewtonReport minimize(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale,
-                      const Unknowns& extrapolated, const NewtonOptions& options, FirstEvaluation first, Unknowns& u) {
-  return Minimizer(system, terms, scale, extrapolated, options, std::move(first), u).run();
+                      const Unknowns& extrapolated, const NewtonOptions& options, FirstEvaluation first, Unknowns& u,
+                      const OtherStart& other) {
+  return Minimizer(system, terms, scale, extrapolated, options, std::move(first), u, other).run();
 }
 
 } // namespace sheet

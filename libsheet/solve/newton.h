@@ -7,7 +7,7 @@
 // edges at every vertex and below `tolerance` radians at every edge; or, where that suffices, below a part of the error
 // that the step has anyhow (of_step_error).
 #pragma once
-#include <span>
+#include <functional>
 
 #include "libsheet/solve/linear_system.h"
 
@@ -49,11 +49,15 @@ struct FirstEvaluation {
 // The Hessian is evaluated as well if there is no factor, as it is then needed anyhow.
 [[nodiscard]] FirstEvaluation evaluate_first(LinearSystem& system, const Terms& terms, const Unknowns& u);
 
+// Puts into u another start, of a lower potential than `least` [J]; false where it knows none.
+using OtherStart = std::function<bool(double least, Unknowns& u)>;
+
 // The potential's Hessian may have a factor from an earlier stage of the same step; system.hold says what is held.
 // scale: for each unknown the length [m] (or angle, 1) that what remains is measured in. extrapolated: where the
-// stage would end by extrapolation. u: start, and result; first: what is known at the start.
+// stage would end by extrapolation. u: start, and result; first: what is known at the start. other: asked once, if
+// the start is not near what is sought.
 [[nodiscard]] NewtonReport minimize(LinearSystem& system, const Terms& terms, const Eigen::VectorXd& scale,
                                     const Unknowns& extrapolated, const NewtonOptions& options, FirstEvaluation first,
-                                    Unknowns& u);
+                                    Unknowns& u, const OtherStart& other = {});
 
 } // namespace sheet

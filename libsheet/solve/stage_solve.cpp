@@ -13,28 +13,23 @@ namespace sheet {
 namespace {
 constexpr double unfinished_gain = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
 constexpr double far_behind = 0.1;       // of an edge: held unknowns that are this far from where inertia takes them
+constexpr double as_extrapolated = 1e-9; // of an edge: held unknowns that are where inertia takes them
 } // namespace
 
 StageSolve::StageSolve(LinearSystem& system, const Terms& terms, const std::vector<Hold>& holds,
                        const Eigen::VectorXd& scale, const NewtonOptions& options, Demand demand)
     : system_(system), terms_(terms), holds_(holds), scale_(scale), options_(options), demand_(demand) {}
 
-// The one of lowest potential among the extrapolated state, the last known one, the sheet moved rigidly with what is
-// held, and, if what is held leaves the others behind, the linear response to its motion.
-Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, const Unknowns& safe,
-                                    FirstEvaluation& first) {
-  Unknowns best = guess;
-  place(stage, best);
-  first = evaluate_first(system_, terms_, best); // nearly always the one
-  const double left_behind = (best - guess).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
-  double least = first.energy.value;
-  bool is_first = true;
-  const auto consider = [&](const Unknowns& u) {
-    const double potential = system_.value(terms_, u).value;
+// The one of lowest potential, if below `least`: the last known state, the sheet moved rigidly with what is held, and,
+// if what is held has left the others behind, the linear response to its motion.
+bool StageSolve::find_lower(const Stage& stage, const Unknowns& safe, bool left_behind, double least, Unknowns& u) {
+  bool found = false;
+  const auto consider = [&](const Unknowns& trial) {
+    const double potential = system_.value(terms_, trial).value;
     if (potential < least || !std::isfinite(least)) {
       least = potential;
-      best = u;
-      is_first = false;
+      u = trial;
+      found = true;
     }
   };
   Unknowns trial = safe;
@@ -45,15 +40,12 @@ Unknowns StageSolve::starting_guess(const Stage& stage, const Unknowns& guess, c
     place(stage, trial);
     consider(trial);
   }
-  if (left_behind >= far_behind) {
+  if (left_behind) {
     trial = safe;
-    is_first = false; // the Hessian is then another
     if (system_.spread_held_motion(terms_, target, trial))
       consider(trial);
   }
-  if (!is_first)
-    first = evaluate_first(system_, terms_, best);
-  return best;
+  return found;
 }
 
 // What is prescribed.
@@ -71,11 +63,20 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
     return false;
   for (const auto& term : terms_)
     term->begin(stage);
+  // The extrapolated state is nearly always the best start, which Newton's first direction tells, unless what is held
+  // leads the sheet elsewhere.
   Stopwatch watch;
-  FirstEvaluation first;
-  u = starting_guess(stage, guess, safe, first);
+  u = guess;
+  place(stage, u);
+  const double left = (u - guess).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+  const auto lower = [&](double least, Unknowns& start) {
+    return find_lower(stage, safe, left >= far_behind, least, start);
+  };
+  FirstEvaluation first = evaluate_first(system_, terms_, u);
+  if (left > as_extrapolated && lower(first.energy.value, u))
+    first = evaluate_first(system_, terms_, u);
   report.seconds_assembly += watch.lap();
-  NewtonReport r = minimize(system_, terms_, scale_, guess, newton, std::move(first), u);
+  NewtonReport r = minimize(system_, terms_, scale_, guess, newton, std::move(first), u, lower);
   report += r;
   if (r.converged || demand_ == Demand::converged)
     return r.converged;

@@ -28,9 +28,8 @@ public:
 
 private:
   void place(const Stage& stage, Unknowns& u) const;
-  // first: what is known there.
-  [[nodiscard]] Unknowns starting_guess(const Stage& stage, const Unknowns& guess, const Unknowns& safe,
-                                        FirstEvaluation& first);
+  // A start of a lower potential than `least`; false where there is none.
+  [[nodiscard]] bool find_lower(const Stage& stage, const Unknowns& safe, bool left_behind, double least, Unknowns& u);
 
   LinearSystem& system_;
   const Terms& terms_;

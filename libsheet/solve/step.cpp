@@ -2,8 +2,12 @@
 #include "libsheet/solve/step.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
+#include <tbb/parallel_invoke.h>
+
+#include "libsheet/base/each.h"
 #include "libsheet/base/error.h"
 #include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/levelling.h"
@@ -20,13 +24,14 @@ constexpr double smallest_floor = 1e-10; // shift of the scaled matrix where mot
 
 // Whether every triangle still has an area beyond round-off.
 bool sound(const State& s) {
-  for (const Corners& t : s.mesh->triangles) {
-    const Vector3 q = squared_lengths(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]);
-    const double longest = q.maxCoeff();
+  std::atomic<bool> result = true;
+  each_in_parallel(s.mesh->triangles.size(), [&](std::size_t i) {
+    const Corners& t = s.mesh->triangles[i];
+    const double longest = squared_lengths(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).maxCoeff();
     if (!(TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area > 1e-9 * longest))
-      return false;
-  }
-  return true;
+      result.store(false, std::memory_order_relaxed);
+  });
+  return result;
 }
 
 // What holds and walls must add to the other forces, inertia included, so that the sum vanishes: the potential's
@@ -66,6 +71,25 @@ bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const E
     const double allowed = lengths[3 * static_cast<Eigen::Index>(site.vertex)];
     return (stage.position(last, site.vertex) - site.carried).norm() * dt > allowed * stage.duration;
   });
+}
+
+// The first stage of a step, where it ends by extrapolation, and what its unknowns are measured in.
+struct Beginning {
+  Stage stage;
+  Unknowns guess;
+  Eigen::VectorXd scale;
+};
+
+Beginning begin_step(const Model& model, const State& state, double duration) {
+  Beginning result{first_stage(state, duration, state.time + duration, model.has_angles()), {}, {}};
+  Stage& stage = result.stage;
+  result.scale = step_scale(state, stage.begin.size());
+  set_wall_sites(model.walls, stage);
+  result.guess = stage.begin;
+  for (std::size_t v = 0; v < state.positions.size(); ++v)
+    result.guess.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
+  turn_with_normals(stage, result.guess);
+  return result;
 }
 
 bool same_mesh(const Connectivity& a, const Connectivity& b) {
@@ -130,11 +154,12 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
                                   StepReport& report) {
   const bool two = scheme == Scheme::sdirk2;
   const double gamma = two ? sdirk_gamma : 1;
+  Beginning beginning;
+  tbb::parallel_invoke([&] { prepare_cache(state, report); }, // in parts on one thread
+                       [&] { beginning = begin_step(model_, state, gamma * dt); });
   Stage& stage = cache_->stage;
-  stage = first_stage(state, gamma * dt, state.time + gamma * dt, model_.has_angles());
-  const Eigen::VectorXd scale = step_scale(state, stage.begin.size());
-  const auto onto_walls = [&] { set_wall_sites(model_.walls, stage); };
-  onto_walls();
+  stage = std::move(beginning.stage);
+  const Eigen::VectorXd& scale = beginning.scale;
   // Without inertia a sheet that is not held is free to move rigidly, and a flat membrane to leave its plane.
   const bool determined = model_.has_inertia() || (at_places(model_) >= 3 && model_.bending != Bending::none);
   cache_->system.constrain(constraints_of(model_.holds, stage), determined ? 0 : smallest_floor);
@@ -145,19 +170,15 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
     return solver.solve(stage, guess, safe, options_.iterations - report.newton.spent(), report.newton, u);
   };
 
-  Unknowns guess = stage.begin, first, last;
-  for (std::size_t v = 0; v < state.positions.size(); ++v)
-    guess.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
-  turn_with_normals(stage, guess);
-  if (!solve(guess, stage.begin, first))
+  Unknowns first, last;
+  if (!solve(beginning.guess, stage.begin, first))
     return Outcome::not_converged;
   if (two) {
     if (!second_stage(stage, first, gamma, dt))
       return Outcome::shrinks_to_nothing;
-    onto_walls();
+    set_wall_sites(model_.walls, stage);
     cache_->system.turn_slides(stage);
-    guess = stage.begin + (first - stage.begin) / gamma;
-    if (!solve(guess, first, last))
+    if (!solve(stage.begin + (first - stage.begin) / gamma, first, last))
       return Outcome::not_converged;
   } else {
     last = first;
@@ -286,7 +307,6 @@ Stepper::Outcome Stepper::attempt_either(const State& state, double dt, State& e
   flat = true;
   report.error = 0;
   without_arcs().filters_errors_ = filters_errors_;
-  without_arcs().prepare_cache(state, report);
   return without_arcs().attempt(state, dt, options_.scheme, Demand::converged, end, report);
 }
 

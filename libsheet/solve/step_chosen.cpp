@@ -124,7 +124,6 @@ private:
 
   void take_unfinished() {
     Stepper& last = stepper_.has_arcs() ? stepper_.without_arcs() : stepper_;
-    last.prepare_cache(state_, report_);
     Trial trial{{}, first_, 0, 0, stepper_.has_arcs(), {}};
     report_.error = 0;
     while (last.attempt(state_, trial.dt, Scheme::backward_euler, Demand::lower_potential, trial.end, report_) !=
@@ -177,7 +176,6 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
   StepReport report;
   filters_errors_ = true;
   clear_times();
-  prepare_cache(state, report);
   ChosenStep chosen(*this, state, remaining, control, report);
   chosen.find();
   control.dt = chosen.next();

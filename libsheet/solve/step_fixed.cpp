@@ -22,7 +22,6 @@ StepReport Stepper::step(State& state, double dt) {
   StepReport report;
   filters_errors_ = false; // it is only told
   clear_times();
-  prepare_cache(state, report);
   State next = state;
   limit_leaning(next, model_.holds);
   // In equal parts, if something moves far along a wall.

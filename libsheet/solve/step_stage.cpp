@@ -232,10 +232,10 @@ void StepStage::report() const {
               t.newton.iterations, t.seconds);
   log::detail(
       "  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it; "
-      "{} steps by the factor alone",
+      "{} factorisations, {} products with the Hessian, {} steps by the factor alone",
       100 * t.analysis / t.seconds, 100 * t.newton.seconds_assembly / t.seconds,
       100 * t.newton.seconds_factor / t.seconds, 100 * t.newton.seconds_solve / t.seconds,
-      100 * t.newton.seconds_search / t.seconds, t.newton.followed);
+      100 * t.newton.seconds_search / t.seconds, t.newton.factorizations, t.newton.products, t.newton.followed);
   for (const TermTime& term : t.terms)
     log::detail("  term {:<40} {:8.3f} s {:5.1f} %", term.name, term.seconds, 100 * term.seconds / t.seconds);
 }

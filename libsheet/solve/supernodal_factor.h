@@ -20,7 +20,7 @@ public:
   SupernodalFactor(SupernodalFactor&&) noexcept;
   SupernodalFactor& operator=(SupernodalFactor&&) noexcept;
 
-  // Symbolic analysis of matrices of this graph, which already is in a fill-reducing order (nested_dissection gives
+  // Symbolic analysis of matrices of this graph, which already is in a fill-reducing order (elimination_order gives
   // one).
   void analyze(const NodeGraph& graph);
   // Factorises S A S + shift I, with S the diagonal matrix of `scale`. False if that is not positive definite (to

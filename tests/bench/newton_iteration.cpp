@@ -121,7 +121,7 @@ void bench(int vertices, int repeat, bool with_cholmod) {
       u.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
     Eigen::VectorXd gradient;
     bool good = true;
-    own.assembly = median_of(repeat, [&] { (void)system.hessian(p.terms, u, false, gradient); });
+    own.assembly = median_of(repeat, [&] { (void)system.hessian(p.terms, u, gradient); });
     own.factor = median_of(repeat, [&] { good = system.factorize(0, Precision::single) && good; });
     const Eigen::VectorXd force = system.to_rows(gradient);
     Eigen::VectorXd x;

@@ -78,7 +78,7 @@ public:
         const Edge& ends = state_.mesh->edges[e];
         const Matrix3 turn = turned_by((curvature - curvature_) * middle(e));
         const Vector3 t = (u.segment<3>(3 * ends[1]) - u.segment<3>(3 * ends[0])).normalized();
-        const Vector3 brought = stage.frames[e].carried(0, t), wanted = turn * stage.frames[e].director;
+        const Vector3 brought = stage.frames[e].carried(t), wanted = turn * stage.frames[e].director;
         u[static_cast<Eigen::Index>(3 * stage.vertices() + e)] =
             std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
       }

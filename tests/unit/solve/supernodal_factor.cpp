@@ -16,6 +16,7 @@
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/model.h"
 #include "libsheet/solve/cholesky.h"
+#include "libsheet/solve/elimination_order.h"
 #include "libsheet/solve/symmetric_product.h"
 #include "tests/support/meshes.h"
 
@@ -99,7 +100,7 @@ Problem sheet_matrix(const test::Mesh& mesh, unsigned seed) {
   m.viscosity = 100;
   m.bending = Bending::mid_edge;
   Assembly assembly(s.mesh, make_terms(m, s.mesh), true);
-  assembly.set_order(nested_dissection(s.positions.size(), assembly.vertex_graph()));
+  assembly.set_order(elimination_order(s.positions.size(), assembly.vertex_graph()));
   SparseLower a = assembly.pattern().structure();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
