@@ -12,6 +12,8 @@ if(CMAKE_UNITY_BUILD)
   # a header.
   target_compile_options(sheet_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
+# GCC looks for what it can free whenever its memory has doubled, from 128 MB on: an eighth of its time. From 1 GB on.
+target_compile_options(sheet_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 if(SHEET_WERROR)
   target_compile_options(sheet_flags INTERFACE -Werror)
 endif()

@@ -13,7 +13,7 @@ namespace sheet::formats {
 namespace {
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+bool is_white(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
 std::string_view without_plus(std::string_view token) {
   if (token.size() > 1 && token[0] == '+' && token[1] != '-' && token[1] != '+')
@@ -99,7 +99,7 @@ bool TextScan::next_filled_line() {
 }
 
 void TextScan::skip_blanks() {
-  while (at_ < text_.size() && is_blank(text_[at_]))
+  while (at_ < text_.size() && is_white(text_[at_]))
     ++at_;
   if (comment_ != 0 && at_ < text_.size() && text_[at_] == comment_)
     while (at_ < text_.size() && !is_line_end(text_[at_]))
@@ -110,7 +110,7 @@ void TextScan::skip_blanks() {
     ++at_;
     skip_line_end();
     ++line_;
-    while (at_ < text_.size() && is_blank(text_[at_]))
+    while (at_ < text_.size() && is_white(text_[at_]))
       ++at_;
   }
 }
@@ -118,7 +118,7 @@ void TextScan::skip_blanks() {
 std::string_view TextScan::word() {
   skip_blanks();
   const std::size_t start = at_;
-  while (at_ < text_.size() && !is_blank(text_[at_]) && !is_line_end(text_[at_]) &&
+  while (at_ < text_.size() && !is_white(text_[at_]) && !is_line_end(text_[at_]) &&
          (comment_ == 0 || text_[at_] != comment_) &&
          !(continuation_ == Continuation::backslash && at_ > start && text_[at_] == '\\'))
     ++at_;

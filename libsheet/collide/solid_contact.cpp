@@ -18,7 +18,7 @@ namespace {
 constexpr int rounds = 10;
 // By how many times the way that a point of a triangle is moved an impulse may move a corner. Of two corners with
 // masses m and M the lighter moves by up to sqrt(M/m)/2 times that way, so lighter ones count as having a part of M.
-constexpr double longest_lever = 4, least_mass_part = 1 / (4 * longest_lever * longest_lever);
+constexpr double longest_corner_lever = 4, least_mass_part = 1 / (4 * longest_corner_lever * longest_corner_lever);
 
 // A point of the solid's frame brought to `offset` from its surface, along the normal. One turn where the surface is
 // smooth; a hollow narrower than the offset has no such point, so the turns are counted.
@@ -276,7 +276,7 @@ private:
     const Lever lever = lever_of(hit);
     const bool meets = hit.kind == FoundHit::Kind::meeting;
     // Nearly all of the point is held: left to the other means; all of it, and driven into the solid: to be told.
-    if (lever.longest > longest_lever || (lever.compliance.isZero(0) && meets)) {
+    if (lever.longest > longest_corner_lever || (lever.compliance.isZero(0) && meets)) {
       for (const std::uint32_t v : corners)
         changed_[v] = 1;
       return;

@@ -43,7 +43,7 @@ Json provenance_json(const formats::Frame& frame) {
 }
 
 Json measurements_json(const Measurements& m) {
-  constexpr double degrees = 180 / std::numbers::pi;
+  constexpr double to_degrees = 180 / std::numbers::pi;
   const Topology& t = m.topology;
   Json json = {{"area", m.area},
                {"volume", m.volume},
@@ -53,7 +53,7 @@ Json measurements_json(const Measurements& m) {
                {"angular_momentum", vector_json(m.angular_momentum)},
                {"box", {{"min", vector_json(m.low)}, {"max", vector_json(m.high)}}},
                {"edge", range_json(m.edge)},
-               {"angle_degrees", {{"min", m.angle_min * degrees}, {"max", m.angle_max * degrees}}},
+               {"angle_degrees", {{"min", m.angle_min * to_degrees}, {"max", m.angle_max * to_degrees}}},
                {"aspect_max", m.aspect_max},
                {"topology",
                 {{"components", t.components},

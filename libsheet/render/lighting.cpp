@@ -3,17 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace sheet::render {
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
-
-float smooth_step(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
-}
 
 // The sky over the ground, as a function of the sine of the elevation.
 Colour studio_sky(float sine) {
@@ -83,7 +75,7 @@ Lighting::Lighting(Image map, const Basis& axes, std::vector<Softbox> boxes)
   std::vector<float> power(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0F);
   for (int y = 0; y < map_.height; ++y) {
     const int row = y * rows_ / map_.height;
-    const float ring = std::sin(pi * (static_cast<float>(y) + 0.5F) / static_cast<float>(map_.height));
+    const float ring = std::sin(float_pi * (static_cast<float>(y) + 0.5F) / static_cast<float>(map_.height));
     for (int x = 0; x < map_.width; ++x)
       power[static_cast<std::size_t>(row * columns_ + x * columns_ / map_.width)] += luminance(map_.at(x, y)) * ring;
   }
@@ -128,7 +120,7 @@ void Lighting::soften() {
     for (int x = 0; x < columns; ++x) {
       const float v = (static_cast<float>(y) + 0.5F) / rows;
       directions.push_back(from_map((static_cast<float>(x) + 0.5F) / columns, v));
-      ring.push_back(std::sin(pi * v));
+      ring.push_back(std::sin(float_pi * v));
       power.push_back(ring.back() * at(directions.back()).radiance);
     }
   soft_map_ = Image(soft_columns, soft_rows);
@@ -151,7 +143,7 @@ Lighting Lighting::studio(const Vec& to_camera, const Vec& up) {
   Image map(4, 256);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x)
-      map.at(x, y) = studio_sky(std::cos(pi * (static_cast<float>(y) + 0.5F) / static_cast<float>(map.height)));
+      map.at(x, y) = studio_sky(std::cos(float_pi * (static_cast<float>(y) + 0.5F) / static_cast<float>(map.height)));
   const Basis axes = level(-to_camera, up); // first: ahead, second: left
   const Vec key = (-0.35F * axes.first + 0.75F * axes.second + 0.85F * up).normalized();
   const Vec rim = (0.95F * axes.first - 0.65F * axes.second + 0.45F * up).normalized();
@@ -174,11 +166,12 @@ Lighting Lighting::surroundings(Image image, const Vec& to_camera, const Vec& up
 Point2 Lighting::to_map(const Vec& direction) const {
   const float x = direction.dot(axes_.first), y = direction.dot(axes_.second), z = direction.dot(axes_.third);
   const float longitude = std::atan2(-y, x), polar = std::atan2(std::sqrt(x * x + y * y), z); // acos is rough at poles
-  return {std::clamp(0.5F + longitude / (2 * pi), 0.0F, below_one), std::clamp(polar / pi, 0.0F, below_one)};
+  return {std::clamp(0.5F + longitude / (2 * float_pi), 0.0F, below_one),
+          std::clamp(polar / float_pi, 0.0F, below_one)};
 }
 
 Vec Lighting::from_map(float x, float y) const {
-  const float longitude = (x - 0.5F) * 2 * pi, polar = y * pi;
+  const float longitude = (x - 0.5F) * 2 * float_pi, polar = y * float_pi;
   return axes_.world(std::sin(polar) * std::cos(longitude), -std::sin(polar) * std::sin(longitude), std::cos(polar));
 }
 
@@ -190,8 +183,9 @@ float Lighting::map_density(Point2 p) const {
   const int column = static_cast<int>(p.x * static_cast<float>(columns_));
   const auto cell = static_cast<std::size_t>(row * columns_ + column);
   const float power = cell_sums_[cell] - (column > 0 ? cell_sums_[cell - 1] : 0.0F);
-  const float sine = std::sin(p.y * pi); // dω = 2π² sin(polar) dx dy
-  return power / row_sums_.back() * static_cast<float>(columns_ * rows_) / (2 * pi * pi * std::max(sine, 1e-6F));
+  const float sine = std::sin(p.y * float_pi); // dω = 2π² sin(polar) dx dy
+  return power / row_sums_.back() * static_cast<float>(columns_ * rows_) /
+         (2 * float_pi * float_pi * std::max(sine, 1e-6F));
 }
 
 Lighting::Light Lighting::at(const Vec& direction) const { return at(direction, to_map(direction)); }

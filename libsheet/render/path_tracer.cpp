@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace sheet::render {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr int longest_path = 256; // meetings; Russian roulette ends nearly all paths long before
 constexpr int sure_meetings = 4;  // before Russian roulette starts, and
 constexpr float faint = 0.1F;     // the weight to which it brings those that are fainter
@@ -17,15 +15,10 @@ constexpr int longest_look = 16;  // layers that features are looked for behind
 constexpr float darkness = 1e-3F; // a shadow that lets less through is black
 
 Vec cosine_direction(const Vec& normal, Point2 p) { // density cos / pi [Malley]
-  const float radius = std::sqrt(p.x), angle = 2 * pi * p.y;
+  const float radius = std::sqrt(p.x), angle = 2 * float_pi * p.y;
   return Basis(normal)
       .world(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(0.0F, 1 - p.x)))
       .normalized();
-}
-
-float smooth_step(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
 }
 
 std::pair<float, float> range_of(const std::vector<float>& values) {
@@ -239,7 +232,7 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   const Vec d = cosine_direction(lobe == turbid_back ? meeting.normal : Vec(-meeting.normal), sampler.point());
   const float cosine = std::max(std::abs(d.dot(meeting.normal)), 1e-6F);
   path.weight *= slab_.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
-  path.density = chance[lobe] * cosine / pi;
+  path.density = chance[lobe] * cosine / float_pi;
   path.indirect = true;
   go(hit, meeting, d, path);
 }
@@ -251,11 +244,11 @@ Colour PathTracer::lamp_at_sheet(const Hit& hit, const Colour& weight, const Cro
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
   const float slope = lamp.direction.dot(crossing.meeting.normal), cosine = std::abs(slope);
   const Way way = slope > 0 ? turbid_back : turbid_through;
-  const float lobe = chance[way] * cosine / pi;
+  const float lobe = chance[way] * cosine / float_pi;
   if (!(lobe > 0 && lamp.light.density > 0))
     return Colour::Zero();
   const Colour out = slab_.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
-  const Colour share = weight * crossing.part[way] * out * (cosine / pi) / (lamp.light.density + lobe);
+  const Colour share = weight * crossing.part[way] * out * (cosine / float_pi) / (lamp.light.density + lobe);
   if (!(share.maxCoeff() > 0))
     return Colour::Zero();
   return share * lamp.light.radiance *
@@ -292,11 +285,11 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
   const float cosine = lamp.direction.dot(normal);
   if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0)
-    light.chance[path.layer] += path.weight * (cosine / pi / (lamp.light.density + cosine / pi)) * lamp.light.radiance *
-                                visible(hit, lamp.direction, false, rays);
+    light.chance[path.layer] += path.weight * (cosine / float_pi / (lamp.light.density + cosine / float_pi)) *
+                                lamp.light.radiance * visible(hit, lamp.direction, false, rays);
 
   Vec d = cosine_direction(normal, sampler.point());
-  path.density = std::max(d.dot(normal), 1e-6F) / pi;
+  path.density = std::max(d.dot(normal), 1e-6F) / float_pi;
   const float below = d.dot(face);
   if (below < 0)
     d = (d - 2 * below * face).normalized();

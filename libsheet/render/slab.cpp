@@ -13,9 +13,9 @@ constexpr float least_cosine = 1e-4F; // grazing light, where 1 - F² tau² vani
 // Gauss-Legendre of 8 points on [0, 1]: nodes, weights.
 constexpr std::array<double, 8> node = {0.0198550717512319, 0.1016667612931866, 0.2372337950418355, 0.4082826787521751,
                                         0.5917173212478249, 0.7627662049581645, 0.8983332387068134, 0.9801449282487681};
-constexpr std::array<double, 8> weight = {0.0506142681451881, 0.1111905172266872, 0.1568533229389436,
-                                          0.1813418916891810, 0.1813418916891810, 0.1568533229389436,
-                                          0.1111905172266872, 0.0506142681451881};
+constexpr std::array<double, 8> node_weight = {0.0506142681451881, 0.1111905172266872, 0.1568533229389436,
+                                               0.1813418916891810, 0.1813418916891810, 0.1568533229389436,
+                                               0.1111905172266872, 0.0506142681451881};
 
 // 2 ∫ f mu dmu over four pieces, since Fresnel's formula is steep at grazing angles.
 template <class F> auto cosine_mean(F&& f) {
@@ -25,7 +25,7 @@ template <class F> auto cosine_mean(F&& f) {
   for (std::size_t piece = 0; piece + 1 < ends.size(); ++piece)
     for (std::size_t i = 0; i < node.size(); ++i) {
       const double width = ends[piece + 1] - ends[piece], mu = ends[piece] + width * node[i];
-      sum += f(static_cast<float>(mu)) * static_cast<float>(2 * mu * width * weight[i]);
+      sum += f(static_cast<float>(mu)) * static_cast<float>(2 * mu * width * node_weight[i]);
     }
   return sum;
 }

@@ -2,7 +2,9 @@
 // Short names of what pictures are computed in. Directions are unit vectors; colours are linear, with the primaries and
 // the white of sRGB [IEC 61966-2-1]: red, green, blue.
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,7 +14,15 @@ namespace sheet::render {
 using Vec = Eigen::Vector3f;
 using Colour = Eigen::Array3f;
 
+inline constexpr float float_pi = std::numbers::pi_v<float>;
+
 inline float luminance(const Colour& c) { return 0.2126F * c[0] + 0.7152F * c[1] + 0.0722F * c[2]; }
+
+// From 0 at `low` to 1 at `high`, level at both.
+inline float smooth_step(float low, float high, float x) {
+  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
 
 // Any right-handed frame whose third axis is the unit vector n [Duff et al. 2017].
 struct Basis {

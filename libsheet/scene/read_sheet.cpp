@@ -9,7 +9,7 @@
 namespace sheet::scene {
 namespace {
 
-constexpr std::array<std::string_view, 5> mesh_files{".obj", ".off", ".ply", ".stl", ".vtu"};
+constexpr std::array<std::string_view, 5> sheet_files{".obj", ".off", ".ply", ".stl", ".vtu"};
 constexpr double most_triangles = 1e9;
 
 Rectangle read_rectangle(TableReader& table) {
@@ -93,7 +93,7 @@ SheetShape read_shape(TableReader& table, const Files& files) {
     break;
   }
   default: {
-    std::string file = read_file(table, files, mesh_files);
+    std::string file = read_file(table, files, sheet_files);
     shape = SheetMesh{std::move(file), table.quantity_or("scale", quantity::number, 1, Bound::positive)};
     table.has_no_meaning({"edge_length", "segments", "pattern", "seed"}, "a mesh is taken as it is");
   }

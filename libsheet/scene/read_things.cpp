@@ -10,7 +10,7 @@
 namespace sheet::scene {
 namespace {
 
-constexpr std::array<std::string_view, 5> mesh_files{".obj", ".off", ".ply", ".stl", ".vdb"};
+constexpr std::array<std::string_view, 5> solid_files{".obj", ".off", ".ply", ".stl", ".vdb"};
 constexpr std::string_view region_example =
     "\"rim\", {box = [[0, 0, 0], [1, 1, 1]]} or {sphere = {center = [0, 0, 0], radius = 1}}";
 
@@ -117,7 +117,7 @@ KnownSolid read_solid_shape(TableReader& table, std::size_t kind, const Environm
   case 4:
     return {HalfSpace{table.direction_or("normal", up(environment).value_or(Vector3d::UnitY()))}, "normal"};
   default: {
-    std::string file = read_file(table, files, mesh_files);
+    std::string file = read_file(table, files, solid_files);
     const double scale = table.quantity_or("scale", quantity::number, 1, Bound::positive);
     const auto voxel_size = table.quantity("voxel_size", quantity::length, Bound::positive);
     std::string checksum = read_checksum(table, file, files);

@@ -47,7 +47,7 @@ Node read_value(std::string_view text, std::string_view set) {
   fail(ExitCode::usage, "--set {}: the value must be one line of UTF-8 text", set);
 }
 
-std::string_view trim(std::string_view text) {
+std::string_view without_spaces(std::string_view text) {
   while (text.starts_with(' '))
     text.remove_prefix(1);
   while (text.ends_with(' '))
@@ -62,12 +62,12 @@ void apply_set(Node& document, std::string_view set, int index) {
   const std::size_t equals = set.find('=');
   if (equals == std::string_view::npos)
     fail(ExitCode::usage, "--set {0}: expected KEY=VALUE, such as material.viscosity=50", set);
-  std::string_view path = trim(set.substr(0, equals));
+  std::string_view path = without_spaces(set.substr(0, equals));
   const Place place{0, 0, index};
   Node* node = &document;
   for (int depth = 0;; ++depth) {
     const std::size_t dot = path.find('.');
-    const std::string_view key = trim(path.substr(0, dot));
+    const std::string_view key = without_spaces(path.substr(0, dot));
     const bool last = dot == std::string_view::npos;
     if (key.empty() || depth == deepest)
       fail(ExitCode::usage, "--set {}: expected keys joined by dots before the \"=\", such as material.viscosity", set);
@@ -102,7 +102,7 @@ void apply_set(Node& document, std::string_view set, int index) {
       break;
     path.remove_prefix(dot + 1);
   }
-  *node = read_value(trim(set.substr(equals + 1)), set);
+  *node = read_value(without_spaces(set.substr(equals + 1)), set);
   mark(*node, index);
 }
 

@@ -92,21 +92,61 @@ void touch_walls(Stage& stage, Random& random) {
   }
 }
 
-template <class E> VectorN<12> unknowns(const E& element, std::size_t i, const State& s, Random& random) {
+// Elements of any term with n unknowns each: what is checked of them is compiled once, not for every term.
+template <int n> class Elements {
+public:
+  virtual ~Elements() = default;
+  [[nodiscard]] virtual Stencil stencil() const = 0;
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual std::array<std::uint32_t, 4> nodes(std::size_t i) const = 0; // hinge and four only
+  virtual void begin(const Stage& stage) = 0;
+  [[nodiscard]] virtual double value(std::size_t i, const VectorN<n>& u) const = 0;
+  virtual double derivatives(std::size_t i, const VectorN<n>& u, VectorN<n>& g, MatrixN<n>& h, bool definite) const = 0;
+};
+
+template <class E> class ElementsOf final : public Elements<stencil_unknowns(E::stencil)> {
+public:
+  static constexpr int n = stencil_unknowns(E::stencil);
+  explicit ElementsOf(E element) : element_(std::move(element)) {}
+  [[nodiscard]] Stencil stencil() const override { return E::stencil; }
+  [[nodiscard]] std::string name() const override { return element_.name(); }
+  [[nodiscard]] std::size_t size() const override { return element_.size(); }
+  [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const override {
+    if constexpr (E::stencil == Stencil::hinge || E::stencil == Stencil::four)
+      return element_.nodes(i);
+    else
+      return {};
+  }
+  void begin(const Stage& stage) override {
+    element_.begin(stage);
+    if constexpr (requires { element_.prepare(stage.begin); })
+      element_.prepare(stage.begin);
+  }
+  [[nodiscard]] double value(std::size_t i, const VectorN<n>& u) const override { return element_.value(i, u); }
+  double derivatives(std::size_t i, const VectorN<n>& u, VectorN<n>& g, MatrixN<n>& h, bool definite) const override {
+    return element_.derivatives(i, u, g, h, definite);
+  }
+
+private:
+  E element_;
+};
+
+template <int n> VectorN<n> unknowns(const Elements<n>& elements, std::size_t i, const State& s, Random& random) {
   VectorN<12> u = VectorN<12>::Zero();
-  if constexpr (E::stencil == Stencil::vertex) {
+  if (elements.stencil() == Stencil::vertex) {
     u.head<3>() = s.positions[i] + random.vector(0.05);
-  } else if constexpr (E::stencil == Stencil::hinge || E::stencil == Stencil::four) {
-    const auto nodes = element.nodes(i);
+  } else if (stencil_vertices(elements.stencil()) == 4) {
+    const auto nodes = elements.nodes(i);
     for (std::size_t k = 0; k < 4; ++k)
       u.segment<3>(static_cast<Eigen::Index>(3 * k)) = s.positions[nodes[k]] + random.vector(0.05);
   } else {
     for (std::size_t k = 0; k < 3; ++k)
       u.segment<3>(static_cast<Eigen::Index>(3 * k)) = s.positions[s.mesh->triangles[i][k]] + random.vector(0.05);
-    if (E::stencil == Stencil::triangle_edges)
+    if (elements.stencil() == Stencil::triangle_edges)
       u.tail<3>() = random.vector(0.3);
   }
-  return u;
+  return u.head<n>();
 }
 
 // Central differences with three steps: the error must fall at second order, or be round-off from the start.
@@ -119,18 +159,23 @@ void expect_second_order(const double (&error)[3], double size, const std::strin
   EXPECT_NEAR(std::log2(error[1] / error[2]), 2, 0.1) << what;
 }
 
+// Ascending. Of matrices of any size: Eigen's solver takes long to compile.
+Eigen::VectorXd eigenvalues_of(const Eigen::MatrixXd& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
 struct Properties {
   bool translations = true, rotations = true; // the energy does not change with them
 };
 
-template <class E>
-void check(E element, Properties properties, bool second_stage_too = true, State (*state)(Random&) = crumpled,
-           void (*prepare)(Stage&, Random&) = nullptr) {
-  constexpr int n = stencil_unknowns(E::stencil), vertices = stencil_vertices(E::stencil);
+template <int n>
+void check_all(Elements<n>& elements, Properties properties, bool second_stage_too, State (*state)(Random&),
+               void (*prepare)(Stage&, Random&)) {
+  const int vertices = stencil_vertices(elements.stencil());
   Random random;
   for (int round = 0; round < 5; ++round) {
     const State s = state(random);
-    Stage stage = first_stage(s, 0.05, 0.05, E::stencil == Stencil::triangle_edges);
+    Stage stage = first_stage(s, 0.05, 0.05, elements.stencil() == Stencil::triangle_edges);
     Unknowns first = stage.begin;
     if (second_stage_too && round % 2) {
       for (Eigen::Index k = 0; k < first.size(); ++k)
@@ -139,15 +184,13 @@ void check(E element, Properties properties, bool second_stage_too = true, State
     }
     if (prepare != nullptr)
       prepare(stage, random);
-    element.begin(stage);
-    if constexpr (requires { element.prepare(stage.begin); })
-      element.prepare(stage.begin);
-    for (std::size_t i = 0; i < element.size(); i += 13) {
-      const VectorN<n> u = unknowns(element, i, s, random).template head<n>();
+    elements.begin(stage);
+    for (std::size_t i = 0; i < elements.size(); i += 13) {
+      const VectorN<n> u = unknowns(elements, i, s, random);
       VectorN<n> g, ignored;
       MatrixN<n> h, positive, scrap;
-      const double w = element.derivatives(i, u, g, h, false);
-      EXPECT_NEAR(w, element.value(i, u), 1e-12 * std::abs(w) + 1e-300);
+      const double w = elements.derivatives(i, u, g, h, false);
+      EXPECT_NEAR(w, elements.value(i, u), 1e-12 * std::abs(w) + 1e-300);
       double gradient_error[3], hessian_error[3];
       for (int k = 0; k < 3; ++k) {
         const double d = 4e-3 / (1 << k);
@@ -156,35 +199,42 @@ void check(E element, Properties properties, bool second_stage_too = true, State
           VectorN<n> up = u, down = u, gu, gd;
           up[c] += d, down[c] -= d;
           gradient_error[k] =
-              std::max(gradient_error[k], std::abs((element.value(i, up) - element.value(i, down)) / (2 * d) - g[c]));
-          element.derivatives(i, up, gu, scrap, false);
-          element.derivatives(i, down, gd, scrap, false);
+              std::max(gradient_error[k], std::abs((elements.value(i, up) - elements.value(i, down)) / (2 * d) - g[c]));
+          elements.derivatives(i, up, gu, scrap, false);
+          elements.derivatives(i, down, gd, scrap, false);
           hessian_error[k] = std::max(hessian_error[k], ((gu - gd) / (2 * d) - h.col(c)).cwiseAbs().maxCoeff());
         }
       }
-      expect_second_order(gradient_error, g.cwiseAbs().maxCoeff() + 1e-12, std::string(element.name()) + ": gradient");
-      expect_second_order(hessian_error, h.cwiseAbs().maxCoeff() + 1e-12, std::string(element.name()) + ": Hessian");
+      expect_second_order(gradient_error, g.cwiseAbs().maxCoeff() + 1e-12, elements.name() + ": gradient");
+      expect_second_order(hessian_error, h.cwiseAbs().maxCoeff() + 1e-12, elements.name() + ": Hessian");
       EXPECT_LE((h - h.transpose()).cwiseAbs().maxCoeff(), 1e-12 * (h.cwiseAbs().maxCoeff() + 1e-300));
 
-      element.derivatives(i, u, ignored, positive, true);
-      EXPECT_TRUE(ignored.isApprox(g, 1e-12)) << element.name();
-      const Eigen::SelfAdjointEigenSolver<MatrixN<n>> eigen(positive);
-      EXPECT_GE(eigen.eigenvalues()[0], -1e-12 * (eigen.eigenvalues()[n - 1] + 1e-300)) << element.name();
+      elements.derivatives(i, u, ignored, positive, true);
+      EXPECT_TRUE(ignored.isApprox(g, 1e-12)) << elements.name();
+      const Eigen::VectorXd eigenvalues = eigenvalues_of(positive);
+      EXPECT_GE(eigenvalues[0], -1e-12 * (eigenvalues[n - 1] + 1e-300)) << elements.name();
 
       Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
       for (int v = 0; v < vertices; ++v) {
         force += g.template segment<3>(3 * v);
         torque += u.template segment<3>(3 * v).cross(g.template segment<3>(3 * v));
       }
-      const double size = g.template head<3 * vertices>().cwiseAbs().maxCoeff() + 1e-300;
+      const double size = g.head(3 * vertices).cwiseAbs().maxCoeff() + 1e-300;
       if (properties.translations) {
-        EXPECT_LE(force.norm(), 1e-12 * size) << element.name();
+        EXPECT_LE(force.norm(), 1e-12 * size) << elements.name();
       }
       if (properties.rotations) {
-        EXPECT_LE(torque.norm(), 1e-12 * size) << element.name();
+        EXPECT_LE(torque.norm(), 1e-12 * size) << elements.name();
       }
     }
   }
+}
+
+template <class E>
+void check(E element, Properties properties, bool second_stage_too = true, State (*state)(Random&) = crumpled,
+           void (*prepare)(Stage&, Random&) = nullptr) {
+  ElementsOf<E> elements(std::move(element));
+  check_all<ElementsOf<E>::n>(elements, properties, second_stage_too, state, prepare);
 }
 
 TEST(Derivatives, Membrane) { check(Membrane(2.0), {}); }
@@ -222,7 +272,7 @@ TEST(Derivatives, BathActsFromBelowOnly) {
       EXPECT_LE((hessian.col(i) - (g_above - g_below) / 2e-6).norm(), 1e-7);
     }
     static_cast<void>(bath.derivatives(0, u, gradient, hessian, true));
-    EXPECT_GE(Eigen::SelfAdjointEigenSolver<MatrixN<9>>(hessian).eigenvalues()[0], -1e-12);
+    EXPECT_GE(eigenvalues_of(hessian)[0], -1e-12);
   }
   EXPECT_NEAR(bath.value(0, u), clinging.value(0, u), 1e-15); // all of it is under the surface
 }
