@@ -40,10 +40,9 @@ RaisedMetric predicted_metric(const Vector3& start, const Vector3& change) {
 }
 
 std::vector<EdgeFrame> mean_normal_frames_of(const Stage& stage, const Unknowns& u) {
-  std::vector<Vector3> positions;
-  positions.reserve(stage.vertices());
-  for (std::uint32_t v = 0; v < stage.vertices(); ++v)
-    positions.push_back(stage.position(u, v));
+  std::vector<Vector3> positions(stage.vertices());
+  each_in_parallel(positions.size(),
+                   [&](std::size_t v) { positions[v] = stage.position(u, static_cast<std::uint32_t>(v)); });
   return mean_normal_frames(*stage.start->mesh, positions);
 }
 
@@ -58,10 +57,10 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
   stage.end_time = end_time;
   stage.begin = Unknowns::Zero(static_cast<Eigen::Index>(3 * n + (angles ? mesh.edges.size() : 0)));
   stage.predicted.resize(n);
-  for (std::size_t v = 0; v < n; ++v) {
+  each_in_parallel(n, [&](std::size_t v) {
     stage.begin.segment<3>(static_cast<Eigen::Index>(3 * v)) = state.positions[v];
     stage.predicted[v] = state.positions[v] + duration * state.velocities[v];
-  }
+  });
   stage.inertial = stage.predicted;
   stage.vertex_volumes.assign(n, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -89,14 +88,14 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
   stage.previous = &first;
   stage.ratio = (1 - gamma) / gamma;
   stage.end_time = state.time + dt;
-  for (std::size_t v = 0; v < state.positions.size(); ++v) {
+  each_in_parallel(state.positions.size(), [&](std::size_t v) {
     const Vector3& x0 = state.positions[v];
     const Vector3 moved = first.segment<3>(static_cast<Eigen::Index>(3 * v)) - x0;
     const Vector3 acceleration = (moved / stage.duration - state.velocities[v]) / stage.duration;
     const Vector3 velocity = state.velocities[v] + (1 - gamma) * dt * acceleration;
     stage.inertial[v] = x0 + stage.ratio * moved + stage.duration * velocity;
     stage.predicted[v] = x0 + moved / gamma;
-  }
+  });
   std::atomic<bool> possible = true;
   each_in_parallel(state.mesh->triangles.size(), [&](std::size_t t) {
     const Corners& c = state.mesh->triangles[t];
@@ -155,12 +154,14 @@ void raise_as_started(Stage& stage) {
 
 Eigen::VectorXd step_scale(const State& state, Eigen::Index unknowns) {
   const std::size_t n = state.positions.size();
-  std::vector<double> sum(n, 0), count(n, 0);
-  for (const Edge& e : state.mesh->edges) {
-    const double length = (state.positions[e[1]] - state.positions[e[0]]).norm();
-    for (const auto v : e)
-      sum[v] += length, count[v] += 1;
-  }
+  const std::vector<Edge>& edges = state.mesh->edges;
+  std::vector<double> lengths(edges.size()), sum(n, 0), count(n, 0);
+  each_in_parallel(edges.size(), [&](std::size_t e) {
+    lengths[e] = (state.positions[edges[e][1]] - state.positions[edges[e][0]]).norm();
+  });
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (const auto v : edges[e])
+      sum[v] += lengths[e], count[v] += 1;
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(unknowns);
   for (std::size_t v = 0; v < n; ++v)
     if (count[v] > 0)

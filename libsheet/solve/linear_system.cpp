@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include "libsheet/base/each.h"
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/solve/conjugate_gradients.h"
 #include "libsheet/solve/elimination_order.h"
@@ -164,16 +165,20 @@ void LinearSystem::project_rows(Eigen::VectorXd& rows) const {
 Eigen::VectorXd LinearSystem::to_rows(const Eigen::VectorXd& forces) const {
   const auto& permutation = assembly_.pattern().permutation();
   Eigen::VectorXd rows(forces.size());
-  for (Eigen::Index k = 0; k < forces.size(); ++k)
-    rows[k] = scale_[k] * forces[permutation[static_cast<std::size_t>(k)]];
+  each_in_parallel(permutation.size(), [&](std::size_t row) {
+    const auto k = static_cast<Eigen::Index>(row);
+    rows[k] = scale_[k] * forces[permutation[row]];
+  });
   return rows;
 }
 
 Eigen::VectorXd LinearSystem::to_unknowns(const Eigen::VectorXd& rows) const {
   const auto& permutation = assembly_.pattern().permutation();
   Eigen::VectorXd step(rows.size());
-  for (Eigen::Index k = 0; k < rows.size(); ++k)
-    step[permutation[static_cast<std::size_t>(k)]] = scale_[k] * rows[k];
+  each_in_parallel(permutation.size(), [&](std::size_t row) {
+    const auto k = static_cast<Eigen::Index>(row);
+    step[permutation[row]] = scale_[k] * rows[k];
+  });
   return step;
 }
 

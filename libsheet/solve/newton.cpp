@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/solve/conjugate_gradients.h"
 
@@ -30,6 +33,19 @@ constexpr double sharper = 1e-2;  // of the tolerance, after such a step: others
 constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what may remain at most
 constexpr double far_away = 0.1;  // of an edge, or radians: if more remains at a start, there may be a better one,
 constexpr double much = 0.1;      // or if so much of the energies there can be gained
+
+// The greatest of the first `count` numbers of x, each in its own unit. Not a number if one of them is none.
+double greatest(const Eigen::VectorXd& x, const Eigen::VectorXd& units, Eigen::Index count) {
+  const auto greater = [](double a, double b) { return a > b || std::isnan(a) ? a : b; };
+  return tbb::parallel_reduce(
+      tbb::blocked_range<Eigen::Index>(0, count, 4096), 0.0,
+      [&](const auto& part, double most) {
+        const auto size = static_cast<Eigen::Index>(part.size());
+        const auto own = x.segment(part.begin(), size).cwiseQuotient(units.segment(part.begin(), size));
+        return greater(own.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>(), most);
+      },
+      greater);
+}
 
 class Minimizer {
 public:
@@ -178,13 +194,10 @@ private:
       first_norm_ = norm_;
     if (followed_)
       system_.set_factor_serves(norm_ <= served * previous_norm_);
-    remains_ = remainder_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     const Eigen::Index positions = 3 * static_cast<Eigen::Index>(system_.assembly().vertices());
-    const auto greatest = [&](const Eigen::VectorXd& x) {
-      return x.head(positions).cwiseQuotient(scale_.head(positions)).cwiseAbs().maxCoeff();
-    };
-    positions_remain_ = greatest(remainder_);
-    way_ = greatest(u_ - extrapolated_);
+    remains_ = greatest(remainder_, scale_, remainder_.size());
+    positions_remain_ = greatest(remainder_, scale_, positions);
+    way_ = greatest(u_ - extrapolated_, scale_, positions);
     report_.seconds_solve += watch.lap();
   }
 
@@ -238,7 +251,7 @@ private:
   void take_direction(const Eigen::VectorXd& rows) {
     step_ = system_.to_unknowns(rows);
     slope_ = gradient_.dot(step_);
-    report_.last_step = step_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+    report_.last_step = greatest(step_, scale_, step_.size());
     report_.gained = start_ - energy_.value;
     report_.promised = -slope_;
   }

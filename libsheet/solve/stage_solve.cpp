@@ -69,14 +69,18 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
   u = guess;
   place(stage, u);
   const double left = (u - guess).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
-  const auto lower = [&](double least, Unknowns& start) {
-    return find_lower(stage, safe, left >= far_behind, least, start);
-  };
+  const bool left_behind = left >= far_behind;
+  const auto lower = [&](double least, Unknowns& start) { return find_lower(stage, safe, left_behind, least, start); };
   FirstEvaluation first = evaluate_first(system_, terms_, u);
-  if (left > as_extrapolated && lower(first.energy.value, u))
-    first = evaluate_first(system_, terms_, u);
+  OtherStart other = lower;
+  if (left > as_extrapolated) {
+    const bool found = lower(first.energy.value, u);
+    if (found || left_behind) // what answered the held motion has left another Hessian
+      first = evaluate_first(system_, terms_, u);
+    other = {};
+  }
   report.seconds_assembly += watch.lap();
-  NewtonReport r = minimize(system_, terms_, scale_, guess, newton, std::move(first), u, lower);
+  NewtonReport r = minimize(system_, terms_, scale_, guess, newton, std::move(first), u, other);
   report += r;
   if (r.converged || demand_ == Demand::converged)
     return r.converged;
