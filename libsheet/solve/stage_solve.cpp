@@ -13,7 +13,7 @@ namespace sheet {
 namespace {
 constexpr double unfinished_gain = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
 constexpr double far_behind = 0.1;       // of an edge: held unknowns that are this far from where inertia takes them
-constexpr double as_extrapolated = 1e-9; // of an edge: held unknowns that are where inertia takes them
+constexpr double as_extrapolated = 1e-6; // of an edge: held unknowns that are where inertia takes them
 } // namespace
 
 StageSolve::StageSolve(LinearSystem& system, const Terms& terms, const std::vector<Hold>& holds,
