@@ -21,7 +21,7 @@ enum class Precision {
   full
 };
 
-enum class Form { exact, positive };
+enum class Form { exact, positive }; // of the Hessian
 
 class LinearSystem {
 public:
