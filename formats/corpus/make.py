@@ -216,6 +216,8 @@ passed = {
                                         start_time=Array(np.array([-0.125]), "frame", "s", "copy"))),
     "director_angle": with_array("director_angle", Array(np.array([0, -0.125, 3.0]), "edge", "rad", "drop")),
     "touch_wide": with_array("touch", Array(np.array([[0, 1], [0, 0], [2, 0]], "u8"), "vertex", "1", "common")),
+    "touch_overshoot": with_array("touch_overshoot", Array(np.array([[0, 0, 0], [0, -0.0625, 0], [0, 0, 0]], "f8"), "vertex",
+                                                           "m", "interpolate")),
 }
 
 failed = {
@@ -328,6 +330,7 @@ failed = {
     "start_time_rows": with_array("start_time", Array(np.zeros(2), "frame", "s", "copy")),
     "director_angle_nan": with_array("director_angle", Array(np.full(3, np.nan), "edge", "rad", "drop")),
     "director_angle_place": with_array("director_angle", Array(np.zeros(3), "vertex", "rad", "drop")),
+    "touch_overshoot_nan": with_array("touch_overshoot", Array(np.full((3, 3), np.nan), "vertex", "m", "interpolate")),
 }
 
 

@@ -102,6 +102,16 @@ double thickness_of(const Shares& s, std::size_t v) {
   return s.volume[v] < limit * s.area[v] ? s.volume[v] / s.area[v] : limit;
 }
 
+// None where nothing was caught.
+void put_overshoot(Frame& frame, const std::vector<Vector3>& overshoot) {
+  frame.erase("touch_overshoot");
+  if (std::ranges::all_of(overshoot, [](const Vector3& x) { return x.isZero(0); }))
+    return;
+  Array array = formats::make_standard_array("touch_overshoot", frame.vertices);
+  std::ranges::copy(overshoot, array.values<Vector3>().begin());
+  frame.put(std::move(array));
+}
+
 } // namespace
 
 struct CollideStage::Impl {
@@ -245,6 +255,7 @@ struct CollideStage::Impl {
       for (const std::uint32_t v : off)
         path.touch[v] = no_solid;
       put_touched_solids(frame, path.touch, scene->solids.size());
+      put_overshoot(frame, path.overshoot);
     }
     std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
     std::copy(path.velocity.begin(), path.velocity.end(), velocities(frame).begin());
@@ -308,9 +319,10 @@ struct CollideStage::Impl {
     std::vector<ContactSpring> springs = read_springs(frame);
     const std::vector<ContactSpring> loose = take_loose(springs, *mesh.mesh(), path.start);
     follow(springs, *scene, sheet);
+    const std::size_t old = springs.size();
     add_springs(springs, search->near(path.end, reach), *scene, sheet);
     hand_over(loose, path.end, springs);
-    level_velocities(springs, *scene, path.mass, fixed, path.velocity);
+    level_velocities(std::span(springs).subspan(old), *scene, path.mass, fixed, path.velocity);
     totals.most_springs = std::max(totals.most_springs, springs.size());
     write_springs(frame, springs);
   }

@@ -47,8 +47,8 @@ void follow(std::vector<ContactSpring>& springs, const Scene& scene, const Sprin
 void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
                  const SpringSheet& sheet);
 
-// What touches does not bounce: takes away the velocity of each spring's features along its normal, relative to each
-// other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of
+// What comes to touch does not bounce: takes away the velocity of each new spring's features along its normal, relative
+// to each other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of
 // Gauss-Seidel: nearly all of it in small piles). Where the scene's adhesion is 0, only that of approach. `mass` [kg];
 // along fixed axes it is infinite. Where nearly all of a contact is fixed, so that the rest would have to change by
 // more than 4 times the rate, it is left as it is: it would be thrown.

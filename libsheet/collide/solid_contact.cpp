@@ -65,7 +65,7 @@ std::vector<SolidView> views_of(const solid::Solids& solids, const StepPath& pat
 class Resolution {
 public:
   Resolution(StepPath& path, const solid::Solids& solids)
-      : path_(path), solids_(solids), prescribed_(path.fixed), views_(views_of(solids, path)) {
+      : path_(path), solids_(solids), prescribed_(path.fixed), free_end_(path.end), views_(views_of(solids, path)) {
     // Vertices of no triangle have no thickness of their own.
     const double least = thinnest(path);
     for (double& thickness : path.thickness)
@@ -74,6 +74,7 @@ public:
     for (std::size_t v = 0; v < rides_.size(); ++v)
       rides_[v] = held(v) ? no_solid : path.touch[v];
     changed_.assign(path.start.size(), 0);
+    caught_.assign(path.start.size(), 0);
     carried_.assign(path.start.size(), 0);
     active_.resize(path.triangles.size());
     std::iota(active_.begin(), active_.end(), 0U);
@@ -106,7 +107,6 @@ private:
   void hold_vertices() {
     const std::size_t n = path_.start.size();
     std::vector<double> depth(n, 0);
-    std::vector<std::uint8_t> caught(n, 0); // vector<bool> is not safe to write from several threads
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 256), [&](const auto& range) {
       for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v) {
         if (held(v))
@@ -121,14 +121,14 @@ private:
           hold(v, own, slides(v) ? half_thickness(v) : standing_distance(v));
         } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
           rides_[v] = static_cast<std::int32_t>(hit->solid);
-          caught[v] = 1;
+          caught_[v] = 1;
           hold(v, slides(v) ? slid(v, *hit) : Vector3(hit->place + views_[hit->solid].belt(1 - hit->s)),
                half_thickness(v));
         }
       }
     });
     bring_out(depth);
-    for (const std::uint8_t c : caught)
+    for (const std::uint8_t c : caught_)
       report_.caught += c;
   }
 
@@ -353,6 +353,7 @@ private:
   }
 
   void finish() {
+    path_.overshoot.assign(rides_.size(), Vector3::Zero());
     for (std::size_t v = 0; v < rides_.size(); ++v) {
       if (held(v) || rides_[v] == no_solid)
         continue;
@@ -361,6 +362,8 @@ private:
         continue;
       const auto solid = static_cast<std::size_t>(rides_[v]);
       path_.touch[v] = rides_[v];
+      if (caught_[v] != 0 && !slides(static_cast<std::uint32_t>(v)))
+        path_.overshoot[v] = free_end_[v] - path_.end[v];
       Vector3 velocity = solids_.surface_velocity(solid, path_.end[v], path_.end_time);
       if (slides(static_cast<std::uint32_t>(v))) {
         const Vector3 normal = solids_.at(solid, path_.end[v], path_.end_time).normal;
@@ -373,11 +376,12 @@ private:
 
   StepPath& path_;
   const solid::Solids& solids_;
-  const std::vector<Axes> prescribed_; // by [[hold]]s
+  const std::vector<Axes> prescribed_;  // by [[hold]]s
+  const std::vector<Vector3> free_end_; // without solids
   std::vector<SolidView> views_;
-  std::vector<std::int32_t> rides_;             // the solid that each vertex moves with, or none
-  std::vector<std::uint8_t> changed_, carried_; // per vertex
-  std::vector<std::uint32_t> active_;           // triangles to be looked at
+  std::vector<std::int32_t> rides_;                      // the solid that each vertex moves with, or none
+  std::vector<std::uint8_t> changed_, carried_, caught_; // per vertex; bits would not be safe to write in parallel
+  std::vector<std::uint32_t> active_;                    // triangles to be looked at
   SolidReport report_;
   bool counted_across_ = false;
 };

@@ -9,6 +9,9 @@
 namespace sheet::collide {
 namespace {
 
+constexpr double least_advance = 0.01; // of a turn of sphere tracing, as part of the offset
+constexpr int halvings = 20;           // of that, to find when it meets
+
 // A vertex that starts a piece of its path within the offset and moves out of it touches only what it comes nearer to
 // than it was.
 double offset_for(const solid::SolidDistance& shape, const Vector3& start, const Vector3& next, double offset) {
@@ -19,25 +22,35 @@ double offset_for(const solid::SolidDistance& shape, const Vector3& start, const
   return near.distance > 0 && near.normal.dot(next - start) > 0 ? std::min(offset, 0.9 * near.distance) : offset;
 }
 
+// Of a path on which the distance is above `reach` until the part `above` and not at `below`: where it becomes so.
+double crossing(const solid::SolidDistance& shape, const Vector3& a, const Vector3& b, double reach, double above,
+                double below) {
+  for (int halving = 0; halving < halvings && above < below; ++halving) {
+    const double middle = 0.5 * (above + below);
+    (shape.distance((1 - middle) * a + middle * b, 2 * reach) > reach ? above : below) = middle;
+  }
+  return below;
+}
+
 } // namespace
 
 std::optional<double> first_contact(const solid::SolidDistance& shape, const Vector3& a, const Vector3& b,
                                     double offset) {
-  const double travel = (b - a).norm(), slack = vertex_slack * offset;
-  double s = 0;
-  while (s <= 1) {
-    const double within = offset + slack + (1 - s) * travel;
+  const double travel = (b - a).norm(), reach = offset * (1 + vertex_slack), least = least_advance * offset;
+  double s = 0, above = 0;
+  for (;;) {
+    const double within = reach + least + (1 - s) * travel;
     const double distance = shape.distance((1 - s) * a + s * b, within);
-    if (distance >= within)
+    if (distance <= reach)
+      return crossing(shape, a, b, reach, above, s);
+    if (distance >= within || s == 1)
       return std::nullopt;
-    if (distance <= offset + slack)
-      return s;
-    const double next = s + (distance - offset) / travel;
+    const double safe = distance - offset, next = std::min(1.0, s + std::max(safe, least) / travel);
     if (next == s) // round-off allows no nearer
       return s;
+    above = safe < least ? s : next;
     s = next;
   }
-  return std::nullopt;
 }
 
 std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidView> views, std::uint32_t vertex,

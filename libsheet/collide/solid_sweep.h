@@ -14,10 +14,11 @@ namespace sheet::collide {
 inline constexpr double clearance_part = 0.25; // of triangles: what is guaranteed
 inline constexpr double hit_slack = 0.125;     // between this more and the guarantee, a hit may or may not be found
 inline constexpr double target = 0.5;          // how far out a triangle that has hit is brought
-inline constexpr double vertex_slack = 0.05;   // a vertex this much beyond half the thickness touches
+inline constexpr double vertex_slack = 1e-6;   // a vertex this much beyond half the thickness touches: round-off
 
-// The earliest s at which a point on its way from a to b is within `offset` of the solid (or up to a twentieth more),
-// by sphere tracing [Hart 1996]; nothing where it never is. Each turn advances by at least a twentieth of the offset.
+// The earliest s at which a point on its way from a to b is within `offset` of the solid, to a millionth, by
+// sphere tracing [Hart 1996] and bisection; nothing where it never is. Each turn advances by at least a hundredth of
+// the offset, so what dips less deep in between may be missed.
 [[nodiscard]] std::optional<double> first_contact(const solid::SolidDistance& shape, const Vector3& a, const Vector3& b,
                                                   double offset);
 

@@ -39,6 +39,7 @@ struct StepPath {
       mass; // of each vertex [kg]; a third of its triangles' (volume / 3 where the density is not given)
   std::vector<double> end_thickness; // the same at the end, where layers flow; none: as at the start
   std::vector<std::int32_t> touch;   // the solid that holds each vertex, or no_solid
+  std::vector<Vector3> overshoot;    // of what a solid has caught: its end without that less `end` [m]; or none
   std::vector<Axes> fixed;           // where held or touching: moved by nothing else (infinite mass)
 
   [[nodiscard]] double length() const { return end_time - start_time; }

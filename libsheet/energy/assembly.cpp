@@ -266,11 +266,16 @@ Eigen::VectorXd Assembly::multiply(const Terms& terms, Kind kind, const Unknowns
       collect(groups_[g], first, last, x, along);
       (void)terms[t]->add_derivatives(first, last, at, stride_, unused, hessians, false, true);
       const std::size_t size = static_cast<std::size_t>(stencil_unknowns(terms[t]->stencil()));
-      for (std::size_t i = 0; i < last - first; ++i)
+      for (std::size_t i = 0; i < last - first; ++i) {
+        double* product = &gradients_[(groups_[g].first + first + i) * stride];
         for (std::size_t c = 0; c < size; ++c)
-          for (std::size_t r = 0; r < size; ++r)
-            gradients_[(groups_[g].first + first + i) * stride + r] +=
-                hessians[i * stride * stride + c * stride + r] * along[i * stride + c];
+          for (std::size_t r = c; r < size; ++r) { // of the lower triangle alone, which all terms give
+            const double h = hessians[i * stride * stride + c * stride + r];
+            product[r] += h * along[i * stride + c];
+            if (r != c)
+              product[c] += h * along[i * stride + r];
+          }
+      }
     }
   });
   Eigen::VectorXd product;

@@ -47,10 +47,7 @@ void ContactShear::begin(const Stage& stage) {
     link.squeeze = 3 * rate / ((lower.thickness + upper.thickness) / 2);
     link.before.setZero();
     for (std::size_t c = 0; c < 4; ++c) {
-      const Vector3& start = stage.start->positions[s.vertices[c]];
-      Vector3 before = start;
-      if (stage.previous != nullptr)
-        before += stage.ratio * (stage.position(*stage.previous, s.vertices[c]) - start);
+      const Vector3 before = reference_position(stage, s.vertices[c]);
       link.weights[c] = s.weights[c];
       link.before += s.weights[c] * before;
       link.thickness += s.weights[c] * s.normal.dot(before);

@@ -17,6 +17,14 @@ double angle_after(const RigidMotion& motion, const EdgeFrame& frame) {
   return std::atan2(brought.cross(wanted).dot(t), brought.dot(wanted));
 }
 
+// Where a motion takes a vertex by the end of the stage.
+Vector3 place_of(std::uint32_t v, const Stage& stage, const RigidMotion& motion) {
+  const State& start = *stage.start;
+  if (start.overshoot.empty())
+    return motion(start.positions[v]);
+  return motion(start.positions[v] - start.overshoot[v]) + stage.left_over * start.overshoot[v];
+}
+
 } // namespace
 
 std::vector<char> held_unknowns(const std::vector<Hold>& holds, const Stage& stage) {
@@ -40,7 +48,7 @@ void place_held(const std::vector<Hold>& holds, const Stage& stage, double to, U
   for (const Hold& hold : holds) {
     const RigidMotion motion = hold.moved(from, to);
     for (const auto v : hold.vertices) {
-      const Vector3 x = motion(stage.start->positions[v]);
+      const Vector3 x = place_of(v, stage, motion);
       for (int a = 0; a < 3; ++a)
         if (has_axis(hold.axes, a))
           u[3 * v + a] = x[a];
@@ -67,9 +75,9 @@ bool move_with_held(const std::vector<Hold>& holds, const Stage& stage, double t
       for (const auto v : hold.vertices)
         if (pass == 0) {
           from += start[v] / static_cast<double>(count);
-          into += motion(start[v]) / static_cast<double>(count);
+          into += place_of(v, stage, motion) / static_cast<double>(count);
         } else {
-          moment += (motion(start[v]) - into) * (start[v] - from).transpose();
+          moment += (place_of(v, stage, motion) - into) * (start[v] - from).transpose();
         }
     }
   const Eigen::JacobiSVD<Matrix3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);

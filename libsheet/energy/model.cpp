@@ -6,6 +6,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
+#include "libsheet/energy/contact_damping.h"
 #include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/contact_squeeze.h"
 #include "libsheet/energy/gravity.h"
@@ -46,8 +47,11 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
     terms.push_back(make_term(Bath(model.bath->density, model.gravity, model.bath->level, model.bath->clings)));
   if (model.bath && model.bath->drag > 0 && model.gravity.squaredNorm() > 0)
     terms.push_back(make_term(BathDrag(model.bath->drag, model.gravity, model.bath->level)));
-  if (!model.contacts.empty())
+  if (!model.contacts.empty()) {
     terms.push_back(make_term(Contact(model.contacts, model.contacts_adhere)));
+    terms.push_back(make_term(ContactDamping(model.contacts, model.viscosity, model.has_inertia() ? model.density : 0,
+                                             model.contacts_adhere)));
+  }
   if (!model.contacts.empty() && model.contacts_flow) {
     terms.push_back(make_term(ContactSqueeze(model.contacts)));
     if (model.viscosity > 0)

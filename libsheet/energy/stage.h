@@ -33,6 +33,7 @@ struct WallSite {
 struct Stage {
   const State* start = nullptr;
   double duration = 0;                // of the implicit solve: dt, or gamma dt [s]
+  double left_over = 0;               // of the start's overshoot, at the end of the stage: the part not yet made up for
   double end_time = 0;                // at which time-dependent forces act [s]
   double ratio = 0;                   // 0 in a first stage, (1 - gamma)/gamma in a second
   Unknowns begin;                     // the unknowns at the start of the step
@@ -48,5 +49,12 @@ struct Stage {
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] Vector3 position(const Unknowns& u, std::uint32_t v) const { return u.segment<3>(3 * v); }
 };
+
+// Where strain is measured from: the start of the step, in a second stage extrapolated from the first [m].
+[[nodiscard]] inline Vector3 reference_position(const Stage& stage, std::uint32_t v) {
+  const Vector3& start = stage.start->positions[v];
+  return stage.previous == nullptr ? start
+                                   : Vector3(start + stage.ratio * (stage.position(*stage.previous, v) - start));
+}
 
 } // namespace sheet

@@ -87,6 +87,7 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
   const State& state = *stage.start;
   stage.previous = &first;
   stage.ratio = (1 - gamma) / gamma;
+  stage.left_over = 0;
   stage.end_time = state.time + dt;
   each_in_parallel(state.positions.size(), [&](std::size_t v) {
     const Vector3& x0 = state.positions[v];

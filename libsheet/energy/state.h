@@ -19,6 +19,7 @@ struct State {
   std::vector<Vector3> velocities;
   std::vector<double> volumes;
   std::vector<double> director_angles; // none: all are 0
+  std::vector<Vector3> overshoot;      // positions less where a solid holds them [m], see overshoot.h; none: all are 0
   std::optional<Gas> gas;              // that it encloses; none: as its law starts
   double time = 0;                     // [s]
 };

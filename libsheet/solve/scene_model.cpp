@@ -7,6 +7,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/overloaded.h"
+#include "libsheet/energy/overshoot.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/directors.h"
@@ -177,11 +178,29 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
   return state;
 }
 
+void put_back_overshoot(const Frame& frame, const Model& model, State& state) {
+  const Array* array = frame.find("touch_overshoot");
+  if (array == nullptr)
+    return;
+  std::vector<Vector3> overshoot(frame.vertices, Vector3::Zero());
+  const auto touched = touched_solids(frame);
+  for (const Hold& hold : model.holds)
+    if (hold.axes == all_axes)
+      for (const std::uint32_t v : hold.vertices)
+        if (touched[v] != no_solid)
+          overshoot[v] = array->values<Vector3>()[v];
+  for (const ContactSpring& spring : model.contacts)
+    for (const std::uint32_t v : spring.vertices)
+      overshoot[v].setZero();
+  put_back(state, overshoot);
+}
+
 void put_state(const State& state, Frame& frame) {
   Array start = formats::make_standard_array("start_position", frame.vertices);
   std::copy_n(positions(frame).begin(), frame.vertices, start.values<Vector3>().begin());
   frame.put(std::move(start));
   put_number(frame, "start_time", frame.time);
+  frame.erase("touch_overshoot");
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());

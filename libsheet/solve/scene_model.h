@@ -17,6 +17,10 @@ namespace sheet {
 // Writes the end of a step into the frame: positions, velocities, time, step + 1, and where the step started.
 void put_state(const State& state, formats::Frame& frame);
 
+// Puts vertices that a solid caught in the last step back to where that step had taken them (array "touch_overshoot";
+// energy/overshoot.h), where the model holds them on it; but none of a contact spring, whose forces would be those of
+// another place.
+void put_back_overshoot(const formats::Frame& frame, const Model& model, State& state);
 // Writes the forces of solids on what touches them, [N] a vertex (array "touch_force"), and, if wanted, those of holds
 // ("hold_force"); takes the arrays away where there are none.
 void put_reactions(std::span<const Vector3> reactions, bool of_holds, formats::Frame& frame);

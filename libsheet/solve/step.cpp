@@ -159,6 +159,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
                        [&] { beginning = begin_step(model_, state, gamma * dt); });
   Stage& stage = cache_->stage;
   stage = std::move(beginning.stage);
+  stage.left_over = two ? 1 - gamma / (1 - gamma) : 0;
   const Eigen::VectorXd& scale = beginning.scale;
   // Without inertia a sheet that is not held is free to move rigidly, and a flat membrane to leave its plane.
   const bool determined = model_.has_inertia() || (at_places(model_) >= 3 && model_.bending != Bending::none);
@@ -194,6 +195,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   const std::size_t n = state.positions.size();
   end = state;
   end.time = state.time + dt;
+  end.overshoot.clear();
   for (std::size_t v = 0; v < n; ++v) {
     const auto at = static_cast<Eigen::Index>(3 * v);
     const Vector3 x = last.segment<3>(at), x0 = state.positions[v];
@@ -259,7 +261,10 @@ void Stepper::estimate_error(const State& state, double dt, const Stage& stage, 
     speeds.segment<3>(at) = end.velocities[v] - (v0 + ((x1 - x0) / tau - v0) / gamma);
   }
   LinearSystem& system = cache_->system;
-  if (filters_errors_ && two && system.has_factor())
+  const bool filtered = filters_errors_ && two && system.has_factor();
+  if (filtered && !state.overshoot.empty())
+    take_away_overshoot(stage, gamma, last, e, speeds);
+  if (filtered)
     e += system.respond(tau * system.multiply(cache_->terms, Kind::inertial, last, speeds) -
                         system.multiply(cache_->terms, Kind::elastic, last, e));
   for (std::size_t v = 0; v < state.positions.size(); ++v) {
@@ -270,6 +275,24 @@ void Stepper::estimate_error(const State& state, double dt, const Stage& stage, 
       report.worst = v;
     }
   }
+}
+
+// What the sheet makes of its overshoot (energy/overshoot.h) is no error of this step: of what an estimate is made of,
+// the linear response of both stages to it is taken away.
+void Stepper::take_away_overshoot(const Stage& stage, double gamma, const Unknowns& last, Eigen::VectorXd& e,
+                                  Eigen::VectorXd& speeds) const {
+  LinearSystem& system = cache_->system;
+  const auto force = [&](Kind kind, const Eigen::VectorXd& x) { return system.multiply(cache_->terms, kind, last, x); };
+  Eigen::VectorXd held = Eigen::VectorXd::Zero(last.size()); // by which the vertices that overshot are moved
+  for (std::size_t v = 0; v < stage.vertices(); ++v)
+    held.segment<3>(static_cast<Eigen::Index>(3 * v)) = -stage.start->overshoot[v];
+  const Eigen::VectorXd resistance =
+      force(Kind::inertial, held) + force(Kind::dissipative, held) + force(Kind::elastic, held);
+  const Eigen::VectorXd first = (held + system.respond(-resistance)) / stage.ratio;
+  const Eigen::VectorXd second = held + system.respond(force(Kind::inertial, 2 * stage.ratio * first) +
+                                                       force(Kind::dissipative, stage.ratio * first) - resistance);
+  e -= second - first / gamma;
+  speeds -= (second - stage.ratio * first - first / gamma) / stage.duration;
 }
 
 Stepper& Stepper::without_arcs() {

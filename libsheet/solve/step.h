@@ -5,11 +5,11 @@
 //   the
 //                   second stage measures strain from a0 + ((1-γ)/γ)(a1 - a0), curvature likewise, so that each stage
 //                   is the minimum of a potential and a rigid motion costs nothing
-// A step that does not converge with arcs is done without them; one that does not converge is done in halves, halves by
-// backward Euler where SDIRK2 fails. When the Newton iterations allowed to a step are spent, what is left of it is done
-// by backward Euler, and taken where the last iteration promised to lower the potential by less than a hundredth of
-// what all have: a stable step of lower accuracy, in halves if need be, with up to eight times the iterations. If that
-// fails too, Error(not_converged), the state untouched.
+// A step that does not converge forgets what was overshot before it (energy/overshoot.h); then it is done without arcs,
+// then in halves, halves by backward Euler where SDIRK2 fails. When the Newton iterations allowed to a step are spent,
+// what is left of it is done by backward Euler, and taken where the last iteration promised to lower the potential by
+// less than a hundredth of what all have: a stable step of lower accuracy, in halves if need be, with up to eight times
+// the iterations. If that fails too, Error(not_converged), the state untouched.
 // Steps chosen by their error are shortened instead of halved. When the iterations are spent, the most accurate step
 // that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above. Where a
 // step of a thousandth is hardly more accurate, as something jumps, the long one is taken, and said to be inaccurate.
@@ -93,6 +93,8 @@ private:
   void set_prescribed_velocities(const Stage& stage, State& end) const;
   void estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first, const Unknowns& last,
                       const State& end, const Eigen::VectorXd& scale, StepReport& report) const;
+  void take_away_overshoot(const Stage& stage, double gamma, const Unknowns& last, Eigen::VectorXd& e,
+                           Eigen::VectorXd& speeds) const;
   Outcome attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report);
   void advance(State& state, double dt, int depth, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);

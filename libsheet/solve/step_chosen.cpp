@@ -6,6 +6,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/leaning.h"
+#include "libsheet/energy/overshoot.h"
 #include "libsheet/solve/step.h"
 
 namespace sheet {
@@ -32,7 +33,7 @@ double shortest_step(const State& state, double left) {
 
 class Stepper::ChosenStep {
 public:
-  ChosenStep(Stepper& stepper, const State& state, double remaining, const StepControl& control, StepReport& report)
+  ChosenStep(Stepper& stepper, State& state, double remaining, const StepControl& control, StepReport& report)
       : stepper_(stepper), state_(state), remaining_(remaining), tolerance_(control.tolerance),
         wanted_(control.dt > 0 ? control.dt : remaining), report_(report) {
     wanted_ = std::min(wanted_, longest_step_on_walls(stepper.model_.walls, state));
@@ -94,11 +95,23 @@ private:
       report_.error = 0;
       if (stepper_.attempt_either(state_, trial.dt, trial.end, trial.flat, report_) != Outcome::done) {
         ++report_.failed;
-        trial.dt *= least_factor;
+        if (state_.overshoot.empty())
+          trial.dt *= least_factor;
+        else
+          forget_overshoot(state_);
         continue;
       }
       note(trial);
       report_.rejected += trial.error > tolerance_;
+      // What was overshot is the same in a shorter step: where it is more than the sheet can take, it is given up.
+      if (best_ && !state_.overshoot.empty() && trial.error > tolerance_ &&
+          trial.error / trial.dt > best_->error / best_->dt) {
+        forget_overshoot(state_);
+        best_.reset();
+        longest.reset();
+        trial.dt = first_;
+        continue;
+      }
       if (!best_ || trial.error < best_->error)
         best_ = trial;
       if (!longest)
@@ -157,7 +170,7 @@ private:
   }
 
   Stepper& stepper_;
-  const State& state_;
+  State& state_;
   double remaining_, tolerance_, wanted_;
   StepReport& report_;
   double first_ = 0, shortest_ = 0; // to be tried

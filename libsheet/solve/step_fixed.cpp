@@ -6,6 +6,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/leaning.h"
+#include "libsheet/energy/overshoot.h"
 #include "libsheet/solve/step.h"
 
 namespace sheet {
@@ -48,6 +49,11 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
     return;
   }
   ++report.failed;
+  if (!state.overshoot.empty()) {
+    forget_overshoot(state);
+    advance(state, dt, depth, report);
+    return;
+  }
   if (depth == 0 && outcome == Outcome::not_converged && has_arcs()) {
     advance_flat(state, dt, report);
     return;

@@ -138,6 +138,7 @@ struct StepStage::Impl {
       stepper.emplace(std::move(model), step_options);
     }
     State state = state_of(frame, mesh.mesh());
+    put_back_overshoot(frame, stepper->model(), state);
     Stopwatch watch;
     StepReport report;
     if (options.dt) {

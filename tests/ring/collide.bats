@@ -54,6 +54,42 @@ contacts() {
     NR > 1 { e = $k } END { exit !(e < 1e-9) }'
 }
 
+# usage: off STEPS: the greatest difference of a place from that with 320 steps [m]
+off() {
+  sheet-loop -q -i start.sheet --until 0.08 --keep last -o "$1.sheet" -- "sheet-step --dt $(awk -v n="$1" 'BEGIN { print 0.08 / n }') | sheet-collide"
+  { sheet-diff "$1.sheet" 320.sheet || [[ $? == 1 ]]; } | sed -n 's/.*array "position".*largest difference \([0-9.e-]*\) .*/\1/p'
+}
+
+@test "a sheet lands on a ball: what is caught within a step is felt, to second order" {
+  cat > ball.toml << 'END'
+[sheet]
+shape = "rectangle"
+plane = "xz"
+size = [0.3, 0.3]
+segments = [20, 20]
+pattern = "structured"
+thickness = 0.005
+center = [0.01, 0.004, 0.006]
+velocity = [0, -0.3, 0]
+[material]
+viscosity = 200
+density = 1000
+[environment]
+gravity = [0, -9.81, 0]
+[[solid]]
+shape = "sphere"
+radius = 0.1
+center = [0, -0.1, 0]
+END
+  sheet-init ball.toml -o start.sheet
+  off 320
+  ten=$(off 10) twenty=$(off 20) forty=$(off 40)
+  echo "$ten $twenty $forty"
+  # Edges are 15 mm long. 3.3e-4, 8.5e-5 and 3e-5; with catches up to a twentieth of half the thickness too early, and
+  # without touch_overshoot, 5e-4, 2e-4, 1.4e-4.
+  awk -v a="$ten" -v b="$twenty" -v c="$forty" 'BEGIN { exit !(a / b > 3.4 && b / c > 2 && c < 5e-5) }'
+}
+
 @test "plates that close on a pleated sheet squeeze it, with remeshing and without" {
   sheet-init "$scenes/press.toml" -o start.sheet
   for more in '' '| sheet-remesh --edge-length 0.005'; do

@@ -174,7 +174,7 @@ END
 }
 
 @test "ice cream: frequency goes as speed, whatever the edges" {
-  OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/ice-cream/law 0.01 4 "1.5 3" "0.055 0.06"
+  OUT=$BATS_TEST_TMPDIR/law run -0 pipelines/ice-cream/law 0.01 8 "1.5 3" "0.055 0.06"
   [[ $(grep -cE "goes as speed to (0\.9[0-9]*|1\.0[0-9]*)," <<< "$output") == 3 ]]
 }
 

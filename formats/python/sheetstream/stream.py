@@ -52,6 +52,7 @@ _STANDARD = {
     "touch": ("vertex", "uint64", 0, "1", "common"),
     "hold_force": ("vertex", "float64", 3, "N", "conserve"),
     "touch_force": ("vertex", "float64", 3, "N", "conserve"),
+    "touch_overshoot": ("vertex", "float64", 3, "m", "interpolate"),
     "inlet": ("vertex", "uint64", 1, "1", "common"),
     "inlet_origin": ("vertex", "float64", 3, "m", "interpolate"),
     "swept_volume": ("vertex", "float64", 1, "m^3", "conserve"),

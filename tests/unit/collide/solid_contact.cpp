@@ -53,6 +53,33 @@ TEST(SolidContact, NothingToDo) {
   EXPECT_TRUE(unsafe_triangles(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).empty());
 }
 
+// A sheet flies aslant over a ball: each vertex is caught where its path comes within half the thickness, no earlier,
+// and what it would have gone beyond that is told.
+TEST(SolidContact, IsCaughtWhereItsPathMeetsTheSurface) {
+  const double radius = 0.3, reach = radius + thickness_of_sheet / 2;
+  const Vector3 center(0.01, -radius, 0.005);
+  FallingSheet sheet = falling(0.04, 2e-3, {0.2, 0, 0.1});
+  const std::vector<Vector3> end = sheet.path.end;
+  const SolidReport report = resolve_solids(sheet.path, solids_of({solid(scene::Sphere{radius}, center)}));
+  EXPECT_GT(report.caught, 4U);
+  std::size_t caught = 0;
+  for (std::size_t v = 0; v < end.size(); ++v) {
+    const Vector3 from = sheet.start[v] - center, way = end[v] - sheet.start[v];
+    const double half = from.dot(way), square = way.squaredNorm();
+    const double root = half * half - square * (from.squaredNorm() - reach * reach);
+    const double s = root >= 0 ? (-half - std::sqrt(root)) / square : 2;
+    EXPECT_EQ(sheet.path.touch[v] != no_solid, s >= 0 && s <= 1) << v << " at " << s;
+    if (sheet.path.touch[v] == no_solid) {
+      EXPECT_TRUE(sheet.path.overshoot[v].isZero(0));
+      continue;
+    }
+    ++caught;
+    EXPECT_LT((sheet.path.end[v] - (sheet.start[v] + s * way)).norm(), 1e-5 * thickness_of_sheet) << v;
+    EXPECT_EQ(sheet.path.overshoot[v], end[v] - sheet.path.end[v]) << v;
+  }
+  EXPECT_EQ(caught, report.caught);
+}
+
 // Everything falls on the ground: it lies there, half its thickness up, at rest, where it was above.
 TEST(SolidContact, OnTheGround) {
   for (const double speed : {0.1, 10.0, 1000.0}) {

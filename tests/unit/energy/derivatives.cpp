@@ -12,6 +12,7 @@
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
 #include "libsheet/energy/contact.h"
+#include "libsheet/energy/contact_damping.h"
 #include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/contact_squeeze.h"
 #include "libsheet/energy/gravity.h"
@@ -407,6 +408,11 @@ std::vector<ContactSpring> random_springs() {
 TEST(Derivatives, Contact) {
   check(Contact(random_springs(), true), {true, false});
   check(Contact(random_springs(), false), {true, false});
+}
+
+TEST(Derivatives, ContactDamping) {
+  check(ContactDamping(random_springs(), 2, 5, true), {true, false});
+  check(ContactDamping(random_springs(), 2, 5, false), {true, false});
 }
 
 TEST(Derivatives, ContactShear) {

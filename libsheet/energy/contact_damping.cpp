@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/contact_damping.h"
+
+#include <cmath>
+
+#include "libsheet/energy/layers.h"
+
+namespace sheet {
+
+void ContactDamping::begin(const Stage& stage) {
+  const LayerShares shares = layer_shares(stage);
+  dampers_.assign(springs_.size(), {});
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const ContactSpring& s = springs_[i];
+    const double area = s.area(shares.area), h = s.mean(shares.thickness);
+    const auto critical = [&](double k) { return std::sqrt(2 * k * area * density_ * h); };
+    dampers_[i].normal = (0.5 * viscosity_ * h + critical(s.stiffness[0])) / stage.duration;
+    dampers_[i].tangential = critical(s.stiffness[1]) / stage.duration;
+    for (std::size_t c = 0; c < 4; ++c)
+      dampers_[i].before += s.weights[c] * reference_position(stage, s.vertices[c]);
+  }
+}
+
+} // namespace sheet

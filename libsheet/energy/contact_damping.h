@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What keeps layers that touch from bouncing and swaying on their springs (contact.h). For each contact spring of the
+// area A and the stiffnesses k_n, k_t, between layers of the mean thickness h,
+//   W = (c_n (n·e)² + c_t |P e|²)/(2 τ),   e = Σ w_i (x_i - x̄_i),
+//   c_n = μ h/2 + √(2 k_n A ρ h),   c_t = √(2 k_t A ρ h)   [N s/m],
+// n its normal, P along the layers, x̄ the start of the step, in a second stage extrapolated from the first. μ h/2
+// resists as the sheet itself does when it is stretched; the roots, with inertia only, damp two free layers critically.
+// Neither depends on the step. Without adhesion, across the layers only approach is damped.
+#pragma once
+#include "libsheet/energy/element.h"
+#include "libsheet/sheet/contact_spring.h"
+
+namespace sheet {
+
+class ContactDamping {
+public:
+  static constexpr Stencil stencil = Stencil::four;
+  // viscosity [Pa s]; density [kg/m³], 0 without inertia; adhesion: the springs pull, too.
+  ContactDamping(std::vector<ContactSpring> springs, double viscosity, double density, bool adhesion)
+      : springs_(std::move(springs)), viscosity_(viscosity), density_(density), adhesion_(adhesion) {}
+  [[nodiscard]] const char* name() const { return "damping of contact"; }
+  [[nodiscard]] std::size_t size() const { return springs_.size(); }
+  [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
+  void begin(const Stage& stage);
+
+  [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const {
+    const Way way(*this, i, u);
+    return 0.5 * (way.normal * way.across * way.across + dampers_[i].tangential * way.along.squaredNorm());
+  }
+
+  double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian, bool) const {
+    const Way way(*this, i, u);
+    const Vector3& n = springs_[i].normal;
+    const Vector3 force = way.normal * way.across * n + dampers_[i].tangential * way.along;
+    const Matrix3 nn = n * n.transpose();
+    const Matrix3 stiffness = way.normal * nn + dampers_[i].tangential * (Matrix3::Identity() - nn);
+    const auto& w = springs_[i].weights;
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto row = static_cast<Eigen::Index>(3 * a);
+      gradient.segment<3>(row) = w[a] * force;
+      for (std::size_t b = 0; b < 4; ++b)
+        hessian.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) = w[a] * w[b] * stiffness;
+    }
+    return 0.5 * (way.normal * way.across * way.across + dampers_[i].tangential * way.along.squaredNorm());
+  }
+
+private:
+  struct Damper {
+    Vector3 before = Vector3::Zero();  // Σ w_i x̄_i [m]
+    double normal = 0, tangential = 0; // c/τ [N/m]
+  };
+
+  // e, and the stiffness that it meets across the layers.
+  struct Way {
+    double across, normal;
+    Vector3 along;
+    Way(const ContactDamping& d, std::size_t i, const VectorN<12>& u) {
+      const auto& w = d.springs_[i].weights;
+      const Vector3 e = w[0] * u.segment<3>(0) + w[1] * u.segment<3>(3) + w[2] * u.segment<3>(6) +
+                        w[3] * u.segment<3>(9) - d.dampers_[i].before;
+      across = d.springs_[i].normal.dot(e);
+      along = e - across * d.springs_[i].normal;
+      normal = d.adhesion_ || across < 0 ? d.dampers_[i].normal : 0;
+    }
+  };
+
+  std::vector<ContactSpring> springs_;
+  double viscosity_, density_;
+  bool adhesion_;
+  std::vector<Damper> dampers_;
+};
+
+} // namespace sheet
