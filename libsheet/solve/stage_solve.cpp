@@ -14,6 +14,17 @@ namespace {
 constexpr double unfinished_gain = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
 constexpr double far_behind = 0.1;       // of an edge: held unknowns that are this far from where inertia takes them
 constexpr double as_extrapolated = 1e-6; // of an edge: held unknowns that are where inertia takes them
+
+// How far what is held is from where inertia takes it, in edges. What a vertex overshot (energy/overshoot.h) does not
+// count: that the sheet lags behind it is no sign of another start.
+double farthest_behind(const Stage& stage, Eigen::VectorXd behind, const Eigen::VectorXd& scale) {
+  const std::vector<Vector3>& overshoot = stage.start->overshoot;
+  for (std::size_t v = 0; v < overshoot.size(); ++v)
+    if (!overshoot[v].isZero(0))
+      behind.segment<3>(static_cast<Eigen::Index>(3 * v)).setZero();
+  return behind.cwiseQuotient(scale).cwiseAbs().maxCoeff();
+}
+
 } // namespace
 
 StageSolve::StageSolve(LinearSystem& system, const Terms& terms, const std::vector<Hold>& holds,
@@ -68,7 +79,7 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
   Stopwatch watch;
   u = guess;
   place(stage, u);
-  const double left = (u - guess).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+  const double left = farthest_behind(stage, u - guess, scale_);
   const bool left_behind = left >= far_behind;
   const auto lower = [&](double least, Unknowns& start) { return find_lower(stage, safe, left_behind, least, start); };
   FirstEvaluation first = evaluate_first(system_, terms_, u);
