@@ -2,6 +2,8 @@
 // What the sheet makes of vertices that a solid has caught and put back: it gets the displacement that it lacks.
 #include "libsheet/energy/overshoot.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "libsheet/solve/step.h"
@@ -104,6 +106,22 @@ TEST(Overshoot, IsNoErrorOfTheStep) {
     EXPECT_LT(errors[2], 0.1 * 1e-4 / 0.05) << density; // edges of 5 cm
     EXPECT_LT(errors[1], 0.4 * errors[0]) << density;
   }
+}
+
+// What is too much for a step of any length is given up: the step is the one that it would have been without it.
+TEST(Overshoot, DoesNotStallChosenSteps) {
+  Strip with({-0.02, 0, -0.01}, 1000), without({-0.02, 0, -0.01}, 1000);
+  put_back(with.state, with.by);
+  ASSERT_FALSE(with.state.overshoot.empty());
+  for (Strip* strip : {&with, &without}) {
+    for (std::size_t v = 0; v < strip->by.size(); ++v) // the sheet swings, so that a step has an error
+      strip->state.velocities[v].z() = std::sin(20 * strip->state.positions[v].x());
+    StepControl control{.tolerance = 1e-3, .dt = 0.1};
+    const StepReport report = Stepper(strip->model, {}).step_within(strip->state, 0.1, control);
+    EXPECT_LE(report.error, 1e-3);
+    EXPECT_EQ(report.inaccurate, 0);
+  }
+  EXPECT_EQ(with.state.time, without.state.time);
 }
 
 // Where the way is longer than triangles are wide, vertices stay where they are held.

@@ -204,6 +204,43 @@ TEST(SceneModel, WhatIsInTheInletMovesAtTheInflowsVelocityUntilItEnds) {
   EXPECT_TRUE(model_of(scene, frame, mesh, Bending::mid_edge, false).holds.empty());
 }
 
+// What a vertex overshot counts where a solid holds it and no contact spring pulls at it. A step uses it up, and says
+// that it started where the frame had the vertex.
+TEST(SceneModel, WhatWasOvershotIsPutBackOnce) {
+  Frame frame = two_squares();
+  put_masks(frame, "touch", {0, 1, 0, 1, 0, 0});
+  const Vector3 by(0, -0.125, 0);
+  Array array = formats::make_standard_array("touch_overshoot", frame.vertices);
+  for (Vector3& x : array.values<Vector3>())
+    x = by;
+  frame.put(std::move(array));
+  const auto mesh = std::make_shared<const Connectivity>(connect(frame.vertices, triangles(frame)));
+  const Scene scene = parse_scene(scene_text, "test");
+  Model model = model_of(scene, frame, *mesh, Bending::mid_edge, false);
+  State state = state_of(frame, mesh);
+  put_back_overshoot(frame, model, state);
+  const auto x = positions(static_cast<const Frame&>(frame));
+  for (std::size_t v = 0; v < 6; ++v)
+    EXPECT_EQ(state.positions[v], v == 1 || v == 3 ? Vector3(x[v] + by) : x[v]) << v;
+
+  ContactSpring spring;
+  spring.vertices = {3, 4, 5, 0};
+  model.contacts.push_back(spring);
+  state = state_of(frame, mesh);
+  put_back_overshoot(frame, model, state);
+  EXPECT_EQ(state.overshoot[1], by);
+  EXPECT_EQ(state.positions[3], x[3]);
+
+  const std::vector<Vector3> before(x.begin(), x.end());
+  StepStageOptions options;
+  options.dt = 0.125;
+  StepStage(options).step(frame);
+  EXPECT_EQ(frame.find("touch_overshoot"), nullptr);
+  const auto start = frame.find("start_position")->values<Vector3>();
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), start.begin()));
+  EXPECT_LT((positions(static_cast<const Frame&>(frame))[1] - (before[1] + Vector3(0, 0, 3 * 0.125))).norm(), 1e-15);
+}
+
 TEST(SceneModel, ContactSpringsPush) {
   Frame frame = two_squares();
   put_spring(frame);
