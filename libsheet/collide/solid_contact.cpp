@@ -10,6 +10,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/collide/solid_sweep.h"
+#include "libsheet/collide/touch_distance.h"
 
 namespace sheet::collide {
 namespace {
@@ -70,6 +71,10 @@ public:
     const double least = thinnest(path);
     for (double& thickness : path.thickness)
       thickness = std::max(thickness, least);
+    if (std::ranges::any_of(views_, &SolidView::flows))
+      path.facing = facings(path);
+    edges_ = longest_edges(path);
+    path.stand_off = chord_allowances(path, views_, edges_);
     rides_.resize(path.start.size());
     for (std::size_t v = 0; v < rides_.size(); ++v)
       rides_[v] = held(v) ? no_solid : path.touch[v];
@@ -111,19 +116,17 @@ private:
       for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v) {
         if (held(v))
           continue;
-        if (rides_[v] != no_solid && is_off(v)) {
-          rides_[v] = no_solid;
-          path_.touch[v] = no_solid;
-        }
+        if (rides_[v] != no_solid && is_off(v))
+          rides_[v] = path_.touch[v] = no_solid;
         if (rides_[v] != no_solid) {
           const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
           const Vector3 own = view.own(view.pieces(), path_.end[v]);
-          hold(v, own, slides(v) ? half_thickness(v) : standing_distance(v));
+          hold(v, own, kept_distance(v, own));
         } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
           rides_[v] = static_cast<std::int32_t>(hit->solid);
           caught_[v] = 1;
           hold(v, slides(v) ? slid(v, *hit) : Vector3(hit->place + views_[hit->solid].belt(1 - hit->s)),
-               half_thickness(v));
+               caught_distance(v, *hit));
         }
       }
     });
@@ -145,33 +148,36 @@ private:
     return hit.place + rest - normal.dot(rest) * normal;
   }
 
+  [[nodiscard]] const SolidView& own_view(std::uint32_t v) const { return views_[static_cast<std::size_t>(rides_[v])]; }
+
   // Whether a vertex that touches starts farther from its solid than the sheet is thick: a change of the mesh over a
   // hollow may have put it there.
   [[nodiscard]] bool is_off(std::uint32_t v) const {
-    const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
-    const double thickness = path_.thickness[v];
-    return view.shape().distance(view.own(0, path_.start[v]), thickness) >= thickness;
+    const double thickness = path_.thickness[v] + 2 * path_.stand_off[v];
+    return own_view(v).shape().distance(own_view(v).own(0, path_.start[v]), thickness) >= thickness;
   }
 
-  // Half the sheet's thickness where the vertex is on its solid.
-  [[nodiscard]] double half_thickness(std::uint32_t v) const {
-    return (slides(v) && !path_.end_thickness.empty() ? path_.end_thickness : path_.thickness)[v] / 2;
+  [[nodiscard]] double caught_distance(std::uint32_t v, const VertexHit& hit) const {
+    return catching_distance(path_, views_[hit.solid], v, views_[hit.solid].own(0, path_.start[v]),
+                             path_.half_thickness(v) + (path_.end[v] - path_.start[v]).norm());
   }
 
-  // The distance at which a vertex that sticks ends from its solid: that at which it starts, but from half the
-  // thickness to nine tenths of it. Set to half each time, it would sink as the sheet thins until a triangle beside it
-  // is too near and pushes it out, and come back at once, at every few steps.
-  [[nodiscard]] double standing_distance(std::uint32_t v) const {
-    const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
-    const double distance = view.shape().nearest(view.own(0, path_.start[v])).distance;
-    return std::clamp(distance, path_.thickness[v] / 2, 0.9 * path_.thickness[v]);
+  // The distance at which a vertex that touches ends from its solid. What flows keeps the one that sheet-step gave it
+  // (energy/walls.h), what sticks that at which it starts: from half the thickness to nine tenths of it. Set to half
+  // each time, it would sink as the sheet thins until a triangle beside it is too near and pushes it out, and come back
+  // at once, at every few steps.
+  [[nodiscard]] double kept_distance(std::uint32_t v, const Vector3& own) const {
+    const double half = path_.half_thickness(v), thickness = path_.thickness[v];
+    if (slides(v))
+      return std::max(own_view(v).shape().nearest(own).distance, half - thickness / 4);
+    const double start = own_view(v).shape().nearest(own_view(v).own(0, path_.start[v])).distance;
+    return std::clamp(start, half, half + 0.4 * thickness);
   }
 
   // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, at this distance from
   // it, out of the others.
   void hold(std::uint32_t v, Vector3 own, double distance) {
-    const double offset = half_thickness(v);
-    const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
+    const SolidView& view = own_view(v);
     own = settle(view.shape(), own, distance);
     Vector3 end = view.world_at_end(own);
     // Between solids that nearly meet, in turns: out of the others, back to the own one.
@@ -179,6 +185,7 @@ private:
       bool moved = false;
       for (const SolidView& other : views_) {
         const Vector3 there = other.own(other.pieces(), end);
+        const double offset = &other == &view ? 0 : beside_distance(v, other);
         if (&other == &view || other.shape().distance(there, offset) >= offset * (1 - 1e-6))
           continue;
         end = other.world_at_end(settle(other.shape(), there, offset));
@@ -189,6 +196,15 @@ private:
       end = view.world_at_end(settle(view.shape(), view.own(view.pieces(), end), distance));
     }
     path_.end[v] = prescribed_[v] == 0 ? end : beside_hold(v, end);
+  }
+
+  // The distance that a vertex on one solid keeps from another one: that at which it would touch it, unless it starts
+  // nearer.
+  [[nodiscard]] double beside_distance(std::uint32_t v, const SolidView& other) const {
+    const double half = path_.half_thickness(v);
+    const Vector3 start = other.own(0, path_.start[v]);
+    const double before = other.shape().distance(start, half);
+    return std::clamp(before, half / 2, catching_distance(path_, other, v, start, 2 * half));
   }
 
   // As near to `end` as the axes allow that a [[hold]] prescribes: along the others back to half the thickness from the
@@ -217,20 +233,19 @@ private:
         inside.push_back(v);
     if (inside.empty())
       return;
-    const std::vector<double> edges = longest_edges(path_);
     for (const std::uint32_t v : inside) {
       const Vector3& x = path_.start[v];
       for (std::size_t i = 0; i < views_.size(); ++i) {
         const double distance = views_[i].shape().nearest(views_[i].own(0, x)).distance;
         if (distance >= -path_.thickness[v] / 2)
           continue;
-        if (distance < -edges[v] / 2)
+        if (distance < -edges_[v] / 2)
           fail(ExitCode::bad_input,
                "vertex {} at ({:.6g}, {:.6g}, {:.6g}) starts {:.3g} m inside {}; move the sheet or the solid so that "
                "they start apart; where solids close on the sheet, leave it room",
                v, x.x(), x.y(), x.z(), -distance, solids_.name(i));
         rides_[v] = static_cast<std::int32_t>(i);
-        hold(v, views_[i].own(0, x), half_thickness(v));
+        hold(v, views_[i].own(0, x), path_.half_thickness(v));
         ++report_.brought_out;
         break;
       }
@@ -256,7 +271,7 @@ private:
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = corners[c];
       const double weight = hit.point.weights[c];
-      lever.half = std::min(lever.half, path_.thickness[v] / 2);
+      lever.half = std::min(lever.half, path_.half_thickness(v));
       lever.end += weight * view.own(view.pieces(), path_.end[v]);
       lever.velocity += weight * path_.velocity[v];
       lever.share[c] = weight / std::max(path_.mass[v], least_mass) * free_part(prescribed_[v]);
@@ -381,6 +396,7 @@ private:
   std::vector<SolidView> views_;
   std::vector<std::int32_t> rides_;                      // the solid that each vertex moves with, or none
   std::vector<std::uint8_t> changed_, carried_, caught_; // per vertex; bits would not be safe to write in parallel
+  std::vector<double> edges_;                            // the longest at each vertex [m]
   std::vector<std::uint32_t> active_;                    // triangles to be looked at
   SolidReport report_;
   bool counted_across_ = false;

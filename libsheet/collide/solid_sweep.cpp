@@ -6,6 +6,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "libsheet/collide/touch_distance.h"
+
 namespace sheet::collide {
 namespace {
 
@@ -56,11 +58,11 @@ std::optional<double> first_contact(const solid::SolidDistance& shape, const Vec
 std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidView> views, std::uint32_t vertex,
                                    double& deepest) {
   std::optional<VertexHit> first;
-  const double offset = path.thickness[vertex] / 2;
+  const double half = path.half_thickness(vertex);
   const Vector3 &start = path.start[vertex], &end = path.end[vertex];
   solid::Box3 box(start);
   box.extend(end);
-  const double reach = offset * (1 + vertex_slack);
+  const double reach = half * (1 + vertex_slack), way = (end - start).norm();
   box.min().array() -= reach;
   box.max().array() += reach;
   for (std::uint32_t i = 0; i < views.size(); ++i) {
@@ -68,6 +70,7 @@ std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidVi
     if (!view.swept().intersects(box))
       continue;
     Vector3 a = view.own(0, start);
+    const double offset = catching_distance(path, view, vertex, a, reach + way);
     deepest = std::min(deepest, view.shape().distance(a, offset));
     for (std::size_t k = 0; k < view.pieces(); ++k) {
       const Vector3 b = view.on_path(k + 1, start, end, false);
@@ -161,7 +164,7 @@ std::optional<FoundHit> first_hit(const StepPath& path, std::span<const SolidVie
   for (const std::uint32_t v : corners) {
     box.extend(path.start[v]);
     box.extend(path.end[v]);
-    half = std::min(half, path.thickness[v] / 2);
+    half = std::min(half, path.half_thickness(v));
   }
   box.min().array() -= half;
   box.max().array() += half;

@@ -29,7 +29,7 @@ struct VertexHit {
   Vector3 place; // in the solid's frame
 };
 
-// The first solid that the vertex comes within half its thickness of. `deepest` becomes the least signed distance where
+// The first solid that the vertex comes to touch (touch_distance.h). `deepest` becomes the least signed distance where
 // it starts, if that is less than what it was.
 [[nodiscard]] std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidView> views,
                                                  std::uint32_t vertex, double& deepest);

@@ -37,7 +37,7 @@ Reach reach_of(const StepPath& path, const Vector3& center) {
 } // namespace
 
 SolidView::SolidView(const solid::Solids& solids, std::size_t solid, const StepPath& path, double deviation)
-    : shape_(&solids.shape(solid)) {
+    : shape_(&solids.shape(solid)), flows_(solids.scene(solid).contact != SolidContact::stick) {
   const scene::MotionBounds motion = scene::bounds(solids.scene(solid).motion, path.start_time, path.end_time);
   const auto bent = [&](const Reach& reach, double time) {
     return acceleration_bound(motion, path.length(), reach) * time * time / 8;

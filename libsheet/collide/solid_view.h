@@ -15,6 +15,7 @@ public:
   SolidView(const solid::Solids& solids, std::size_t solid, const StepPath& path, double deviation);
 
   [[nodiscard]] const solid::SolidDistance& shape() const { return *shape_; }
+  [[nodiscard]] bool flows() const { return flows_; } // whether what touches it moves along it
   [[nodiscard]] std::size_t pieces() const { return to_own_.size() - 1; }
 
   // From the world to the solid's frame at the start of piece k; k = pieces(): at the end of the step.
@@ -41,6 +42,7 @@ public:
 
 private:
   const solid::SolidDistance* shape_;
+  bool flows_;
   std::vector<Eigen::Isometry3d> to_own_;
   Eigen::Isometry3d from_own_at_end_;
   Vector3 belt_;

@@ -42,7 +42,16 @@ struct StepPath {
   std::vector<Vector3> overshoot;    // of what a solid has caught: its end without that less `end` [m]; or none
   std::vector<Axes> fixed;           // where held or touching: moved by nothing else (infinite mass)
 
+  // Of each vertex, for solids alone, set by resolve_solids (touch_distance.h), before that empty: by how much farther
+  // than half its thickness it keeps from them [m], and how it faces at the start, if liquid flows on any.
+  std::vector<double> stand_off;
+  std::vector<Vector3> facing;
+
   [[nodiscard]] double length() const { return end_time - start_time; }
+  // How far from a solid's surface a vertex is that lies on it.
+  [[nodiscard]] double half_thickness(std::uint32_t v) const {
+    return thickness[v] / 2 + (stand_off.empty() ? 0 : stand_off[v]);
+  }
 };
 
 } // namespace sheet::collide

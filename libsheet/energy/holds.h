@@ -25,6 +25,7 @@ struct Hold {
   // Both or neither: at rest.
   std::function<RigidMotion(double from, double to)> motion;
   std::function<Vector3(double t, const Vector3& x)> velocity;
+  bool of_wall = false; // by a wall along which liquid flows, which is free to rise and sink on it between steps
 
   [[nodiscard]] RigidMotion moved(double from, double to) const { return motion ? motion(from, to) : RigidMotion{}; }
   [[nodiscard]] Vector3 velocity_at(double t, const Vector3& x) const {

@@ -24,7 +24,6 @@ struct WallSite {
   Vector3 carried;        // the same, in a second stage extrapolated from the first: there it is not dragged [m]
   double slip_length = 0; // [m]
   double wetting = 2;     // 1 - cos of the contact angle
-  double offset = 0;      // from the wall: that at the start of the step, and half of what the layer thickens [m]
   std::vector<Vector3>
       across; // orthonormal: the directions in which its place is given, along its own wall's normal first
   std::vector<double> place; // that place along each of them [m]

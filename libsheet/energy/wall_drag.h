@@ -2,10 +2,11 @@
 // Drag of the wall on a layer that flows along it. A layer of thickness h between a wall without slip, or with the slip
 // length b, and a free face moves with its depth-averaged velocity u and is dragged by 3 μ u/(h + 3 b) [Pa] [Huppert
 // 1982; Oron, Davis and Bankoff 1997, section II.B]. For each corner of a triangle that touches
-//   W = (Â/3) 3 μ |P (x - x̄)|² / (2 τ (ĥ + 3 b)),
-// Â and ĥ predicted for the end of the stage, P along the wall, x̄ where the corner had been carried by the wall
-// (WallSite::carried).
+//   W = cos²φ (Â/3) 3 μ |P (x - x̄)|² / (2 τ (ĥ + 3 b)),
+// φ the angle between triangle and wall at the start of the step, Â and ĥ predicted for the end of the stage, P along
+// the wall, x̄ where the corner had been carried by the wall (WallSite::carried).
 #pragma once
+#include "libsheet/base/each.h"
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/walls.h"
 
@@ -17,7 +18,18 @@ public:
   explicit WallDrag(double viscosity) : viscosity_(viscosity) {}
   [[nodiscard]] const char* name() const { return "drag of walls"; }
   [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }
-  void begin(const Stage& stage) { stage_ = &stage; }
+  void begin(const Stage& stage) {
+    stage_ = &stage;
+    stiffness_.assign(stage.sites.empty() ? 0 : size(), {});
+    each_in_parallel(stiffness_.size(), [&](std::size_t i) {
+      const Corners& corners = stage.start->mesh->triangles[i];
+      const double area = stage.raised[i].area(), thickness = stage.start->volumes[i] / area;
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const WallSite* site = site_at(stage, corners[c]); site != nullptr && site->slip_length != free_slip)
+          stiffness_[i][c] =
+              lying(stage, i, *site) * area * viscosity_ / (stage.duration * (thickness + 3 * site->slip_length));
+    });
+  }
 
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     double sum = 0;
@@ -47,22 +59,19 @@ public:
 
 private:
   template <class Visit> void each_corner(std::size_t i, const VectorN<9>& u, Visit&& visit) const {
-    if (stage_->sites.empty())
-      return;
-    const Corners& corners = stage_->start->mesh->triangles[i];
-    const double area = stage_->raised[i].area(), thickness = stage_->start->volumes[i] / area;
-    for (int c = 0; c < 3; ++c) {
-      const WallSite* site = site_at(*stage_, corners[static_cast<std::size_t>(c)]);
-      if (site == nullptr || site->slip_length == free_slip)
+    for (std::size_t c = 0; c < 3 && !stiffness_.empty(); ++c) {
+      if (stiffness_[i][c] == 0)
         continue;
-      const Vector3 moved = u.segment<3>(3 * c) - site->carried;
-      const double stiffness = area * viscosity_ / (stage_->duration * (thickness + 3 * site->slip_length));
-      visit(c, Vector3(moved - site->normal.dot(moved) * site->normal), site->normal, stiffness);
+      const WallSite* site = site_at(*stage_, stage_->start->mesh->triangles[i][c]);
+      const Vector3 moved = u.segment<3>(3 * static_cast<Eigen::Index>(c)) - site->carried;
+      visit(static_cast<int>(c), Vector3(moved - site->normal.dot(moved) * site->normal), site->normal,
+            stiffness_[i][c]);
     }
   }
 
   double viscosity_;
   const Stage* stage_ = nullptr;
+  std::vector<std::array<double, 3>> stiffness_; // of each corner of each triangle [N/m]; empty where nothing touches
 };
 
 } // namespace sheet

@@ -40,7 +40,7 @@ public:
       double towards = 0;
       for (const auto v : triangles[t])
         if (const WallSite* site = site_at(stage, v))
-          towards += std::max(0.0, -weight_.dot(site->normal)) / 3;
+          towards += std::max(0.0, -weight_.dot(site->normal)) / 3 * lying(stage, t, *site);
         else if (up_.dot(x[v]) < bath_level_)
           towards += weight_.norm() / 3;
       const double volume = stage.start->volumes[t];

@@ -12,28 +12,8 @@ namespace sheet {
 
 namespace {
 
-constexpr double least_angle = 0.1;     // sine of, between walls that count as two
-constexpr double in_reach = 1 + 1e-3;   // of the offset: another wall that is so near holds a vertex as well
+constexpr double in_reach = 1 + 1e-3;   // of the distance kept: another wall that is so near holds a vertex as well
 constexpr double part_of_an_edge = 0.5; // that a vertex may move along its wall in a step
-
-// By how much half the thickness grows to the predicted end of the stage: volume over area of a vertex' triangles [m].
-std::vector<double> half_thickening(const Stage& stage) {
-  const State& state = *stage.start;
-  const auto& x = state.positions;
-  std::vector<double> volume(stage.vertices(), 0), before(volume), after(volume);
-  for (std::size_t t = 0; t < state.mesh->triangles.size(); ++t) {
-    const Corners& c = state.mesh->triangles[t];
-    const double area = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
-    for (const auto v : c) {
-      volume[v] += state.volumes[t];
-      before[v] += area;
-      after[v] += stage.raised[t].area();
-    }
-  }
-  for (std::size_t v = 0; v < volume.size(); ++v)
-    volume[v] *= (before[v] - after[v]) / (2 * before[v] * after[v]);
-  return volume;
-}
 
 RigidMotion moved(const Wall& wall, double from, double to) {
   return wall.motion ? wall.motion(from, to) : RigidMotion{};
@@ -58,8 +38,26 @@ void add_plane(WallSite& site, const Vector3& n, double c) {
   site.place.push_back(c / length);
 }
 
-void add_plane_of(WallSite& site, const WallPoint& point, const Vector3& x) {
-  add_plane(site, point.normal, point.normal.dot(x) + site.offset - point.distance);
+// What is predicted to be at x, where its distance is that of `point`, shall keep `distance`.
+void add_plane_of(WallSite& site, const WallPoint& point, const Vector3& x, double distance) {
+  add_plane(site, point.normal, point.normal.dot(x) + distance - point.distance);
+}
+
+// The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
+// moves it across.
+void keep_distances(const std::vector<Wall>& walls, const Stage& stage, WallSite& site) {
+  const Vector3 &x0 = stage.start->positions[site.vertex], &x = stage.predicted[site.vertex];
+  const double own = walls[site.wall].nearest(stage.start->time, x0).distance;
+  const WallPoint point = walls[site.wall].nearest(stage.end_time, x);
+  site.normal = point.normal;
+  add_plane_of(site, point, x, own);
+  for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w)
+    if (w != site.wall)
+      if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
+        const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
+        if (other.distance < in_reach * kept)
+          add_plane_of(site, other, x, kept);
+      }
 }
 
 // Where the wall takes the vertex of a site.
@@ -75,7 +73,8 @@ void carry(const Wall& wall, const Stage& stage, WallSite& site) {
   site.carried += stage.ratio * (to_end.rotation * (to_first.rotation.transpose() * slid));
 }
 
-// The directions of a site along which a vertex is free that a hold keeps from some axes.
+} // namespace
+
 Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint32_t v) {
   Vector3 free = direction;
   for (int a = 0; a < 3 && !held.empty(); ++a)
@@ -84,7 +83,13 @@ Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint3
   return free;
 }
 
-} // namespace
+double lying(const Stage& stage, std::size_t triangle, const WallSite& site) {
+  const Corners& c = stage.start->mesh->triangles[triangle];
+  const auto& x = stage.start->positions;
+  const Vector3 normal = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
+  const double across = normal.dot(site.normal);
+  return across * across / normal.squaredNorm();
+}
 
 void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   stage.sites.clear();
@@ -92,7 +97,6 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   if (std::ranges::all_of(walls, [](const Wall& w) { return w.vertices.empty(); }))
     return;
   stage.site_of.assign(stage.vertices(), no_index);
-  const std::vector<double> thickening = half_thickening(stage);
   for (std::uint32_t w = 0; w < walls.size(); ++w)
     for (const auto v : walls[w].vertices) {
       WallSite site;
@@ -100,16 +104,8 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
       site.wall = w;
       site.slip_length = walls[w].slip_length;
       site.wetting = walls[w].wetting;
-      site.offset = walls[w].nearest(stage.start->time, stage.start->positions[v]).distance + thickening[v];
-      const Vector3& x = stage.predicted[v];
-      const WallPoint own = walls[w].nearest(stage.end_time, x);
-      site.normal = own.normal;
       carry(walls[w], stage, site);
-      add_plane_of(site, own, x);
-      for (std::uint32_t other = 0; other < walls.size() && site.across.size() < 3; ++other)
-        if (other != w)
-          if (const WallPoint point = walls[other].nearest(stage.end_time, x); point.distance < in_reach * site.offset)
-            add_plane_of(site, point, x);
+      keep_distances(walls, stage, site);
       stage.sites.push_back(std::move(site));
     }
   std::ranges::sort(stage.sites, {}, &WallSite::vertex);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Liquid that flows along the solids that it touches, as a thin layer on a wall [Oron, Davis and Bankoff 1997, section
-// II]. Its vertices keep half the layer's thickness from the wall and are free along it. Where they may be is a plane,
-// tangent to the wall at the predicted end of each stage, so that steps keep their order on curved walls.
+// II]. Its vertices are free along the wall, and keep the distance from it that they have at the start of the step, or
+// the wall would do work on what lies above them. What that distance is, half the layer's thickness, is set between
+// steps (wall_distance.h). Where vertices may be is a plane, tangent to the wall at the predicted end of each stage, so
+// that steps keep their order on curved walls.
+//
+// The wall acts on a triangle as far as it lies on it: drag and weight go with the square of the cosine of the angle
+// between the two, as they do for a layer of the same volume on the triangle's projection onto the wall.
 //
 // A wall's site is one vertex on it in one stage. Lengths in metres, times in seconds.
 #pragma once
@@ -15,6 +20,7 @@
 
 namespace sheet {
 
+inline constexpr double least_angle = 0.1; // sine of, between directions that count as two
 inline constexpr double free_slip = std::numeric_limits<double>::infinity();
 
 struct WallPoint {
@@ -39,6 +45,9 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage);
 // Puts what touches walls where it may be, by the least way; along the axes only that no hold prescribes.
 void place_on_walls(const Stage& stage, std::span<const char> held, Unknowns& u);
 
+// The part of a direction of a vertex along the axes that are not held.
+[[nodiscard]] Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint32_t v);
+
 // What holds and walls leave free.
 [[nodiscard]] Constraints constraints_of(const std::vector<Hold>& holds, const Stage& stage);
 // The same with the sites of another stage, as long as the same vertices touch.
@@ -59,5 +68,9 @@ void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage,
 [[nodiscard]] inline const WallSite* site_at(const Stage& stage, std::uint32_t vertex) {
   return stage.site_of.empty() || stage.site_of[vertex] == no_index ? nullptr : &stage.sites[stage.site_of[vertex]];
 }
+
+// The squared cosine of the angle between a triangle, at the start of the step, and the wall of one of its corners: 1
+// where it lies on the wall, 0 where it stands on it edge-on.
+[[nodiscard]] double lying(const Stage& stage, std::size_t triangle, const WallSite& site);
 
 } // namespace sheet

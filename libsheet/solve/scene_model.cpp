@@ -123,6 +123,7 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
     const scene::Solid& solid = scene.solids[i];
     Hold hold;
     move(hold, solid.motion, solid.surface_velocity);
+    hold.of_wall = solid.contact != SolidContact::stick;
     if (solid.contact == SolidContact::flow && !solid.receding)
       hold.vertices = held_rims(frame, mesh, touching[i]);
     if (solid.contact == SolidContact::stick)

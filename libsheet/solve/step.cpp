@@ -12,6 +12,7 @@
 #include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/levelling.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/wall_distance.h"
 #include "libsheet/geometry/area.h"
 
 namespace sheet {
@@ -231,6 +232,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   if (level_layers(stage, {model_.viscosity, model_.density, model_.surface_tension, model_.gravity}, model_.holds, dt,
                    end))
     set_prescribed_velocities(stage, end);
+  set_distances_from_walls(model_.walls, model_.holds, model_.contacts, stage, end);
   return Outcome::done;
 }
 

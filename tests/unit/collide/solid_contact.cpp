@@ -119,13 +119,14 @@ TEST(SolidContact, FlowsAlongTheGround) {
       EXPECT_EQ(sheet.path.velocity[v], across);
       EXPECT_EQ(sheet.path.touch[v], 0);
     }
-    // In the next step it goes on so, however thin it is then.
+    // In the next step it goes on so, at the distance that sheet-step gives it.
     FallingSheet next = falling(0, thickness_of_sheet / 2, across);
     next.path.touch = sheet.path.touch;
-    next.path.end_thickness.assign(next.start.size(), thickness_of_sheet / 4);
+    for (Vector3& x : next.path.end)
+      x.y() = 0.3 * thickness_of_sheet;
     EXPECT_EQ(resolve_solids(next.path, ground).caught, 0U);
     for (std::size_t v = 0; v < next.start.size(); ++v) {
-      EXPECT_NEAR(next.path.end[v].y(), thickness_of_sheet / 8, 1e-12);
+      EXPECT_NEAR(next.path.end[v].y(), 0.3 * thickness_of_sheet, 1e-12);
       EXPECT_NEAR(next.path.end[v].x(), next.start[v].x() + step_length * across.x(), 1e-12);
       EXPECT_EQ(next.path.velocity[v], across);
     }

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/wall_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/energy/stage_setup.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr double least_cosine = 0.5; // between a wall and what lies on it
+constexpr double longest_rise = 0.1; // of a layer in a step, as part of its edges
+constexpr int most_layers = 100;     // that lie on each other
+
+// The area of a triangle as the wall sees it that all its corners touch [m²]; 0 where it does not lie on one.
+double lying_area(const Stage& stage, const State& end, const Corners& c) {
+  const WallSite *one = site_at(stage, c[0]), *two = site_at(stage, c[1]), *three = site_at(stage, c[2]);
+  if (one == nullptr || two == nullptr || three == nullptr || one->wall != two->wall || one->wall != three->wall)
+    return 0;
+  const auto& x = end.positions;
+  const Vector3 whole = 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
+  const double seen = std::abs(whole.dot((one->normal + two->normal + three->normal).normalized()));
+  return seen > least_cosine * whole.norm() ? seen : 0;
+}
+
+// By holds that have nothing to do with walls.
+std::vector<char> held_elsewhere(std::vector<Hold> holds, const Stage& stage) {
+  std::erase_if(holds, [](const Hold& hold) { return hold.of_wall; });
+  return held_unknowns(holds, stage);
+}
+
+// By how much vertices rise or sink.
+struct Shifts {
+  explicit Shifts(std::size_t vertices) : of(vertices, Vector3::Zero()), known(vertices, 0) {}
+
+  // What lies on something that rises goes with it: from the features of contacts that are known to those that are not.
+  // Returns whether any was.
+  bool pass_on(std::span<const ContactSpring> contacts) {
+    std::vector<Vector3> sum(of.size(), Vector3::Zero());
+    std::vector<double> weight(of.size(), 0);
+    for (const ContactSpring& s : contacts) {
+      const std::size_t middle = s.of_vertex() ? 1 : 2;
+      const bool one = knows(s, 0, middle), other = knows(s, middle, 4);
+      if (one == other)
+        continue;
+      const Vector3 shift = one ? mean(s, 0, middle) : mean(s, middle, 4);
+      for (std::size_t c = one ? middle : 0; c < (one ? 4 : middle); ++c) {
+        sum[s.vertices[c]] += std::abs(s.weights[c]) * shift;
+        weight[s.vertices[c]] += std::abs(s.weights[c]);
+      }
+    }
+    bool any = false;
+    for (std::size_t v = 0; v < of.size(); ++v)
+      if (known[v] == 0 && weight[v] > 0) {
+        of[v] = sum[v] / weight[v];
+        known[v] = 1;
+        any = true;
+      }
+    return any;
+  }
+
+  std::vector<Vector3> of; // [m]
+  std::vector<char> known;
+
+private:
+  [[nodiscard]] bool knows(const ContactSpring& s, std::size_t first, std::size_t last) const {
+    return std::any_of(s.vertices.begin() + first, s.vertices.begin() + last,
+                       [&](std::uint32_t v) { return known[v] != 0; });
+  }
+
+  [[nodiscard]] Vector3 mean(const ContactSpring& s, std::size_t first, std::size_t last) const {
+    Vector3 shift = Vector3::Zero();
+    for (std::size_t c = first; c < last; ++c)
+      shift += std::abs(s.weights[c]) * of[s.vertices[c]];
+    return shift;
+  }
+};
+
+} // namespace
+
+std::vector<double> lying_thickness(const Stage& stage, const State& end) {
+  std::vector<double> volume(stage.vertices(), 0), area(volume);
+  for (std::size_t t = 0; t < end.volumes.size(); ++t)
+    if (const double seen = lying_area(stage, end, end.mesh->triangles[t]); seen > 0)
+      for (const auto v : end.mesh->triangles[t]) {
+        volume[v] += end.volumes[t];
+        area[v] += seen;
+      }
+  for (std::size_t v = 0; v < volume.size(); ++v)
+    if (area[v] > 0)
+      volume[v] /= area[v];
+  return volume;
+}
+
+void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<Hold>& holds,
+                              std::span<const ContactSpring> contacts, const Stage& stage, State& end) {
+  if (stage.sites.empty())
+    return;
+  const std::vector<double> thickness = lying_thickness(stage, end);
+  const std::vector<char> held = held_elsewhere(holds, stage);
+  const Eigen::VectorXd lengths = step_scale(end, static_cast<Eigen::Index>(3 * stage.vertices()));
+  Shifts shifts(stage.vertices());
+  for (const WallSite& site : stage.sites) {
+    shifts.known[site.vertex] = 1;
+    if (thickness[site.vertex] == 0 || site.across.size() > 1)
+      continue;
+    const WallPoint point = walls[site.wall].nearest(end.time, end.positions[site.vertex]);
+    const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
+    shifts.of[site.vertex] = std::clamp(thickness[site.vertex] / 2 - point.distance, -most, most) * point.normal;
+  }
+  for (int layer = 0; layer < most_layers && shifts.pass_on(contacts); ++layer) {
+  }
+  for (std::uint32_t v = 0; v < stage.vertices(); ++v)
+    if (const Vector3 free = free_of(shifts.of[v], held, v);
+        free.squaredNorm() > least_angle * least_angle * shifts.of[v].squaredNorm())
+      end.positions[v] += shifts.of[v].squaredNorm() / free.squaredNorm() * free;
+}
+
+} // namespace sheet
