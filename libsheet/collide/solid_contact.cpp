@@ -348,6 +348,16 @@ private:
       ++report_.unresolved;
   }
 
+  // What the sheet itself may not move along a wall with this normal: rims that meet on a wall push each other along
+  // it. Where it stands aslant to the axes, all.
+  static Axes axes_across(const Vector3& normal) {
+    constexpr double aligned = 1 - 1e-6;
+    for (int a = 0; a < 3; ++a)
+      if (std::abs(normal[a]) > aligned)
+        return axis_bit(a);
+    return all_axes;
+  }
+
   void count_across(const std::vector<FoundHit>& hits) {
     if (counted_across_)
       return;
@@ -382,6 +392,8 @@ private:
       Vector3 velocity = solids_.surface_velocity(solid, path_.end[v], path_.end_time);
       if (slides(static_cast<std::uint32_t>(v))) {
         const Vector3 normal = solids_.at(solid, path_.end[v], path_.end_time).normal;
+        if (carried_[v] == 0)
+          path_.fixed[v] = axes_across(normal) | prescribed_[v];
         velocity = path_.velocity[v] + normal.dot(velocity - path_.velocity[v]) * normal;
       }
       path_.velocity[v] = with_fixed(prescribed_[v], path_.velocity[v], velocity);

@@ -74,17 +74,49 @@ bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const E
   });
 }
 
+// How much each vertex counts: as much as it carries where the sheet is thinner than a tenth of its mean thickness,
+// else wholly. A film of next to no mass swings in ways that nobody sees, and shall rule neither steps nor iterations.
+Eigen::VectorXd vertex_weights(const Stage& stage) {
+  constexpr double counts_wholly = 0.1;
+  const auto& triangles = stage.start->mesh->triangles;
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stage.vertices())), weight = area;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const auto v : triangles[t])
+      area[v] += stage.raised[t].area() / 3;
+  double volume = 0;
+  for (const double v : stage.start->volumes)
+    volume += v;
+  const double whole = counts_wholly * volume / area.sum();
+  for (Eigen::Index v = 0; v < area.size(); ++v)
+    weight[v] = std::min(1.0, stage.vertex_volumes[static_cast<std::size_t>(v)] / (whole * area[v]));
+  return weight;
+}
+
+// What errors and remainders are measured in: the mean length of a vertex' edges, radians, more where little is
+// carried.
+Eigen::VectorXd measures(const Stage& stage, const Eigen::VectorXd& lengths) {
+  const Eigen::VectorXd weight = vertex_weights(stage);
+  Eigen::VectorXd result = lengths;
+  for (Eigen::Index v = 0; v < weight.size(); ++v)
+    result.segment<3>(3 * v) /= weight[v];
+  if (const auto& edges = stage.start->mesh->edges; result.size() > 3 * weight.size())
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      result[3 * weight.size() + static_cast<Eigen::Index>(e)] /= std::max(weight[edges[e][0]], weight[edges[e][1]]);
+  return result;
+}
+
 // The first stage of a step, where it ends by extrapolation, and what its unknowns are measured in.
 struct Beginning {
   Stage stage;
   Unknowns guess;
-  Eigen::VectorXd scale;
+  Eigen::VectorXd lengths, scale; // of the edges; see measures()
 };
 
 Beginning begin_step(const Model& model, const State& state, double duration) {
-  Beginning result{first_stage(state, duration, state.time + duration, model.has_angles()), {}, {}};
+  Beginning result{first_stage(state, duration, state.time + duration, model.has_angles()), {}, {}, {}};
   Stage& stage = result.stage;
-  result.scale = step_scale(state, stage.begin.size());
+  result.lengths = step_scale(state, stage.begin.size());
+  result.scale = measures(stage, result.lengths);
   set_wall_sites(model.walls, stage);
   result.guess = stage.begin;
   for (std::size_t v = 0; v < state.positions.size(); ++v)
@@ -185,7 +217,10 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   } else {
     last = first;
   }
-  return finish_step(state, dt, stage, first, last, scale, end, report);
+  const Outcome outcome = finish_step(state, dt, stage, first, last, scale, end, report);
+  if (outcome == Outcome::done && slides_too_far(stage, last, dt, beginning.lengths))
+    return Outcome::slides_too_far;
+  return outcome;
 }
 
 // first: the first stage's result; last: that of the last stage, which is the end of the step.
@@ -212,8 +247,6 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     term->finish(last, end);
   if (!sound(end))
     return Outcome::shrinks_to_nothing;
-  if (slides_too_far(stage, last, dt, scale))
-    return Outcome::slides_too_far;
   if (model_.reactions) {
     // What is prescribed does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
     const Constraints& constraints = cache_->system.constraints();

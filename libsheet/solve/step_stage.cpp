@@ -159,9 +159,9 @@ struct StepStage::Impl {
     }
     const double elapsed = watch.lap();
     totals.add(report, elapsed);
-    log::detail("step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge, {:.1f} ms",
+    log::detail("step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge at vertex {}, {:.1f} ms",
                 frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error,
-                1e3 * elapsed);
+                report.worst, 1e3 * elapsed);
     if (report.unfinished > 0)
       log::warning("step {}: {} of its {} parts taken before Newton's iterations had converged: stable, but less "
                    "accurate; shorter steps or remeshing help",
