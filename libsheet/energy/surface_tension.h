@@ -30,6 +30,8 @@ public:
     }
   }
 
+  [[nodiscard]] double tension(std::size_t i) const { return tension_[i]; } // dW/dA of triangle i [N/m]
+
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     return tension_[i] * (TriangleArea(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)).area - start_area_[i]);
   }

@@ -89,7 +89,7 @@ TEST(MidEdgeKernels, NothingIsToBeDoneAtTheStart) {
         EXPECT_EQ(b.reference.folded, lean > 1);
         EXPECT_GT(b.reference.stiffness[2][2] + b.reference.stiffness[0][2] + b.reference.stiffness[1][2], 0);
         MidEdgeResult result;
-        kernels->hessian(b.reference, b.state, true, result);
+        kernels->hessian(b.reference, b.state, true, nullptr, result);
         const double stiffness = greatest(result.hessian, 78);
         EXPECT_GT(stiffness, 0);
         EXPECT_LT(greatest(result.gradient, 12), 1e-13 * stiffness);
@@ -117,7 +117,7 @@ TEST(MidEdgeKernels, AllVersionsAgree) {
     b.start.ratio = 2.4;
     kernels->reference(b.start, moved, b.reference);
     MidEdgeResult result;
-    kernels->hessian(b.reference, b.state, true, result);
+    kernels->hessian(b.reference, b.state, true, nullptr, result);
     if (kernels == &plain_mid_edge)
       plain = result;
     const double stiffness = greatest(plain.hessian, 78);
