@@ -210,8 +210,9 @@ std::optional<double> longest_edge(const SheetTable& sheet) {
                     sheet.shape);
 }
 
-// Tension wrinkles what is curved and not blown up, in waves of some root(R h): coarser edges give waves of their own.
-std::optional<std::string> warning_of_wrinkles(const Scene& scene, const Scales& scales) {
+// What is curved, drawn together by tension and not blown up may buckle, in waves no shorter than some root(R h). Arcs
+// longer than half of that give way before the sheet does.
+std::optional<std::string> warning_of_buckling(const Scene& scene, const Scales& scales) {
   const auto edge = longest_edge(scene.sheets.front());
   const bool viscous = scene.material.viscosity > 0 && scene.material.surface_tension > 0;
   if (!edge || !scales.thickness || !viscous || !scene.model.bending || scales.curvature <= 0 || scales.pressure > 0)
@@ -219,9 +220,9 @@ std::optional<std::string> warning_of_wrinkles(const Scene& scene, const Scales&
   const double enough = 0.5 * std::sqrt(*scales.thickness / scales.curvature);
   if (*edge <= enough)
     return {};
-  return fmt::format("edges of {} m are above sqrt(h / curvature) / 2 = {} m: if surface tension wrinkles the sheet, "
-                     "the mesh decides how",
-                     brief(*edge), brief(enough));
+  return fmt::format(
+      "edges of {} m are above sqrt(h / curvature) / 2 = {} m: if the sheet buckles, the mesh decides how",
+      brief(*edge), brief(enough));
 }
 
 std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
@@ -252,8 +253,8 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
       warn(fmt::format("edge_length {} m is below the thickness {} m: a sheet has no detail that fine", brief(*edge),
                        brief(h)));
   }
-  if (const auto wrinkles = warning_of_wrinkles(scene, scales))
-    warn(*wrinkles);
+  if (const auto buckling = warning_of_buckling(scene, scales))
+    warn(*buckling);
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
   if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
