@@ -87,7 +87,7 @@ interrupted() {
 }
 
 @test "bubble: killed and resumed = straight" {
-  interrupted KILL sideways bubble 0.0025 0.15
+  interrupted KILL sideways bubble 0.0009 0.05
 }
 
 @test "bubble: waves around are counted, and a body of revolution has none" {
