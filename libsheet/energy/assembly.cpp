@@ -257,14 +257,14 @@ Eigen::VectorXd Assembly::multiply(const Terms& terms, Kind kind, const Unknowns
   prepare(terms, u);
   std::fill_n(gradients_.get(), gradient_numbers_, 0.0);
   each_chunk([&](std::size_t, int g, std::size_t first, std::size_t last) {
-    double at[chunk * 12], along[chunk * 12], unused[chunk * 12], hessians[chunk * 144];
+    double at[chunk * 12], along[chunk * 12], hessians[chunk * 144];
     const auto stride = static_cast<std::size_t>(stride_);
     for (std::size_t t = 0; t < terms.size(); ++t) {
-      if (group_of_term_[t] != g || terms[t]->kind() != kind)
+      if (group_of_term_[t] != g || !terms[t]->has(kind))
         continue;
       collect(groups_[g], first, last, u, at);
       collect(groups_[g], first, last, x, along);
-      (void)terms[t]->add_derivatives(first, last, at, stride_, unused, hessians, false, true);
+      terms[t]->hessians_of(kind, first, last, at, stride_, hessians);
       const std::size_t size = static_cast<std::size_t>(stencil_unknowns(terms[t]->stencil()));
       for (std::size_t i = 0; i < last - first; ++i) {
         double* product = &gradients_[(groups_[g].first + first + i) * stride];

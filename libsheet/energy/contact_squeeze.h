@@ -24,6 +24,7 @@ public:
   [[nodiscard]] const char* name() const { return "squeeze of layers"; }
   [[nodiscard]] std::size_t size() const { return work_.size(); }
   void begin(const Stage& stage);
+  [[nodiscard]] double work(std::size_t i) const { return work_[i]; } // q V of triangle i [J]
 
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     return work_[i] == 0 ? 0 : since_start(i, TriangleArea(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)).area);

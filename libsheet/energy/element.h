@@ -5,6 +5,7 @@
 //   std::size_t size() const;                                 number of elements
 //   std::array<std::uint32_t, 4> nodes(i) const;              the vertices; only where the stencil is hinge or four
 //   static constexpr Kind kind = Kind::...;                   optional: inertial or elastic; else dissipative or a load
+//   bool has(Kind) const;  void hessians_of(Kind, ...) const; optional: of a term of several kinds, see term.h
 //   static constexpr bool linear = true;                      optional: the Hessian is zero and need not be added
 //   void begin(const Stage&);                                 start-of-stage quantities; called before each solve
 //   void prepare(const Unknowns&);                            optional: what is global (an enclosed volume)

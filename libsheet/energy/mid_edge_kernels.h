@@ -36,13 +36,21 @@ struct alignas(64) MidEdgeStart {
   double rate;                   // μ/(2 τ) [Pa]
 };
 
+// What works on the area A within the arcs (area_loads.h).
+struct alignas(64) MidEdgeLoads {
+  LaneNumbers tension, thrust, work, start_area; // σ [N/m], T [J m²], w [J], A0 [m²]
+  bool worked;                                   // whether w is not 0 in any lane
+};
+
 struct alignas(64) MidEdgeResult {
   LaneNumbers value;        // [J]
   LaneNumbers gradient[12]; // [N], [N m]
   LaneNumbers hessian[78];  // lower triangle, row by row
 };
 
-using MidEdgeKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, bool arcs, MidEdgeResult&);
+// loads: of arcs only; null: none.
+using MidEdgeKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, bool arcs, const MidEdgeLoads* loads,
+                               MidEdgeResult&);
 
 // Fills a reference whose frames are set. previous: the first stage's result; it counts if the ratio is not 0.
 using MidEdgeReferenceKernel = void (*)(const MidEdgeStart& start, const MidEdgeState& previous,

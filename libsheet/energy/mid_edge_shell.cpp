@@ -9,12 +9,37 @@
 #include <tbb/parallel_for.h>
 
 #include "libsheet/geometry/angles.h"
+#include "libsheet/geometry/area.h"
 
 namespace sheet {
 
 namespace {
 
 constexpr std::size_t at_once = 512;
+
+// Adds the lower triangles of the first `used` lanes to Hessians, or sets them; see term.h.
+void give_hessians(const MidEdgeResult& result, int used, int stride, double* hessians, bool overwrite) {
+  for (int lane = 0; lane < used; ++lane, hessians += stride * stride) {
+    const LaneNumbers* from = result.hessian;
+    for (int row = 0; row < 12; ++row)
+      for (int column = 0; column <= row; ++column, ++from) {
+        double& to = hessians[column * stride + row];
+        to = (overwrite ? 0 : to) + (*from)[lane];
+      }
+  }
+}
+
+// Without anything viscous.
+MidEdgeReference inviscid(const MidEdgeReference& of) {
+  MidEdgeReference reference = of;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    reference.weight[lane] = reference.membrane[lane] = 0;
+    for (int k = 0; k < 3; ++k)
+      reference.stiffness[k][lane] = 0;
+  }
+  reference.folded = false;
+  return reference;
+}
 
 } // namespace
 
@@ -25,10 +50,15 @@ void MidEdgeShell::begin(const Stage& stage) {
   references_.resize((triangles_ + lane_count - 1) / lane_count);
   if (stage.previous)
     prepare(*stage.previous);
+  area_loads_.begin(stage);
+  loads_.resize(area_loads_.any() ? references_.size() : 0);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count),
                     [&](const auto& range) {
-                      for (std::size_t batch = range.begin(); batch < range.end(); ++batch)
+                      for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
                         refer(batch);
+                        if (!loads_.empty())
+                          load(batch);
+                      }
                     });
 }
 
@@ -67,6 +97,22 @@ void MidEdgeShell::refer(std::size_t batch) {
   mid_edge_kernels().reference(start, previous, to);
 }
 
+// What works on the area of lane_count triangles; lanes beyond the last triangle are like it.
+void MidEdgeShell::load(std::size_t batch) {
+  MidEdgeLoads& to = loads_[batch];
+  const auto& x = stage_->start->positions;
+  to.worked = false;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const std::size_t t = std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1);
+    const Corners& v = mesh_->triangles[t];
+    to.tension[lane] = area_loads_.tension ? area_loads_.tension->tension(t) : 0;
+    to.thrust[lane] = area_loads_.weight ? area_loads_.weight->thrust(t) : 0;
+    to.work[lane] = area_loads_.squeeze ? area_loads_.squeeze->work(t) : 0;
+    to.start_area[lane] = TriangleArea(x[v[0]], x[v[1]], x[v[2]]).area;
+    to.worked = to.worked || to.work[lane] != 0;
+  }
+}
+
 void MidEdgeShell::prepare(const Unknowns& u) {
   const std::size_t edges = mesh_->edges.size();
   cosine_.resize(edges);
@@ -74,27 +120,32 @@ void MidEdgeShell::prepare(const Unknowns& u) {
   sines_and_cosines({u.data() + 3 * stage_->vertices(), edges}, sine_, cosine_);
 }
 
+// Of the elements first to first + used - 1; lanes beyond the last one repeat it.
+MidEdgeState MidEdgeShell::state_of(std::size_t first, int used, const double* u, int stride) const {
+  MidEdgeState state;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const int at = std::min(lane, used - 1);
+    for (int k = 0; k < 9; ++k)
+      state.x[k][lane] = u[at * stride + k];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t edge = mesh_->triangle_edges[first + static_cast<std::size_t>(at)][k];
+      state.cosine[k][lane] = cosine_[edge];
+      state.sine[k][lane] = sine_[edge];
+    }
+  }
+  return state;
+}
+
 EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                                  double* hessians, bool definite, bool overwrite) const {
   const MidEdgeKernels& kernels = mid_edge_kernels();
   const auto kernel =
       hessians ? (definite ? kernels.definite : kernels.hessian) : (gradients ? kernels.gradient : kernels.value);
-  MidEdgeState state;
   MidEdgeResult result;
   EnergySum sum;
   for (std::size_t i = first; i < last; i += lane_count) {
     const int used = static_cast<int>(std::min<std::size_t>(lane_count, last - i));
-    for (int lane = 0; lane < lane_count; ++lane) { // lanes beyond the last element repeat it
-      const int at = std::min(lane, used - 1);
-      for (int k = 0; k < 9; ++k)
-        state.x[k][lane] = u[at * stride + k];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t edge = mesh_->triangle_edges[i + static_cast<std::size_t>(at)][k];
-        state.cosine[k][lane] = cosine_[edge];
-        state.sine[k][lane] = sine_[edge];
-      }
-    }
-    kernel(references_[i / lane_count], state, arcs_, result);
+    kernel(references_[i / lane_count], state_of(i, used, u, stride), arcs_, loads_of(i), result);
     for (int lane = 0; lane < used; ++lane) {
       sum.add(result.value[lane]);
       if (gradients) {
@@ -102,19 +153,31 @@ EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const doub
           gradients[k] = (overwrite ? 0 : gradients[k]) + result.gradient[k][lane];
         gradients += stride;
       }
-      if (hessians) {
-        const LaneNumbers* from = result.hessian;
-        for (int row = 0; row < 12; ++row)
-          for (int column = 0; column <= row; ++column, ++from) {
-            double& to = hessians[column * stride + row];
-            to = (overwrite ? 0 : to) + (*from)[lane];
-          }
-        hessians += stride * stride;
-      }
+    }
+    if (hessians) {
+      give_hessians(result, used, stride, hessians, overwrite);
+      hessians += used * stride * stride;
     }
     u += lane_count * stride;
   }
   return sum;
+}
+
+void MidEdgeShell::hessians_of(Kind kind, std::size_t first, std::size_t last, const double* u, int stride,
+                               double* hessians) const {
+  MidEdgeResult result;
+  for (std::size_t i = first; i < last; i += lane_count) {
+    const int used = static_cast<int>(std::min<std::size_t>(lane_count, last - i));
+    const MidEdgeState state = state_of(i, used, u, stride);
+    const MidEdgeReference& reference = references_[i / lane_count];
+    if (kind == Kind::elastic)
+      mid_edge_kernels().hessian(inviscid(reference), state, arcs_, loads_of(i), result);
+    else
+      mid_edge_kernels().hessian(reference, state, arcs_, nullptr, result);
+    give_hessians(result, used, stride, hessians, true);
+    hessians += used * stride * stride;
+    u += lane_count * stride;
+  }
 }
 
 // One triangle's state in all lanes.
@@ -133,7 +196,7 @@ MidEdgeState MidEdgeShell::state_of(const VectorN<12>& u) {
 
 double MidEdgeShell::value(std::size_t i, const VectorN<12>& u) const {
   MidEdgeResult result;
-  mid_edge_kernels().value(references_[i / lane_count], state_of(u), arcs_, result);
+  mid_edge_kernels().value(references_[i / lane_count], state_of(u), arcs_, loads_of(i), result);
   return result.value[i % lane_count];
 }
 
@@ -141,7 +204,7 @@ double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
                                  bool definite) const {
   MidEdgeResult result;
   const MidEdgeKernels& kernels = mid_edge_kernels();
-  (definite ? kernels.definite : kernels.hessian)(references_[i / lane_count], state_of(u), arcs_, result);
+  (definite ? kernels.definite : kernels.hessian)(references_[i / lane_count], state_of(u), arcs_, loads_of(i), result);
   const LaneNumbers* from = result.hessian;
   for (int row = 0; row < 12; ++row) {
     gradient[row] = result.gradient[row][i % lane_count];

@@ -4,7 +4,8 @@
 // b: second fundamental form from the directors (geometry/director.h), b̄ its reference; the metric â that raises
 // indices and its area Â as in membrane.h. On edges: β_k = b(e_k, e_k) = -2 (g_i + g_j). With arcs, also the membrane,
 // edges taken for circular arcs: squared lengths |e_k|² + β_k²/12 in the first fundamental form, which takes away the
-// leading part of the locking of flat triangles (docs/speed-error.md). The membrane term is then absent.
+// leading part of the locking of flat triangles (docs/speed-error.md). The membrane term is then absent, and what works
+// on area (area_loads.h) does so on √det Q/2, Q those squared lengths.
 //
 // Flat caps, triangles with an angle α above 157 degrees, also have
 //   k (g - ḡ)²/2,   k = (-cos α - c)/(1 - c) (V μ ĥ²/(6 τ)) 4/H⁴,   c = -cos 157°,
@@ -19,6 +20,7 @@
 // c the side of the director's height (geometry/director.h), H the triangle's height over the edge. There g = |w| sin α
 // hardly changes any more when the director turns: at 90 degrees nothing would hold it.
 #pragma once
+#include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/energy_sum.h"
 #include "libsheet/energy/mid_edge_kernels.h"
@@ -29,10 +31,17 @@ class MidEdgeShell {
 public:
   static constexpr Stencil stencil = Stencil::triangle_edges;
   MidEdgeShell(double viscosity, bool arcs) : viscosity_(viscosity), arcs_(arcs) {}
+  // With arcs, on whose area `loads` work.
+  MidEdgeShell(double viscosity, AreaLoads loads) : viscosity_(viscosity), arcs_(true), area_loads_(std::move(loads)) {}
   [[nodiscard]] const char* name() const {
-    return arcs_ ? "membrane and bending (mid-edge, arcs)" : "bending (mid-edge)";
+    return !arcs_              ? "bending (mid-edge)"
+           : area_loads_.any() ? "membrane, bending and area (mid-edge, arcs)"
+                               : "membrane and bending (mid-edge, arcs)";
   }
   [[nodiscard]] std::size_t size() const { return triangles_; }
+  [[nodiscard]] bool has(Kind kind) const {
+    return kind == Kind::dissipative || (kind == Kind::elastic && area_loads_.any());
+  }
   void begin(const Stage& stage);
   // The cosines and sines of the angles of u.
   void prepare(const Unknowns& u);
@@ -41,21 +50,30 @@ public:
   // of Hessians (none: null) the lower triangles.
   EnergySum evaluate(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                      double* hessians, bool definite, bool overwrite) const;
-  // Of one element, for tests. In evaluate, `first` is a multiple of lane_count.
+  // The part of the exact Hessians that is of one kind, set; see term.h.
+  void hessians_of(Kind kind, std::size_t first, std::size_t last, const double* u, int stride, double* hessians) const;
+  // Of one element, for tests. In evaluate and hessians_of, `first` is a multiple of lane_count.
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const;
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const;
 
 private:
   void refer(std::size_t batch);
+  void load(std::size_t batch);
+  [[nodiscard]] const MidEdgeLoads* loads_of(std::size_t i) const {
+    return loads_.empty() ? nullptr : &loads_[i / lane_count];
+  }
+  [[nodiscard]] MidEdgeState state_of(std::size_t first, int used, const double* u, int stride) const;
   [[nodiscard]] static MidEdgeState state_of(const VectorN<12>& u);
 
   double viscosity_; // [Pa s]
   bool arcs_;
+  AreaLoads area_loads_;
   const Stage* stage_ = nullptr;
   const Connectivity* mesh_ = nullptr;
   std::size_t triangles_ = 0;
   std::vector<MidEdgeReference> references_; // of lane_count triangles each
+  std::vector<MidEdgeLoads> loads_;          // likewise; empty: none
   std::vector<double> cosine_, sine_;        // of the edges' angles
 };
 

@@ -2,45 +2,63 @@
 #include "libsheet/energy/model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "libsheet/base/error.h"
+#include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
 #include "libsheet/energy/contact_damping.h"
 #include "libsheet/energy/contact_shear.h"
-#include "libsheet/energy/contact_squeeze.h"
 #include "libsheet/energy/gravity.h"
 #include "libsheet/energy/hinge.h"
 #include "libsheet/energy/membrane.h"
 #include "libsheet/energy/mid_edge_shell.h"
-#include "libsheet/energy/surface_tension.h"
 #include "libsheet/energy/wall_drag.h"
 #include "libsheet/energy/wall_weight.h"
 
 namespace sheet {
 
+namespace {
+
+AreaLoads area_loads_of(const Model& model) {
+  AreaLoads loads;
+  if (model.surface_tension > 0)
+    loads.tension.emplace(model.surface_tension);
+  const bool spreads = model.bath && model.bath->spreads;
+  if ((!model.walls.empty() || spreads) && model.density > 0 && model.gravity.squaredNorm() > 0)
+    loads.weight.emplace(model.density, model.gravity, spreads ? model.bath->level : no_bath);
+  if (!model.contacts.empty() && model.contacts_flow)
+    loads.squeeze.emplace(model.contacts);
+  return loads;
+}
+
+} // namespace
+
 Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& mesh) {
   Terms terms;
+  AreaLoads loads = area_loads_of(model);
   if (model.viscosity > 0) {
     const bool arcs = model.has_angles() && model.arcs;
     if (!arcs)
       terms.push_back(make_term(Membrane(model.viscosity)));
-    if (model.has_angles())
-      terms.push_back(make_term(MidEdgeShell(model.viscosity, arcs)));
+    if (arcs)
+      terms.push_back(make_term(MidEdgeShell(model.viscosity, std::exchange(loads, {}))));
+    else if (model.has_angles())
+      terms.push_back(make_term(MidEdgeShell(model.viscosity, false)));
     else if (model.bending != Bending::none)
       terms.push_back(make_term(Hinge(model.viscosity, model.bending == Bending::hinge_paper, *mesh)));
   }
-  if (model.surface_tension > 0)
-    terms.push_back(make_term(SurfaceTension(model.surface_tension)));
+  if (loads.tension)
+    terms.push_back(make_term(std::move(*loads.tension)));
   if (model.has_inertia())
     terms.push_back(make_term(Inertia(model.density)));
   if (model.density > 0 && model.gravity.squaredNorm() > 0)
     terms.push_back(make_term(Gravity(model.density, model.gravity)));
   if (model.viscosity > 0 && std::ranges::any_of(model.walls, [](const Wall& w) { return w.slip_length != free_slip; }))
     terms.push_back(make_term(WallDrag(model.viscosity)));
-  const bool spreads = model.bath && model.bath->spreads;
-  if ((!model.walls.empty() || spreads) && model.density > 0 && model.gravity.squaredNorm() > 0)
-    terms.push_back(make_term(WallWeight(model.density, model.gravity, spreads ? model.bath->level : no_bath)));
+  if (loads.weight)
+    terms.push_back(make_term(std::move(*loads.weight)));
   if (model.pressure)
     terms.push_back(make_term(Pressure(*model.pressure)));
   if (model.bath && model.gravity.squaredNorm() > 0)
@@ -52,11 +70,10 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
     terms.push_back(make_term(ContactDamping(model.contacts, model.viscosity, model.has_inertia() ? model.density : 0,
                                              model.contacts_adhere)));
   }
-  if (!model.contacts.empty() && model.contacts_flow) {
-    terms.push_back(make_term(ContactSqueeze(model.contacts)));
-    if (model.viscosity > 0)
-      terms.push_back(make_term(ContactShear(model.contacts, model.viscosity)));
-  }
+  if (loads.squeeze)
+    terms.push_back(make_term(std::move(*loads.squeeze)));
+  if (!model.contacts.empty() && model.contacts_flow && model.viscosity > 0)
+    terms.push_back(make_term(ContactShear(model.contacts, model.viscosity)));
   if (terms.empty())
     fail(ExitCode::bad_input, "the model has no term: neither viscosity nor inertia nor any force");
   return terms;

@@ -2,6 +2,7 @@
 // Surface tension of both faces: W = 2 γ (A - A0) [Batty et al. 2012, section 3.4], γ in N/m; A0, the area at the start
 // of the step, only keeps round-off small. Where corners touch a wall along which liquid flows, the wetted face costs
 // -cos θ in place of 1 [Young 1805]: a part (1 - cos θ) γ in place of 2 γ, for each corner a third.
+// This is the term of flat triangles; where edges are arcs, see area_loads.h.
 #pragma once
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/walls.h"
@@ -29,6 +30,8 @@ public:
           tension_[t] += gamma_ * (site->wetting - 2) / 3;
     }
   }
+
+  [[nodiscard]] double tension(std::size_t i) const { return tension_[i]; } // dW/dA of triangle i [N/m]
 
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     return tension_[i] * (TriangleArea(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)).area - start_area_[i]);

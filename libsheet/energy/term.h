@@ -17,7 +17,7 @@ public:
   virtual ~Term() = default;
   [[nodiscard]] virtual const char* name() const = 0;
   [[nodiscard]] virtual Stencil stencil() const = 0;
-  [[nodiscard]] virtual Kind kind() const = 0;
+  [[nodiscard]] virtual bool has(Kind kind) const = 0; // whether a part of the Hessian is of that kind
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual std::array<std::uint32_t, 4> nodes(std::size_t i) const = 0; // hinge and four only
   virtual void begin(const Stage& stage) = 0;
@@ -31,6 +31,9 @@ public:
   // sets those of its own unknowns.
   virtual EnergySum add_derivatives(std::size_t first, std::size_t last, const double* u, int stride, double* gradients,
                                     double* hessians, bool definite, bool overwrite) const = 0;
+  // Sets Hessians, exact ones, to the part that is of one kind which the term has: the lower triangles at least.
+  virtual void hessians_of(Kind kind, std::size_t first, std::size_t last, const double* u, int stride,
+                           double* hessians) const = 0;
   // What else a step leaves in the state, to whose end `last` the last stage led.
   virtual void finish(const Unknowns&, State&) {}
   // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an
@@ -50,11 +53,13 @@ public:
 
   [[nodiscard]] const char* name() const override { return element_.name(); }
   [[nodiscard]] Stencil stencil() const override { return E::stencil; }
-  [[nodiscard]] Kind kind() const override {
-    if constexpr (requires { E::kind; })
-      return E::kind;
+  [[nodiscard]] bool has(Kind kind) const override {
+    if constexpr (requires { element_.has(kind); })
+      return element_.has(kind);
+    else if constexpr (requires { E::kind; })
+      return kind == E::kind;
     else
-      return Kind::dissipative;
+      return kind == Kind::dissipative;
   }
   [[nodiscard]] std::size_t size() const override { return element_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const override {
@@ -131,6 +136,16 @@ public:
         hessian += h;
     }
     return sum;
+  }
+
+  void hessians_of(Kind kind, std::size_t first, std::size_t last, const double* u, int stride,
+                   double* hessians) const override {
+    if constexpr (requires { element_.hessians_of(kind, first, last, u, stride, hessians); }) {
+      element_.hessians_of(kind, first, last, u, stride, hessians);
+    } else {
+      std::vector<double> unused((last - first) * static_cast<std::size_t>(stride));
+      add_derivatives(first, last, u, stride, unused.data(), hessians, false, true);
+    }
   }
 
   [[nodiscard]] double rank_one(const Unknowns& u, Eigen::VectorXd& g) const override {

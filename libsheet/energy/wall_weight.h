@@ -49,6 +49,8 @@ public:
     }
   }
 
+  [[nodiscard]] double thrust(std::size_t i) const { return thrust_[i]; } // W A of triangle i [J m²]
+
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     return thrust_[i] == 0 ? 0 : since_start(i, TriangleArea(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)).area);
   }

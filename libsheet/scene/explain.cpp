@@ -192,6 +192,39 @@ std::vector<DimensionlessNumber> numbers_of(const Scene& scene, const Scales& sc
   return list;
 }
 
+// The longest edge that a shape's table asks for, diagonals aside [m]; a mesh's is not known.
+std::optional<double> longest_edge(const SheetTable& sheet) {
+  if (sheet.edge_length || !sheet.segments)
+    return sheet.edge_length;
+  const auto [around, along] = *sheet.segments;
+  const auto longer = [&](double circumference, double length) {
+    return std::optional(std::max(circumference / around, length / along));
+  };
+  constexpr double pi = std::numbers::pi;
+  return std::visit(Overloaded{[&](const Cap& c) {
+                                 const double widest = c.radius * std::sin(std::min(c.angle, pi / 2));
+                                 return longer(2 * pi * widest, c.radius * (c.angle - c.opening));
+                               },
+                               [&](const Tube& t) { return longer(2 * pi * t.radius, t.height); },
+                               [](const auto&) { return std::optional<double>(); }},
+                    sheet.shape);
+}
+
+// What is curved, drawn together by tension and not blown up may buckle, in waves no shorter than some root(R h). Arcs
+// longer than half of that give way before the sheet does.
+std::optional<std::string> warning_of_buckling(const Scene& scene, const Scales& scales) {
+  const auto edge = longest_edge(scene.sheets.front());
+  const bool viscous = scene.material.viscosity > 0 && scene.material.surface_tension > 0;
+  if (!edge || !scales.thickness || !viscous || !scene.model.bending || scales.curvature <= 0 || scales.pressure > 0)
+    return {};
+  const double enough = 0.5 * std::sqrt(*scales.thickness / scales.curvature);
+  if (*edge <= enough)
+    return {};
+  return fmt::format(
+      "edges of {} m are above sqrt(h / curvature) / 2 = {} m: if the sheet buckles, the mesh decides how",
+      brief(*edge), brief(enough));
+}
+
 std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
                                      const std::vector<DimensionlessNumber>& numbers) {
   std::vector<std::string> warnings;
@@ -220,6 +253,8 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
       warn(fmt::format("edge_length {} m is below the thickness {} m: a sheet has no detail that fine", brief(*edge),
                        brief(h)));
   }
+  if (const auto buckling = warning_of_buckling(scene, scales))
+    warn(*buckling);
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
   if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))

@@ -59,6 +59,19 @@ TEST(Validation, PulledStripsTubeDiskHole) {
   EXPECT_LT(error("V13", settings("V13", 0.0625, 20)), 0.01);
 }
 
+// Tension crumples no film that bends, however long its edges are.
+TEST(Validation, FreeDiskStaysSmooth) {
+  for (const Shell shell : {Shell::arcs, Shell::mid_edge, Shell::hinge})
+    for (const double edge : {0.2, 0.1, 0.05}) {
+      Settings s = settings("V28", edge, 25);
+      s.bending = shell;
+      const Result r = run(find_case("V28"), s);
+      EXPECT_GT(r.value, r.more[1].second - 0.001) << edge;
+      EXPECT_LT(r.value, 1.001) << edge;
+      EXPECT_LT(std::abs(r.more[0].second), 1e-4) << edge;
+    }
+}
+
 // What remeshing adds. The tables of docs/remeshing.md go on to finer meshes.
 TEST(Validation, RemeshedOnTheWay) {
   EXPECT_LT(error("V9r", settings("V9r", 0.05, 40)), 0.01);

@@ -75,6 +75,8 @@ const std::vector<Case>& cases() {
        false, true, v26},
       {"V27", "sphere that encloses gas (set 1: comes to rest; 2: oscillates; 3: leaks)", "1, 3: radius; 2: frequency",
        "", 3, at(0.08, 100, Pattern::equilateral), true, true, v27},
+      {"V28", "free disk with noise contracts, bending", "root mean square of its height over that at the start", "", 1,
+       at(0.1, 25), false, false, v28},
   };
   return list;
 }

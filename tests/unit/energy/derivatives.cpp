@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
@@ -386,6 +387,18 @@ TEST(Derivatives, MidEdgeLeaningDirectors) { check(MidEdgeShell(2, false), {true
 TEST(Derivatives, MidEdgeArcsAndLeaningDirectors) { check(MidEdgeShell(2, true), {true, false}, true, leaning); }
 TEST(Derivatives, MidEdgeArcs) { check(MidEdgeShell(2, true), {true, false}); }
 
+// What works on the arcs' area: viscosity small beside it, so that errors of it are seen.
+AreaLoads tension() { return {.tension = SurfaceTension(0.7)}; }
+TEST(Derivatives, TensionOfArcs) {
+  check(MidEdgeShell(0.01, tension()), {true, false});
+  check(MidEdgeShell(0.01, tension()), {true, false}, true, crumpled, touch_walls);
+}
+TEST(Derivatives, WeightOfArcs) {
+  check(MidEdgeShell(0.01, {.weight = WallWeight(3, {0.3, -9, 2}, 0.1)}), {true, false}, true, crumpled, touch_walls);
+}
+// Directors that lean far: arcs that hardly close to triangles.
+TEST(Derivatives, TensionOfLeaningDirectors) { check(MidEdgeShell(0.01, tension()), {true, false}, true, leaning); }
+
 TEST(Derivatives, Hinges) {
   const auto mesh = test::at_rest(test::icosphere(1), 1).mesh;
   check(Hinge(2, false, *mesh), {});
@@ -418,6 +431,10 @@ TEST(Derivatives, ContactDamping) {
 TEST(Derivatives, ContactShear) {
   check(ContactShear(random_springs(), 2), {true, false});
   check(ContactShear(random_springs(), 2), {false, false}, true, crumpled, touch_walls); // walls take a part
+}
+
+TEST(Derivatives, SqueezeOfArcs) {
+  check(MidEdgeShell(0.01, {.squeeze = ContactSqueeze(random_springs())}), {true, false}, true, crumpled, touch_walls);
 }
 
 TEST(Derivatives, ContactSqueeze) {

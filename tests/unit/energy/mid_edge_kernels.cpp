@@ -89,7 +89,7 @@ TEST(MidEdgeKernels, NothingIsToBeDoneAtTheStart) {
         EXPECT_EQ(b.reference.folded, lean > 1);
         EXPECT_GT(b.reference.stiffness[2][2] + b.reference.stiffness[0][2] + b.reference.stiffness[1][2], 0);
         MidEdgeResult result;
-        kernels->hessian(b.reference, b.state, true, result);
+        kernels->hessian(b.reference, b.state, true, nullptr, result);
         const double stiffness = greatest(result.hessian, 78);
         EXPECT_GT(stiffness, 0);
         EXPECT_LT(greatest(result.gradient, 12), 1e-13 * stiffness);
@@ -111,13 +111,20 @@ TEST(MidEdgeKernels, AllVersionsAgree) {
       moved.cosine[k][lane] = std::cos(angle);
       moved.sine[k][lane] = std::sin(angle);
     }
+  MidEdgeLoads loads{};
+  loads.worked = true;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    loads.tension[lane] = 2 + lane;
+    loads.thrust[lane] = loads.work[lane] = 0.5;
+    loads.start_area[lane] = 1;
+  }
   MidEdgeResult plain;
   for (const MidEdgeKernels* kernels : versions()) {
     Batch b(1.5);
     b.start.ratio = 2.4;
     kernels->reference(b.start, moved, b.reference);
     MidEdgeResult result;
-    kernels->hessian(b.reference, b.state, true, result);
+    kernels->hessian(b.reference, b.state, true, &loads, result);
     if (kernels == &plain_mid_edge)
       plain = result;
     const double stiffness = greatest(plain.hessian, 78);

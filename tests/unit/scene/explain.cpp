@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/explain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -119,12 +121,36 @@ TEST(Explain, Warnings) {
       of("[sheet]\nshape = \"sphere\"\nradius = 1\nedge_length = 0.5\nthickness = 0.01\n" + liquid +
          "surface_tension = 1\n")
           .warnings,
-      ElementsAre("edge_length 0.5 m is above sqrt(h / curvature) = 0.1 m: flat triangles resist bending too much "
-                  "there"));
+      ElementsAre(
+          "edge_length 0.5 m is above sqrt(h / curvature) = 0.1 m: flat triangles resist bending too much "
+          "there",
+          "edges of 0.5 m are above sqrt(h / curvature) / 2 = 0.05 m: if the sheet buckles, the mesh decides how"));
   EXPECT_THAT(
       of("[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.3\n" + liquid + fall + hold).warnings,
       ElementsAre("edge_length 0.1 m is below the thickness 0.3 m: a sheet has no detail that fine",
                   "the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful"));
+}
+
+// Edges that do not resolve sqrt(R h) = 0.1 m; 60 around are 0.105 m long, 130 less than half of it.
+TEST(Explain, WarnsWhereTheMeshWouldDecideHowItBuckles) {
+  const auto cap = [](std::string_view mesh, std::string_view rest) {
+    return of(fmt::format("[sheet]\nshape = \"cap\"\nradius = 1\nangle = \"90 deg\"\nopening = \"30 deg\"\n{}\n"
+                          "thickness = 0.01\n{}{}",
+                          mesh, liquid, rest));
+  };
+  const std::string tension = "surface_tension = 1\n", buckles = "if the sheet buckles, the mesh decides how";
+  const auto warned = [&](const Explanation& e) {
+    return std::ranges::any_of(e.warnings, [&](const std::string& w) { return w.find(buckles) != std::string::npos; });
+  };
+  EXPECT_TRUE(warned(cap("segments = [60, 130]", tension)));
+  EXPECT_TRUE(warned(cap("segments = [130, 10]", tension)));
+  EXPECT_FALSE(warned(cap("segments = [130, 30]", tension)));
+  EXPECT_TRUE(warned(cap("edge_length = 0.06", tension)));
+  EXPECT_FALSE(warned(cap("edge_length = 0.04", tension)));
+  EXPECT_FALSE(warned(cap("edge_length = 0.06", "")));
+  EXPECT_FALSE(warned(cap("edge_length = 0.06", tension + "[model]\nbending = false\n")));
+  EXPECT_FALSE(
+      warned(cap("edge_length = 0.06", tension + "[environment]\npressure = {law = \"constant\", value = 4}\n")));
 }
 
 TEST(Explain, Text) {
