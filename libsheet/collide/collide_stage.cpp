@@ -317,6 +317,7 @@ struct CollideStage::Impl {
     const SpringSheet sheet{path.start,  path.end, reach,         path.thickness,
                             at_end.area, fixed,    path.length(), path.end_thickness};
     std::vector<ContactSpring> springs = read_springs(frame);
+    drop_within_layers(springs, search->layers(), sheet);
     const std::vector<ContactSpring> loose = take_loose(springs, *mesh.mesh(), path.start);
     follow(springs, *scene, sheet);
     const std::size_t old = springs.size();

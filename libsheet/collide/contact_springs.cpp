@@ -61,6 +61,12 @@ bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
 
 } // namespace
 
+void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet) {
+  std::erase_if(springs, [&](const ContactSpring& s) {
+    return layers.one(sheet.start, s.vertices, s.weights, SheetLayers::of_kept, s.mean(sheet.reach));
+  });
+}
+
 void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet) {
   std::erase_if(springs, [&](ContactSpring& s) { return !follows(s, scene, sheet); });
 }

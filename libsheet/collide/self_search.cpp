@@ -80,7 +80,7 @@ template <class Found, class Work> void in_chunks(std::size_t count, std::vector
 
 } // namespace
 
-SelfSearch::SelfSearch(const Connectivity& mesh) : mesh_(mesh) {
+SelfSearch::SelfSearch(const Connectivity& mesh) : mesh_(mesh), layers_(mesh) {
   std::vector<std::uint8_t> vertex(mesh.vertices, false), edge(mesh.edges.size(), false);
   const auto begin = [&] {
     own_begin_.push_back(
@@ -287,8 +287,8 @@ std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reac
     const auto closest = touching(pair);
     if (!closest)
       return;
-    const double distance = closest->offset.norm();
-    if (distance > 0 && distance < contact_distance(reach, pair.vertices, closest->weights))
+    const double distance = closest->offset.norm(), near = contact_distance(reach, pair.vertices, closest->weights);
+    if (distance > 0 && distance < near && !layers_.one(x, pair.vertices, closest->weights, SheetLayers::of_new, near))
       out.push_back({pair, *closest});
   });
 }
