@@ -48,9 +48,9 @@ void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& 
 // parallel edges, and whose tension [Pa] exceeds the scene's adhesion. Without `adhesion` in the scene none parts.
 void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet);
 
-// Adds springs for near pairs that have none.
-void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
-                 const SpringSheet& sheet);
+// Adds springs for near pairs of two layers that have none.
+void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,
+                 const Scene& scene, const SpringSheet& sheet);
 
 // What comes to touch does not bounce: takes away the velocity of each new spring's features along its normal, relative
 // to each other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of

@@ -287,8 +287,8 @@ std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reac
     const auto closest = touching(pair);
     if (!closest)
       return;
-    const double distance = closest->offset.norm(), near = contact_distance(reach, pair.vertices, closest->weights);
-    if (distance > 0 && distance < near && !layers_.one(x, pair.vertices, closest->weights, SheetLayers::of_new, near))
+    const double distance = closest->offset.norm();
+    if (distance > 0 && distance < contact_distance(reach, pair.vertices, closest->weights))
       out.push_back({pair, *closest});
   });
 }

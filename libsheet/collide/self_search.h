@@ -53,10 +53,10 @@ public:
   [[nodiscard]] std::vector<Hit> hits(std::span<const Vector3> start, std::span<const Vector3> end,
                                       std::span<const double> reach, std::span<const std::uint8_t> moved);
 
-  // Pairs of two layers (sheet_layers.h) within their contact distance of each other whose surfaces face each other,
-  // ascending: a vertex over a triangle, or beside one by no more than 60 degrees off its normal, and edges that cross.
-  // Of features joined by an edge of the mesh only vertices over triangles count, so that the sheet next to a vertex is
-  // no contact.
+  // Pairs within their contact distance of each other whose surfaces face each other, ascending: a vertex over a
+  // triangle, or beside one by no more than 60 degrees off its normal, and edges that cross. Of features joined by an
+  // edge of the mesh only vertices over triangles count, so that the sheet next to a vertex is no contact. Whether they
+  // are two layers is not asked.
   [[nodiscard]] std::vector<NearPair> near(std::span<const Vector3> positions, std::span<const double> reach);
 
   // The first pair of triangles (lower, higher) that intersect, exactly; triangles without area are passed over. Only

@@ -65,13 +65,13 @@ private:
     return found == distance_.end() ? infinity : found->second;
   }
 
-  // An end of an edge that a way within the limit crosses lies on one that is longer by two edges at most.
+  // The nearer end of an edge that a way within the limit crosses lies on one that is longer by the edge at most.
   void offer(std::uint32_t v, double distance, double edge) {
     constexpr double lower = 1 - 1e-12; // what falls by rounding alone does not go round again
     if (!(distance < lower * at(v)))
       return;
     distance_[v] = distance;
-    if (distance + (to_.place - x_[v]).norm() <= limit_ + 2 * edge)
+    if (distance + (to_.place - x_[v]).norm() <= limit_ + edge)
       queue_.emplace(distance, v);
   }
 

@@ -23,9 +23,10 @@ public:
   // True if a way of at most `limit` leads from one point to the other along the mesh. Distances pass from two corners
   // of a triangle to the third as in the plane, from the image of the source there, or along a side where the straight
   // line would leave the edge between them [Kimmel and Sethian 1998; Novotni and Klein 2002], until none falls any
-  // more: exact where the mesh is flat, or can be unfolded, and the way straight; else of the order of an edge too long
-  // or too short. Vertices from which `to` is out of reach in a straight line are not looked at. `to`: a vertex or a
-  // place on an edge.
+  // more: exact where the mesh is flat, or can be unfolded, and the way straight (an eighth of an edge too long at most
+  // where only what is farther than the limit would tell); else of the order of an edge too long or too short. Vertices
+  // from which `to` is out of reach in a straight line, and more than an edge, are not gone on from. `to`: a vertex or
+  // a place on an edge.
   [[nodiscard]] bool within(std::span<const Vector3> positions, const MeshPoint& from, const MeshPoint& to,
                             double limit) const;
 
