@@ -2,6 +2,7 @@
 #include "libsheet/geometry/distance_along.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
