@@ -12,7 +12,9 @@ int main(int argc, char** argv) {
                    "whose mesh needs nothing passes unchanged.\n"
                    "Edges longer than 1.4 times the wanted length are split, those shorter than 0.6 times collapsed. "
                    "The wanted length is the same everywhere, or, with --adaptive, follows curvature, thickness, "
-                   "flow and buckling.");
+                   "flow and buckling. Strips that are narrower than that get edges of twice their width, down to a "
+                   "sixteenth of --edge-length, or --min-edge. What is thicker than the wanted length is not split "
+                   "more finely than it is thick.");
   sheet::remesh::StageOptions o;
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);

@@ -317,10 +317,11 @@ struct CollideStage::Impl {
     const SpringSheet sheet{path.start,  path.end, reach,         path.thickness,
                             at_end.area, fixed,    path.length(), path.end_thickness};
     std::vector<ContactSpring> springs = read_springs(frame);
+    drop_within_layers(springs, search->layers(), sheet);
     const std::vector<ContactSpring> loose = take_loose(springs, *mesh.mesh(), path.start);
     follow(springs, *scene, sheet);
     const std::size_t old = springs.size();
-    add_springs(springs, search->near(path.end, reach), *scene, sheet);
+    add_springs(springs, search->near(path.end, reach), search->layers(), *scene, sheet);
     hand_over(loose, path.end, springs);
     level_velocities(std::span(springs).subspan(old), *scene, path.mass, fixed, path.velocity);
     totals.most_springs = std::max(totals.most_springs, springs.size());

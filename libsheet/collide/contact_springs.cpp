@@ -61,6 +61,12 @@ bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
 
 } // namespace
 
+void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet) {
+  std::erase_if(springs, [&](const ContactSpring& s) {
+    return layers.one(sheet.start, s.vertices, s.weights, SheetLayers::of_kept, s.mean(sheet.reach));
+  });
+}
+
 void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet) {
   std::erase_if(springs, [&](ContactSpring& s) { return !follows(s, scene, sheet); });
 }
@@ -87,8 +93,8 @@ void level_velocities(std::span<const ContactSpring> springs, const Scene& scene
     }
 }
 
-void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
-                 const SpringSheet& sheet) {
+void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,
+                 const Scene& scene, const SpringSheet& sheet) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> linked; // vertices of the two features of a spring
   const auto link = [&](const ContactSpring& s) {
     const std::size_t first = s.of_vertex() ? 1 : 2;
@@ -121,7 +127,8 @@ void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair
     s.vertices = v;
     s.weights = pair->closest.weights;
     if (std::all_of(v.begin(), v.end(), [&](auto i) { return sheet.fixed[i] == all_axes; }) || is_linked(s) ||
-        !normal_of(s, sheet.end))
+        !normal_of(s, sheet.end) ||
+        layers.one(sheet.end, s.vertices, s.weights, SheetLayers::of_new, s.mean(sheet.reach)))
       continue;
     s.anchor = pair->closest.offset;
     s.rest = s.anchor.norm();

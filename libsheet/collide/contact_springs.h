@@ -22,6 +22,7 @@
 // fall with it.
 #pragma once
 #include "libsheet/collide/self_search.h"
+#include "libsheet/collide/sheet_layers.h"
 #include "libsheet/collide/step_path.h"
 #include "libsheet/scene/scene.h"
 #include "libsheet/sheet/contact_spring.h"
@@ -39,13 +40,17 @@ struct SpringSheet {
   std::span<const double> end_thickness = {}; // where layers flow; their springs rest at what they thin to [m]
 };
 
+// Takes away the springs within one layer, by the positions and contact distances at the start: those of a layer that
+// has become thicker than the loop between them is long, and those of streams from before layers were told apart.
+void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet);
+
 // Turns the springs with their features and takes away those that parted: whose features passed each other or became
 // parallel edges, and whose tension [Pa] exceeds the scene's adhesion. Without `adhesion` in the scene none parts.
 void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet);
 
-// Adds springs for near pairs that have none.
-void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const Scene& scene,
-                 const SpringSheet& sheet);
+// Adds springs for near pairs of two layers that have none.
+void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,
+                 const Scene& scene, const SpringSheet& sheet);
 
 // What comes to touch does not bounce: takes away the velocity of each new spring's features along its normal, relative
 // to each other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of

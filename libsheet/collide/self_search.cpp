@@ -80,7 +80,7 @@ template <class Found, class Work> void in_chunks(std::size_t count, std::vector
 
 } // namespace
 
-SelfSearch::SelfSearch(const Connectivity& mesh) : mesh_(mesh) {
+SelfSearch::SelfSearch(const Connectivity& mesh) : mesh_(mesh), layers_(mesh) {
   std::vector<std::uint8_t> vertex(mesh.vertices, false), edge(mesh.edges.size(), false);
   const auto begin = [&] {
     own_begin_.push_back(

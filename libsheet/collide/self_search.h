@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "libsheet/collide/sheet_layers.h"
 #include "libsheet/collide/swept_pair.h"
 #include "libsheet/geometry/box_tree.h"
 #include "libsheet/geometry/closest_points.h"
@@ -54,7 +55,8 @@ public:
 
   // Pairs within their contact distance of each other whose surfaces face each other, ascending: a vertex over a
   // triangle, or beside one by no more than 60 degrees off its normal, and edges that cross. Of features joined by an
-  // edge of the mesh only vertices over triangles count, so that the sheet next to a vertex is no contact.
+  // edge of the mesh only vertices over triangles count, so that the sheet next to a vertex is no contact. Whether they
+  // are two layers is not asked.
   [[nodiscard]] std::vector<NearPair> near(std::span<const Vector3> positions, std::span<const double> reach);
 
   // The first pair of triangles (lower, higher) that intersect, exactly; triangles without area are passed over. Only
@@ -65,6 +67,8 @@ public:
   // Gathers the candidates for the way from `start` to `end` and all that is within `reach` of it, unless the last ones
   // do. The questions call it themselves; asked before, for the whole step, it spares them to.
   void gather(std::span<const Vector3> start, std::span<const Vector3> end, std::span<const double> reach);
+
+  [[nodiscard]] const SheetLayers& layers() const { return layers_; }
 
 private:
   using Positions = std::span<const Vector3>;
@@ -82,6 +86,7 @@ private:
   std::vector<Found> collect(std::span<const std::uint8_t> flags, bool flagged_only, const Test& test);
 
   const Connectivity& mesh_;
+  SheetLayers layers_;
   struct Owned {
     QuickBox box;
     std::uint32_t index;

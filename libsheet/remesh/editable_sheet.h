@@ -48,6 +48,7 @@ public:
   [[nodiscard]] double carried(std::uint32_t v) const { return carried_[v]; }
   // What holds a vertex: any array with the rule common (hold, touch, ...). True if whatever holds u holds v, too.
   [[nodiscard]] bool held_within(std::uint32_t u, std::uint32_t v) const;
+  [[nodiscard]] bool free(std::uint32_t v) const { return grip(v) == 0; } // of all that
   [[nodiscard]] bool held_alike(std::uint32_t u, std::uint32_t v) const { return grip(u) == grip(v); }
   // The coordinates in which a vertex is held.
   [[nodiscard]] Axes held_axes(std::uint32_t v) const { return grips_[grip(v)].axes; }

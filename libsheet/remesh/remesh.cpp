@@ -63,6 +63,7 @@ private:
 
   [[nodiscard]] double length(std::uint32_t a, std::uint32_t b) const { return (sheet_.at(b) - sheet_.at(a)).norm(); }
   [[nodiscard]] double ratio(std::uint32_t a, std::uint32_t b) const { return length(a, b) / size_.along(a, b); }
+  [[nodiscard]] double excess(std::uint32_t a, std::uint32_t b) const { return length(a, b) / size_.coarsest(a, b); }
   [[nodiscard]] std::uint32_t edge(std::uint32_t a, std::uint32_t b) const {
     if (!mesh_.has_vertex(a) || !mesh_.has_vertex(b))
       return no_index;
@@ -108,7 +109,7 @@ private:
       return false;
     for (const Corners& t : edit_.added) // what is collapsed here must not be split there
       for (const std::uint32_t v : t)
-        if (v != edit_.vertex && (sheet_.at(v) - edit_.position).norm() > longest * size_.along(v, edit_.vertex))
+        if (v != edit_.vertex && (sheet_.at(v) - edit_.position).norm() > longest * size_.coarsest(v, edit_.vertex))
           return false;
     if (!sheet_.make(edit_, limits))
       return false;
@@ -172,9 +173,9 @@ private:
   // one may not be split (an inlet's strip), and halving the others would only squeeze the triangle towards it.
   [[nodiscard]] bool beside_longer(std::uint32_t side) const {
     const auto longer = [&](std::uint32_t s) {
-      const double own = ratio(mesh_.from(s), mesh_.to(s)) * (1 + 1e-9);
+      const double own = excess(mesh_.from(s), mesh_.to(s)) * (1 + 1e-9);
       const std::uint32_t a = mesh_.from(s), b = mesh_.to(s), c = mesh_.apex(s);
-      return ratio(b, c) > own || ratio(c, a) > own;
+      return excess(b, c) > own || excess(c, a) > own;
     };
     return longer(side) || (mesh_.twin(side) != no_index && longer(mesh_.twin(side)));
   }
@@ -182,7 +183,7 @@ private:
   void split_long() {
     std::priority_queue<Candidate> queue; // longest first
     const auto push = [&](std::uint32_t a, std::uint32_t b) {
-      if (const double r = ratio(a, b); r > split_above)
+      if (const double r = excess(a, b); r > split_above)
         queue.push({r, a, b});
     };
     for_edges([&](std::uint32_t side) { push(mesh_.from(side), mesh_.to(side)); });

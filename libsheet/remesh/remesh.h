@@ -19,9 +19,6 @@ struct Report {
   [[nodiscard]] std::uint64_t edits() const { return splits + collapses + flips + smoothed + absorbed; }
 };
 
-// Edges longer than this times the wanted length are split, those shorter than that are collapsed.
-inline constexpr double split_above = 1.4, collapse_below = 0.6;
-
 // Works in place; the frame stays as it is, bit for bit, if its mesh needs nothing. Arrays go by their rules
 // (formats/sheet.md, section 4). `scene` may be null: then nothing is known of buckling, and holds hold all axes.
 // Errors: usage (options, more than 10^8 triangles), bad_input (no oriented manifold, pinched vertices).

@@ -13,6 +13,7 @@
 #include "libsheet/remesh/buckling.h"
 #include "libsheet/remesh/flow_error.h"
 #include "libsheet/remesh/operations.h"
+#include "libsheet/remesh/strip_width.h"
 
 namespace sheet::remesh {
 
@@ -24,6 +25,8 @@ constexpr double even_enough = 1.5;    // of the flow's mean over the sheet's si
 constexpr double edges_in_a_wave = 8;  // of a buckle
 constexpr double thicknesses_an_edge = 1; // a shell model says nothing about what is shorter
 constexpr double grading = 0.4;           // growth of length over distance
+constexpr double widths_an_edge = 2;      // of a strip: up to split_above times that, no angle need be below 19 degrees
+constexpr double finest_in_strips = 1.0 / 16; // of edge_length
 
 void check_length(const char* option, double value) {
   if (!(value > 0 && std::isfinite(value)))
@@ -155,6 +158,19 @@ void look_ahead(const EditableSheet& sheet, const Scene& scene, const std::vecto
       }
 }
 
+// Of each vertex the mean of its triangles, by their areas [m].
+std::vector<double> thickness_at_vertices(const EditableSheet& sheet) {
+  std::vector<double> thickness(sheet.mesh().vertex_slots(), 0), area(thickness.size(), 0);
+  for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t)
+    for (const std::uint32_t v : sheet.mesh().corners(t)) {
+      thickness[v] += sheet.volume(t);
+      area[v] += sheet.shape(t).area;
+    }
+  for (std::size_t v = 0; v < thickness.size(); ++v)
+    thickness[v] = area[v] > 0 ? thickness[v] / area[v] : 0;
+  return thickness;
+}
+
 // size[v] <= size[w] + grading |x_v - x_w| along edges, by shortest paths [Dijkstra 1959].
 void grade(const EditableSheet& sheet, std::vector<double>& size) {
   using Entry = std::pair<double, std::uint32_t>;
@@ -200,8 +216,38 @@ void SizeOptions::check() const {
 
 SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options)
     : uniform_(options.edge_length) {
-  if (!options.chord_error)
+  if (options.chord_error)
+    adapt(sheet, scene, options);
+  else
+    note_thick(sheet);
+  fit_strips(sheet, options);
+}
+
+void SizeField::note_thick(const EditableSheet& sheet) {
+  std::vector<double> thick = thickness_at_vertices(sheet);
+  for (std::uint32_t v = 0; v < thick.size(); ++v)
+    if (!sheet.free(v))
+      thick[v] = 0;
+  if (std::ranges::any_of(thick, [&](double h) { return h > uniform_; }))
+    thick_ = std::move(thick);
+}
+
+void SizeField::fit_strips(const EditableSheet& sheet, const SizeOptions& options) {
+  const double floor = options.min_edge.value_or(finest_in_strips * options.edge_length);
+  const std::vector<double> width = strip_widths(sheet), thickness = thickness_at_vertices(sheet);
+  std::vector<double> fitted(width.size());
+  bool any = false;
+  for (std::uint32_t v = 0; v < width.size(); ++v) {
+    fitted[v] = std::min(at(v), std::max({widths_an_edge * width[v], thickness[v], floor}));
+    any = any || fitted[v] < at(v);
+  }
+  if (!any)
     return;
+  grade(sheet, fitted);
+  size_ = std::move(fitted);
+}
+
+void SizeField::adapt(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options) {
   const Bounds bounds = bounds_of(options);
   const std::vector<TriangleRates> rates = triangle_rates(sheet);
   const std::vector<double> curvature = curvatures(sheet, rates);
@@ -225,12 +271,14 @@ SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeO
 double SizeField::shortest() const { return size_.empty() ? uniform_ : *std::min_element(size_.begin(), size_.end()); }
 
 void SizeField::set_between(std::uint32_t v, std::uint32_t a, std::uint32_t b) {
-  if (size_.empty())
-    return;
-  const double between = along(a, b);
-  if (v >= size_.size())
-    size_.resize(v + 1);
-  size_[v] = between;
+  for (std::vector<double>* values : {&size_, &thick_}) {
+    if (values->empty())
+      continue;
+    const double between = 0.5 * ((*values)[a] + (*values)[b]);
+    if (v >= values->size())
+      values->resize(v + 1);
+    (*values)[v] = between;
+  }
 }
 
 } // namespace sheet::remesh

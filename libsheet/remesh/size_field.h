@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How long edges shall be, at each vertex [m]: the same everywhere, or by what the sheet does.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "libsheet/scene/scene.h"
 
 namespace sheet::remesh {
+
+// Edges longer than this times the wanted length are split, those shorter than that are collapsed.
+inline constexpr double split_above = 1.4, collapse_below = 0.6;
 
 struct SizeOptions {
   double edge_length = 0;                   // [m], positive; with `chord_error` only the bounds' default
@@ -26,18 +30,34 @@ struct SizeOptions {
 //   `edge_length`;
 // - l τ h / |Δh|: the jump of the thickness;
 // - an eighth of a wave about to buckle (buckling.h), which also gets its share beforehand.
+//
+// A strip from rim to rim (strip_width.h) gets a row of good triangles of its own: edges of twice its width at most,
+// which need no angle below 19 degrees as long as they are not split, but not below h, nor below `min_edge`, absent: an
+// eighth of `edge_length`, growing as above.
+//
+// Without `chord_error` no edge is split that is not too long for h, too, where nothing holds the sheet and no solid
+// carries it: a shell model says nothing about what is shorter.
 class SizeField {
 public:
   SizeField(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
   [[nodiscard]] double at(std::uint32_t v) const { return size_.empty() ? uniform_ : size_[v]; }
   [[nodiscard]] double along(std::uint32_t a, std::uint32_t b) const { return 0.5 * (at(a) + at(b)); }
+  // What an edge is measured by before it is split: the wanted length, or what the sheet is thick.
+  [[nodiscard]] double coarsest(std::uint32_t a, std::uint32_t b) const {
+    return thick_.empty() ? along(a, b) : std::max(along(a, b), 0.5 * (thick_[a] + thick_[b]));
+  }
   [[nodiscard]] double shortest() const;
   // A vertex between two others, or one that takes the place of two.
   void set_between(std::uint32_t v, std::uint32_t a, std::uint32_t b);
 
 private:
+  void adapt(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
+  void fit_strips(const EditableSheet& sheet, const SizeOptions& options);
+  void note_thick(const EditableSheet& sheet);
+
   double uniform_;
-  std::vector<double> size_;
+  std::vector<double> size_;  // empty: uniform_ everywhere
+  std::vector<double> thick_; // thickness where it counts, 0 elsewhere [m]; empty: nowhere above uniform_
 };
 
 } // namespace sheet::remesh

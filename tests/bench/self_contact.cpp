@@ -92,7 +92,8 @@ int main(int argc, char** argv) {
       const std::vector<double> ones(pile.start.size(), 1);
       const SpringSheet sheet{pile.start, safe, reach, reach, ones, std::vector<Axes>(safe.size(), 0), 0.01};
       std::vector<ContactSpring> list;
-      add_springs(list, SelfSearch(*search).near(safe, reach), scene, sheet);
+      SelfSearch own(*search);
+      add_springs(list, own.near(safe, reach), own.layers(), scene, sheet);
       springs = list.size();
     });
     const auto n = static_cast<double>(pile.triangles.size());

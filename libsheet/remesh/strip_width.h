@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How wide the sheet is where it is a narrow strip: a strand between two holes, what a tear has left.
+#pragma once
+#include <vector>
+
+#include "libsheet/remesh/editable_sheet.h"
+
+namespace sheet::remesh {
+
+// At each vertex of a triangle that reaches from rim to rim (one side on a rim, the apex on a rim, the other sides
+// within the sheet), the least height of these triangles on their rim sides [m]; infinite at others. Ears, with two
+// sides on the rim, do not count, nor does the wedge behind a corner of the rim below 60 degrees, as far as it opens a
+// quarter as fast as at its tip: what is there is no better than the corner itself, however fine.
+[[nodiscard]] std::vector<double> strip_widths(const EditableSheet& sheet);
+
+} // namespace sheet::remesh

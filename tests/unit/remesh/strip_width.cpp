@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Narrow strips: how wide they are, and that their triangles stay good while they are drawn out; sheets thicker than
+// their edges are long.
+#include "libsheet/remesh/strip_width.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/shape/shapes.h"
+#include "tests/support/remesh/flows.h"
+#include "tests/support/remesh/options.h"
+
+namespace sheet::remesh {
+namespace {
+
+using test::edges;
+using test::options;
+
+constexpr double strip_edge = 0.1;
+
+formats::Frame ribbon(double length, double width, double edge, double thickness = 0.001) {
+  return test::frame_of(make_rectangle(length, width, edges(edge)), thickness);
+}
+
+void hold_ends(formats::Frame& frame, double half) {
+  formats::Array hold = formats::make_array("hold", formats::Place::vertex, formats::Type::uint64, 1, "1",
+                                            formats::Transfer::common, frame.vertices);
+  for (std::size_t v = 0; v < frame.vertices; ++v)
+    hold.values<std::uint64_t>()[v] = std::abs(positions(std::as_const(frame))[v].x()) > half - 1e-9 ? 1 : 0;
+  frame.put(std::move(hold));
+}
+
+TEST(StripWidth, IsTheHeightOfARowOfTrianglesAndInfiniteInASheet) {
+  const formats::Frame narrow = ribbon(1, 0.07, 0.07);
+  const std::vector<double> width = strip_widths(EditableSheet(narrow));
+  for (std::size_t v = 0; v < narrow.vertices; ++v)
+    if (std::abs(positions(narrow)[v].x()) < 0.4) {
+      EXPECT_NEAR(width[v], 0.07, 1e-12);
+    }
+  const formats::Frame disk = test::frame_of(make_disk(1, edges(0.1)), 0.001);
+  for (const double w : strip_widths(EditableSheet(disk)))
+    EXPECT_EQ(w, std::numeric_limits<double>::infinity());
+}
+
+// One edge wide, between clamps and free, to a twentieth of its width.
+TEST(StripWidth, ADrawnRibbonKeepsGoodTriangles) {
+  constexpr double length = 8 * strip_edge;
+  const auto drawn = [](const Vector3& x, double t) {
+    const double s = x[0] / (length / 2 * std::exp(t));
+    return Vector3(x[0], -x[1] * std::max(0.0, 1 - s * s), 0);
+  };
+  test::Flow free{"free", ribbon(length, strip_edge, strip_edge), strip_edge, std::log(20.0),
+                  [](const Vector3& x, double) { return Vector3(x[0] / 2, -x[1], 0); }};
+  test::Flow clamped{"clamped", ribbon(length, strip_edge, strip_edge), strip_edge, std::log(20.0), drawn};
+  hold_ends(clamped.start, length / 2);
+  for (const test::Flow& flow : {free, clamped}) {
+    const test::FlowResult r = test::run_flow(flow, 0.1, options(strip_edge));
+    EXPECT_GT(r.worst.smallest, 15) << flow.name;
+    EXPECT_LT(r.volume_error, 1e-13) << flow.name;
+  }
+}
+
+// Slivers that are there already: a ribbon a fifth as wide as its edges are long.
+TEST(StripWidth, SliversOfAStripAreMended) {
+  formats::Frame frame = ribbon(20 * strip_edge, strip_edge, strip_edge);
+  for (Vector3& x : positions(frame))
+    x = {2 * x.x(), 0.1 * x.y(), 0};
+  ASSERT_LT(test::angles_of(frame, strip_edge).smallest, 4);
+  for (int i = 0; i < 3; ++i)
+    static_cast<void>(remesh(frame, nullptr, options(strip_edge)));
+  EXPECT_GT(test::angles_of(frame, strip_edge).smallest, 15);
+}
+
+// A thick strip is cut no finer than it is thick, and a coarse mesh of it stays.
+TEST(StripWidth, TrianglesAreNoFinerThanTheSheetIsThick) {
+  for (const double width : {2 * strip_edge, 8 * strip_edge}) {
+    formats::Frame frame = ribbon(20 * strip_edge, width, 2 * strip_edge, 2.5 * strip_edge);
+    const std::uint64_t before = frame.vertices;
+    static_cast<void>(remesh(frame, nullptr, options(strip_edge)));
+    EXPECT_LE(frame.vertices, before) << width;
+    formats::Frame thin = ribbon(20 * strip_edge, width, 2 * strip_edge, 0.5 * strip_edge);
+    static_cast<void>(remesh(thin, nullptr, options(strip_edge)));
+    EXPECT_GT(thin.vertices, 2 * before) << width;
+  }
+}
+
+} // namespace
+} // namespace sheet::remesh
