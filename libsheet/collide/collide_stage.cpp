@@ -96,10 +96,24 @@ Shares shares(std::span<const Corners> triangles, std::span<const double> volume
   return s;
 }
 
-// Volume over area; where triangles are crushed that is beyond sense.
-double thickness_of(const Shares& s, std::size_t v) {
-  const double limit = edges_of_reach * s.edge[v];
-  return s.volume[v] < limit * s.area[v] ? s.volume[v] / s.area[v] : limit;
+// Volume over area at each vertex [m]. Where triangles are crushed that is beyond sense: above two edges it is not much
+// more than around them.
+std::vector<double> thicknesses(std::span<const Corners> triangles, const Shares& s) {
+  constexpr double much_more = 1.2;
+  const std::size_t n = s.volume.size();
+  std::vector<double> thickness(n), volume_around(n, 0), area_around(n, 0);
+  for (const Corners& c : triangles)
+    for (const std::uint32_t v : c)
+      for (const std::uint32_t w : c) {
+        volume_around[v] += s.volume[w];
+        area_around[v] += s.area[w];
+      }
+  for (std::size_t v = 0; v < n; ++v) {
+    const double limit =
+        std::max(edges_of_reach * s.edge[v], area_around[v] > 0 ? much_more * volume_around[v] / area_around[v] : 0);
+    thickness[v] = s.volume[v] < limit * s.area[v] ? s.volume[v] / s.area[v] : limit;
+  }
+  return thickness;
 }
 
 // None where nothing was caught.
@@ -156,15 +170,11 @@ struct CollideStage::Impl {
     path.fixed = scene::prescribed_axes(frame, *scene, path.start_time);
     at_start = shares(path.triangles, volumes(frame), path.start);
     const double density = scene->material.density > 0 ? scene->material.density : 1;
-    for (std::size_t i = 0; i < path.start.size(); ++i) {
-      path.thickness.push_back(thickness_of(at_start, i));
-      path.mass.push_back(at_start.volume[i] * density);
-    }
-    if (layers_flow(*scene)) {
-      const Shares at_end = shares(path.triangles, volumes(frame), path.end);
-      for (std::size_t i = 0; i < path.end.size(); ++i)
-        path.end_thickness.push_back(thickness_of(at_end, i));
-    }
+    path.thickness = thicknesses(path.triangles, at_start);
+    for (const double volume : at_start.volume)
+      path.mass.push_back(volume * density);
+    if (layers_flow(*scene))
+      path.end_thickness = thicknesses(path.triangles, shares(path.triangles, volumes(frame), path.end));
     return path;
   }
 

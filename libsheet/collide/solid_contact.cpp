@@ -157,9 +157,13 @@ private:
     return own_view(v).shape().distance(own_view(v).own(0, path_.start[v]), thickness) >= thickness;
   }
 
+  // The distance at which a vertex is held that is caught; one that starts nearer and flows is not lifted.
   [[nodiscard]] double caught_distance(std::uint32_t v, const VertexHit& hit) const {
-    return catching_distance(path_, views_[hit.solid], v, views_[hit.solid].own(0, path_.start[v]),
-                             path_.half_thickness(v) + (path_.end[v] - path_.start[v]).norm());
+    const SolidView& view = views_[hit.solid];
+    const Vector3 start = view.own(0, path_.start[v]);
+    const double half = path_.half_thickness(v), way = (path_.end[v] - path_.start[v]).norm();
+    const double full = catching_distance(path_, view, v, start, half + way);
+    return view.flows() ? std::clamp(view.shape().nearest(start).distance, std::min(half / 2, full), full) : full;
   }
 
   // The distance at which a vertex that touches ends from its solid. What flows keeps the one that sheet-step gave it

@@ -33,8 +33,7 @@ struct StepPath {
   std::span<const Vector3> start; // [m], free of intersections unless the report says otherwise
   std::vector<Vector3> end;       // [m]
   std::vector<Vector3> velocity;  // at the end [m/s]
-  std::vector<double>
-      thickness; // at each vertex [m]: volume / area of its triangles, at most twice the length of its edges
+  std::vector<double> thickness;  // at each vertex [m]: volume / area of its triangles, less where these are crushed
   std::vector<double>
       mass; // of each vertex [kg]; a third of its triangles' (volume / 3 where the density is not given)
   std::vector<double> end_thickness; // the same at the end, where layers flow; none: as at the start

@@ -44,6 +44,8 @@ struct Stage {
   std::vector<Vector3> predicted;     // the extrapolated end of the stage, for what is lagged [m]
   std::vector<WallSite> sites;        // of what touches walls, ascending
   std::vector<std::uint32_t> site_of; // of each vertex, or no_index; empty without sites
+  std::vector<std::uint32_t> wall_edges; // whose directors stand as the wall lets them, ascending
+  std::vector<double> wall_turns;        // of these directors, by the predicted end of the stage [rad]
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] Vector3 position(const Unknowns& u, std::uint32_t v) const { return u.segment<3>(3 * v); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/base/each.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/energy/wall_drag.h"
 #include "libsheet/geometry/area.h"
@@ -91,9 +92,47 @@ double lying(const Stage& stage, std::size_t triangle, const WallSite& site) {
   return across * across / normal.squaredNorm();
 }
 
+namespace {
+
+// Whether all corners of a triangle touch one wall, and it is not steeper on it than 60 degrees.
+bool lies_on_wall(const Stage& stage, std::size_t triangle) {
+  constexpr double least_lying = 0.25;
+  const Corners& c = stage.start->mesh->triangles[triangle];
+  const WallSite *one = site_at(stage, c[0]), *two = site_at(stage, c[1]), *three = site_at(stage, c[2]);
+  return one != nullptr && two != nullptr && three != nullptr && one->wall == two->wall && one->wall == three->wall &&
+         lying(stage, triangle, *one) > least_lying;
+}
+
+// The directors of edges between triangles that lie on walls are not free to turn: they follow the sheet's normals.
+void set_wall_turns(Stage& stage) {
+  stage.wall_edges.clear();
+  stage.wall_turns.clear();
+  if (stage.frames.empty())
+    return;
+  const Connectivity& mesh = *stage.start->mesh;
+  std::vector<char> lies(mesh.triangles.size());
+  each_in_parallel(lies.size(), [&](std::size_t t) { lies[t] = lies_on_wall(stage, t); });
+  for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
+    if (std::ranges::all_of(mesh.edge_triangles[e], [&](std::uint32_t t) { return t == no_index || lies[t] != 0; }))
+      stage.wall_edges.push_back(e);
+  if (stage.wall_edges.empty())
+    return;
+  Unknowns u = stage.begin;
+  for (std::size_t v = 0; v < stage.vertices(); ++v)
+    u.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
+  place_on_walls(stage, {}, u);
+  turn_with_normals(stage, u);
+  for (const std::uint32_t e : stage.wall_edges)
+    stage.wall_turns.push_back(u[static_cast<Eigen::Index>(3 * stage.vertices() + e)]);
+}
+
+} // namespace
+
 void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   stage.sites.clear();
   stage.site_of.clear();
+  stage.wall_edges.clear();
+  stage.wall_turns.clear();
   if (std::ranges::all_of(walls, [](const Wall& w) { return w.vertices.empty(); }))
     return;
   stage.site_of.assign(stage.vertices(), no_index);
@@ -111,6 +150,7 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   std::ranges::sort(stage.sites, {}, &WallSite::vertex);
   for (std::uint32_t s = 0; s < stage.sites.size(); ++s)
     stage.site_of[stage.sites[s].vertex] = s;
+  set_wall_turns(stage);
 }
 
 void place_on_walls(const Stage& stage, std::span<const char> held, Unknowns& u) {
@@ -122,11 +162,17 @@ void place_on_walls(const Stage& stage, std::span<const char> held, Unknowns& u)
         x += (site.place[k] - site.across[k].dot(x)) / free.squaredNorm() * free;
     }
   }
+  for (std::size_t k = 0; k < stage.wall_turns.size(); ++k)
+    u[static_cast<Eigen::Index>(3 * stage.vertices() + stage.wall_edges[k])] = stage.wall_turns[k];
 }
 
 Constraints constraints_of(const std::vector<Hold>& holds, const Stage& stage) {
   Constraints constraints;
   constraints.held = held_unknowns(holds, stage);
+  if (!stage.wall_edges.empty())
+    constraints.held.resize(static_cast<std::size_t>(stage.begin.size()), 0);
+  for (const std::uint32_t e : stage.wall_edges)
+    constraints.held[3 * stage.vertices() + e] = 1;
   turn_slides(stage, constraints);
   return constraints;
 }

@@ -42,7 +42,9 @@ struct Wall {
 // Sets the stage's sites, from where it is predicted to end: predicted places, raised metrics, end time.
 void set_wall_sites(const std::vector<Wall>& walls, Stage& stage);
 
-// Puts what touches walls where it may be, by the least way; along the axes only that no hold prescribes.
+// Puts what touches walls where it may be, by the least way; along the axes only that no hold prescribes. Directors on
+// walls follow the normals of where the stage is predicted to end: a layer on a wall is not free to bend, and thin ones
+// under tension or pressed together would buckle in their directors alone.
 void place_on_walls(const Stage& stage, std::span<const char> held, Unknowns& u);
 
 // The part of a direction of a vertex along the axes that are not held.

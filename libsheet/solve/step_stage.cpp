@@ -17,6 +17,7 @@
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/frame_mesh.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/impossible_speed.h"
 #include "libsheet/solve/scene_model.h"
 
 namespace sheet {
@@ -139,6 +140,7 @@ struct StepStage::Impl {
     }
     State state = state_of(frame, mesh.mesh());
     put_back_overshoot(frame, stepper->model(), state);
+    const State start = state;
     Stopwatch watch;
     StepReport report;
     if (options.dt) {
@@ -159,17 +161,33 @@ struct StepStage::Impl {
     }
     const double elapsed = watch.lap();
     totals.add(report, elapsed);
-    log::detail("step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge at vertex {}, {:.1f} ms",
-                frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error,
-                report.worst, 1e3 * elapsed);
+    log::detail(
+        "step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge at vertex {}, {:.1f} ms",
+        frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error, report.worst,
+        1e3 * elapsed);
     if (report.unfinished > 0)
       log::warning("step {}: {} of its {} parts taken before Newton's iterations had converged: stable, but less "
                    "accurate; shorter steps or remeshing help",
                    frame.step + 1, report.unfinished, report.substeps);
     else if (report.inaccurate > 0)
       warn_of_inaccurate(frame, state, report);
+    refuse_impossible_speed(frame, start, state);
     put_state(state, frame);
     put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), frame);
+  }
+
+  void refuse_impossible_speed(const Frame& frame, const State& start, const State& end) const {
+    const auto impossible = impossible_speed(stepper->model(), start, end);
+    if (!impossible)
+      return;
+    const Vector3& x = end.positions[impossible->vertex];
+    fail(
+        ExitCode::not_converged,
+        "step {}: vertex {} at ({:.4g}, {:.4g}, {:.4g}) m flies at {:.3g} m/s, with a kinetic energy of {:.3g} J, more "
+        "than all that worked on the whole sheet can have given, {:.3g} J: its place is impossible for the model "
+        "(triangles crushed, or solids that leave no room); remesh, tear, or shorten edges there",
+        frame.step + 1, impossible->vertex, x.x(), x.y(), x.z(), end.velocities[impossible->vertex].norm(),
+        impossible->energy, impossible->work);
   }
 
   // state: at the end of the step.

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solve/impossible_speed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+
+namespace {
+
+std::vector<double> masses(const Model& model, const State& state) {
+  std::vector<double> mass(state.positions.size(), 0);
+  for (std::size_t t = 0; t < state.volumes.size(); ++t)
+    for (const auto v : state.mesh->triangles[t])
+      mass[v] += model.density * state.volumes[t] / 3;
+  return mass;
+}
+
+double area_of(const State& state, const Corners& c) {
+  return TriangleArea(state.positions[c[0]], state.positions[c[1]], state.positions[c[2]]).area;
+}
+
+// Of what holds and walls move, at the end [m/s].
+double fastest_prescribed(const Model& model, const State& end) {
+  double fastest = 0;
+  for (const Hold& hold : model.holds)
+    for (const auto v : hold.vertices)
+      fastest = std::max(fastest, hold.velocity_at(end.time, end.positions[v]).norm());
+  for (const Wall& wall : model.walls)
+    for (const auto v : wall.vertices)
+      if (wall.velocity)
+        fastest = std::max(fastest, wall.velocity(end.time, end.positions[v]).norm());
+  return fastest;
+}
+
+// Of gravity on all vertices, as if none had lost what another one gained, and of what the bath carries.
+double work_of_gravity(const Model& model, const State& start, const State& end, const std::vector<double>& mass) {
+  const double lift = model.bath ? 1 + model.bath->density / model.density : 1;
+  double work = 0;
+  for (std::size_t v = 0; v < mass.size(); ++v)
+    work += lift * mass[v] * std::abs(model.gravity.dot(end.positions[v] - start.positions[v]));
+  return work;
+}
+
+// Of tension, of pressure, and of the weight of layers that spread.
+double work_on_area(const Model& model, const State& start, const State& end) {
+  const double pressure = !model.pressure ? 0 : end.gas ? std::abs(end.gas->pressure) : std::abs(model.pressure->value);
+  double work = 0;
+  for (std::size_t t = 0; t < start.volumes.size(); ++t) {
+    const Corners& c = start.mesh->triangles[t];
+    const double before = area_of(start, c), after = area_of(end, c);
+    double way = 0;
+    for (const auto v : c)
+      way = std::max(way, (end.positions[v] - start.positions[v]).norm());
+    work += 2 * model.surface_tension * std::max(0.0, before - after) + pressure * std::max(before, after) * way;
+    if (!model.walls.empty() || model.bath)
+      work += model.density * model.gravity.norm() * start.volumes[t] * start.volumes[t] / before;
+  }
+  return work;
+}
+
+double energy_of_contacts(const Model& model, const State& start) {
+  double energy = 0;
+  for (const ContactSpring& s : model.contacts) {
+    const Vector3 offset = s.offset(start.positions);
+    const double stretch = s.normal.dot(offset) - s.rest;
+    energy += 0.5 * s.stiffness[0] * stretch * stretch + 0.5 * s.stiffness[1] * (offset - s.anchor).squaredNorm();
+  }
+  return energy;
+}
+
+bool bounds_nothing(const Model& model) {
+  return !model.has_inertia() || (model.pressure && (model.pressure->kind == PressureLaw::Kind::inverse_square ||
+                                                     model.pressure->kind == PressureLaw::Kind::draining));
+}
+
+} // namespace
+
+std::optional<ImpossibleSpeed> impossible_speed(const Model& model, const State& start, const State& end) {
+  if (bounds_nothing(model))
+    return std::nullopt;
+  const std::vector<double> mass = masses(model, end);
+  ImpossibleSpeed fastest;
+  double kinetic = 0, whole = 0;
+  for (std::size_t v = 0; v < mass.size(); ++v) {
+    kinetic += 0.5 * mass[v] * start.velocities[v].squaredNorm();
+    whole += mass[v];
+    const double own = 0.5 * mass[v] * end.velocities[v].squaredNorm();
+    if (own > fastest.energy) {
+      fastest.vertex = v;
+      fastest.energy = own;
+    }
+  }
+  if (fastest.energy <= kinetic) // nearly always: no need to reckon
+    return std::nullopt;
+  const double prescribed = fastest_prescribed(model, end);
+  fastest.work = kinetic + 0.5 * whole * prescribed * prescribed + work_of_gravity(model, start, end, mass) +
+                 work_on_area(model, start, end) + energy_of_contacts(model, start);
+  return fastest.energy > fastest.work ? std::optional(fastest) : std::nullopt;
+}
+
+} // namespace sheet
