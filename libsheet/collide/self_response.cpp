@@ -2,6 +2,7 @@
 #include "libsheet/collide/self_response.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sheet::collide {
@@ -240,24 +241,51 @@ private:
         path_.velocity[v] =
             with_fixed(prescribed_[v], before[v], before[v] + (path_.end[v] - asked[v]) / path_.length());
     for (const auto& island : islands_.all()) {
-      Axes fixed = 0;
-      double mass = 0;
-      for (const std::uint32_t v : island) {
-        fixed |= path_.fixed[v];
-        mass += path_.mass[v];
-      }
-      if (fixed == all_axes)
-        continue;
-      const Vector3& center = asked[island.front()];
-      const Momentum was = momentum(island, path_.mass, asked, before, center);
-      const Momentum is = momentum(island, path_.mass, path_.end, path_.velocity, center);
-      const Momentum lost{was.linear - is.linear, was.angular - is.angular};
-      if (fixed == 0)
-        add_momentum(island, path_.mass, path_.end, path_.velocity, lost, center);
-      else
-        for (const std::uint32_t v : island)
-          path_.velocity[v] += free_part(fixed).cwiseProduct(lost.linear) / mass;
+      restore_momentum(island, asked, before);
+      take_gained_energy(island, before);
     }
+  }
+
+  void restore_momentum(const std::vector<std::uint32_t>& island, const std::vector<Vector3>& asked,
+                        const std::vector<Vector3>& before) {
+    Axes fixed = 0;
+    double mass = 0;
+    for (const std::uint32_t v : island) {
+      fixed |= path_.fixed[v];
+      mass += path_.mass[v];
+    }
+    if (fixed == all_axes)
+      return;
+    const Vector3& center = asked[island.front()];
+    const Momentum was = momentum(island, path_.mass, asked, before, center);
+    const Momentum is = momentum(island, path_.mass, path_.end, path_.velocity, center);
+    const Momentum lost{was.linear - is.linear, was.angular - is.angular};
+    if (fixed == 0)
+      add_momentum(island, path_.mass, path_.end, path_.velocity, lost, center);
+    else
+      for (const std::uint32_t v : island)
+        path_.velocity[v] += free_part(fixed).cwiseProduct(lost.linear) / mass;
+  }
+
+  // Contacts take energy: where features are brought apart that were too near, in a short step at a high speed, or
+  // moved by much to get round each other, the way is not a velocity. Of all changes in an island that part is kept
+  // that gives it no more energy than it had, and than it may have from what moves it.
+  void take_gained_energy(const std::vector<std::uint32_t>& island, const std::vector<Vector3>& before) {
+    double mass = 0, along = 0, square = 0, fastest = 0;
+    for (const std::uint32_t v : island) {
+      const Vector3 change = path_.velocity[v] - before[v];
+      mass += path_.mass[v];
+      along += path_.mass[v] * change.dot(before[v]);
+      square += path_.mass[v] * change.squaredNorm() / 2;
+      if (path_.fixed[v] != 0)
+        fastest = std::max(fastest, before[v].norm());
+    }
+    const double allowed = mass * fastest * fastest / 2;
+    if (along + square <= allowed)
+      return;
+    const double part = (std::sqrt(along * along + 4 * square * allowed) - along) / (2 * square);
+    for (const std::uint32_t v : island)
+      path_.velocity[v] = before[v] + part * (path_.velocity[v] - before[v]);
   }
 
   StepPath& path_;

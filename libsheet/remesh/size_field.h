@@ -33,7 +33,7 @@ struct SizeOptions {
 //
 // A strip from rim to rim (strip_width.h) gets a row of good triangles of its own: edges of twice its width at most,
 // which need no angle below 19 degrees as long as they are not split, but not below h, nor below `min_edge`, absent: an
-// eighth of `edge_length`, growing as above.
+// sixteenth of `edge_length`, growing as above.
 //
 // Without `chord_error` no edge is split that is not too long for h, too, where nothing holds the sheet and no solid
 // carries it: a shell model says nothing about what is shorter.
