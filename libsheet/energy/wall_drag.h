@@ -2,9 +2,10 @@
 // Drag of the wall on a layer that flows along it. A layer of thickness h between a wall without slip, or with the slip
 // length b, and a free face moves with its depth-averaged velocity u and is dragged by 3 μ u/(h + 3 b) [Pa] [Huppert
 // 1982; Oron, Davis and Bankoff 1997, section II.B]. For each corner of a triangle that touches
-//   W = cos²φ (Â/3) 3 μ |P (x - x̄)|² / (2 τ (ĥ + 3 b)),
+//   W = (cos²φ Â/3 + sin²φ F) 3 μ |P (x - x̄)|² / (2 τ (ĥ + 3 b)),   F = Σ l ĥ/2,
 // φ the angle between triangle and wall at the start of the step, Â and ĥ predicted for the end of the stage, P along
-// the wall, x̄ where the corner had been carried by the wall (WallSite::carried).
+// the wall, x̄ where the corner had been carried by the wall (WallSite::carried). F is the foot on which a triangle
+// stands, of its edges there whose both ends touch, of the length l: belts carry along what stands on them.
 #pragma once
 #include "libsheet/base/each.h"
 #include "libsheet/energy/element.h"
@@ -25,9 +26,11 @@ public:
       const Corners& corners = stage.start->mesh->triangles[i];
       const double area = stage.raised[i].area(), thickness = stage.start->volumes[i] / area;
       for (std::size_t c = 0; c < 3; ++c)
-        if (const WallSite* site = site_at(stage, corners[c]); site != nullptr && site->slip_length != free_slip)
-          stiffness_[i][c] =
-              lying(stage, i, *site) * area * viscosity_ / (stage.duration * (thickness + 3 * site->slip_length));
+        if (const WallSite* site = site_at(stage, corners[c]); site != nullptr && site->slip_length != free_slip) {
+          const double lies = lying(stage, i, *site), foot = thickness / 2 * length_on_wall(stage, corners, c);
+          stiffness_[i][c] = (lies * area + (1 - lies) * 3 * foot) * viscosity_ /
+                             (stage.duration * (thickness + 3 * site->slip_length));
+        }
     });
   }
 
@@ -58,6 +61,18 @@ public:
   }
 
 private:
+  // Of the edges at a corner whose both ends touch its wall, at the start of the step [m].
+  static double length_on_wall(const Stage& stage, const Corners& corners, std::size_t corner) {
+    const auto& x = stage.start->positions;
+    double length = 0;
+    for (std::size_t other = 1; other < 3; ++other) {
+      const std::uint32_t v = corners[corner], w = corners[(corner + other) % 3];
+      if (const WallSite* site = site_at(stage, w); site != nullptr && site->wall == site_at(stage, v)->wall)
+        length += (x[w] - x[v]).norm();
+    }
+    return length;
+  }
+
   template <class Visit> void each_corner(std::size_t i, const VectorN<9>& u, Visit&& visit) const {
     for (std::size_t c = 0; c < 3 && !stiffness_.empty(); ++c) {
       if (stiffness_[i][c] == 0)

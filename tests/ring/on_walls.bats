@@ -1,0 +1,118 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Liquid that stands, lies and slides on walls in scenes as a newcomer writes them: each of these stalled when the
+# distance from the wall was fed back.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || exit
+}
+
+# usage: run_scene NAME UNTIL FPS [EMIT]: the ring that sheet-init --check proposes, from NAME.toml to NAME.csv
+run_scene() {
+  sheet-init "$1.toml" |
+    sheet-loop -q --until "$2" --fps "$3" -o "$1.sheet" -- \
+      "sheet-remesh --smooth | ${4:-} sheet-step --tolerance 0.01 | sheet-collide"
+  sheet-check "$1.sheet"
+  sheet-info --csv "$1.sheet" > "$1.csv"
+}
+
+# usage: last NAME COLUMN: of the last frame
+last() {
+  awk -F, -v name="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i } END { print $c }' "$1.csv"
+}
+
+# usage: drop CONTACT: 10 mm thick with edges of 2 mm, just on a plate
+drop() {
+  cat << END
+[sheet]
+shape = "disk"
+radius = "25 mm"
+edge_length = "2 mm"
+thickness = "10 mm"
+center = [0, "5 mm", 0]
+[material]
+viscosity = "50 Pa*s"
+density = "1300 kg/m^3"
+[environment]
+gravity = [0, "-9.81 m/s^2", 0]
+[[solid]]
+shape = "plane"
+contact = "$1"
+[contact]
+self = true
+END
+}
+
+@test "a curtain that comes down upright on a plate folds there" {
+  cat > curtain.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = ["40 mm", "20 mm"]
+edge_length = "4 mm"
+thickness = "2.5 mm"
+plane = "yz"
+perturbation = {amplitude = "0.25 um", seed = 1}
+center = [0, "50 mm", 0]
+velocity = [0, "-0.15 m/s", 0]
+[material]
+viscosity = "8 Pa*s"
+density = "1300 kg/m^3"
+surface_tension = "0.04 N/m"
+[environment]
+gravity = [0, "-9.81 m/s^2", 0]
+[[inflow]]
+region = "y_max"
+velocity = [0, "-0.15 m/s", 0]
+thickness = "2.5 mm"
+[[solid]]
+shape = "plane"
+contact = "flow"
+[contact]
+self = true
+END
+  run_scene curtain 1 50 'sheet-emit |'
+  echo "steps $(last curtain step), at most $(last curtain thickness_max) m thick"
+  (($(last curtain step) <= 1000))
+  awk -v h="$(last curtain thickness_max)" 'BEGIN { exit !(h < 0.012) }'
+}
+
+@test "a drop thicker than its edges rests where it sticks, and is level and quiet where it flows" {
+  drop stick > stick.toml
+  drop flow > flow.toml
+  run_scene stick 0.5 20
+  run_scene flow 0.5 20
+  echo "kinetic energy $(last stick kinetic_energy) J, steps $(last stick step), $(last flow step)"
+  awk -v e="$(last stick kinetic_energy)" 'BEGIN { exit !(e < 1e-14) }' # of 26 g: below 1e-6 m/s
+  (($(last flow step) <= 20))
+  awk -v low="$(last flow y_min)" -v high="$(last flow y_max)" 'BEGIN { exit !(high - low < 0.0006 && low > 0.004) }'
+}
+
+@test "honey slides off a spoon that turns" {
+  cat > spoon.toml << 'END'
+[sheet]
+shape = "disk"
+radius = "18 mm"
+edge_length = "1.8 mm"
+thickness = "5 mm"
+center = [0, "83.5 mm", 0]
+[material]
+viscosity = "8 Pa*s"
+density = "1400 kg/m^3"
+surface_tension = "0.06 N/m"
+[environment]
+gravity = [0, "-9.81 m/s^2", 0]
+[[solid]]
+shape = "box"
+size = ["50 mm", "2 mm", "40 mm"]
+center = [0, "80 mm", 0]
+motion = {kind = "rotating", axis = [0, 0, 1], center = [0, "80 mm", 0], rate = "-1.4 rad/s"}
+contact = "flow"
+[contact]
+self = true
+END
+  run_scene spoon 1 50
+  echo "steps $(last spoon step)"
+  (($(last spoon step) <= 150))
+}
