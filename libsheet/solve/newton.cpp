@@ -31,6 +31,7 @@ constexpr int many_products = 5;  // then the factor is made anew
 constexpr double served = 0.3;    // of what remained, what a step by the factor alone may leave
 constexpr double sharper = 1e-2;  // of the tolerance, after such a step: others leave the square of what remained
 constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what may remain at most
+constexpr int often = 3;          // in a row near enough, though the preconditioner is not trusted
 constexpr double far_away = 0.1;  // of an edge, or radians: if more remains at a start, there may be a better one,
 constexpr double much = 0.1;      // or if so much of the energies there can be gained
 
@@ -100,7 +101,8 @@ private:
       if (!std::isfinite(remains_))
         return;
       if (converged()) {
-        take_remainder();
+        if (near_ < often || trusted())
+          take_remainder();
         return;
       }
       if (system_.factor_serves()) {
@@ -203,8 +205,11 @@ private:
 
   bool converged() {
     const bool strict = trusted() && remains_ <= (followed_ ? sharper : 1) * options_.tolerance;
-    const bool lenient = options_.of_step_error > 0 && trusted() && norm_ <= options_.of_step_error * first_norm_ &&
-                         positions_remain_ <= std::min(largest, options_.of_step_error * way_);
+    const bool near = options_.of_step_error > 0 && norm_ <= options_.of_step_error * first_norm_ &&
+                      positions_remain_ <= std::min(largest, options_.of_step_error * way_);
+    near_ = near ? near_ + 1 : 0;
+    // Slivers and films of no mass may have a curvature that is negative for ever, and move by next to nothing.
+    const bool lenient = near_ >= (trusted() ? 1 : often);
     // A direction with the Hessian knows the soft modes too, of which the potential tells little.
     const bool nothing_to_gain =
         steps() > 0 && !followed_ && full_ && remains_ <= small_step && norm_ * norm_ <= energy_.noise();
@@ -321,7 +326,7 @@ private:
   double start_ = 0; // of the potential
   Eigen::VectorXd gradient_, trial_, force_, preconditioned_, remainder_, step_;
   double slope_ = 0, norm_ = 0, previous_norm_ = 0, first_norm_ = 0, remains_ = 0, positions_remain_ = 0, way_ = 0;
-  int products_ = 0;
+  int products_ = 0, near_ = 0;
   bool asked_ = false;      // for another start
   bool linearized_ = false; // the system has the exact Hessian at u
   bool fresh_ = false;      // the factor was made at u

@@ -74,10 +74,11 @@ bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const E
   });
 }
 
-// How much each vertex counts: as much as it carries where the sheet is thinner than a tenth of its mean thickness,
-// else wholly. A film of next to no mass swings in ways that nobody sees, and shall rule neither steps nor iterations.
+// How much each vertex counts: wholly, but less as the sheet there is thinner than a tenth of its mean thickness, or as
+// the vertex carries less than a hundredth of the mean volume. Films and strands of next to no mass swing in ways that
+// nobody sees, and shall rule neither steps nor iterations.
 Eigen::VectorXd vertex_weights(const Stage& stage) {
-  constexpr double counts_wholly = 0.1;
+  constexpr double thick_enough = 0.1, carries_enough = 0.01;
   const auto& triangles = stage.start->mesh->triangles;
   Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stage.vertices())), weight = area;
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -86,9 +87,12 @@ Eigen::VectorXd vertex_weights(const Stage& stage) {
   double volume = 0;
   for (const double v : stage.start->volumes)
     volume += v;
-  const double whole = counts_wholly * volume / area.sum();
-  for (Eigen::Index v = 0; v < area.size(); ++v)
-    weight[v] = std::min(1.0, stage.vertex_volumes[static_cast<std::size_t>(v)] / (whole * area[v]));
+  const double thickness = thick_enough * volume / area.sum();
+  const double carried = carries_enough * volume / static_cast<double>(area.size());
+  for (Eigen::Index v = 0; v < area.size(); ++v) {
+    const double own = stage.vertex_volumes[static_cast<std::size_t>(v)];
+    weight[v] = std::min({1.0, own / (thickness * area[v]), own / carried});
+  }
   return weight;
 }
 
