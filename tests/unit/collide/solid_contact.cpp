@@ -261,6 +261,28 @@ TEST(SolidContact, WhatTwoTrianglesShareIsPushedOnce) {
   }
 }
 
+// A film far thinner than its triangles' chords comes down on a ball: its vertices are held, its triangles are not
+// pushed in step after step.
+TEST(SolidContact, FilmsTouchByTheirVertices) {
+  constexpr double radius = 0.05, film = 2e-5;
+  const solid::Solids ball = solids_of({solid(scene::Sphere{radius}, {0, -radius, 0})});
+  FallingSheet sheet(0.1, 10, film, 2e-3, {0, -1, 0}, 1e-3);
+  std::size_t pushed = 0, touching = 0;
+  for (int step = 0; step < 20; ++step) {
+    const SolidReport report = resolve_solids(sheet.path, ball);
+    EXPECT_EQ(report.unresolved, 0U);
+    pushed += report.pushed;
+    touching = report.touching;
+    sheet.go_on();
+  }
+  EXPECT_GT(touching, 40U);        // of 121, within 30 mm of the top
+  EXPECT_LT(pushed, 2 * touching); // at the first touch, not again and again
+  for (std::size_t v = 0; v < sheet.start.size(); ++v)
+    if (sheet.path.touch[v] != no_solid) {
+      EXPECT_LT((sheet.start[v] + Vector3(0, radius, 0)).norm(), radius + 2e-3);
+    }
+}
+
 // Within limits it stays where it stands, or it would go up and down at the edge of what the triangles beside it allow.
 TEST(SolidContact, WhatSticksStaysWhereItStands) {
   const solid::Solids ground = solids_of({solid(scene::HalfSpace{{0, 1, 0}})});
