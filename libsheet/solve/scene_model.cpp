@@ -8,6 +8,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/overloaded.h"
 #include "libsheet/energy/overshoot.h"
+#include "libsheet/geometry/area.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/directors.h"
@@ -106,6 +107,30 @@ Wall wall_of(const std::shared_ptr<const solid::Solids>& solids, std::size_t i, 
   return wall;
 }
 
+// Vertices around which the sheet is thinner than a thousandth of its mean thickness. A wall's drag on so thin a film
+// lets nothing move along it, and what little the film is must not ask for iterations.
+std::vector<char> thin_films(const Frame& frame) {
+  constexpr double thin = 1e-3;
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  const auto volume = volumes(frame);
+  std::vector<double> volumes_at(x.size(), 0), areas_at(volumes_at);
+  double all = 0, whole = 0;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const double area = TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
+    all += volume[t];
+    whole += area;
+    for (const auto v : corners[t]) {
+      volumes_at[v] += volume[t];
+      areas_at[v] += area;
+    }
+  }
+  std::vector<char> films(x.size());
+  for (std::size_t v = 0; v < films.size(); ++v)
+    films[v] = volumes_at[v] * whole < thin * all * areas_at[v];
+  return films;
+}
+
 // What touches a solid moves with its surface, without slip [Batty et al. 2012, section 3.5], or flows along it. Gives
 // whether anything touches.
 bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& mesh,
@@ -115,6 +140,7 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
   for (std::uint32_t v = 0; v < touched.size(); ++v)
     if (touched[v] != no_solid)
       touching[static_cast<std::size_t>(touched[v])].push_back(v);
+  const std::vector<char> films = flows_on_solids(scene) ? thin_films(frame) : std::vector<char>{};
   bool any = false;
   for (std::size_t i = 0; i < touching.size(); ++i) {
     if (touching[i].empty())
@@ -126,6 +152,8 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
     hold.of_wall = solid.contact != SolidContact::stick;
     if (solid.contact == SolidContact::flow && !solid.receding)
       hold.vertices = held_rims(frame, mesh, touching[i]);
+    if (solid.contact == SolidContact::flow)
+      std::ranges::copy_if(touching[i], std::back_inserter(hold.vertices), [&](std::uint32_t v) { return films[v]; });
     if (solid.contact == SolidContact::stick)
       hold.vertices = std::move(touching[i]);
     else
