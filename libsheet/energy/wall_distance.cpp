@@ -10,19 +10,18 @@ namespace sheet {
 
 namespace {
 
-constexpr double least_cosine = 0.5; // between a wall and what lies on it
 constexpr double longest_rise = 0.1; // of a layer in a step, as part of its edges
 constexpr int most_layers = 100;     // that lie on each other
 
 // The area of a triangle as the wall sees it that all its corners touch [m²]; 0 where it does not lie on one.
 double lying_area(const Stage& stage, const State& end, const Corners& c) {
-  const WallSite *one = site_at(stage, c[0]), *two = site_at(stage, c[1]), *three = site_at(stage, c[2]);
-  if (one == nullptr || two == nullptr || three == nullptr || one->wall != two->wall || one->wall != three->wall)
+  if (common_wall(stage, c) == no_index)
     return 0;
   const auto& x = end.positions;
   const Vector3 whole = 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
-  const double seen = std::abs(whole.dot((one->normal + two->normal + three->normal).normalized()));
-  return seen > least_cosine * whole.norm() ? seen : 0;
+  const Vector3 normal = site_at(stage, c[0])->normal + site_at(stage, c[1])->normal + site_at(stage, c[2])->normal;
+  const double seen = std::abs(whole.dot(normal.normalized()));
+  return seen > least_lying_cosine * whole.norm() ? seen : 0;
 }
 
 // By holds that have nothing to do with walls.

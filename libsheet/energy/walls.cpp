@@ -94,13 +94,11 @@ double lying(const Stage& stage, std::size_t triangle, const WallSite& site) {
 
 namespace {
 
-// Whether all corners of a triangle touch one wall, and it is not steeper on it than 60 degrees.
+// Whether all corners of a triangle touch one wall, and it lies on it.
 bool lies_on_wall(const Stage& stage, std::size_t triangle) {
-  constexpr double least_lying = 0.25;
   const Corners& c = stage.start->mesh->triangles[triangle];
-  const WallSite *one = site_at(stage, c[0]), *two = site_at(stage, c[1]), *three = site_at(stage, c[2]);
-  return one != nullptr && two != nullptr && three != nullptr && one->wall == two->wall && one->wall == three->wall &&
-         lying(stage, triangle, *one) > least_lying;
+  return common_wall(stage, c) != no_index &&
+         lying(stage, triangle, *site_at(stage, c[0])) > least_lying_cosine * least_lying_cosine;
 }
 
 // The directors of edges between triangles that lie on walls are not free to turn: they follow the sheet's normals.

@@ -71,6 +71,18 @@ void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage,
   return stage.site_of.empty() || stage.site_of[vertex] == no_index ? nullptr : &stage.sites[stage.site_of[vertex]];
 }
 
+// The wall that all corners touch, or no_index.
+[[nodiscard]] inline std::uint32_t common_wall(const Stage& stage, const Corners& corners) {
+  const WallSite *one = site_at(stage, corners[0]), *two = site_at(stage, corners[1]),
+                 *three = site_at(stage, corners[2]);
+  const bool common =
+      one != nullptr && two != nullptr && three != nullptr && one->wall == two->wall && one->wall == three->wall;
+  return common ? one->wall : no_index;
+}
+
+// Between a wall and what lies on it: 60 degrees.
+inline constexpr double least_lying_cosine = 0.5;
+
 // The squared cosine of the angle between a triangle, at the start of the step, and the wall of one of its corners: 1
 // where it lies on the wall, 0 where it stands on it edge-on.
 [[nodiscard]] double lying(const Stage& stage, std::size_t triangle, const WallSite& site);

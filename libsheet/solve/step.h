@@ -52,9 +52,11 @@ struct StepReport {
   int flat_fallbacks = 0;  // steps done with straight edges instead of arcs, as they did not converge with arcs
   int unfinished = 0;      // substeps taken though Newton's iterations had not converged
   int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
-  NewtonReport newton;   // sums over all stages; last_step of the last one
-  double error = 0;      // filtered difference to the first-order result, in edge lengths, greatest of the substeps
-  std::size_t worst = 0; // the vertex that has it
+  NewtonReport newton; // sums over all stages; last_step of the last one
+  // Filtered difference to the first-order result, in edge lengths, less where next to nothing is carried
+  // (docs/model.md, stopping rule), greatest of the substeps.
+  double error = 0;
+  std::size_t worst = 0;          // the vertex that has it
   std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex, at the end [N]
   double seconds_analysis = 0;
   // Assembled terms, their element work summed over threads, and gathering; again for what was done without arcs.

@@ -92,6 +92,25 @@ TEST(SelfResponse, WhatDoesNotHitStays) {
   EXPECT_EQ(c.path.velocity, velocity);
 }
 
+// Two sheets that have been put through each other at next to no speed are parted, and the way is no velocity.
+TEST(SelfResponse, WhatIsBroughtApartGainsNoEnergy) {
+  Case c(2, 6, 0.1);
+  for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+    c.displace(v, {0, 0, v < c.start.size() / 2 ? 0.3 : -0.2});
+    c.path.velocity[v] *= 1e-3;
+  }
+  const auto energy = [&] {
+    double sum = 0;
+    for (std::uint32_t v = 0; v < c.start.size(); ++v)
+      sum += c.path.mass[v] * c.path.velocity[v].squaredNorm() / 2;
+    return sum;
+  };
+  const double before = energy();
+  EXPECT_GT(c.resolve().hits, 0u);
+  c.expect_safe();
+  EXPECT_LE(energy(), before * (1 + 1e-12));
+}
+
 // Two sheets change places: each ends on its own side, and their momenta level out.
 TEST(SelfResponse, TwoSheetsThroughEachOther) {
   Case c(2, 6, 0.1);
