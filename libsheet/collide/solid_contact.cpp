@@ -167,7 +167,7 @@ private:
   }
 
   // The distance at which a vertex that touches ends from its solid. What flows keeps the one that sheet-step gave it
-  // (energy/walls.h), what sticks that at which it starts: from half the thickness to nine tenths of it. Set to half
+  // (wall_distance.h), what sticks that at which it starts: from half the thickness to nine tenths of it. Set to half
   // each time, it would sink as the sheet thins until a triangle beside it is too near and pushes it out, and come back
   // at once, at every few steps.
   [[nodiscard]] double kept_distance(std::uint32_t v, const Vector3& own) const {
