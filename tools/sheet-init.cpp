@@ -10,6 +10,8 @@
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/proposed_ring.h"
+#include "libsheet/plan/symmetry.h"
 #include "libsheet/scene/example.h"
 #include "libsheet/scene/explain.h"
 #include "libsheet/scene/read.h"
@@ -55,8 +57,16 @@ std::string explained(const std::string& file, const std::vector<std::string>& s
   std::string init = "sheet-init " + sheet::shell_quoted(file == "-" ? "scene.toml" : file);
   for (const std::string& set : sets)
     init += " --set " + sheet::shell_quoted(set);
-  return sheet::formats::printable(sheet::scene::to_text(sheet::scene::explain(scene, sheet::measured(frame))) +
-                                   sheet::ring_text(scene, frame, init));
+  const sheet::scene::Measured measured = sheet::measured(frame);
+  sheet::scene::Explanation explanation = sheet::scene::explain(scene, measured);
+  const double thickness = sheet::landing_thickness(scene, frame);
+  if (sheet::stays_in_its_plane(scene, frame, thickness)) {
+    explanation.warnings.emplace_back("all is symmetric about the sheet's plane: it would grow thicker where it should "
+                                      "fold. [[sheet]] perturbation lets it begin, as in the ring below");
+    for (const std::string& set : sheet::small_noise(scene, *measured.thickness))
+      init += " --set " + sheet::shell_quoted(set);
+  }
+  return sheet::formats::printable(sheet::scene::to_text(explanation) + sheet::ring_text(scene, frame, init));
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include "libsheet/flow/inlet.h"
 #include "libsheet/flow/inlet_checks.h"
 #include "libsheet/flow/outflow.h"
+#include "libsheet/flow/row_perturbation.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/account.h"
@@ -35,8 +36,9 @@ using Row = std::vector<std::uint32_t>; // a vertex for each of the border's
 class Emission {
 public:
   // The inflow's inlet has this number, and these chains.
-  Emission(Frame& frame, const scene::Inflow& inflow, std::size_t number, const std::vector<InletChain>& chains)
-      : frame_(frame), old_(frame), inflow_(inflow), number_(number), chains_(chains) {
+  Emission(Frame& frame, const Scene& scene, std::size_t number, const std::vector<InletChain>& chains)
+      : frame_(frame), old_(frame), inflow_(scene.inflows[number]), number_(number), chains_(chains),
+        perturbation_(scene, number, frame) {
     const auto x = positions(old_);
     const auto origins = frame.find("inlet_origin")->values<Vector3>();
     const auto bits = masks(frame, "inlet");
@@ -83,6 +85,19 @@ private:
   // From where the border belongs to the lowest row.
   [[nodiscard]] Vector3 way(const InletChain& chain, std::size_t i) const {
     return x_[lowest(chain)[i]] - origins_[chain.border[i]];
+  }
+
+  // Of the sheet at the border's i-th vertex, as its triangles have theirs.
+  [[nodiscard]] Vector3 normal(const InletChain& chain, std::size_t i) const {
+    const auto of_edge = [&](std::size_t k) -> Vector3 {
+      const std::size_t j = chain.after(k);
+      const Vector3 edge = origins_[chain.border[j]] - origins_[chain.border[k]];
+      return edge.cross(way(chain, k) + way(chain, j));
+    };
+    const std::size_t last = chain.edges() - 1;
+    if (chain.closed)
+      return (of_edge(i) + of_edge(i == 0 ? last : i - 1)).normalized();
+    return (i == 0 ? of_edge(0) : i > last ? of_edge(last) : Vector3(of_edge(i - 1) + of_edge(i))).normalized();
   }
 
   // Its length, measured across the border: area over width.
@@ -163,6 +178,8 @@ private:
       row.push_back(static_cast<std::uint32_t>(x_.size()));
       vertices_.add({&parent, 1});
       x_.emplace_back(origin + part * way(chain, i));
+      if (part > 0 && !perturbation_.none())
+        x_.back() += perturbation_.at(origin, x_[lowest(chain)[i]], part, rows_, i) * normal(chain, i);
       origins_.push_back(origin);
       bits_.push_back(0);
     }
@@ -327,6 +344,7 @@ private:
   const scene::Inflow& inflow_;
   std::size_t number_;
   const std::vector<InletChain>& chains_;
+  RowPerturbation perturbation_;
   std::vector<Vector3> x_, origins_;
   std::vector<std::uint64_t> bits_;
   Lineage vertices_;
@@ -357,7 +375,7 @@ Emitted emit_at(Frame& frame, const Scene& scene, std::size_t number) {
   if (!ended)
     check_inlet(frame, scene, inflow, chains);
   if (!chains.empty()) {
-    const Emitted emitted = Emission(frame, inflow, number, chains).run();
+    const Emitted emitted = Emission(frame, scene, number, chains).run();
     if (ended)
       release(frame, number);
     return emitted;

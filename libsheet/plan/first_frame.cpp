@@ -11,8 +11,6 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/capped_volume.h"
 #include "libsheet/remesh/mesh.h"
-#include "libsheet/scene/ring.h"
-#include "libsheet/scene/scales.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
@@ -31,15 +29,6 @@ double area_of(const Frame& frame) {
   for (const Corners& c : triangles(frame))
     area += TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
   return area;
-}
-
-double mean_edge_of(const Frame& frame) {
-  const auto x = positions(frame);
-  double sum = 0;
-  for (const Corners& c : triangles(frame))
-    for (std::size_t i = 0; i < 3; ++i)
-      sum += (x[c[(i + 1) % 3]] - x[c[i]]).norm();
-  return sum / (3.0 * static_cast<double>(frame.triangles));
 }
 
 // What is held, or stands in the inlet, may begin in a nozzle or a clamp.
@@ -97,24 +86,6 @@ Scene with_amount_of_gas(Scene scene, const Frame& frame) {
   return scene;
 }
 
-// A number that one likes to type: its first two digits.
-double rounded(double value) {
-  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit) * unit));
-}
-
-// Some times of the flow; until whatever ends by the clock has ended.
-double until_of(const Scene& scene, const scene::Scales& scales) {
-  double until = scales.length && scales.speed > 0 ? 5 * *scales.length / scales.speed : 1;
-  for (const scene::Hold& hold : scene.holds)
-    until = std::max(until, 1.5 * hold.until.value_or(0));
-  for (const scene::Inflow& inflow : scene.inflows)
-    until = std::max(until, 1.5 * inflow.until.value_or(0));
-  for (const scene::SheetTable& sheet : scene.sheets)
-    until = std::max(until, 1.5 * sheet.enters.value_or(0));
-  return std::isfinite(until) && until > 0 ? rounded(until) : 1;
-}
-
 } // namespace
 
 Frame first_frame(const Scene& scene) {
@@ -157,16 +128,6 @@ scene::Measured measured(const Frame& frame) {
   for (const double v : volumes(frame))
     volume += v;
   return {.length = std::sqrt(area), .thickness = volume / area, .curvature = {}};
-}
-
-std::string ring_text(const Scene& scene, const Frame& frame, const std::string& init) {
-  const double until = until_of(scene, scene::scales_of(scene, measured(frame)));
-  const double fps = until >= 1 ? 24 : rounded(50 / until);
-  return fmt::format(
-      "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:g} "
-      "--fps {:g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
-      "is below 0.001 of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
-      init, until, fps, scene::pipeline_of(scene), mean_edge_of(frame));
 }
 
 } // namespace sheet

@@ -18,8 +18,4 @@ namespace sheet {
 // Length (the root of its area) and mean thickness of the frame's sheet.
 [[nodiscard]] scene::Measured measured(const formats::Frame& frame);
 
-// How to run the scene: commands to paste, and what they compute with. `init` is the command that makes the first
-// frame.
-[[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& frame, const std::string& init);
-
 } // namespace sheet

@@ -59,7 +59,8 @@ thickness = "10 mm"
 #thickness = {data = "thickness", place = "vertex", scale = 0.001}
 
 # Small deviations, to let wrinkles begin: a wave of the position (along the normal) or of the thickness, along x, y, z or
-# "radial" (outwards), or noise at each vertex. Several may be given in a list.
+# "radial" (outwards), or noise at each vertex. Several may be given in a list. Those of the position go on in what an
+# inlet brings.
 #perturbation = {amplitude = "0.1 mm", wavelength = "75 mm", direction = "x", phase = "0 deg"}
 
 #perturbation = {of = "thickness", amplitude = "0.1 mm", seed = 7}

@@ -83,6 +83,7 @@ struct ThicknessData {
 //          radius
 //   noise  d uniform in [-amplitude, amplitude], independent at each vertex (position) or triangle (thickness), from
 //   `seed`
+// Those of the position go on in what enters at the sheet's inlets (libsheet/flow/row_perturbation.h).
 enum class WaveDirection { x, y, z, radial };
 struct Wave {
   double wavelength, phase; // [m], [rad]

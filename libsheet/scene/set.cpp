@@ -55,6 +55,10 @@ std::string_view without_spaces(std::string_view text) {
   return text;
 }
 
+bool is_number(std::string_view key) {
+  return std::ranges::all_of(key, [](char c) { return c >= '0' && c <= '9'; });
+}
+
 } // namespace
 
 void apply_set(Node& document, std::string_view set, int index) {
@@ -71,6 +75,8 @@ void apply_set(Node& document, std::string_view set, int index) {
     const bool last = dot == std::string_view::npos;
     if (key.empty() || depth == deepest)
       fail(ExitCode::usage, "--set {}: expected keys joined by dots before the \"=\", such as material.viscosity", set);
+    if (node->type == Node::Type::list && node->items.size() == 1 && !is_number(key))
+      node = &node->items.front(); // the only one needs no number
     if (node->type == Node::Type::list) {
       std::size_t item = 0;
       const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), item);

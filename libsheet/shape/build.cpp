@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
@@ -16,6 +15,7 @@
 #include "libsheet/shape/random.h"
 #include "libsheet/shape/regions.h"
 #include "libsheet/shape/shapes.h"
+#include "libsheet/shape/waves.h"
 #include "libsheet/sheet/append.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -64,19 +64,6 @@ TriangleMesh local_mesh(const scene::SheetTable& table) {
 
 Plane plane_of(scene::Plane plane) {
   return plane == scene::Plane::xy ? Plane::xy : plane == scene::Plane::xz ? Plane::xz : Plane::yz;
-}
-
-Field wave_field(const scene::Perturbation& perturbation, const scene::Wave& wave, const scene::SheetTable& table) {
-  if (wave.direction == scene::WaveDirection::radial) {
-    const auto* annulus = std::get_if<scene::Annulus>(&table.shape);
-    const Vector3d axis = Vector3d::Unit(scene::axes_of(table.plane).normal);
-    const double start = annulus == nullptr ? 0 : annulus->inner_radius;
-    return radial_wave(perturbation.amplitude, wave.wavelength, axis, Vector3d::Zero(),
-                       start - wave.phase / (2 * std::numbers::pi) * wave.wavelength);
-  }
-  const Vector3d direction = Vector3d::Unit(static_cast<int>(wave.direction));
-  return plane_wave(perturbation.amplitude, wave.wavelength, direction,
-                    -wave.phase / (2 * std::numbers::pi) * wave.wavelength * direction);
 }
 
 // The sheet stands in its plane around the origin, not yet rotated: perturbations and named borders are meant so.

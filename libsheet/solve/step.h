@@ -65,7 +65,7 @@ struct StepReport {
 
 // Steps chosen by the error estimate. `dt` is the next step to try [s]; 0: not known yet.
 struct StepControl {
-  double tolerance = 1e-3; // of an edge length a step
+  double tolerance = 1e-2; // of an edge length a step
   double dt = 0;
 };
 

@@ -183,6 +183,61 @@ gravity = [0, 0, -9.81]'
   run -3 sheet-init --check disk.toml
 }
 
+@test "7: --check finds what stays in its plane, and its ring lets it fold" {
+  cat > upright.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = ["60 mm", "20 mm"]
+edge_length = "5 mm"
+plane = "xz"
+center = [0, 0, "60 mm"]
+thickness = "3 mm"
+[material]
+viscosity = 5
+density = 1300
+[environment]
+gravity = [0, 0, -9.81]
+[[inflow]]
+region = "z_max"
+velocity = [0, 0, "-0.15 m/s"]
+thickness = "3 mm"
+[[solid]]
+shape = "box"
+size = ["100 mm", "40 mm", "20 mm"]
+center = [0, "18 mm", 0]
+END
+  sheet-init --check upright.toml > text
+  grep -q "all is symmetric about the sheet's plane" text
+  grep -qF -- "--set 'sheet.perturbation={amplitude = \"0.3 um\", seed = 1}' -o first.sheet" text
+  eval "$(grep -o 'sheet-init .*' text)"
+  sheet-print first.sheet | grep -q 'amplitude = 3e-07'
+  # what looks the other way, moves aside, or meets an edge off its middle is not symmetric
+  for set in sheet.plane='"xy"' 'sheet.velocity=[0, "1 mm/s", 0]' 'solid.center=[0, "20.5 mm", 0]' \
+    'solid.surface_velocity=[0, 0.1, 0]' 'inflow.velocity=[0, 0.01, -0.1]' \
+    'sheet.perturbation={amplitude = "1 um", seed = 1}'; do
+    sheet-init --check upright.toml --set "$set" > text
+    run -1 grep 'all is symmetric' text
+  done
+}
+
+@test "7: --check proposes times that the scene needs" {
+  proposes() { # UNTIL FPS SET...
+    sheet-init --check disk.toml "${@:3}" | grep -q -- "--until $1 --fps $2 --"
+  }
+  cat >> disk.toml << 'END'
+[environment]
+gravity = [0, 0, -9.81]
+[[solid]]
+shape = "plane"
+normal = [0, 0, 1]
+center = [0, 0, -5]
+motion = {kind = "translating", velocity = [[0, 0, 0, 0], [8, 0, 0, 0.01], [9, 0, 0, 0]]}
+END
+  proposes 9.9 24 # what moves comes to rest
+  proposes 5.7 24 --set solid.motion='{kind = "fixed"}' # four times the fall, and five times of the flow
+  proposes 14000 0.005 --set solid.motion='{kind = "fixed"}' --set sheet.enters=9000
+}
+
 @test "7: --check judges sheets by what they are and by what drives them" {
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n' > mesh.obj
   printf '[sheet]\nshape = "mesh"\nfile = "mesh.obj"\nthickness = 0.01\n[material]\nviscosity = 100\ndensity = 1000\n' > mesh.toml

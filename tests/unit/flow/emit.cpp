@@ -2,6 +2,7 @@
 // Inflow without physics: sheets that move as one.
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -113,6 +114,59 @@ TEST(Emit, VolumeIsThicknessTimesWidthTimesWay) {
   EXPECT_NEAR(entered, account(frame), 1e-14);
   for (std::size_t t = 0; t < frame.triangles; ++t)
     EXPECT_NEAR(volumes(frame)[t] / test::area(frame, t), thickness, 1e-14);
+}
+
+// What hangs from the inlet goes on as the sheet's wave: at each vertex as far off its plane as at the start there.
+TEST(Emit, TheSheetsWavesGoOnInWhatEnters) {
+  const Scene scene = parse_scene("[sheet]\nshape = \"rectangle\"\nsize = [4, 2]\nsegments = [4, 2]\n"
+                                  "pattern = \"structured\"\nplane = \"xy\"\ncenter = [2, 1, 0]\nthickness = 0.25\n"
+                                  "perturbation = {amplitude = 0.01, wavelength = 5, direction = \"y\"}\n"
+                                  "[material]\nviscosity = 1\ndensity = 1\n"
+                                  "[inflow]\nregion = \"y_max\"\nvelocity = [0, -1, 0]\nthickness = 0.25\n",
+                                  "scene");
+  Frame frame = build_frame(scene);
+  for (int k = 0; k < 40; ++k) {
+    move(frame, scene, 0.25);
+    emit(frame, scene);
+  }
+  ASSERT_GT(frame.vertices, 50);
+  double greatest = 0;
+  for (std::size_t v = 0; v < frame.vertices; ++v) {
+    const Vector3& x = positions(frame)[v];
+    if (masks(frame, "inlet")[v] != 0)
+      continue;
+    EXPECT_NEAR(x.z(), 0.01 * std::sin(2 * std::numbers::pi * (x.y() + frame.time - 1) / 5), 1e-5)
+        << x.y(); // normals lean
+    greatest = std::max(greatest, std::abs(x.z()));
+  }
+  EXPECT_GT(greatest, 0.008);
+}
+
+TEST(Emit, TheSheetsNoiseGoesOnInWhatEnters) {
+  const std::string noise = "[sheet]\nshape = \"rectangle\"\nsize = [4, 2]\nsegments = [4, 2]\n"
+                            "pattern = \"structured\"\nplane = \"xy\"\ncenter = [2, 1, 0]\nthickness = 0.25\n"
+                            "perturbation = {amplitude = 0.01, seed = 3}\n[material]\nviscosity = 1\ndensity = 1\n"
+                            "[inflow]\nregion = \"y_max\"\nvelocity = [0, -1, 0]\nthickness = 0.25\n";
+  const auto run = [](const Scene& scene) {
+    Frame frame = build_frame(scene);
+    for (int k = 0; k < 40; ++k) {
+      move(frame, scene, 0.25);
+      frame.step += 1;
+      emit(frame, scene);
+    }
+    return frame;
+  };
+  const Frame frame = run(parse_scene(noise, "scene"));
+  EXPECT_EQ(frame, run(parse_scene(noise, "scene")));
+  std::set<double> ways;
+  for (std::size_t v = 0; v < frame.vertices; ++v)
+    if (masks(frame, "inlet")[v] == 0 && positions(frame)[v].y() > -8) {
+      ways.insert(positions(frame)[v].z());
+      EXPECT_LT(std::abs(positions(frame)[v].z()), 0.04); // its own, and part of that of the row below
+    }
+  EXPECT_GE(ways.size(), 40); // eight rows of five, each its own
+  EXPECT_LT(*ways.begin(), -0.005);
+  EXPECT_GT(*ways.rbegin(), 0.005);
 }
 
 TEST(Emit, RowsAreThoseOfAnyOtherStep) {

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/proposed_ring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "libsheet/geometry/area.h"
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/ring.h"
+#include "libsheet/scene/scales.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
+
+namespace sheet {
+
+namespace {
+
+using Eigen::Vector3d;
+using formats::Frame;
+
+double mean_edge_of(const Frame& frame) {
+  const auto x = positions(frame);
+  double sum = 0;
+  for (const Corners& c : triangles(frame))
+    for (std::size_t i = 0; i < 3; ++i)
+      sum += (x[c[(i + 1) % 3]] - x[c[i]]).norm();
+  return sum / (3.0 * static_cast<double>(frame.triangles));
+}
+
+double size_of(const Frame& frame) { return *measured(frame).length; }
+
+// How far x can fall to the first solid [m]; infinite if there is none below.
+double fall_from(const solid::Solids& solids, const Vector3d& down, const Vector3d& x, double size, double t) {
+  constexpr double farthest = 100, near = 1e-3; // times the size
+  double way = 0;
+  while (way < farthest * size) {
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      distance = std::min(distance, solids.at(i, x + way * down, t).distance);
+    if (distance < near * size)
+      return way;
+    way += distance;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+// What an inflow has become at the end of its fall [m].
+double thickness_after_fall(const Scene& scene, const Frame& first, std::size_t number) {
+  const scene::Inflow& inflow = scene.inflows[number];
+  const solid::Solids solids(scene);
+  const Vector3d gravity = scene.environment.gravity.value_or(Vector3d::Zero());
+  const double g = gravity.norm(), v0 = scene::value_at(inflow.velocity, first.time).norm();
+  if (!(g > 0) || !(v0 > 0) || solids.empty())
+    return inflow.thickness;
+  const double size = size_of(first);
+  double fall = std::numeric_limits<double>::infinity();
+  const auto inlets = masks(first, "inlet");
+  for (std::size_t v = 0; v < inlets.size(); ++v)
+    if (of_inlet(inlets[v], number) != 0)
+      fall = std::min(fall, fall_from(solids, gravity / g, positions(first)[v], size, first.time));
+  if (!std::isfinite(fall))
+    return inflow.thickness;
+  const double viscous = v0 + scene.material.density * g * fall * fall / (8 * scene.material.viscosity);
+  return inflow.thickness * v0 / std::min(std::sqrt(v0 * v0 + 2 * g * fall), viscous);
+}
+
+// What else the remesher may be asked for, where something lands or folds: edges that follow bends of a layer as thick
+// as what lands.
+std::string finer_folds(const Scene& scene, const Frame& first) {
+  const bool folds = !scene.solids.empty() || (scene.contact && scene.contact->self);
+  return folds ? fmt::format(
+                     "  For folds finer than edges, at two to three times the cost: sheet-remesh --adaptive {:.1g} "
+                     "--smooth\n",
+                     landing_thickness(scene, first) / 2)
+               : "";
+}
+
+// A number that one likes to type: its first two digits.
+double rounded(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit) * unit));
+}
+
+// The nearest of 1, 2, 5, 10, ... below.
+double round_number(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)));
+  return unit * (value >= 5 * unit ? 5 : value >= 2 * unit ? 2 : 1);
+}
+
+// The longest way down from the sheet to a solid [m]; 0 where it hangs above none.
+double longest_fall(const Scene& scene, const Frame& first) {
+  const solid::Solids solids(scene);
+  const auto x = positions(first);
+  double longest = 0;
+  const std::size_t apart = std::max<std::size_t>(1, x.size() / 100);
+  for (std::size_t v = 0; v < x.size() && scene.environment.gravity; v += apart)
+    if (const double fall =
+            fall_from(solids, scene.environment.gravity->normalized(), x[v], size_of(first), first.time);
+        std::isfinite(fall))
+      longest = std::max(longest, fall);
+  return longest;
+}
+
+// Some times of the flow, of the fall and of what comes in; until whatever ends by the clock has ended.
+double until_of(const Scene& scene, const Frame& first) {
+  const scene::Scales scales = scene::scales_of(scene, measured(first));
+  const double length = scales.length.value_or(0);
+  double until = length > 0 && scales.speed > 0 ? 5 * length / scales.speed : 1;
+  if (scales.gravity > 0)
+    until += 4 * std::sqrt(2 * longest_fall(scene, first) / scales.gravity);
+  const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
+  const auto comes_to_rest = [&](const scene::Motion& motion) {
+    for (const double time : scene::events(motion))
+      until = std::max(until, 1.1 * time);
+  };
+  for (const scene::Hold& hold : scene.holds) {
+    ends(hold.until.value_or(0));
+    comes_to_rest(hold.motion);
+  }
+  for (const scene::Solid& solid : scene.solids)
+    comes_to_rest(solid.motion);
+  for (const scene::Inflow& inflow : scene.inflows) {
+    ends(inflow.until.value_or(0));
+    if (const double speed = scene::value_at(inflow.velocity, first.time).norm(); speed > 0 && !inflow.until)
+      until = std::max(until, 5 * length / speed);
+  }
+  for (const scene::SheetTable& sheet : scene.sheets)
+    ends(sheet.enters.value_or(0));
+  return std::isfinite(until) && until > 0 ? rounded(until) : 1;
+}
+
+// That of films where the time suits one, else about 50 frames or a few more.
+double rate_of(double until) {
+  constexpr double film = 24, shortest = 1, longest = 60; // [1/s], [s]
+  return until >= shortest && until <= longest ? film : round_number(100 / until);
+}
+
+} // namespace
+
+double landing_thickness(const Scene& scene, const Frame& first) {
+  const auto x = positions(first);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < first.triangles; ++t) {
+    const Corners& c = triangles(first)[t];
+    least = std::min(least, volumes(first)[t] / TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area);
+  }
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i)
+    least = std::min(least, thickness_after_fall(scene, first, i));
+  return least;
+}
+
+std::string ring_text(const Scene& scene, const Frame& frame, const std::string& init) {
+  const double until = until_of(scene, frame);
+  const double fps = rate_of(until);
+  return fmt::format(
+             "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:g} "
+             "--fps {:g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
+             "is below 0.01 of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
+             init, until, fps, scene::pipeline_of(scene), mean_edge_of(frame)) +
+         finer_folds(scene, frame);
+}
+
+} // namespace sheet

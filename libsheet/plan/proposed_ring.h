@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The ring that `sheet-init --check` proposes: its stages, with lengths and times from the scene.
+#pragma once
+#include <string>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+// How thick the thinnest of the sheet is when it lands [m]: of an inflow, what the fall to the first solid below
+// leaves, h v0/v, v the least of sqrt(v0² + 2 g H) (free fall) and v0 + rho g H²/(8 mu) (a viscous curtain's first
+// stretching, whose force at y is rho g (H - y) h and equals 4 mu h dv/dy [Trouton 1906; Brown 1961, J. Fluid Mech.
+// 10]); of what is there from the start, its thickness.
+[[nodiscard]] double landing_thickness(const Scene& scene, const formats::Frame& first);
+
+// How to run the scene: commands to paste, and what they compute with. `init` is the command that makes the first
+// frame.
+[[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& first, const std::string& init);
+
+} // namespace sheet
