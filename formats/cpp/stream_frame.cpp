@@ -125,6 +125,7 @@ Array make_array(std::string_view name, Place place, Type type, std::uint32_t co
   array.components = components;
   array.rows = rows;
   array.data.resize(rows * components * size_of(type));
+  std::fill_n(array.data.data(), array.data.size(), std::byte{0});
   return array;
 }
 

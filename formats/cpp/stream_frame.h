@@ -100,12 +100,12 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
-// A new array with room for its rows, not initialised.
+// A new array, its rows zero.
 [[nodiscard]] Array make_array(std::string_view name, Place place, Type type, std::uint32_t components,
                                std::string_view unit, Transfer transfer, std::uint64_t rows, bool critical = false);
 
-// A standard array (formats/sheet.md, section 5) with room for its rows, not initialised. Components: for those only
-// whose number the format leaves open. The name must be a standard one.
+// A standard array (formats/sheet.md, section 5), its rows zero. Components: for those only whose number the format
+// leaves open. The name must be a standard one.
 [[nodiscard]] Array make_standard_array(std::string_view name, std::uint64_t rows, std::uint32_t components = 1);
 
 // What a reader or writer throws: `kind` decides the exit code of a tool.

@@ -13,11 +13,9 @@ void add_to_account(formats::Frame& frame, std::string_view name, std::string_vi
                     std::span<const double> amounts) {
   const std::size_t n = amounts.size();
   Array* account = frame.find(name);
-  if (account == nullptr) {
+  if (account == nullptr)
     account = &frame.put(formats::make_array(name, formats::Place::frame, formats::Type::float64,
                                              static_cast<std::uint32_t>(n), unit, formats::Transfer::copy, 2));
-    std::ranges::fill(account->values<double>(), 0.0);
-  }
   if (account->place != formats::Place::frame || account->type != formats::Type::float64 || account->components != n ||
       account->rows != 2)
     fail(ExitCode::bad_input, "array \"{}\" is no account: it must be frame[2] float64 {}, sums and remainders", name,

@@ -18,10 +18,8 @@ namespace {
 std::size_t bytes_of_row(const Array& array) { return formats::size_of(array.type) * array.components; }
 
 Array with_rows(const Array& array, std::uint64_t rows) {
-  Array zeros = formats::make_array(array.name, array.place, array.type, array.components, array.unit, array.transfer,
-                                    rows, array.critical);
-  std::fill_n(zeros.data.data(), zeros.data.size(), std::byte{0});
-  return zeros;
+  return formats::make_array(array.name, array.place, array.type, array.components, array.unit, array.transfer, rows,
+                             array.critical);
 }
 
 // The rows of one array behind those of another; either may be missing, then they are zero.

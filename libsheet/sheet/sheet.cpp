@@ -59,11 +59,8 @@ std::span<const double> volumes(const Frame& frame) { return required(frame, "vo
 
 std::span<Eigen::Vector3d> velocities(Frame& frame) {
   Array* array = frame.find("velocity");
-  if (array == nullptr) {
+  if (array == nullptr)
     array = &frame.put(formats::make_standard_array("velocity", frame.vertices));
-    for (Eigen::Vector3d& v : array->values<Eigen::Vector3d>())
-      v.setZero();
-  }
   return array->values<Eigen::Vector3d>();
 }
 
@@ -78,9 +75,7 @@ std::span<const std::uint64_t> masks(const Frame& frame, std::string_view name) 
 }
 
 std::span<std::uint64_t> put_masks(Frame& frame, std::string_view name) {
-  const auto bits = frame.put(formats::make_standard_array(name, frame.vertices)).values<std::uint64_t>();
-  std::fill(bits.begin(), bits.end(), 0);
-  return bits;
+  return frame.put(formats::make_standard_array(name, frame.vertices)).values<std::uint64_t>();
 }
 
 std::vector<std::int32_t> touched_solids(const Frame& frame, std::size_t solids) {
@@ -105,7 +100,6 @@ void put_touched_solids(Frame& frame, std::span<const std::int32_t> touch, std::
   const std::size_t count = std::max<std::size_t>(1, (solids + word_bits - 1) / word_bits);
   const auto words = frame.put(formats::make_standard_array("touch", frame.vertices, static_cast<std::uint32_t>(count)))
                          .values<std::uint64_t>();
-  std::fill(words.begin(), words.end(), 0);
   for (std::size_t v = 0; v < touch.size(); ++v)
     if (touch[v] != no_solid) {
       const auto solid = static_cast<std::size_t>(touch[v]);

@@ -322,5 +322,36 @@ TEST(StepStage, RefusesWhatItCannotStep) {
   EXPECT_THROW(StepStage{fixed}, Error);
 }
 
+// Memory that has held something else is what the next arrays are made of.
+void leave_nans_in_memory(std::size_t bytes) {
+  std::vector<formats::Bytes> blocks(100);
+  for (formats::Bytes& block : blocks) {
+    block.resize(bytes);
+    std::fill_n(block.data(), bytes, std::byte{0xff});
+  }
+}
+
+TEST(Reactions, OfWhatIsNotHeldAreZero) {
+  for (const bool with_holds : {true, false}) {
+    Frame frame = two_squares();
+    frame.erase("hold");
+    if (with_holds)
+      put_masks(frame, "hold")[1] = 1;
+    const std::vector<Vector3> forces(frame.vertices, Vector3(1, 2, 3));
+    leave_nans_in_memory(frame.vertices * sizeof(Vector3));
+    put_reactions(forces, true, frame);
+    const auto held = frame.find("hold_force")->values<Vector3>();
+    for (std::size_t v = 0; v < held.size(); ++v)
+      EXPECT_EQ(held[v], with_holds && v == 1 ? Vector3(1, 2, 3) : Vector3(0, 0, 0)) << v;
+  }
+}
+
+TEST(Arrays, StartAsZeros) {
+  leave_nans_in_memory(800);
+  const Array array = make_array("anything", Place::vertex, Type::float64, 1, "1", Transfer::copy, 100);
+  for (const double x : array.values<double>())
+    EXPECT_EQ(x, 0);
+}
+
 } // namespace
 } // namespace sheet
