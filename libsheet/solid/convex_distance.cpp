@@ -2,7 +2,10 @@
 #include "libsheet/solid/convex_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "libsheet/solid/triangle_part.h"
 
@@ -13,6 +16,68 @@ namespace {
 double reachable(double tolerance, const Triangle3& t) {
   return std::max(tolerance, 1e-13 * std::max({t[0].norm(), t[1].norm(), t[2].norm()}));
 }
+
+// Evaluations after which a search is a long one; short ones are as quick without what follows.
+constexpr int patience = 500;
+
+// Tangent planes of the distance that a long search has met. Each lies below the distance everywhere, and so does any
+// mean of two. Where a part of a triangle lies across an edge of the solid, a plane of its own bounds it only once it
+// is as small as it is near; those of two such parts, one on each side of the edge, together bound all along the edge.
+class Tangents {
+public:
+  // Whether one or two of them keep all of the corners at this distance. Those that did last are asked first.
+  template <std::size_t N> [[nodiscard]] bool keep(const std::array<Vector3, N>& corners, double distance) {
+    std::array<std::array<double, N>, most> beyond;
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t c = 0; c < N; ++c)
+        beyond[i][c] = planes_[i].normal.dot(corners[c]) - planes_[i].offset - distance;
+      for (std::size_t j = 0; j <= i; ++j)
+        if (mean_is_positive(beyond[i], beyond[j])) {
+          to_front(i);
+          to_front(j < i ? j + 1 : j);
+          return true;
+        }
+    }
+    return false;
+  }
+
+  void add(const Vector3& x, const Near& near) {
+    count_ = std::min(count_ + 1, most);
+    to_front(count_ - 1);
+    planes_.front() = {near.normal, near.normal.dot(x) - near.distance};
+  }
+
+private:
+  static constexpr std::size_t most = 8;
+
+  struct Plane {
+    Vector3 normal;
+    double offset;
+  };
+
+  // Whether, with some weight, the mean of the two is nowhere negative.
+  template <std::size_t N>
+  static bool mean_is_positive(const std::array<double, N>& a, const std::array<double, N>& b) {
+    double least = 0, largest = 1; // weight of a
+    for (std::size_t c = 0; c < N; ++c) {
+      if (a[c] < 0 && b[c] < 0)
+        return false;
+      if (a[c] < 0)
+        largest = std::min(largest, b[c] / (b[c] - a[c]));
+      else if (b[c] < 0)
+        least = std::max(least, b[c] / (b[c] - a[c]));
+    }
+    return least <= largest;
+  }
+
+  void to_front(std::size_t i) {
+    const auto at = planes_.begin() + static_cast<std::ptrdiff_t>(i);
+    std::rotate(planes_.begin(), at, std::next(at));
+  }
+
+  std::array<Plane, most> planes_;
+  std::size_t count_ = 0;
+};
 
 class HitSearch {
 public:
@@ -32,9 +97,16 @@ private:
   void search(const TrianglePart& part, double from, double to) {
     if (found_ && from >= s_)
       return;
+    const bool is_long = ++evaluations_ > patience;
+    if (is_long)
+      to = std::min(to, s_);
     const Triangle3 before = place(part, triangle_.at(from)), after = place(part, triangle_.at(to));
+    if (is_long && tangents_.keep<6>({before[0], before[1], before[2], after[0], after[1], after[2]}, clearance_))
+      return;
     const Vector3 center = point_of(triangle_.at((from + to) / 2), middle(part));
     const Near near = shape_.nearest(center);
+    if (is_long)
+      tangents_.add(center, near);
     double lowest = 0, radius = 0, travel = 0, closing = 0, slope = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       for (const Vector3& corner : {before[i], after[i]}) {
@@ -54,6 +126,8 @@ private:
       weights_ = middle(part);
       return;
     }
+    if (is_long && advance(part, center, near, from, to))
+      return;
     // Cut what makes the bound vary more; along the surface a tenth counts, because there it is curved.
     const LongestSide a = longest_side(before), b = longest_side(after);
     const LongestSide side = a.length >= b.length ? a : b;
@@ -66,20 +140,53 @@ private:
     }
   }
 
+  // In a long search, from when a corner may be near by the tangent plane: there it is, or the rest of the time is
+  // searched, or little is gained (false). [conservative advancement, Mirtich 1996]
+  bool advance(const TrianglePart& part, const Vector3& center, const Near& near, double from, double to) {
+    double first = to;
+    std::size_t corner = 0;
+    const Triangle3 before = place(part, triangle_.at(from)), after = place(part, triangle_.at(to));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double above = near.distance + near.normal.dot(before[i] - center) - clearance_;
+      const double below = near.distance + near.normal.dot(after[i] - center) - clearance_;
+      const double s = above <= 0 ? from : below < 0 ? from + (to - from) * (above / (above - below)) : to;
+      if (s < first) {
+        first = s;
+        corner = i;
+      }
+    }
+    if (first >= s_)
+      return true;
+    if (const Vector3 x = point_of(triangle_.at(first), part[corner]);
+        shape_.nearest(x).distance <= clearance_ + tolerance_) {
+      found_ = true;
+      s_ = first;
+      weights_ = part[corner];
+      return true;
+    }
+    if (first - from < (to - from) / 4)
+      return false;
+    search(part, first, to);
+    return true;
+  }
+
   const SolidDistance& shape_;
   const MovingTriangle& triangle_;
   double clearance_, tolerance_;
+  int evaluations_ = 0;
+  Tangents tangents_;
   bool found_ = false;
   double s_ = 1;
   Weights weights_{};
 };
 
-// The least signed distance over a triangle, or of what is below `enough`.
+// The least signed distance over a triangle, or of what is below `enough`; one that is not above `low` will do.
 class DepthSearch {
 public:
-  DepthSearch(const SolidDistance& shape, const Triangle3& triangle, double enough, double tolerance)
+  DepthSearch(const SolidDistance& shape, const Triangle3& triangle, double enough, double tolerance,
+              double low = -std::numeric_limits<double>::infinity())
       : shape_(shape), triangle_(triangle), best_{{}, {enough, Vector3::Zero()}},
-        tolerance_(reachable(tolerance, triangle)) {
+        tolerance_(reachable(tolerance, triangle)), low_(low) {
     search(whole_triangle);
   }
 
@@ -87,25 +194,44 @@ public:
 
 private:
   void search(const TrianglePart& part) {
+    if (best_.near.distance <= low_)
+      return;
     const Triangle3 corners = place(part, triangle_);
+    const bool is_long = ++evaluations_ > patience;
+    if (is_long && tangents_.keep(corners, best_.near.distance - tolerance_))
+      return;
     const Weights weights = middle(part);
     const Vector3 center = point_of(triangle_, weights);
     const Near near = shape_.nearest(center);
-    if (near.distance < best_.near.distance)
-      best_ = {weights, near};
+    try_point(weights, near);
     double lowest = 0;
-    for (const Vector3& corner : corners)
-      lowest = std::min(lowest, near.normal.dot(corner - center));
+    std::size_t lowest_corner = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const double below = near.normal.dot(corners[i] - center); below < lowest) {
+        lowest = below;
+        lowest_corner = i;
+      }
+    if (is_long) {
+      tangents_.add(center, near);
+      try_point(part[lowest_corner], shape_.nearest(corners[lowest_corner]));
+    }
     if (near.distance + lowest >= best_.near.distance - tolerance_ || radius_around(center, corners) <= tolerance_)
       return;
     for (const TrianglePart& half : halves(part, longest_side(corners).opposite))
       search(half);
   }
 
+  void try_point(const Weights& weights, const Near& near) {
+    if (near.distance < best_.near.distance)
+      best_ = {weights, near};
+  }
+
   const SolidDistance& shape_;
   const Triangle3& triangle_;
   TrianglePoint best_;
-  double tolerance_;
+  double tolerance_, low_;
+  int evaluations_ = 0;
+  Tangents tangents_;
 };
 
 } // namespace
@@ -116,12 +242,15 @@ std::optional<TriangleHit> ConvexDistance::first_hit(const MovingTriangle& trian
 }
 
 double ConvexDistance::separation(const Triangle3& triangle, double enough, double tolerance) const {
-  const double least = DepthSearch(*this, triangle, enough + tolerance, tolerance).best().near.distance;
+  const double least = DepthSearch(*this, triangle, enough + tolerance, tolerance, tolerance).best().near.distance;
   return std::max(0.0, least - tolerance);
 }
 
 TrianglePoint ConvexDistance::deepest(const Triangle3& triangle, double tolerance) const {
-  return DepthSearch(*this, triangle, std::numeric_limits<double>::infinity(), tolerance).best();
+  constexpr double fine_enough = 1e-4; // of the longest side: what is across the edge of a box has as many parts
+  return DepthSearch(*this, triangle, std::numeric_limits<double>::infinity(),
+                     std::max(tolerance, fine_enough * longest_side(triangle).length))
+      .best();
 }
 
 } // namespace sheet::solid

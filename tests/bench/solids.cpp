@@ -5,6 +5,7 @@
 //   bench_solids fields MESH...       OpenVDB's distances against exact ones, over voxel size; time and memory
 //   bench_solids meshes MESH...       a sheet and each mesh, 0.4 m in size: at rest, moving, spinning
 //   bench_solids cost [MESH]          a step's time where nothing, something, everything touches
+//   bench_solids searches             evaluations and times of searches where contact is near
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +22,7 @@
 #include "libsheet/solid/distance_field.h"
 #include "libsheet/solid/triangle_tree.h"
 #include "tests/support/falling_sheet.h"
+#include "tests/support/slow_searches.h"
 
 using namespace sheet;
 using namespace sheet::collide;
@@ -230,6 +232,20 @@ void cost(const std::string& mesh) {
   }
 }
 
+void searches() {
+  std::printf("%-36s %8s %12s %12s\n", "triangle", "gap [m]", "evaluations", "time [ms]");
+  for (const double gap : {1e-4, 1e-6, 1e-8, 1e-10})
+    for (const auto& [name, moving] : test::slow_searches(gap)) {
+      const test::CountedBox box;
+      const double begin = seconds();
+      (void)box.first_hit(moving, 0.9 * gap, 0.05 * gap);
+      (void)box.separation(moving.start, gap, 1e-4 * gap);
+      (void)box.separation(moving.end, gap, 1e-4 * gap);
+      (void)box.deepest(moving.end, 0.05 * gap);
+      std::printf("%-36s %8.0e %12ld %12.3f\n", name.c_str(), gap, box.count(), 1e3 * (seconds() - begin));
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -238,7 +254,7 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   try {
     if (words.empty())
-      fail(ExitCode::usage, "bench_solids: say what: tunnelling, fields, meshes or cost");
+      fail(ExitCode::usage, "bench_solids: say what: tunnelling, fields, meshes, cost or searches");
     if (words[0] == "tunnelling")
       tunnelling(words.size() > 1 ? words[1] : "", words.size() > 2 ? std::stod(words[2]) : 5e-3);
     else if (words[0] == "fields")
@@ -247,8 +263,10 @@ int main(int argc, char** argv) {
       meshes({words.begin() + 1, words.end()});
     else if (words[0] == "cost")
       cost(words.size() > 1 ? words[1] : "");
+    else if (words[0] == "searches")
+      searches();
     else
-      fail(ExitCode::usage, "bench_solids: {} is unknown; say tunnelling, fields, meshes or cost", words[0]);
+      fail(ExitCode::usage, "bench_solids: {} is unknown; say tunnelling, fields, meshes, cost or searches", words[0]);
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return static_cast<int>(error.code());

@@ -4,6 +4,7 @@
 
 #include "libsheet/solid/triangle_distance.h"
 #include "libsheet/solid/triangle_tree.h"
+#include "tests/support/slow_searches.h"
 #include "tests/unit/solid/solid_support.h"
 
 namespace sheet::solid {
@@ -206,6 +207,29 @@ TEST(Separation, AgainstSamples) {
       EXPECT_NEAR(shape.distance->deepest(t, 1e-3).near.distance, least, 0.0021) << shape.name;
     }
   }
+}
+
+// However near a triangle is to a solid, and however fine the answer must be.
+TEST(Searches, TakeNoMoreWhereContactIsNear) {
+  constexpr long most = 5000; // evaluations
+  for (const double gap : {1e-4, 1e-6, 1e-8, 1e-10})
+    for (const auto& [name, moving] : test::slow_searches(gap)) {
+      const test::CountedBox box;
+      const double apart = box.separation(moving.start, 10, 1e-4 * gap);
+      EXPECT_NEAR(apart, gap, 1e-3 * gap + 1e-14) << name;
+      EXPECT_LE(box.count(), most) << "separation, " << name << ", gap " << gap;
+      const auto hit = box.first_hit(moving, 0.9 * gap, 0.05 * gap);
+      EXPECT_LE(box.count(), most) << "first hit, " << name << ", gap " << gap;
+      double least = 1;
+      for (int k = 0; k <= 20; ++k)
+        least = std::min(least, box.separation(moving.at((hit ? hit->s : 1) * k / 20), 10, 1e-2 * gap));
+      EXPECT_GE(least, 0.88 * gap - 1e-14) << name;
+      (void)box.count();
+      (void)box.separation(moving.end, gap, 1e-4 * gap);
+      EXPECT_LE(box.count(), most) << "separation at the end, " << name << ", gap " << gap;
+      (void)box.deepest(moving.end, 0.05 * gap);
+      EXPECT_LE(box.count(), most) << "deepest, " << name << ", gap " << gap;
+    }
 }
 
 } // namespace
