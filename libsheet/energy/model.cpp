@@ -59,8 +59,8 @@ Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& 
     terms.push_back(make_term(WallDrag(model.viscosity)));
   if (loads.weight)
     terms.push_back(make_term(std::move(*loads.weight)));
-  if (model.pressure)
-    terms.push_back(make_term(Pressure(*model.pressure)));
+  for (const PressureLaw& pressure : model.pressures)
+    terms.push_back(make_term(Pressure(pressure)));
   if (model.bath && model.gravity.squaredNorm() > 0)
     terms.push_back(make_term(Bath(model.bath->density, model.gravity, model.bath->level, model.bath->clings)));
   if (model.bath && model.bath->drag > 0 && model.gravity.squaredNorm() > 0)

@@ -25,12 +25,12 @@ struct BathModel {
 enum class Bending { none, mid_edge, hinge, hinge_paper };
 
 struct Model {
-  double viscosity = 0;              // [Pa s]; 0: no viscous terms
-  double density = 0;                // [kg/m³]
-  double surface_tension = 0;        // [N/m]
-  Vector3 gravity = Vector3::Zero(); // [m/s²]
-  std::optional<PressureLaw> pressure;
-  std::optional<BathModel> bath; // needs gravity
+  double viscosity = 0;               // [Pa s]; 0: no viscous terms
+  double density = 0;                 // [kg/m³]
+  double surface_tension = 0;         // [N/m]
+  Vector3 gravity = Vector3::Zero();  // [m/s²]
+  std::vector<PressureLaw> pressures; // one an enclosure
+  std::optional<BathModel> bath;      // needs gravity
   bool inertia = true;
   Bending bending = Bending::none;
   bool arcs = false;       // with mid-edge bending: edges are arcs in the membrane's strain

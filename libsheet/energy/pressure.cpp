@@ -27,6 +27,8 @@ VectorN<9> Pressure::corners(const Unknowns& u, std::size_t i) const {
 }
 
 double Pressure::change(std::size_t i, const VectorN<9>& u) const {
+  if (!encloses(i))
+    return 0;
   double sum = signed_volume(u) - start_[i];
   if (!lagged_.empty()) {
     const Corners& v = stage_->start->mesh->triangles[i];
@@ -37,6 +39,8 @@ double Pressure::change(std::size_t i, const VectorN<9>& u) const {
 }
 
 VectorN<9> Pressure::volume_gradient(std::size_t i, const VectorN<9>& u) const {
+  if (!encloses(i))
+    return VectorN<9>::Zero();
   const Vector3 x[3] = {u.segment<3>(0) - origin_, u.segment<3>(3) - origin_, u.segment<3>(6) - origin_};
   VectorN<9> g;
   g << x[1].cross(x[2]), x[2].cross(x[0]), x[0].cross(x[1]);
@@ -57,6 +61,8 @@ void Pressure::begin(const Stage& stage) {
   start_enclosed_ = 0;
   bool rim = false;
   for (std::size_t t = 0; t < start_.size(); ++t) {
+    if (!encloses(t))
+      continue;
     const Corners& v = mesh.triangles[t];
     VectorN<9> u;
     u << state.positions[v[0]], state.positions[v[1]], state.positions[v[2]];
@@ -69,7 +75,7 @@ void Pressure::begin(const Stage& stage) {
     // A rim edge a -> b of a counter-clockwise triangle leaves -(a × b)/6 of the cap's cone at both its ends.
     lagged_.assign(start_.size(), VectorN<9>::Zero());
     for (std::size_t t = 0; t < start_.size(); ++t)
-      for (int k = 0; k < 3; ++k)
+      for (int k = 0; k < 3 && encloses(t); ++k)
         if (mesh.on_rim(mesh.triangle_edges[t][k])) {
           const int a = (k + 1) % 3, b = (k + 2) % 3;
           const Vector3 cap =
@@ -92,9 +98,12 @@ void Pressure::begin(const Stage& stage) {
 void Pressure::begin_gas(const Stage& stage) {
   const State& state = *stage.start;
   const Connectivity& mesh = *state.mesh;
-  const auto whole = [&](std::span<const Vector3> x) { return capped_volume(mesh, x) + law_.gas.more_volume; };
+  const auto whole = [&](std::span<const Vector3> x) {
+    return capped_volume(mesh, x, law_.part) + law_.gas.more_volume;
+  };
   start_enclosed_ = whole(state.positions);
-  gas_reference_ = law_.gas.leak > 0 && state.gas ? state.gas->amount : law_.gas.amount;
+  gas_reference_ =
+      law_.gas.leak > 0 && law_.number < state.gas.size() ? state.gas[law_.number].amount : law_.gas.amount;
   if (law_.gas.leak > 0 && stage.previous) {
     std::vector<Vector3> first(stage.vertices());
     for (std::uint32_t v = 0; v < first.size(); ++v)
@@ -119,7 +128,8 @@ void Pressure::finish(const Unknowns& last, State& end) {
   if (law_.kind != PressureLaw::Kind::gas)
     return;
   prepare(last);
-  end.gas = gas_;
+  end.gas.resize(std::max(end.gas.size(), law_.number + 1));
+  end.gas[law_.number] = gas_;
 }
 
 void Pressure::prepare(const Unknowns& u) {
@@ -173,7 +183,7 @@ double Pressure::derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gra
                              bool definite) const {
   gradient = -pressure_ * volume_gradient(i, u);
   hessian.setZero();
-  if (!definite) {
+  if (!definite && encloses(i)) {
     const Vector3 x[3] = {u.segment<3>(0) - origin_, u.segment<3>(3) - origin_, u.segment<3>(6) - origin_};
     for (int a = 0; a < 3; ++a) { // ∂(x_b × x_c)/∂x_b = -[x_c]ₓ
       const int b = (a + 1) % 3, c = (a + 2) % 3;

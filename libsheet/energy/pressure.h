@@ -5,10 +5,14 @@
 //   inverse square   p (r0/r)², r the radius of the ball of volume Ω: W = -4π p r0² (r - r_start)
 //   draining         gas leaves at the rate c p: p = -(dΩ/dt)/c, W = (Ω - Ω̄)²/(2 c τ), Ω̄ the reference of the stage
 //   gas              an amount of gas, compressed (gas.h); its Ω has rims closed (capped_volume.h)
+// Ω is that of a part of the sheet, if one is given; each enclosure has a law of its own then.
 // On a closed sheet, or one whose rim is held, this is p n A exactly. On a free rim the gradient of Ω also holds a part
 // that belongs to the missing cap; it is taken away with the rim at its predicted place, so the sum stays a potential:
 // Ω then changes by what the sheet sweeps. The laws that depend on Ω couple all vertices: W'' g gᵀ, g = ∂Ω/∂x.
 #pragma once
+#include <utility>
+#include <vector>
+
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/gas.h"
 
@@ -20,12 +24,14 @@ struct PressureLaw {
   double reference_radius = 1; // r0 [m], inverse square
   double conductance = 1;      // c [m³/(Pa s)], draining
   GasLaw gas = {};
+  std::size_t number = 0;      // of the enclosure, whose gas has this place in a state
+  std::vector<char> part = {}; // of each triangle, whether it encloses; empty: all do
 };
 
 class Pressure {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  explicit Pressure(const PressureLaw& law) : law_(law) {}
+  explicit Pressure(PressureLaw law) : law_(std::move(law)) {}
   [[nodiscard]] const char* name() const { return "pressure"; }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   void begin(const Stage& stage);
@@ -42,6 +48,7 @@ public:
                      bool definite) const;
 
 private:
+  [[nodiscard]] bool encloses(std::size_t i) const { return law_.part.empty() || law_.part[i] != 0; }
   [[nodiscard]] double signed_volume(const VectorN<9>& u) const;
   [[nodiscard]] VectorN<9> corners(const Unknowns& u, std::size_t i) const;
   [[nodiscard]] double change(std::size_t i, const VectorN<9>& u) const; // of Ω since the start

@@ -4,7 +4,6 @@
 // Thickness is volume / area, everywhere. Connectivity is shared and constant during a step.
 #pragma once
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "libsheet/energy/gas.h"
@@ -20,7 +19,7 @@ struct State {
   std::vector<double> volumes;
   std::vector<double> director_angles; // none: all are 0
   std::vector<Vector3> overshoot;      // positions less where a solid holds them [m], see overshoot.h; none: all are 0
-  std::optional<Gas> gas;              // that it encloses; none: as its law starts
+  std::vector<Gas> gas;                // that it encloses, one an enclosure; without one: as its law starts
   double time = 0;                     // [s]
 };
 

@@ -6,7 +6,6 @@
 
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/account.h"
-#include "libsheet/sheet/append.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::flow {
@@ -41,7 +40,7 @@ double let_enter(Frame& frame, const Scene& scene) {
   std::size_t count = entered(frame);
   for (; count < order.size() && frame.time >= *scene.sheets[order[count]].enters; ++count) {
     const Frame sheet = build_sheet(scene, order[count]);
-    append(sheet, frame);
+    append_sheet(sheet, frame);
     const auto volumes = sheet::volumes(sheet);
     volume += std::accumulate(volumes.begin(), volumes.end(), 0.0);
   }

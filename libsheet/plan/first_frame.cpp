@@ -13,6 +13,7 @@
 #include "libsheet/remesh/mesh.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/build.h"
+#include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
 #include "libsheet/solve/step_stage.h"
@@ -92,7 +93,9 @@ Frame first_frame(const Scene& scene) {
   Frame frame = build_frame(scene);
   if (flows_on_solids(scene))
     mark_touching(scene, frame);
-  if (scene.environment.pressure && std::holds_alternative<scene::GasPressure>(*scene.environment.pressure))
+  // Where there are several, each one's amount is in the frames.
+  if (scene.environment.pressure && std::holds_alternative<scene::GasPressure>(*scene.environment.pressure) &&
+      enclosures(frame).empty())
     frame.put_text("scene", to_toml(with_amount_of_gas(scene, frame)));
   return frame;
 }

@@ -56,7 +56,8 @@ void check_settled(const Scene& before, const Scene& after, double t) {
   const GasPressure *gas = gas_of(before), *new_gas = gas_of(after);
   if (gas && new_gas && gas->leak > 0 && gas->amount != new_gas->amount)
     refuse("the amount of gas that leaks is in the frames (gas.amount), and no longer in the scene");
-  if (new_gas && !new_gas->amount)
+  const bool as_started = gas && new_gas && !gas->amount && gas->value == new_gas->value; // the frames have amounts
+  if (new_gas && !new_gas->amount && !as_started)
     refuse("the gas has a pressure at the start only; within a run its amount is given");
 }
 

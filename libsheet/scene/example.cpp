@@ -117,6 +117,15 @@ gravity = [0, "-9.81 m/s^2", 0]
 #[environment]
 #pressure = {law = "gas", value = "2 Pa", exponent = 1.4, ambient = "1 bar", leak = "1e-8 m^3/(Pa*s)", more_volume = "1 cm^3"}
 
+# Where there are several sheets, or pieces of one, each closed one encloses a volume of its own, and has a pressure, a hole
+# and an amount of its own. sheet: the only one on which pressure acts.
+#[sheet]
+#name = "balloon"
+#shape = "sphere"
+#radius = "0.1 m"
+#[environment]
+#pressure = {law = "gas", value = "2 Pa", sheet = "balloon"}
+
 # A heavy liquid below the sheet, up to the height `level` against gravity. It carries what is under its surface;
 # with clings = true it pulls down what is above it, too, so that the sheet cannot leave it. With spreads = true the sheet
 # spreads on it by its own weight, as glass on tin; drag: what slides on it is held back so, its viscosity over its depth

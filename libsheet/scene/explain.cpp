@@ -53,6 +53,13 @@ std::string law_of(const Pressure& pressure) {
       pressure);
 }
 
+// Pressure acts.
+std::string where(const Scene& scene) {
+  if (!scene.environment.pressure_sheet.empty())
+    return fmt::format(", on the sheet \"{}\" only", scene.environment.pressure_sheet);
+  return depends_on_volume(*scene.environment.pressure) && scene.sheets.size() > 1 ? ", in each sheet by itself" : "";
+}
+
 std::string what_it_does(const Bath& bath) {
   return fmt::format("liquid of {} kg/m³ below level {} m, which {}{}{}", brief(bath.density), brief(bath.level),
                      bath.clings ? "clings to the sheet" : "carries what is under its surface",
@@ -86,8 +93,8 @@ std::vector<Term> terms_of(const Scene& scene) {
   term("gravity", environment.gravity.has_value(),
        environment.gravity ? fmt::format("{} m/s²", brief(environment.gravity->norm())) : "",
        "no gravity in [environment]");
-  term("pressure", environment.pressure.has_value(), environment.pressure ? law_of(*environment.pressure) : "",
-       "no pressure in [environment]");
+  term("pressure", environment.pressure.has_value(),
+       environment.pressure ? law_of(*environment.pressure) + where(scene) : "", "no pressure in [environment]");
   term("bath", environment.bath.has_value(), environment.bath ? what_it_does(*environment.bath) : "",
        "no bath in [environment]");
   term("holds", !holds.empty(), count(holds.size(), "hold"), "no [[hold]]");

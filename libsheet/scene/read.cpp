@@ -14,6 +14,10 @@ namespace {
 // [[hold]]s have a bit of 64 each in the array "hold" of a frame.
 constexpr std::size_t most_holds = 64, most_sheets = 1000;
 
+bool has_sheet_named(std::span<const SheetTable> sheets, const std::string& name) {
+  return std::ranges::any_of(sheets, [&](const SheetTable& sheet) { return sheet.name == name; });
+}
+
 // What only several tables together can say.
 void check_together(const Scene& scene, const Node& document, Problems& problems) {
   const auto place = [&](std::string_view table, std::string_view key) {
@@ -37,6 +41,8 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     problems.add(place("material", "viscosity"), "viscosity: 0 needs inertia: nothing else would resist the forces");
   if (environment.bath && !environment.gravity && (!has("environment", "gravity") || !problems.any()))
     problems.add(place("environment", "bath"), "bath: needs gravity, which says where up is");
+  if (const std::string& name = environment.pressure_sheet; !name.empty() && !has_sheet_named(sheets, name))
+    problems.add(place("environment", "pressure"), fmt::format("pressure: there is no [[sheet]] \"{}\"", name));
   const bool flat = std::ranges::all_of(sheets, [](const SheetTable& sheet) { return sheet.shape.index() <= 2; });
   const auto* gas = environment.pressure ? std::get_if<GasPressure>(&*environment.pressure) : nullptr;
   const bool without_volume =

@@ -28,13 +28,15 @@ GasPressure read_gas(TableReader& table) {
   return gas;
 }
 
-std::optional<Pressure> read_pressure(TableReader& parent) {
+// `sheet`: on which it acts.
+std::optional<Pressure> read_pressure(TableReader& parent, std::string& sheet) {
   auto table = parent.table("pressure");
   if (!table)
     return {};
   if (table->absent("law"))
     table->missing("law", "\"constant\"");
   const auto law = table->choice("law", words::pressures);
+  sheet = table->text("sheet").value_or("");
   std::optional<Pressure> result;
   std::string because = "the law is not known";
   if (law == 0) {
@@ -73,7 +75,7 @@ Environment read_environment(TableReader table) {
   environment.gravity = table.vector("gravity", quantity::acceleration);
   if (environment.gravity && environment.gravity->isZero(0))
     environment.gravity.reset(); // no such term
-  environment.pressure = read_pressure(table);
+  environment.pressure = read_pressure(table, environment.pressure_sheet);
   if (auto bath = table.table("bath")) {
     const double density = bath->required("density", quantity::density);
     environment.bath = Bath{density, bath->quantity_or("level", quantity::length, 0),

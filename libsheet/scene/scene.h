@@ -158,6 +158,10 @@ struct GasPressure {
   bool operator==(const GasPressure&) const = default;
 };
 using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingPressure, GasPressure>;
+// Whether it depends on the volume that is enclosed.
+[[nodiscard]] inline bool depends_on_volume(const Pressure& pressure) {
+  return !std::holds_alternative<ConstantPressure>(pressure);
+}
 
 // Liquid below the height `level`, measured against gravity from the origin. It carries what is under its surface, and
 // pulls down what is above it if it clings. What floats on it spreads under its own weight if the scene says so, and is
@@ -173,6 +177,7 @@ struct Bath {
 struct Environment {
   std::optional<Vector3d> gravity; // [m/s²]
   std::optional<Pressure> pressure;
+  std::string pressure_sheet; // on which it acts; "": on all, by each closed piece of them where it depends on volume
   std::optional<Bath> bath;
   bool operator==(const Environment&) const = default;
 };

@@ -183,7 +183,10 @@ void write_environment(Writer& out, const Environment& environment) {
                    }},
         *environment.pressure);
     out.line("pressure",
-             fmt::format("{{law = {}, {}}}", word(words::pressures, environment.pressure->index()), values));
+             fmt::format("{{law = {}, {}{}}}", word(words::pressures, environment.pressure->index()), values,
+                         environment.pressure_sheet.empty()
+                             ? ""
+                             : fmt::format(", sheet = {}", toml_text(environment.pressure_sheet))));
   }
   if (environment.bath)
     out.line("bath", fmt::format("{{density = {}, level = {}, clings = {}{}{}}}", number(environment.bath->density),

@@ -8,6 +8,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/overloaded.h"
 #include "libsheet/scene/write.h"
+#include "libsheet/shape/enclosed.h"
 #include "libsheet/shape/mesh_file.h"
 #include "libsheet/shape/mesh_measure.h"
 #include "libsheet/shape/perturb.h"
@@ -17,6 +18,7 @@
 #include "libsheet/shape/shapes.h"
 #include "libsheet/shape/waves.h"
 #include "libsheet/sheet/append.h"
+#include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -198,7 +200,21 @@ formats::Frame build_sheet(const Scene& scene, std::size_t number) {
     std::copy(holds.begin(), holds.end(), put_masks(frame, "hold").begin());
   if (!scene.inflows.empty())
     put_inlets(mesh, inlets, frame);
+  number_enclosures(scene, table, frame);
   return frame;
+}
+
+void append_sheet(const formats::Frame& sheet, formats::Frame& frame) {
+  const std::uint32_t last = last_enclosure(frame);
+  const std::size_t old = frame.triangles;
+  append(sheet, frame);
+  if (last == 0)
+    return;
+  const auto all = enclosures(frame);
+  std::vector<std::uint32_t> numbers(all.begin(), all.end());
+  for (std::size_t t = old; t < numbers.size(); ++t)
+    numbers[t] += numbers[t] != 0 ? last : 0;
+  put_enclosures(numbers, frame);
 }
 
 formats::Frame build_frame(const Scene& scene) {
@@ -213,7 +229,7 @@ formats::Frame build_frame(const Scene& scene) {
     const formats::Frame sheet = build_sheet(scene, i);
     note_holds(sheet);
     if (!scene.sheets[i].enters)
-      append(sheet, frame);
+      append_sheet(sheet, frame);
   }
   for (std::size_t i = 0; i < scene.holds.size(); ++i)
     if ((held >> i & 1) == 0 && !scene.holds[i].roll)

@@ -14,4 +14,7 @@ namespace sheet {
 // The scene's sheet `number` alone, without the scene's text. Errors as above.
 [[nodiscard]] formats::Frame build_sheet(const Scene& scene, std::size_t number);
 
+// Puts a sheet's arrays behind those of the frame's. What it encloses gets numbers of its own.
+void append_sheet(const formats::Frame& sheet, formats::Frame& frame);
+
 } // namespace sheet

@@ -46,7 +46,11 @@ double work_of_gravity(const Model& model, const State& start, const State& end,
 
 // Of tension, of pressure, and of the weight of layers that spread.
 double work_on_area(const Model& model, const State& start, const State& end) {
-  const double pressure = !model.pressure ? 0 : end.gas ? std::abs(end.gas->pressure) : std::abs(model.pressure->value);
+  double pressure = 0;
+  for (const PressureLaw& law : model.pressures)
+    pressure = std::max(pressure, std::abs(law.value));
+  for (const Gas& gas : end.gas)
+    pressure = std::max(pressure, std::abs(gas.pressure));
   double work = 0;
   for (std::size_t t = 0; t < start.volumes.size(); ++t) {
     const Corners& c = start.mesh->triangles[t];
@@ -72,8 +76,9 @@ double energy_of_contacts(const Model& model, const State& start) {
 }
 
 bool bounds_nothing(const Model& model) {
-  return !model.has_inertia() || (model.pressure && (model.pressure->kind == PressureLaw::Kind::inverse_square ||
-                                                     model.pressure->kind == PressureLaw::Kind::draining));
+  return !model.has_inertia() || std::ranges::any_of(model.pressures, [](const PressureLaw& law) {
+    return law.kind == PressureLaw::Kind::inverse_square || law.kind == PressureLaw::Kind::draining;
+  });
 }
 
 } // namespace

@@ -9,9 +9,11 @@
 #include "libsheet/base/overloaded.h"
 #include "libsheet/energy/overshoot.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/capped_volume.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/directors.h"
+#include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/held_rims.h"
 
@@ -37,12 +39,51 @@ PressureLaw pressure_law(const scene::Pressure& pressure) {
                         [&](const scene::GasPressure& p) {
                           law.kind = PressureLaw::Kind::gas;
                           law.gas = {p.amount.value_or(0), p.ambient, p.exponent, p.leak, p.more_volume};
-                          if (!p.amount)
-                            fail(ExitCode::bad_input, "pressure: the amount of gas is not known: make the first frame "
-                                                      "with sheet-init, or give amount in place of value");
                         }},
              pressure);
   return law;
+}
+
+// The amount of gas in an enclosure: that in the frame, or as the scene starts it.
+double amount_in(const scene::GasPressure& gas, const PressureLaw& law, const Frame& frame, const Connectivity& mesh) {
+  if (gas.amount)
+    return *gas.amount;
+  if (const Array* amounts = frame.find("gas.amount"); amounts != nullptr && law.number < amounts->rows)
+    return amounts->values<double>()[law.number];
+  const double volume = capped_volume(mesh, positions(frame), law.part) + gas.more_volume;
+  if (!(volume > 0))
+    fail(ExitCode::bad_input,
+         "pressure: piece {} of the sheet (from 0) encloses {:.3g} m^3 on the side that its triangles' normals point "
+         "away from, so there is no room for gas: turn it round, or give more_volume",
+         law.number, volume);
+  return amount_of_gas(law.gas, gas.value, volume);
+}
+
+// One law for each enclosure that is left.
+std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, const Connectivity& mesh) {
+  const scene::Pressure& pressure = *scene.environment.pressure;
+  const auto* gas = std::get_if<scene::GasPressure>(&pressure);
+  const auto numbers = enclosures(frame);
+  if (numbers.empty()) {
+    if ((depends_on_volume(pressure) && scene.sheets.size() > 1) || !scene.environment.pressure_sheet.empty() ||
+        (gas != nullptr && !gas->amount))
+      fail(ExitCode::bad_input, "pressure: the frame does not say which triangles enclose what, or how much gas (array "
+                                "\"enclosure\", gas.amount): make the first frame with sheet-init");
+    return {pressure_law(pressure)};
+  }
+  std::vector<PressureLaw> laws;
+  for (std::uint32_t number = 1; number <= last_enclosure(frame); ++number) {
+    PressureLaw law = pressure_law(pressure);
+    law.number = number - 1;
+    for (const std::uint32_t of : numbers)
+      law.part.push_back(of == number ? 1 : 0);
+    if (std::ranges::count(law.part, 1) == 0)
+      continue;
+    if (gas != nullptr)
+      law.gas.amount = amount_in(*gas, law, frame, mesh);
+    laws.push_back(std::move(law));
+  }
+  return laws;
 }
 
 BathModel bath_model(const scene::Bath& bath) {
@@ -184,6 +225,15 @@ void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh
   }
 }
 
+// A row for each enclosure.
+void put_of_gas(Frame& frame, std::string_view name, std::string_view unit, std::span<const Gas> gas,
+                double Gas::*quantity) {
+  Array array = formats::make_array(name, formats::Place::frame, formats::Type::float64, 1, unit,
+                                    formats::Transfer::copy, gas.size());
+  std::ranges::transform(gas, array.values<double>().begin(), [&](const Gas& g) { return g.*quantity; });
+  frame.put(std::move(array));
+}
+
 } // namespace
 
 State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
@@ -201,8 +251,9 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
     const auto angle = angles->values<double>();
     state.director_angles.assign(angle.begin(), angle.end());
   }
-  if (frame.find("gas.amount") != nullptr)
-    state.gas = Gas{.amount = number(frame, "gas.amount", 0)};
+  if (const Array* amounts = frame.find("gas.amount"))
+    for (const double amount : amounts->values<double>())
+      state.gas.push_back({.amount = amount});
   state.time = frame.time;
   return state;
 }
@@ -234,9 +285,9 @@ void put_state(const State& state, Frame& frame) {
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());
   put_director_angles(state.director_angles, frame);
-  if (state.gas) {
-    put_number(frame, "gas.amount", "m^3", state.gas->amount);
-    put_number(frame, "gas.pressure", "Pa", state.gas->pressure);
+  if (!state.gas.empty()) {
+    put_of_gas(frame, "gas.amount", "m^3", state.gas, &Gas::amount);
+    put_of_gas(frame, "gas.pressure", "Pa", state.gas, &Gas::pressure);
   }
   frame.time = state.time;
   ++frame.step;
@@ -274,7 +325,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (scene.environment.gravity)
     model.gravity = *scene.environment.gravity;
   if (scene.environment.pressure)
-    model.pressure = pressure_law(*scene.environment.pressure);
+    model.pressures = pressure_laws(scene, frame, mesh);
   if (scene.environment.bath)
     model.bath = bath_model(*scene.environment.bath);
   const bool touching = add_touching(scene, frame, mesh, solids,

@@ -47,7 +47,7 @@ Result v7(const Settings& s) {
   State start = film(make_tube(1, length, mesh_options(s, 1)), h);
   Model m = viscous(mu, s);
   m.bending = Bending::none;
-  m.pressure = PressureLaw{PressureLaw::Kind::constant, p, 1, 1};
+  m.pressures = {PressureLaw{PressureLaw::Kind::constant, p, 1, 1}};
   m.holds.push_back(hold(
       start, [](const Vector3& x) { return std::abs(x.z()) > length / 2 - 1e-9; }, axis_bit(2), false));
   for (std::size_t v = 0; v < start.positions.size(); ++v)

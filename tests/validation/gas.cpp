@@ -15,9 +15,9 @@ Model bubble(double exponent, double pressure) {
   Model m;
   m.density = density;
   m.surface_tension = tension;
-  m.pressure = PressureLaw{.kind = PressureLaw::Kind::gas};
-  m.pressure->gas = {.ambient = ambient, .exponent = exponent};
-  m.pressure->gas.amount = amount_of_gas(m.pressure->gas, pressure, ball(1));
+  m.pressures = {PressureLaw{.kind = PressureLaw::Kind::gas}};
+  m.pressures[0].gas = {.ambient = ambient, .exponent = exponent};
+  m.pressures[0].gas.amount = amount_of_gas(m.pressures[0].gas, pressure, ball(1));
   return m;
 }
 
@@ -35,7 +35,7 @@ Result comes_to_rest(const Settings& s) {
   double low = 1, high = 2;
   for (int k = 0; k < 60; ++k) {
     const double r = 0.5 * (low + high);
-    (gas_in(m.pressure->gas, ball(r), m.pressure->gas.amount, 0).pressure > 4 * tension / r ? low : high) = r;
+    (gas_in(m.pressures[0].gas, ball(r), m.pressures[0].gas.amount, 0).pressure > 4 * tension / r ? low : high) = r;
   }
   Result result = run.result(mean_radius(run.state()) / low);
   result.more = {{"radius", low}};
@@ -72,17 +72,19 @@ Result leaks(const Settings& s) {
   m.viscosity = mu;
   m.inertia = false;
   m.bending = Bending::none;
-  m.pressure->gas.leak = leak;
-  const auto pressure = [&](const Eigen::Vector2d& y) { return gas_in(m.pressure->gas, ball(y[0]), y[1], 0).pressure; };
-  const auto exact =
-      runge_kutta(Eigen::Vector2d(1, m.pressure->gas.amount), 0, until, 100000, [&](double, const Eigen::Vector2d& y) {
-        const double r = y[0], p = pressure(y), h = h0 / (r * r);
-        return Eigen::Vector2d((p - 4 * tension / r) * r * r / (12 * mu * h), -leak * p);
-      });
+  m.pressures[0].gas.leak = leak;
+  const auto pressure = [&](const Eigen::Vector2d& y) {
+    return gas_in(m.pressures[0].gas, ball(y[0]), y[1], 0).pressure;
+  };
+  const auto exact = runge_kutta(Eigen::Vector2d(1, m.pressures[0].gas.amount), 0, until, 100000,
+                                 [&](double, const Eigen::Vector2d& y) {
+                                   const double r = y[0], p = pressure(y), h = h0 / (r * r);
+                                   return Eigen::Vector2d((p - 4 * tension / r) * r * r / (12 * mu * h), -leak * p);
+                                 });
   Run run = at_radius_one(s, m);
   run.advance(until, s.steps);
   Result result = run.result(mean_radius(run.state()) / exact[0]);
-  result.more = {{"radius", exact[0]}, {"amount_error", run.state().gas->amount / exact[1] - 1}};
+  result.more = {{"radius", exact[0]}, {"amount_error", run.state().gas.at(0).amount / exact[1] - 1}};
   return result;
 }
 

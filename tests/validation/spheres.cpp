@@ -17,7 +17,7 @@ Result balloon(const Settings& s, const Balloon& b, PressureLaw::Kind kind, doub
   State start = film(make_sphere(1, mesh_options(s, 1)), b.thickness);
   Model m = viscous(viscosity, s);
   m.bending = Bending::none; // of relative size (h/r)²/12, and not in the closed form
-  m.pressure = PressureLaw{kind, b.pressure, 1, 1};
+  m.pressures = {PressureLaw{kind, b.pressure, 1, 1}};
   // The flow at the start, so that the first step's prediction is as good as the others'.
   for (std::size_t v = 0; v < start.positions.size(); ++v)
     start.velocities[v] = b.pressure / (12 * viscosity * b.thickness) * start.positions[v];
@@ -77,7 +77,7 @@ Result v4(const Settings& s) {
   m.inertia = true;
   m.density = density;
   m.surface_tension = tension;
-  m.pressure = PressureLaw{PressureLaw::Kind::constant, pressure, 1, 1};
+  m.pressures = {PressureLaw{PressureLaw::Kind::constant, pressure, 1, 1}};
   using Y = Eigen::Vector2d;
   const Y exact = runge_kutta(Y(1, 0), 0, until, 100000, [&](double, const Y& y) {
     const double r = y[0], h = h0 / (r * r);

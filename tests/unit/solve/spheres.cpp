@@ -45,7 +45,7 @@ Model balloon(PressureLaw::Kind kind) {
   Model m;
   m.viscosity = 0.1;
   m.inertia = false;
-  m.pressure = PressureLaw{kind, 0.1, 1, 1};
+  m.pressures = {PressureLaw{kind, 0.1, 1, 1}};
   return m;
 }
 
@@ -100,7 +100,7 @@ TEST(Balloon, DrainsThroughAHole) {
   m.viscosity = viscosity;
   m.inertia = false;
   m.surface_tension = gamma;
-  m.pressure = PressureLaw{.kind = PressureLaw::Kind::draining, .conductance = 60};
+  m.pressures = {PressureLaw{.kind = PressureLaw::Kind::draining, .conductance = 60}};
   const auto time = [&](double r) {
     return (6 * viscosity * h * (1 / (r * r) - 1) + std::numbers::pi / 60 * (1 - std::pow(r, 4))) / (4 * gamma);
   };
