@@ -2,6 +2,7 @@
 #include "libsheet/collide/collide_stage.h"
 
 #include <algorithm>
+#include <bit>
 #include <ctime>
 #include <limits>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "libsheet/collide/release.h"
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
+#include "libsheet/collide/solid_sweep.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/frame_mesh.h"
@@ -230,6 +232,7 @@ struct CollideStage::Impl {
     Watch watch;
     std::vector<std::uint32_t> off;
     if (solids) {
+      refuse_driven_in(frame, path);
       off = coming_off(frame, path);
       const SolidReport report = resolve_solids(path, *solids);
       if (report.unresolved > 0)
@@ -270,6 +273,26 @@ struct CollideStage::Impl {
     std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
     std::copy(path.velocity.begin(), path.velocity.end(), velocities(frame).begin());
     ++totals.steps;
+  }
+
+  // Nothing can bring out what a [[hold]] drives into a solid, nor what hangs on it: impulses on what is free would
+  // move it as far as the solid goes on, step by step. What is held in a solid from the start stays there.
+  void refuse_driven_in(const Frame& frame, const StepPath& path) const {
+    const auto held = holds(frame);
+    for (std::size_t v = 0; v < held.size(); ++v) {
+      if (held[v] == 0 || path.fixed[v] != all_axes)
+        continue;
+      const double deep = -clearance_part * path.thickness[v] / 2;
+      for (std::size_t i = 0; i < solids->size(); ++i) {
+        const Vector3& x = path.end[v];
+        const double ends = solids->at(i, x, path.end_time).distance;
+        if (ends < deep && solids->at(i, path.start[v], path.start_time).distance >= deep)
+          fail(ExitCode::bad_input,
+               "at t = {:.6g} s, vertex {} at ({:.6g}, {:.6g}, {:.6g}) m, which [[hold]] number {} (from 0) holds, is "
+               "{:.3g} m inside {}: end that hold before (until), or lead it or the solid another way",
+               path.end_time, v, x.x(), x.y(), x.z(), std::countr_zero(held[v]), -ends, solids->name(i));
+      }
+    }
   }
 
   // Vertices whose solid cannot hold them any longer.

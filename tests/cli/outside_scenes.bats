@@ -329,6 +329,15 @@ END
   sheet-step --help | tr -s ' \n' ' ' | grep -q 'better choice unless steps must be equal'
 }
 
+@test "a [[hold]] that drives the sheet into a solid ends the run, with vertex, hold, solid and time" {
+  { cat disk.toml; printf '[[hold]]\nregion = "rim"\n[[solid]]\nshape = "sphere"\nradius = 0.2\ncenter = [-1.3, 0, 0]\nmotion = {kind = "translating", velocity = [1, 0, 0]}'; } > driven.toml
+  sheet-init driven.toml -o driven.sheet
+  for dt in 0.01 0.002; do
+    run -3 sheet-loop -i driven.sheet --until 0.2 -o driven.run -- "sheet-step --dt $dt | sheet-collide"
+    [[ $output == *'at t = 0.1'*' s, vertex '*', which [[hold]] number 0 (from 0) holds, is '*' m inside '*'sphere'*': end that hold before (until), or lead it or the solid another way'* ]]
+  done
+}
+
 @test "25: sheet-collide's warnings say whether to worry and what to do" {
   warned() { # TABLES: a step of the disk with them
     { cat disk.toml; printf '[contact]\n%s\n' "$1"; } > warned.toml
@@ -336,11 +345,11 @@ END
     echo "$stderr"
   }
   down='motion = {kind = "translating", velocity = [0, 0, -1]}'
-  warned "$(printf '[environment]\ngravity = [0, 0, -9.81]\n[[hold]]\nregion = {box = [[-2, -2, -1], [2, 2, 1]]}\n%s\n[[solid]]\nshape = "sphere"\nradius = 0.2\ncenter = [0, 0, -0.22]' "$down")"
-  [[ $stderr == *'triangles come too close to solids (nothing to worry about once in a while; if '*'take shorter steps'* ]]
   awk 'BEGIN{for (k = 0; k < 2; ++k) { for (i = 0; i < 4; ++i) print "v", i % 2, int(i / 2), k * 0.0101
     print "f", 1 + 4 * k, 2 + 4 * k, 4 + 4 * k; print "f", 1 + 4 * k, 4 + 4 * k, 3 + 4 * k } }' > layers.obj
   sed -i 's/^shape.*/shape = "mesh"\nfile = "layers.obj"/; /^radius/d; /^edge_length/d' disk.toml
+  warned "$(printf '[[hold]]\nregion = {box = [[-1, -1, -1], [2, 2, 1]]}\n%s\n[[solid]]\nshape = "sphere"\nradius = 0.1\ncenter = [0.6, 0.4, -0.12]' "$down")"
+  [[ $stderr == *'triangles come too close to solids (nothing to worry about once in a while; if '*'take shorter steps'* ]]
   warned "$(printf '[[hold]]\nregion = {box = [[-1, -1, -0.001], [2, 2, 0.001]]}\n[[hold]]\nregion = {box = [[-1, -1, 0.009], [2, 2, 0.02]]}\n%s' "$down")"
   [[ $stderr == *'stay behind'*'(nothing to worry about in a few steps; if it comes back '*'too little room)'* ]]
 }
