@@ -336,7 +336,7 @@ TEST(Reactions, OfWhatIsNotHeldAreZero) {
     Frame frame = two_squares();
     frame.erase("hold");
     if (with_holds)
-      put_masks(frame, "hold")[1] = 1;
+      sheet::put_masks(frame, "hold")[1] = 1;
     const std::vector<Vector3> forces(frame.vertices, Vector3(1, 2, 3));
     leave_nans_in_memory(frame.vertices * sizeof(Vector3));
     put_reactions(forces, true, frame);
