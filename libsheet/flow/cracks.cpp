@@ -46,7 +46,24 @@ Box box_of(std::span<const Vector3> x, const Corners& t) {
   return box;
 }
 
-// The old vertices at which triangles meet others that they did not meet before.
+} // namespace
+
+std::vector<Vector3> open_cracks(const Fans& fans, const std::vector<bool>& dropped, std::span<const Vector3> x) {
+  const std::size_t n = fans.old_vertex.size();
+  std::vector<Retreat> retreats(n);
+  const auto at = [&](std::uint32_t v) { return x[fans.old_vertex[v]]; };
+  for (std::size_t t = 0; t < fans.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3 && !dropped[t]; ++i) {
+      const Corners& c = fans.triangles[t];
+      if (apart(fans, c[i]))
+        retreats[c[i]].add(at(c[i]), at(c[(i + 1) % 3]), at(c[(i + 2) % 3]));
+    }
+  std::vector<Vector3> opened;
+  for (std::uint32_t v = 0; v < n; ++v)
+    opened.push_back(apart(fans, v) ? Vector3(at(v) + retreats[v].step()) : at(v));
+  return opened;
+}
+
 std::vector<bool> crossing_at(const Connectivity& mesh, std::span<const Vector3> x, const Fans& fans,
                               std::span<const Vector3> opened, const std::vector<bool>& dropped) {
   std::vector<bool> crossing(mesh.vertices, false);
@@ -74,21 +91,25 @@ std::vector<bool> crossing_at(const Connectivity& mesh, std::span<const Vector3>
   return crossing;
 }
 
-} // namespace
-
-std::vector<Vector3> open_cracks(const Fans& fans, const std::vector<bool>& dropped, std::span<const Vector3> x) {
-  const std::size_t n = fans.old_vertex.size();
-  std::vector<Retreat> retreats(n);
-  const auto at = [&](std::uint32_t v) { return x[fans.old_vertex[v]]; };
+std::vector<Vector3> open_clear_cracks(const Connectivity& mesh, const Fans& fans, const std::vector<bool>& dropped,
+                                       std::span<const Vector3> x) {
+  constexpr int rounds = 4;
+  std::vector<char> left(fans.old_vertex.size(), 0);
   for (std::size_t t = 0; t < fans.triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3 && !dropped[t]; ++i) {
-      const Corners& c = fans.triangles[t];
-      if (apart(fans, c[i]))
-        retreats[c[i]].add(at(c[i]), at(c[(i + 1) % 3]), at(c[(i + 2) % 3]));
-    }
-  std::vector<Vector3> opened;
-  for (std::uint32_t v = 0; v < n; ++v)
-    opened.push_back(apart(fans, v) ? Vector3(at(v) + retreats[v].step()) : at(v));
+    for (const std::uint32_t v : fans.triangles[t])
+      left[v] = left[v] || !dropped[t];
+  std::vector<int> left_at(mesh.vertices, 0);
+  for (std::size_t v = 0; v < left.size(); ++v)
+    left_at[fans.old_vertex[v]] += left[v];
+  std::vector<Vector3> opened = open_cracks(fans, dropped, x);
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<bool> crossing = crossing_at(mesh, x, fans, opened, dropped);
+    if (std::ranges::none_of(crossing, [](bool c) { return c; }))
+      break;
+    for (std::size_t v = 0; v < opened.size(); ++v)
+      if (const std::uint32_t old = fans.old_vertex[v]; crossing[old])
+        opened[v] = x[old] + (left_at[old] > 1 ? 0.1 : 0) * (opened[v] - x[old]);
+  }
   return opened;
 }
 

@@ -66,14 +66,31 @@ Dropped pull_back(Frame& frame, const Scene& scene) {
   return sum_of(gone, loses, scene.material.density);
 }
 
-// Takes triangles away.
-void drop(Frame& frame, const std::vector<bool>& leaves) {
+// Takes triangles away. Parts of a crumpled sheet that hang together by them alone, and would cross when they come
+// apart, stay together for now: what joins them leaves later.
+Dropped drop(Frame& frame, std::vector<bool> leaves, double density) {
   const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const Frame&>(frame)));
-  std::vector<bool> cut(mesh.edges.size(), false);
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    cut[e] = !mesh.on_rim(e) && leaves[mesh.edge_triangles[e][0]] != leaves[mesh.edge_triangles[e][1]];
-  const Fans fans = take_apart(mesh, cut);
-  put_fans(frame, fans, leaves, open_cracks(fans, leaves, positions(static_cast<const Frame&>(frame))));
+  const auto x = positions(static_cast<const Frame&>(frame));
+  for (;;) {
+    std::vector<bool> cut(mesh.edges.size(), false);
+    for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+      cut[e] = !mesh.on_rim(e) && leaves[mesh.edge_triangles[e][0]] != leaves[mesh.edge_triangles[e][1]];
+    const Fans fans = take_apart(mesh, cut);
+    const std::vector<Vector3> opened = open_clear_cracks(mesh, fans, leaves, x);
+    const std::vector<bool> crossing = crossing_at(mesh, x, fans, opened, leaves);
+    bool any = false;
+    for (std::size_t t = 0; t < leaves.size(); ++t)
+      if (leaves[t] && std::ranges::any_of(mesh.triangles[t], [&](std::uint32_t v) { return crossing[v]; })) {
+        leaves[t] = false;
+        any = true;
+      }
+    if (any)
+      continue;
+    const Dropped dropped = sum_of(frame, leaves, density);
+    if (dropped.triangles > 0)
+      put_fans(frame, fans, leaves, opened);
+    return dropped;
+  }
 }
 
 } // namespace
@@ -93,7 +110,7 @@ Dropped let_out(Frame& frame, const Scene& scene) {
          "all of the sheet is beyond an [[outflow]]: nothing is left at {:.6g} s; end the run before (--until)",
          frame.time);
   if (out.triangles > 0)
-    drop(frame, leaves);
+    out = drop(frame, leaves, scene.material.density);
   const Dropped cut = straight ? pull_back(frame, scene) : Dropped{};
   if (out.triangles == 0 && cut.volume == 0)
     return {};

@@ -57,7 +57,7 @@ Torn tear(Frame& frame, const Scene& scene) {
   if (const Fans fans = take_apart(mesh, none_of(mesh.edges.size())); count_apart(fans) > 0) {
     torn.vertices = count_apart(fans);
     const std::vector<bool> dropped = none_of(mesh.triangles.size());
-    put_fans(frame, fans, dropped, open_cracks(fans, dropped, positions(static_cast<const Frame&>(frame))));
+    put_fans(frame, fans, dropped, open_clear_cracks(mesh, fans, dropped, positions(static_cast<const Frame&>(frame))));
     mesh = connect(frame.vertices, triangles(frame));
   }
   const auto x = positions(static_cast<const Frame&>(frame));
@@ -93,7 +93,8 @@ Torn tear(Frame& frame, const Scene& scene) {
   torn.volume = dropped.volume;
   torn.momentum = dropped.momentum;
   torn.vertices += count_apart(fans);
-  put_fans(frame, fans, cuts.dropped, opened);
+  // What is left is beside dropped triangles, and stays where it is.
+  put_fans(frame, fans, cuts.dropped, open_clear_cracks(mesh, fans, cuts.dropped, x));
   if (torn.dropped > 0) {
     add_to_account(frame, "tear.volume", "m^3", {&torn.volume, 1});
     add_to_account(frame, "tear.momentum", "kg*m/s", {torn.momentum.data(), 3});

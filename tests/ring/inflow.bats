@@ -122,3 +122,14 @@ spotted() { sheet-init "$BATS_TEST_DIRNAME/thin_spots.toml" --set "tear.crumbs=$
   [[ $(sheet-print stepped.sheet | grep -c '^vertices') == 17 ]]
   run ! cmp -s stepped.sheet torn.sheet
 }
+
+@test "outflow from a crumpled curtain makes no intersections" {
+  gunzip -c "$BATS_TEST_DIRNAME/crumpled_curtain.sheet.gz" > before.sheet
+  sheet-check before.sheet
+  sheet-emit before.sheet -o after.sheet
+  sheet-check after.sheet
+  volume() { sheet-print "$1" | awk '/^array volume/ {on = 1; next} /^array/ {on = 0} on {sum += $1} /^array outflow.volume/ {getline; sum += $1} /^array emit.volume/ {getline; sum -= $1} END {printf "%.9g\n", sum}'; }
+  [[ $(volume before.sheet) == "$(volume after.sheet)" ]]
+  left() { sheet-print "$1" | sed -n '/^array outflow.volume /{n;p}'; }
+  [[ $(left before.sheet) != "$(left after.sheet)" ]]
+}
