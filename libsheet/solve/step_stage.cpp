@@ -81,6 +81,18 @@ void check_edges(const Frame& frame, const Connectivity& mesh) {
            length);
 }
 
+// The slope at a clamp is that of a director; hinges have none.
+void check_bending(const Scene& scene, Bending bending) {
+  if (bending == Bending::mid_edge || !scene.model.bending)
+    return;
+  for (std::size_t i = 0; i < scene.holds.size(); ++i)
+    if (scene.holds[i].clamped)
+      fail(ExitCode::usage,
+           "--bending: hinges do not hold the slope that [[hold]] number {} (from 0) clamps; take --bending mid-edge, "
+           "or kind = \"pinned\"",
+           i);
+}
+
 // The end of a fixed step from t: dt, or a little less so that equal steps land exactly on `until`.
 double fixed_step(double t, double until, double dt) {
   if (std::isinf(until))
@@ -117,6 +129,7 @@ struct StepStage::Impl {
     if (mesh.follow(frame))
       check_mesh(*mesh.mesh());
     check_edges(frame, *mesh.mesh());
+    check_bending(scene, options.bending);
     if (mesh.mesh()->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
     scene::follow_rolls(scene, frame);

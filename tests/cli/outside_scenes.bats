@@ -338,6 +338,15 @@ END
   done
 }
 
+@test "hinges cannot clamp, and say so" {
+  { cat disk.toml; printf '[[hold]]\nregion = "rim"\nkind = "clamped"\n'; } > clamped.toml
+  sheet-init clamped.toml -o clamped.sheet
+  for kind in hinge hinge-paper; do
+    run -2 sheet-step --dt 0.01 --bending $kind clamped.sheet
+    [[ $output == *'[[hold]] number 0 (from 0) clamps; take --bending mid-edge, or kind = "pinned"'* ]]
+  done
+}
+
 @test "25: sheet-collide's warnings say whether to worry and what to do" {
   warned() { # TABLES: a step of the disk with them
     { cat disk.toml; printf '[contact]\n%s\n' "$1"; } > warned.toml
