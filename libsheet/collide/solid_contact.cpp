@@ -125,8 +125,7 @@ private:
         } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
           rides_[v] = static_cast<std::int32_t>(hit->solid);
           caught_[v] = 1;
-          hold(v, slides(v) ? slid(v, *hit) : Vector3(hit->place + views_[hit->solid].belt(1 - hit->s)),
-               caught_distance(v, *hit));
+          hold(v, slides(v) ? slid(v, *hit) : carried_on(*hit), caught_distance(v, *hit));
         }
       }
     });
@@ -146,6 +145,12 @@ private:
     const Vector3 normal = view.shape().nearest(hit.place).normal;
     const Vector3 rest = view.own(view.pieces(), path_.end[v]) - hit.place;
     return hit.place + rest - normal.dot(rest) * normal;
+  }
+
+  // Where a vertex is at the end that sticks to the solid from its hit on, in the solid's frame.
+  [[nodiscard]] Vector3 carried_on(const VertexHit& hit) const {
+    const SolidView& view = views_[hit.solid];
+    return view.runs() ? Vector3(hit.place + view.belt(1 - hit.s, view.shape().nearest(hit.place).normal)) : hit.place;
   }
 
   [[nodiscard]] const SolidView& own_view(std::uint32_t v) const { return views_[static_cast<std::size_t>(rides_[v])]; }
@@ -314,14 +319,15 @@ private:
     const bool sticks = solids_.scene(hit.solid).contact == SolidContact::stick;
     Vector3 move = (out - already) * near.normal; // in the solid's frame
     if (meets) {
-      const Vector3 back = view.belt(1 - hit.s) + hit.place - lever.end + already * near.normal;
+      const Vector3 back = view.belt(1 - hit.s, near.normal) + hit.place - lever.end + already * near.normal;
       move += sticks ? back : Vector3(near.normal.dot(back) * near.normal);
     }
     move = view.turned_at_end(move);
     const Vector3 normal = view.turned_at_end(near.normal);
     const auto outward = [&](const Vector3& x) { return Vector3(std::max(0.0, x.dot(normal)) * normal); };
     // To the surface's velocity at once: the part of the step after the hit would leave the other part of the speed.
-    Vector3 change = solids_.surface_velocity(hit.solid, view.world_at_end(lever.end), path_.end_time) - lever.velocity;
+    Vector3 change =
+        solids_.surface_velocity(hit.solid, view.world_at_end(lever.end), normal, path_.end_time) - lever.velocity;
     if (!meets || !sticks)
       change = outward(change);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -399,9 +405,9 @@ private:
       path_.touch[v] = rides_[v];
       if (caught_[v] != 0 && !slides(static_cast<std::uint32_t>(v)))
         path_.overshoot[v] = free_end_[v] - path_.end[v];
-      Vector3 velocity = solids_.surface_velocity(solid, path_.end[v], path_.end_time);
+      const auto& [distance, normal, at_surface] = solids_.at(solid, path_.end[v], path_.end_time);
+      Vector3 velocity = at_surface;
       if (slides(static_cast<std::uint32_t>(v))) {
-        const Vector3 normal = solids_.at(solid, path_.end[v], path_.end_time).normal;
         if (carried_[v] == 0)
           path_.fixed[v] = axes_across(normal) | prescribed_[v];
         velocity = path_.velocity[v] + normal.dot(velocity - path_.velocity[v]) * normal;

@@ -25,8 +25,11 @@ public:
   [[nodiscard]] Vector3 turned_at_end(const Vector3& direction) const { return from_own_at_end_.linear() * direction; }
   // Where the solid takes the point that is at x at the step's start.
   [[nodiscard]] Vector3 carried(const Vector3& x) const { return world_at_end(own(0, x)); }
-  // How far the belt moves, in the part s of the step, in the solid's frame at the end [m].
-  [[nodiscard]] Vector3 belt(double s) const { return s * belt_; }
+  // How far the belt moves where the surface has this normal, in the part s of the step, in the solid's frame at the
+  // end [m].
+  [[nodiscard]] Vector3 belt(double s, const Vector3& normal) const { return solid::along_surface(s * belt_, normal); }
+  // Whether it has one.
+  [[nodiscard]] bool runs() const { return !belt_.isZero(0); }
 
   // A point's place at the start of piece k: on its straight path in the world, or, where it rides on the solid, on the
   // straight path in the solid's frame.

@@ -29,14 +29,19 @@ Eigen::Isometry3d Solids::pose(std::size_t solid, double t) const {
   return scene::motion_between(solids_[solid].scene.motion, 0, t) * solids_[solid].placed;
 }
 
-Vector3 Solids::surface_velocity(std::size_t solid, const Vector3& x, double t) const {
-  return scene::velocity_at(solids_[solid].scene.motion, t, x) + solids_[solid].scene.surface_velocity;
+Vector3 Solids::belt_velocity(std::size_t solid, const Vector3& normal) const {
+  return along_surface(solids_[solid].scene.surface_velocity, normal);
+}
+
+Vector3 Solids::surface_velocity(std::size_t solid, const Vector3& x, const Vector3& normal, double t) const {
+  return scene::velocity_at(solids_[solid].scene.motion, t, x) + belt_velocity(solid, normal);
 }
 
 SolidPoint Solids::at(std::size_t solid, const Vector3& x, double t) const {
   const Eigen::Isometry3d place = pose(solid, t);
   const Near near = solids_[solid].shape->nearest(place.inverse() * x);
-  return {near.distance, place.linear() * near.normal, surface_velocity(solid, x, t)};
+  const Vector3 normal = place.linear() * near.normal;
+  return {near.distance, normal, surface_velocity(solid, x, normal, t)};
 }
 
 } // namespace sheet::solid

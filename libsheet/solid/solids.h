@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The solids of a scene in their places: signed distance, outward normal and surface velocity at any point and time.
 #pragma once
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,13 @@ struct SolidPoint {
   Vector3 normal;   // unit, outward, at the nearest point of the surface
   Vector3 velocity; // of what sticks to the surface there: the solid's motion and its belt's [m/s]
 };
+
+// The part of a belt's velocity along its surface there. All of it on the faces along which it is meant to run.
+[[nodiscard]] inline Vector3 along_surface(const Vector3& velocity, const Vector3& normal) {
+  constexpr double rounding = 1e-9;
+  const double across = velocity.dot(normal);
+  return std::abs(across) <= rounding * velocity.norm() ? velocity : Vector3(velocity - across * normal);
+}
 
 class Solids {
 public:
@@ -37,8 +45,11 @@ public:
   // At the point x [m] of the world, at time t [s].
   [[nodiscard]] SolidPoint at(std::size_t solid, const Vector3& x, double t) const;
 
-  // Velocity at time t of what sticks to the solid at x [m/s].
-  [[nodiscard]] Vector3 surface_velocity(std::size_t solid, const Vector3& x, double t) const;
+  // Velocity at time t of what sticks to the solid at x, where its surface has this normal [m/s]: the belt runs along
+  // the surface, so at a face that it does not run along it stands.
+  [[nodiscard]] Vector3 surface_velocity(std::size_t solid, const Vector3& x, const Vector3& normal, double t) const;
+  // The belt's part of it.
+  [[nodiscard]] Vector3 belt_velocity(std::size_t solid, const Vector3& normal) const;
 
 private:
   struct Entry {

@@ -131,6 +131,31 @@ void add_holds(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   }
 }
 
+// What sticks to a solid moves with it, and with its belt; where its belt does not run along the surface (beyond an
+// edge of it), with the belt's part along the surface: a hold for each such vertex.
+void add_stuck(const solid::Solids* solids, std::size_t i, const scene::Solid& solid,
+               std::vector<std::uint32_t> vertices, const Frame& frame, Model& model) {
+  std::vector<std::uint32_t> others;
+  if (solids != nullptr && !solid.surface_velocity.isZero(0))
+    std::erase_if(vertices, [&](std::uint32_t v) {
+      const Vector3 normal = solids->at(i, positions(frame)[v], frame.time).normal;
+      const bool beyond = solids->belt_velocity(i, normal) != solid.surface_velocity;
+      if (beyond)
+        others.push_back(v);
+      return beyond;
+    });
+  const auto add = [&](std::vector<std::uint32_t> held, const Vector3& belt) {
+    Hold hold;
+    move(hold, solid.motion, belt);
+    hold.vertices = std::move(held);
+    if (!hold.vertices.empty())
+      model.holds.push_back(std::move(hold));
+  };
+  add(std::move(vertices), solid.surface_velocity);
+  for (const std::uint32_t v : others)
+    add({v}, solids->belt_velocity(i, solids->at(i, positions(frame)[v], frame.time).normal));
+}
+
 // Along which liquid flows: motion and belt as for what sticks.
 Wall wall_of(const std::shared_ptr<const solid::Solids>& solids, std::size_t i, std::vector<std::uint32_t> touching,
              const Hold& moved) {
@@ -188,17 +213,18 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
       continue;
     any = true;
     const scene::Solid& solid = scene.solids[i];
+    if (solid.contact == SolidContact::stick) {
+      add_stuck(solids.get(), i, solid, std::move(touching[i]), frame, model);
+      continue;
+    }
     Hold hold;
     move(hold, solid.motion, solid.surface_velocity);
-    hold.of_wall = solid.contact != SolidContact::stick;
+    hold.of_wall = true;
     if (solid.contact == SolidContact::flow && !solid.receding)
       hold.vertices = held_rims(frame, mesh, touching[i]);
     if (solid.contact == SolidContact::flow)
       std::ranges::copy_if(touching[i], std::back_inserter(hold.vertices), [&](std::uint32_t v) { return films[v]; });
-    if (solid.contact == SolidContact::stick)
-      hold.vertices = std::move(touching[i]);
-    else
-      model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
+    model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
     if (!hold.vertices.empty())
       model.holds.push_back(std::move(hold));
   }

@@ -352,20 +352,24 @@ void Stepper::clear_times() {
 
 // Of what was done since clear_times, without arcs as well.
 void Stepper::tell_times(StepReport& report) const {
-  const std::vector<double>& seconds = cache_->system.assembly().seconds();
-  for (std::size_t t = 0; t < seconds.size(); ++t)
-    report.terms.push_back({t < cache_->terms.size() ? cache_->terms[t]->name() : "gathering", seconds[t]});
+  if (cache_) { // else arcs have rested from the first step on
+    const std::vector<double>& seconds = cache_->system.assembly().seconds();
+    for (std::size_t t = 0; t < seconds.size(); ++t)
+      report.terms.push_back({t < cache_->terms.size() ? cache_->terms[t]->name() : "gathering", seconds[t]});
+  }
   if (flat_ && flat_->cache_ && flat_->cache_->system.assembly().seconds().back() > 0)
     flat_->tell_times(report);
 }
 
 // flat: whether it was done without arcs, as it did not converge with them.
 Stepper::Outcome Stepper::attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report) {
-  flat = false;
-  const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
-  if (outcome != Outcome::not_converged || !has_arcs())
-    return outcome;
-  ++report.failed;
+  flat = arcs_rest_ && has_arcs();
+  if (!flat) {
+    const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
+    if (outcome != Outcome::not_converged || !has_arcs())
+      return outcome;
+    ++report.failed;
+  }
   flat = true;
   report.error = 0;
   without_arcs().filters_errors_ = filters_errors_;

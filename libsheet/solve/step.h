@@ -63,9 +63,11 @@ struct StepReport {
   std::vector<TermTime> terms;
 };
 
+inline constexpr double default_tolerance = 1e-2;
+
 // Steps chosen by the error estimate. `dt` is the next step to try [s]; 0: not known yet.
 struct StepControl {
-  double tolerance = 1e-2; // of an edge length a step
+  double tolerance = default_tolerance; // of an edge length a step
   double dt = 0;
 };
 
@@ -84,6 +86,8 @@ public:
   // New contacts, holds or forces; the analysis is kept if the same elements remain.
   void set_model(Model model);
   [[nodiscard]] const Model& model() const { return model_; }
+  // Whether steps are done without arcs at once, as those before did not converge with them.
+  void rest_arcs(bool rest) { arcs_rest_ = rest; }
 
 private:
   struct Cache;
@@ -111,6 +115,7 @@ private:
   Model model_;
   StepOptions options_;
   std::unique_ptr<Cache> cache_;
+  bool arcs_rest_ = false;
   bool filters_errors_ = false;   // where steps are chosen by them
   std::unique_ptr<Stepper> flat_; // the same without arcs, for steps that do not converge with them
 };

@@ -41,6 +41,10 @@ StepReport Stepper::step(State& state, double dt) {
 }
 
 void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
+  if (depth == 0 && arcs_rest_ && has_arcs()) {
+    advance_flat(state, dt, report);
+    return;
+  }
   State end;
   const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
   if (outcome == Outcome::done) {

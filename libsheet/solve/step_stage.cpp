@@ -17,6 +17,7 @@
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/frame_mesh.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/arc_rest.h"
 #include "libsheet/solve/impossible_speed.h"
 #include "libsheet/solve/scene_model.h"
 
@@ -81,6 +82,13 @@ void check_edges(const Frame& frame, const Connectivity& mesh) {
            length);
 }
 
+// Liquid that flows on solids has to know their surfaces, and so has what sticks to belts, which run along them.
+bool needs_surfaces(const Scene& scene) {
+  return flows_on_solids(scene) || std::ranges::any_of(scene.solids, [](const scene::Solid& solid) {
+           return !solid.surface_velocity.isZero(0);
+         });
+}
+
 // The slope at a clamp is that of a director; hinges have none.
 void check_bending(const Scene& scene, Bending bending) {
   if (bending == Bending::mid_edge || !scene.model.bending)
@@ -108,7 +116,7 @@ struct StepStage::Impl {
   StepStageOptions options;
   FrameScene scenes;
   FrameMesh mesh;
-  std::shared_ptr<const solid::Solids> solids; // if liquid flows on them
+  std::shared_ptr<const solid::Solids> solids; // if something needs their surfaces
   std::optional<Stepper> stepper;
   Totals totals;
 
@@ -125,7 +133,7 @@ struct StepStage::Impl {
     check_magnitudes(frame);
     const Scene& scene = scenes.of(frame);
     if (scenes.changed())
-      solids = flows_on_solids(scene) ? std::make_shared<const solid::Solids>(scene) : nullptr;
+      solids = needs_surfaces(scene) ? std::make_shared<const solid::Solids>(scene) : nullptr;
     if (mesh.follow(frame))
       check_mesh(*mesh.mesh());
     check_edges(frame, *mesh.mesh());
@@ -154,6 +162,8 @@ struct StepStage::Impl {
     State state = state_of(frame, mesh.mesh());
     put_back_overshoot(frame, stepper->model(), state);
     const State start = state;
+    ArcRest rest(frame);
+    stepper->rest_arcs(rest.rests());
     Stopwatch watch;
     StepReport report;
     if (options.dt) {
@@ -185,6 +195,8 @@ struct StepStage::Impl {
     else if (report.inaccurate > 0)
       warn_of_inaccurate(frame, state, report);
     refuse_impossible_speed(frame, start, state);
+    rest.note(report.flat_fallbacks > 0);
+    rest.put(frame);
     put_state(state, frame);
     put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), frame);
   }

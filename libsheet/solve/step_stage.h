@@ -11,8 +11,6 @@
 
 namespace sheet {
 
-inline constexpr double default_tolerance = 1e-3;
-
 struct StepStageOptions {
   std::optional<double> dt;        // fixed step [s]; absent: chosen by the tolerance
   std::optional<double> tolerance; // error estimate of a step, in lengths of the edges; absent: default_tolerance

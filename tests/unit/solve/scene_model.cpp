@@ -164,6 +164,29 @@ TEST(SceneModel, TheForceOfASolidIsWrittenWhereTheSheetMayComeOff) {
   EXPECT_EQ(free.find("touch_force"), nullptr); // nor is the old one left
 }
 
+// What sticks to the end of a belt, along which the belt does not run, stays there.
+TEST(SceneModel, ABeltStandsAtTheFacesAlongWhichItDoesNotRun) {
+  Frame frame = two_squares();
+  std::string text = scene_text;
+  text.replace(text.find("shape = \"plane\"\nnormal = [0, 1, 0]"), 34,
+               "shape = \"box\"\nsize = [8, 2, 0.5]\ncenter = [0, -1, 0]\n#");
+  frame.put_text("scene", text); // from z = -0.25 to 0.25, its top at y = 0
+  positions(frame)[4] = {1, -0.5, 0.25};
+  put_masks(frame, "touch", {1, 1, 0, 1, 1, 0});
+  const Scene scene = parse_scene(text, "scene");
+  const Model model = model_of(scene, frame, connect(frame.vertices, triangles(frame)), Bending::none, false,
+                               std::make_shared<const solid::Solids>(scene));
+  Vector3 top = Vector3::Zero(), end = Vector3::Constant(9);
+  for (const Hold& hold : model.holds)
+    for (const std::uint32_t v : hold.vertices)
+      if (v == 0)
+        top = hold.velocity_at(0, positions(frame)[v]);
+      else if (v == 4)
+        end = hold.velocity_at(0, positions(frame)[v]);
+  EXPECT_EQ(top, Vector3(0, 0, 3));
+  EXPECT_LT(end.norm(), 1e-12);
+}
+
 // Where a [[hold]] prescribes an axis of what touches, the solid has the others.
 TEST(SceneModel, AHoldCountsBeforeASolid) {
   Frame frame = two_squares();
