@@ -207,14 +207,16 @@ center = [0, "-0.3 m", 0]
 #rotation = {axis = [1, 0, 0], angle = "90 deg"}
 #motion = {kind = "rotating", axis = [0, 0, 1], rate = "10 rpm"}
 
-# Led through places, rotations (unit quaternions [w, x, y, z]), or both, at times: smooth between them, at rest before and
-# after. Or file = "arm.csv", beside the scene: columns time [s], x [m], y [m], z [m], qw, qx, qy, qz, named in its first
-# line. A solid that does not say its center or rotation is where the rows have it at time 0. For holds, too.
+# Led through places, rotations (unit quaternions [w, x, y, z]), or both, at times; at rest before and after. Or file =
+# "arm.csv", beside the scene: columns time [s], x [m], y [m], z [m], qw, qx, qy, qz, named in its first line. A solid that
+# does not say its center or rotation is where the rows have it at time 0. interpolation: "smooth" (the default; it never
+# goes beyond the two rows that it is between), "linear" (constant velocity, which jumps at the rows) or "step" (it rests
+# and jumps at the rows). For holds, too.
 #[[solid]]
 #shape = "box"
 #size = [0.2, 0.02, 0.1]
 #center = [0, -0.4, 0]
-#motion = {kind = "keyframed", times = [0, "0.5 s", "1 s"], places = [[0, -0.4, 0], [0.1, -0.3, 0], [0.2, -0.4, 0]]}
+#motion = {kind = "keyframed", times = [0, "0.5 s", "1 s"], places = [[0, -0.4, 0], [0.1, -0.3, 0], [0.2, -0.4, 0]], interpolation = "smooth"}
 
 # The ground, or a conveyor belt: its surface moves, its shape stays. `normal`: by default upwards.
 #[[solid]]

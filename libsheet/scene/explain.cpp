@@ -232,6 +232,16 @@ std::optional<std::string> warning_of_buckling(const Scene& scene, const Scales&
       brief(*edge), brief(enough));
 }
 
+// What jumps does so within one time step, which ends there: how hard it pulls goes by the step's length.
+std::optional<std::string> warning_of_jumps(const Motion& motion, std::string_view thing) {
+  const auto* keyed = std::get_if<Keyframed>(&motion);
+  if (keyed == nullptr || keyed->frames->interpolation() != Interpolation::step)
+    return {};
+  return fmt::format("{} jumps at its rows (interpolation = \"step\"): what it carries along, or hits, follows within "
+                     "one time step, and its forces go by the length of that step; \"linear\" moves it",
+                     thing);
+}
+
 std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
                                      const std::vector<DimensionlessNumber>& numbers) {
   std::vector<std::string> warnings;
@@ -268,6 +278,12 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
     warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
   else if (scene.environment.gravity && !carried && scene.solids.empty())
     warn("nothing holds or catches the sheet: it falls for ever");
+  for (std::size_t i = 0; i < scene.holds.size(); ++i)
+    if (const auto jumps = warning_of_jumps(scene.holds[i].motion, fmt::format("hold {}", i)))
+      warn(*jumps);
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (const auto jumps = warning_of_jumps(scene.solids[i].motion, fmt::format("solid {}", i)))
+      warn(*jumps);
   if (scales.speed == 0 && !scene.environment.pressure && !scene.environment.gravity)
     warn("nothing drives the sheet: it stays as it is");
   return warnings;

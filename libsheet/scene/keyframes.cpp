@@ -58,6 +58,16 @@ void solve_tridiagonal(const std::vector<double>& below, std::vector<double> dia
     x[i] = (x[i] - above[i] * x[i + 1]) / diagonal[i];
 }
 
+// A slope at a row between whose neighbours the mean slopes are `before` and `after`, so that cubics on both sides are
+// monotone: of their sign, and three times the smaller one at most [de Boor and Swartz 1977]; 0 where they differ in
+// sign.
+double monotone(double slope, double before, double after) {
+  if (!(before > 0 && after > 0) && !(before < 0 && after < 0))
+    return 0;
+  const double most = 3 * (before > 0 ? std::min(before, after) : std::max(before, after));
+  return std::clamp(slope, std::min(most, 0.0), std::max(most, 0.0));
+}
+
 } // namespace
 
 Vector3d rotation_vector(const Quaterniond& rotation) {
@@ -87,15 +97,22 @@ double Keyframes::Piece::largest_second() const {
 }
 
 Keyframes::Keyframes(std::vector<double> times, std::vector<Vector3d> places, std::vector<Quaterniond> rotations,
-                     const Vector3d& center)
-    : times_(std::move(times)), places_(std::move(places)), rotations_(std::move(rotations)), center_(center) {
+                     const Vector3d& center, Interpolation interpolation)
+    : times_(std::move(times)), places_(std::move(places)), rotations_(std::move(rotations)), center_(center),
+      interpolation_(interpolation) {
   for (std::size_t i = 1; i < rotations_.size(); ++i)
     if (rotations_[i].dot(rotations_[i - 1]) < 0)
       rotations_[i].coeffs() *= -1;
-  if (!places_.empty())
+  if (interpolation_ != Interpolation::smooth)
+    return;
+  if (!places_.empty()) {
     find_velocities();
-  if (!rotations_.empty())
+    limit_velocities();
+  }
+  if (!rotations_.empty()) {
     find_turnings();
+    limit_turnings();
+  }
 }
 
 void Keyframes::find_velocities() {
@@ -168,6 +185,39 @@ void Keyframes::find_turnings() {
   }
 }
 
+// By coordinates.
+void Keyframes::limit_velocities() {
+  const std::size_t last = times_.size() - 1;
+  const auto slope = [&](std::size_t i) -> Vector3d {
+    return (places_[i + 1] - places_[i]) / (times_[i + 1] - times_[i]);
+  };
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Vector3d before = slope(i == 0 ? 0 : i - 1), after = slope(i == last ? last - 1 : i);
+    for (int d = 0; d < 3; ++d)
+      velocities_[i][d] = monotone(velocities_[i][d], before[d], after[d]);
+  }
+}
+
+// By the turn on the way to a neighbour, about one axis: along it the angular velocity at either end is the derivative
+// of the rotation vector, whatever goes on across.
+void Keyframes::limit_turnings() {
+  const std::size_t last = times_.size() - 1;
+  std::vector<Vector3d> turns(last); // steady, from row to row; the same in both rows' frames
+  for (std::size_t i = 0; i < last; ++i)
+    turns[i] = rotation_vector(rotations_[i].conjugate() * rotations_[i + 1]) / (times_[i + 1] - times_[i]);
+  for (std::size_t i = 0; i <= last; ++i) {
+    Vector3d& turning = turnings_[i];
+    const std::array<const Vector3d*, 2> around{&turns[i == 0 ? 0 : i - 1], &turns[i == last ? last - 1 : i]};
+    double part = around[0]->dot(*around[1]) > 0 ? 1 : 0;
+    for (const Vector3d* turn : around)
+      if (const double along = turning.dot(*turn); !(along > 0))
+        part = 0;
+      else
+        part = std::min(part, 3 * turn->squaredNorm() / along);
+    turning *= part;
+  }
+}
+
 Keyframes::Moment Keyframes::at(double t) const {
   if (t < times_.front())
     return {0, 0, true};
@@ -175,16 +225,25 @@ Keyframes::Moment Keyframes::at(double t) const {
     return {times_.size() - 2, 1, true};
   const auto after = std::upper_bound(times_.begin(), times_.end(), t);
   const auto i = static_cast<std::size_t>(after - times_.begin()) - 1;
+  if (interpolation_ == Interpolation::step)
+    return {i, 0, true};
   return {i, (t - times_[i]) / (times_[i + 1] - times_[i]), false};
 }
 
 Keyframes::Piece Keyframes::place_piece(std::size_t i) const {
-  return {times_[i + 1] - times_[i], places_[i + 1] - places_[i], velocities_[i], velocities_[i + 1]};
+  const double h = times_[i + 1] - times_[i];
+  const Vector3d way = places_[i + 1] - places_[i];
+  if (interpolation_ == Interpolation::smooth)
+    return {h, way, velocities_[i], velocities_[i + 1]};
+  return {h, way, way / h, way / h};
 }
 
 Keyframes::Piece Keyframes::turn_piece(std::size_t i) const {
   const Vector3d whole = rotation_vector(rotations_[i].conjugate() * rotations_[i + 1]);
-  return {times_[i + 1] - times_[i], whole, turnings_[i], rate_of(whole, turnings_[i + 1])};
+  const double h = times_[i + 1] - times_[i];
+  if (interpolation_ == Interpolation::smooth)
+    return {h, whole, turnings_[i], rate_of(whole, turnings_[i + 1])};
+  return {h, whole, whole / h, whole / h};
 }
 
 Eigen::Isometry3d Keyframes::pose(double t) const {
@@ -216,7 +275,7 @@ Keyframes::Rates Keyframes::rates(double t) const {
 
 Keyframes::Bounds Keyframes::bounds(double from, double to) const {
   Bounds result;
-  if (to <= times_.front() || from >= times_.back())
+  if (to <= times_.front() || from >= times_.back() || interpolation_ == Interpolation::step)
     return result;
   for (std::size_t i = at(from).piece; i + 1 < times_.size() && times_[i] < to; ++i) {
     if (!places_.empty()) {
@@ -237,6 +296,7 @@ Keyframes::Bounds Keyframes::bounds(double from, double to) const {
 bool Keyframes::operator==(const Keyframes& other) const {
   const auto same = [](const Quaterniond& a, const Quaterniond& b) { return a.coeffs() == b.coeffs(); };
   return times_ == other.times_ && places_ == other.places_ && center_ == other.center_ &&
+         interpolation_ == other.interpolation_ &&
          std::equal(rotations_.begin(), rotations_.end(), other.rotations_.begin(), other.rotations_.end(), same);
 }
 

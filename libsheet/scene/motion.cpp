@@ -142,7 +142,10 @@ std::vector<double> events(const Motion& motion) {
                                [](const Translating& m) { return times_of(m.velocity); },
                                [](const Rotating& m) { return times_of(m.rate); },
                                [](const Keyframed& m) {
-                                 return std::vector{m.frames->times().front(), m.frames->times().back()};
+                                 const auto& times = m.frames->times();
+                                 return m.frames->interpolation() == Interpolation::smooth
+                                            ? std::vector{times.front(), times.back()}
+                                            : times;
                                }},
                     motion);
 }

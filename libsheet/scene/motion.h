@@ -73,7 +73,7 @@ struct MotionBounds {
 // Whether the motion turns things, at any time.
 [[nodiscard]] bool turns(const Motion& motion);
 
-// The times at which the velocity is not smooth [s], increasing: sheet-step ends steps there.
+// The times at which the velocity is not smooth, or the place jumps [s], increasing: sheet-step ends steps there.
 [[nodiscard]] std::vector<double> events(const Motion& motion);
 
 } // namespace sheet::scene

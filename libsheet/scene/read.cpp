@@ -62,7 +62,7 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     count(solid.motion);
   if (rows > most_keyframes)
     problems.add(document.place, fmt::format("its motions have {} rows; a scene, which every frame carries, takes {}: "
-                                             "take every n-th, they are joined smoothly",
+                                             "take every n-th; what stands between is found by interpolation",
                                              rows, most_keyframes));
 }
 

@@ -14,6 +14,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
 #include "libsheet/scene/tables.h"
+#include "libsheet/scene/words.h"
 
 namespace sheet::scene {
 namespace {
@@ -147,7 +148,8 @@ private:
         wrong("column \"{}\": \"{}\" is not a finite number", column_names[columns_[i].name], cells[i].substr(0, 60));
     }
     if (rows_.times.size() == most_keyframes)
-      wrong("more than {} rows: every frame of a run carries them; take every n-th, they are joined smoothly",
+      wrong("more than {} rows: every frame of a run carries them; take every n-th; what stands between is found by "
+            "interpolation",
             most_keyframes);
     rows_.lines.push_back(line_);
     rows_.times.push_back(values[0]);
@@ -245,6 +247,8 @@ std::optional<std::pair<std::size_t, std::string>> find_fault(Rows& rows) {
 std::shared_ptr<const Keyframes> read_keyframes(TableReader& table, const Vector3d& center, const Files& files) {
   Rows rows;
   std::string path;
+  const auto interpolation =
+      static_cast<Interpolation>(table.choice("interpolation", words::interpolations).value_or(0));
   const bool by_file = !table.absent("file");
   if (by_file) {
     table.has_no_meaning({"times", "places", "rotations"}, "the rows are those of the file");
@@ -284,7 +288,7 @@ std::shared_ptr<const Keyframes> read_keyframes(TableReader& table, const Vector
   if (!has_places && !has_rotations)
     return {}; // reported
   return std::make_shared<const Keyframes>(std::move(rows.times), std::move(rows.places), std::move(rows.rotations),
-                                           turned_about);
+                                           turned_about, interpolation);
 }
 
 } // namespace sheet::scene

@@ -33,10 +33,11 @@ Motion read_motion(TableReader& parent, const Vector3d& center, const Files& fil
       motion = Keyframed{std::move(frames)};
   }
   constexpr std::array<std::string_view, 4> takes{"nothing else", "velocity", "axis, center, rate",
-                                                  "file, or times with places, rotations or both"};
+                                                  "file, or times with places, rotations or both; interpolation"};
   const auto because = kind ? fmt::format("a {} motion takes {}", words::motions[*kind], takes[*kind])
                             : "the motion's kind is not known";
-  table->has_no_meaning({"velocity", "rate", "axis", "center", "file", "times", "places", "rotations"}, because);
+  table->has_no_meaning({"velocity", "rate", "axis", "center", "file", "times", "places", "rotations", "interpolation"},
+                        because);
   table->finish();
   return motion;
 }

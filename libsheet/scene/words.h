@@ -18,6 +18,7 @@ inline constexpr std::array<std::string_view, 9> borders{"rim",   "inner_rim", "
                                                          "y_min", "y_max",     "z_min",     "z_max"};
 inline constexpr std::array<std::string_view, 2> holds{"pinned", "clamped"};
 inline constexpr std::array<std::string_view, 4> motions{"fixed", "translating", "rotating", "keyframed"};
+inline constexpr std::array<std::string_view, 3> interpolations{"smooth", "linear", "step"};
 inline constexpr std::array<std::string_view, 6> solid_shapes{"sphere", "box", "capsule", "cylinder", "plane", "mesh"};
 inline constexpr std::array<std::string_view, 3> solid_contacts{"stick", "flow", "slip"};
 inline constexpr std::array<std::string_view, 2> crumbs{"keep", "drop"};

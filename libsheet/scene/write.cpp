@@ -76,6 +76,8 @@ std::string keyframes(const Keyframes& frames) {
             });
   if (frames.places().empty())
     text += ", center = " + list(frames.center());
+  if (frames.interpolation() != Interpolation::smooth)
+    text += ", interpolation = " + word(words::interpolations, frames.interpolation());
   return text + "}";
 }
 

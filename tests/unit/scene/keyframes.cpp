@@ -66,9 +66,14 @@ TEST(Keyframes, AreExactAtTheRows) {
 }
 
 TEST(Keyframes, ConvergeWithFourthOrderUpToTheEnds) {
-  const auto place_error = [](int pieces) {
-    const Keyframes rows = smooth(pieces);
-    return largest([&](double t) { return (rows.pose(t).translation() - smooth_place(t)).norm(); });
+  const auto monotone_place = [](double t) { return Vector3d(std::sin(0.7 * t), std::exp(-t), t + t * t * t); };
+  const auto place_error = [&](int pieces) {
+    const std::vector<double> times = times_to(2, pieces, true);
+    std::vector<Vector3d> places;
+    for (const double t : times)
+      places.push_back(monotone_place(t));
+    const Keyframes rows(times, places, {});
+    return largest([&](double t) { return (rows.pose(t).translation() - monotone_place(t)).norm(); });
   };
   const auto turn_error = [](int pieces) {
     const Keyframes rows = smooth(pieces);
@@ -78,6 +83,93 @@ TEST(Keyframes, ConvergeWithFourthOrderUpToTheEnds) {
   EXPECT_GT(std::log2(turn_error(160) / turn_error(320)), 3.9);
   EXPECT_LT(place_error(80), 1e-5);
   EXPECT_LT(turn_error(80), 1e-5);
+}
+
+TEST(Keyframes, ConvergeWithSecondOrderWhereTheyTurnBack) {
+  const auto error = [](int pieces) {
+    const Keyframes rows = smooth(pieces);
+    return largest([&](double t) { return (rows.pose(t).translation() - smooth_place(t)).norm(); });
+  };
+  EXPECT_GT(std::log2(error(80) / error(320)) / 2, 1.7);
+  EXPECT_LT(error(320), 1e-4);
+}
+
+// The pancake's pan, and a random walk with rests.
+TEST(Keyframes, PlacesStayBetweenTheirRows) {
+  std::vector<double> times{0, 0.3, 0.4, 0.6};
+  std::vector<Vector3d> places{{0, -0.005, 0}, {0, -0.005, 0}, {0, 0.07, 0}, {0, -0.005, 0}};
+  auto noise = [state = 1U]() mutable {
+    state = state * 1664525U + 1013904223U;
+    return state / 4294967296.0;
+  };
+  for (int i = 0; i < 200; ++i) {
+    times.push_back(times.back() + 0.01 + noise());
+    const Vector3d step(noise() - 0.5, noise() < 0.5 ? 0 : noise() - 0.3, i % 7 == 0 ? 10 : 0.01);
+    places.emplace_back(places.back() + step);
+  }
+  const Keyframes rows(times, places, {});
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    const Vector3d low = places[i].cwiseMin(places[i + 1]), high = places[i].cwiseMax(places[i + 1]);
+    for (int k = 1; k < 40; ++k) {
+      const double t = times[i] + (times[i + 1] - times[i]) * k / 40;
+      const Vector3d place = rows.pose(t).translation(), velocity = rows.rates(t).velocity;
+      const double rounding = 1e-14 * high.cwiseAbs().maxCoeff();
+      EXPECT_LE((low - place).maxCoeff(), rounding) << "row " << i;
+      EXPECT_LE((place - high).maxCoeff(), rounding) << "row " << i;
+      EXPECT_GE((velocity.array() * (places[i + 1] - places[i]).array()).minCoeff(), -1e-12);
+      for (int d = 0; d < 3; ++d)
+        EXPECT_TRUE(low[d] < high[d] || place[d] == low[d]);
+    }
+  }
+}
+
+// There and back by the same axis, with a rest between.
+TEST(Keyframes, TurnsStayBetweenTheirRows) {
+  const Vector3d axis = Vector3d(1, 2, -2) / 3;
+  const std::vector<double> times{0, 0.2, 0.3, 1, 1.1, 2, 2.1}, angles{0, 0, 1.5, 1.5, 1.4, 3.5, 3.6};
+  std::vector<Quaterniond> rotations;
+  for (const double angle : angles)
+    rotations.emplace_back(AngleAxisd(angle, axis));
+  const Keyframes rows(times, {}, rotations);
+  for (std::size_t i = 0; i + 1 < times.size(); ++i)
+    for (int k = 1; k < 40; ++k) {
+      const double t = times[i] + (times[i + 1] - times[i]) * k / 40, way = angles[i + 1] - angles[i];
+      const double turned = rotation_vector(rotations[i].conjugate() * Quaterniond(rows.pose(t).linear())).dot(axis);
+      EXPECT_GE(turned, std::min(way, 0.0) - 1e-14) << t;
+      EXPECT_LE(turned, std::max(way, 0.0) + 1e-14) << t;
+      EXPECT_GE(rows.rates(t).turning.dot(axis) * way, -1e-13) << t;
+    }
+}
+
+TEST(Keyframes, LinearOnesMoveStraightWithConstantVelocity) {
+  const Quaterniond start = smooth_rotation(0.3), turned = start * Quaterniond(AngleAxisd(1, Vector3d::UnitZ()));
+  const Keyframes rows({0, 0.5, 2}, {{0, 0, 0}, {1, 0, 0}, {1, 3, 0}}, {start, turned, turned}, Vector3d::Zero(),
+                       Interpolation::linear);
+  EXPECT_LT((rows.pose(0.3).translation() - Vector3d(0.6, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((rows.rates(0.3).velocity - Vector3d(2, 0, 0)).norm(), 1e-14);
+  EXPECT_LT((rows.rates(0.5).velocity - Vector3d(0, 2, 0)).norm(), 1e-14);
+  EXPECT_LT(angle_between(rows.pose(0.3), start * Quaterniond(AngleAxisd(0.6, Vector3d::UnitZ()))), 1e-14);
+  EXPECT_LT((rows.rates(0.3).turning - start * Vector3d(0, 0, 2)).norm(), 1e-14);
+  EXPECT_EQ(rows.rates(1).turning, Vector3d::Zero());
+  EXPECT_NEAR(rows.bounds(0, 2).speed, 2, 1e-14);
+  EXPECT_NEAR(rows.bounds(0, 2).turning, 2, 1e-13);
+  EXPECT_LT(rows.bounds(0, 2).acceleration, 1e-12);
+  EXPECT_EQ(events(Keyframed{std::make_shared<const Keyframes>(rows)}), (std::vector<double>{0, 0.5, 2}));
+}
+
+TEST(Keyframes, StepsRestAndJump) {
+  const Quaterniond turned(AngleAxisd(1, Vector3d::UnitZ()));
+  const Keyframes rows({0, 0.5, 2}, {{0, 0, 0}, {1, 0, 0}, {1, 3, 0}}, {Quaterniond::Identity(), turned, turned},
+                       Vector3d::Zero(), Interpolation::step);
+  EXPECT_EQ(rows.pose(0.4999).matrix(), Eigen::Matrix4d::Identity());
+  EXPECT_EQ(rows.pose(0.5).translation(), Vector3d(1, 0, 0));
+  EXPECT_LT(angle_between(rows.pose(1.9), turned), 1e-15);
+  EXPECT_EQ(rows.pose(2).translation(), Vector3d(1, 3, 0));
+  EXPECT_EQ(rows.rates(0.5).velocity, Vector3d::Zero());
+  EXPECT_EQ(rows.bounds(0, 2).speed, 0);
+  const Motion motion = Keyframed{std::make_shared<const Keyframes>(rows)};
+  EXPECT_EQ(events(motion), (std::vector<double>{0, 0.5, 2}));
+  EXPECT_EQ(motion_between(motion, 0.6, 2).translation(), Vector3d(0, 3, 0));
 }
 
 TEST(Keyframes, VelocitiesAreDerivatives) {

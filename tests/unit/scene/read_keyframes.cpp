@@ -112,7 +112,7 @@ TEST_F(MotionFile, HasABoundOfRows) {
   const Scene scene = read(rows);
   EXPECT_EQ(parse_scene(to_toml(scene), "s"), scene);
   EXPECT_EQ(fault(rows + "16000, 0, 0, 0\n"), ":16002: more than 16000 rows: every frame of a run carries them; take "
-                                              "every n-th, they are joined smoothly");
+                                              "every n-th; what stands between is found by interpolation");
   const std::string motion = "motion = {kind = \"keyframed\", file = \"arm.csv\"}\n";
   EXPECT_THROW((void)read(rows, ball + motion + ball), Error); // two of them
 }
@@ -140,7 +140,24 @@ TEST(Keyframed, ListsThatAreWrong) {
             "rotations\ns:12:49: key \"times\" has no meaning in motion: the rows are those of the file");
   EXPECT_EQ(fault("velocity = [0, 0, 1], times = [0, 1], places = [[0, 0, 0], [1, 0, 0]]"),
             "s:12:31: key \"velocity\" has no meaning in motion: a keyframed motion takes file, or times with places, "
-            "rotations or both");
+            "rotations or both; interpolation");
+}
+
+TEST(Keyframed, InterpolationIsReadAndWritten) {
+  const auto text = [](const std::string& motion) { return disk + liquid + ball + "motion = {" + motion + "}\n"; };
+  const std::string rows = "kind = \"keyframed\", times = [0, 1], places = [[0, 0, 0], [1, 0, 0]]";
+  const auto interpolation = [](const Scene& scene) {
+    return std::get<Keyframed>(scene.solids.at(0).motion).frames->interpolation();
+  };
+  EXPECT_EQ(interpolation(parse_scene(text(rows), "s")), Interpolation::smooth);
+  for (const auto& [word, wanted] :
+       {std::pair("smooth", Interpolation::smooth), {"linear", Interpolation::linear}, {"step", Interpolation::step}}) {
+    const Scene scene = parse_scene(text(rows + ", interpolation = \"" + word + "\""), "s");
+    EXPECT_EQ(interpolation(scene), wanted);
+    EXPECT_EQ(parse_scene(to_toml(scene), "s"), scene);
+  }
+  EXPECT_EQ(problem(text("kind = \"translating\", velocity = [0, 0, 1], interpolation = \"linear\"")),
+            "s:12:55: key \"interpolation\" has no meaning in motion: a translating motion takes velocity");
 }
 
 } // namespace
