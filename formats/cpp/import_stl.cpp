@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // STL: triangles without connectivity, ASCII ("solid ... facet ... vertex x y z ...") or binary (80 bytes of anything,
 // the count, 50 bytes a triangle, little endian). Vertices with equal coordinates become one.
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
 #include "formats/cpp/byte_scan.h"
 #include "formats/cpp/mesh_assembler.h"
 #include "formats/cpp/text_scan.h"
+#include "formats/cpp/text_start.h"
 
 namespace sheet::formats {
 
@@ -70,9 +72,15 @@ void read_binary(std::string_view bytes, const std::string& name, MeshAssembler&
   }
 }
 
+// Whether it is a keyword, which some programs write in capitals. `keyword`: in small letters.
+bool is_word(std::string_view word, std::string_view keyword) {
+  return std::ranges::equal(word, keyword, {},
+                            [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+}
+
 void expect(TextScan& text, std::string_view word) {
   const std::string_view found = text.word_across_lines();
-  if (found != word)
+  if (!is_word(found, word))
     text.fail("expected " + quoted(word) + ", found " + (found.empty() ? "the end of the file" : quoted(found)));
 }
 
@@ -83,7 +91,7 @@ void read_ascii(std::string_view bytes, const std::string& name, MeshAssembler& 
   text.word(); // "solid"; the rest of the line is its name
   while (text.next_line()) {
     std::string_view word = text.word_across_lines();
-    while (word == "facet") {
+    while (is_word(word, "facet")) {
       const std::uint64_t line = text.line();
       expect(text, "normal");
       for (int d = 0; d < 3; ++d)
@@ -105,7 +113,7 @@ void read_ascii(std::string_view bytes, const std::string& name, MeshAssembler& 
     }
     if (word.empty())
       break;
-    if (word != "endsolid" && word != "solid")
+    if (!is_word(word, "endsolid") && !is_word(word, "solid"))
       text.fail("expected 'facet' or 'endsolid', found " + quoted(word));
   }
 }
@@ -113,12 +121,18 @@ void read_ascii(std::string_view bytes, const std::string& name, MeshAssembler& 
 } // namespace
 
 MeshImport import_stl(std::string_view bytes, const std::string& name) {
-  // Some programs start binary files with "solid" too: the size decides, then the word.
+  // Some programs start binary files with "solid" too: the size decides, then the word and whether text follows.
   const bool size_fits = bytes.size() >= header_bytes &&
                          bytes.size() == header_bytes + triangle_bytes * std::uint64_t{load_number<std::uint32_t>(
                                                                              bytes.data() + 80, ByteOrder::little)};
+  if (!size_fits) {
+    bytes = without_mark(bytes);
+    if (is_utf16(bytes))
+      mesh_fail(name, "", utf16_remedy);
+  }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  const bool says_solid = first != bytes.npos && bytes.substr(first, 5) == "solid";
+  const bool says_solid = first != bytes.npos && is_word(bytes.substr(first, 5), "solid") &&
+                          bytes.substr(0, header_bytes).find('\0') == bytes.npos;
   if (!says_solid && bytes.size() < header_bytes)
     mesh_fail(name, "", "neither ASCII STL (no 'solid' at its start) nor binary STL (shorter than 84 bytes)");
   const bool binary = size_fits || !says_solid;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "formats/cpp/polygon.h"
 #include "formats/cpp/text_scan.h"
 
 namespace sheet::formats {
@@ -40,11 +41,19 @@ void MeshAssembler::add_face(std::span<const std::int64_t> corners, std::uint64_
       first_small_ = place;
     return;
   }
-  bool degenerate = false;
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const std::array<std::uint32_t, 3> t = {static_cast<std::uint32_t>(corners[0]),
-                                            static_cast<std::uint32_t>(corners[i]),
-                                            static_cast<std::uint32_t>(corners[i + 1])};
+  std::vector<std::uint32_t> polygon; // each corner once where it stands several times in a row
+  for (const std::int64_t corner : corners)
+    if (const auto c = static_cast<std::uint32_t>(corner); polygon.empty() || polygon.back() != c)
+      polygon.push_back(c);
+  while (polygon.size() > 1 && polygon.front() == polygon.back())
+    polygon.pop_back();
+  bool degenerate = polygon.size() < corners.size();
+  const PolygonTriangles parts = polygon.size() < 3 ? PolygonTriangles{} : triangulate(points, polygon);
+  if (!parts.fault.empty())
+    mesh_fail(file_, where(),
+              "a face with " + std::to_string(corners.size()) + " corners " + parts.fault +
+                  "; triangulate it in the program that made it");
+  for (const std::array<std::uint32_t, 3>& t : parts.triangles) {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
       degenerate = true;
       continue;

@@ -8,6 +8,8 @@
 
 #include <sys/stat.h>
 
+#include "formats/cpp/text_start.h"
+
 namespace sheet::formats {
 
 namespace {
@@ -59,6 +61,11 @@ MeshImport import_mesh(const std::string& path) {
 }
 
 MeshImport import_mesh(std::string_view bytes, MeshFormat format, const std::string& name) {
+  if (format != MeshFormat::stl) { // which may be binary and begin with anything
+    bytes = without_mark(bytes);
+    if (is_utf16(bytes))
+      throw MeshFileError(MeshFileError::Kind::content, name + ": " + utf16_remedy);
+  }
   switch (format) {
   case MeshFormat::obj:
     return import_obj(bytes, name);

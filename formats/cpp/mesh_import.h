@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Reads triangle meshes from OBJ, OFF, PLY, STL and VTU files.
 //
-// Polygons become fans of triangles around their first corner (right for convex ones). Vertices that no face uses are
-// dropped, so are faces that name a vertex twice; both are told in the notes. Arrays "thickness" (1 component) and
-// "velocity" (3 components; PLY: velocity_x, _y, _z or vx, vy, vz), per vertex or per face, are picked up from PLY and
-// VTU; other arrays are passed over. Numbers are read the same in every locale.
+// Polygons become triangles (polygon.h); those that are not flat or cross themselves are refused. Vertices that no face
+// uses are dropped, so are repeated corners of faces; both are told in the notes. A byte order mark of UTF-8 is
+// skipped. Arrays "thickness" (1 component) and "velocity" (3 components; PLY: velocity_x, _y, _z or vx, vy, vz), per
+// vertex or per face, are picked up from PLY and VTU; other arrays are passed over. Numbers are read the same in every
+// locale.
 //
 // The readers trust nothing: counts are held against the size of the file before memory is asked for, indices against
 // the number of vertices, numbers must be finite. Every error is a MeshFileError that names file, place and remedy.

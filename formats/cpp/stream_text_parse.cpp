@@ -14,6 +14,7 @@
 
 #include "formats/cpp/stream_layout.h"
 #include "formats/cpp/stream_text.h"
+#include "formats/cpp/text_start.h"
 
 namespace sheet::formats {
 
@@ -111,7 +112,11 @@ bool TextParser::read_line() {
     begin_ = filled_;
     break;
   }
-  ++number_;
+  if (++number_ == 1) {
+    line_ = without_mark(line_);
+    if (is_utf16(line_))
+      fail(line_, utf16_remedy);
+  }
   return true;
 }
 

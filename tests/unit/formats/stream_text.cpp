@@ -37,6 +37,11 @@ TEST(StreamText, OfOneTriangle) {
   EXPECT_EQ(parse_text(std::string(triangle_text) + "end\n"), encode({one_triangle()}));
 }
 
+TEST(StreamText, MayBeginWithAByteOrderMark) {
+  const std::string text = std::string(triangle_text) + "end\n";
+  EXPECT_EQ(parse_text("\xEF\xBB\xBF" + text), parse_text(text));
+}
+
 TEST(StreamText, ComesBackBitForBit) {
   for (const std::string& bytes : {encode({}), encode({empty_frame()}), encode({rich_frame()}),
                                    encode({rich_frame(), empty_frame(), one_triangle()})})
