@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace sheet {
 namespace {
@@ -38,10 +40,15 @@ constexpr std::array units{
     NamedUnit{"bar", {{1, -1, -2}, 5}, true},
     NamedUnit{"J", {{1, 2, -2}}, true},
     NamedUnit{"W", {{1, 2, -3}}, true},
+    NamedUnit{"Pas", {{1, -1, -1}}, true},
     NamedUnit{"P", {{1, -1, -1}, -1}, true},
+    NamedUnit{"cps", {{1, -1, -1}, -3}, false}, // centipoise
     NamedUnit{"St", {{0, 2, -1}, -4}, true},
     NamedUnit{"l", {{0, 3, 0}, -3}, true},
     NamedUnit{"L", {{0, 3, 0}, -3}, true},
+    NamedUnit{"cc", {{0, 3, 0}, -6}, false},
+    NamedUnit{"in", {{0, 1, 0}, 0, 127, 5000}, false},
+    NamedUnit{"inch", {{0, 1, 0}, 0, 127, 5000}, false},
     NamedUnit{"rad", {{0, 0, 0}}, true},
     NamedUnit{"deg", {{0, 0, 0}, 0, pi, 180}, false},
     NamedUnit{"°", {{0, 0, 0}, 0, pi, 180}, false},
@@ -218,6 +225,25 @@ private:
   std::string& problem_;
 };
 
+// With other ways to write a blank, a dot and a negative power made those that are read.
+std::string with_plain_signs(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> signs{{{"\u00a0", " "},
+                                                                                 {"\u2009", " "},
+                                                                                 {"\u202f", " "},
+                                                                                 {"\u22c5", "·"},
+                                                                                 {"\u2219", "·"},
+                                                                                 {"\u2212", "-"},
+                                                                                 {"\u207b\u00b9", "-1"},
+                                                                                 {"\u207b\u00b2", "-2"},
+                                                                                 {"\u207b\u00b3", "-3"},
+                                                                                 {"\u207b\u2074", "-4"}}};
+  std::string plain(text);
+  for (const auto& [other, sign] : signs)
+    for (std::size_t at = plain.find(other); at != std::string::npos; at = plain.find(other, at + sign.size()))
+      plain.replace(at, other.size(), sign);
+  return plain;
+}
+
 std::string_view trim(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
     text.remove_prefix(1);
@@ -340,7 +366,8 @@ std::string mismatch(const Quantity& expected, std::string_view got) {
 std::optional<double> read_quantity(std::string_view text, const Quantity& expected, std::string& problem) {
   constexpr std::size_t longest_text = 200;
   problem.clear();
-  std::string_view rest = trim(text);
+  const std::string plain = with_plain_signs(text);
+  std::string_view rest = trim(plain);
   if (rest.empty() || rest.size() > longest_text) {
     problem = mismatch(expected, rest.empty() ? "an empty text" : "a text that is too long");
     return {};
@@ -348,6 +375,10 @@ std::optional<double> read_quantity(std::string_view text, const Quantity& expec
   const std::string_view number = take_number(rest);
   if (number.empty()) {
     problem = mismatch(expected, fmt::format("\"{}\", which does not begin with a number", excerpt(text)));
+    return {};
+  }
+  if (rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9') {
+    problem = mismatch(expected, fmt::format("\"{}\": write a decimal point, not a comma", excerpt(text)));
     return {};
   }
   rest = trim(rest);

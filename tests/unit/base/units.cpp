@@ -56,6 +56,24 @@ TEST(Units, PowersOfTenAreExact) {
   EXPECT_EQ(read("-9.81 m/s^2", quantity::acceleration), -9.81);
 }
 
+TEST(Units, AsDataSheetsWriteThem) {
+  EXPECT_EQ(read("50 Pas", quantity::viscosity), 50);
+  EXPECT_EQ(read("50 mPas", quantity::viscosity), 0.05);
+  EXPECT_EQ(read("350 cps", quantity::viscosity), 0.35);
+  EXPECT_EQ(read("1 cc", quantity::volume), 1e-6);
+  EXPECT_EQ(read("1 g/cc", quantity::density), 1000);
+  EXPECT_EQ(read("2 in", quantity::length), 0.0508);
+  EXPECT_EQ(read("0.5 inch", quantity::length), 0.0127);
+  EXPECT_EQ(read("2 min", quantity::time), 120);
+  EXPECT_EQ(read("50 Pa\u22c5s", quantity::viscosity), 50);
+  EXPECT_EQ(read("1300 kg·m\u207b³", quantity::density), 1300);
+  EXPECT_EQ(read("1300\u00a0kg/m³", quantity::density), 1300);
+  EXPECT_EQ(read("2.5\u202fmm", quantity::length), 0.0025);
+  EXPECT_EQ(read("\u22129.81 m s\u207b²", quantity::acceleration), -9.81);
+  EXPECT_EQ(problem("50,5 Pa*s", quantity::viscosity),
+            "expected a viscosity such as \"100 Pa*s\", got \"50,5 Pa*s\": write a decimal point, not a comma");
+}
+
 TEST(Units, EveryDecimalIsTheNearestDouble) {
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {
