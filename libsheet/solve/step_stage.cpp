@@ -84,9 +84,8 @@ void check_edges(const Frame& frame, const Connectivity& mesh) {
 
 // Liquid that flows on solids has to know their surfaces, and so has what sticks to belts, which run along them.
 bool needs_surfaces(const Scene& scene) {
-  return flows_on_solids(scene) || std::ranges::any_of(scene.solids, [](const scene::Solid& solid) {
-           return !solid.surface_velocity.isZero(0);
-         });
+  return flows_on_solids(scene) ||
+         std::ranges::any_of(scene.solids, [](const scene::Solid& solid) { return !solid.surface_velocity.isZero(0); });
 }
 
 // The slope at a clamp is that of a director; hinges have none.
