@@ -17,27 +17,33 @@ int main(int argc, char** argv) {
       "whole sheet. Where the scene has rolls, or asks for forces ([model] forces = true), those of holds and solids "
       "on the sheet at the end of the step are printed [N].");
   std::vector<std::string> inputs;
-  bool json = false, csv = false;
+  bool json = false, csv = false, health = false;
   std::optional<double> density;
   std::string output = "-";
   tool.arguments("INPUT", inputs, "streams to read; - for standard input, as is none");
   tool.flag("--csv", csv, "a time series: one row a frame");
   tool.flag("--json", json, "one JSON document: an array with an object for each frame, a line each");
+  tool.flag("--health", health,
+            "instead, what went wrong on the way to each stream's last frame, how often, and what to do about it");
   tool.option("--density", density, "KG/M3", "density to reckon with, whatever the scene states");
   tool.option("-o,--output", output, "FILE", "file to write; - for standard output");
   tool.example("sheet-info run.sheet | less", "all about every frame");
   tool.example("sheet-info --csv run.sheet > run.csv", "volume, area, thickness, energy over time");
+  tool.example("sheet-info --health run.sheet", "did anything go wrong on the way?");
   tool.example("sheet-select --last run.sheet | sheet-info --json", "the last frame, for a program");
   return tool.run(argc, argv, [&] {
-    if (json && csv)
-      sheet::fail(sheet::ExitCode::usage, "--json and --csv exclude each other");
+    if (json + csv + health > 1)
+      sheet::fail(sheet::ExitCode::usage, "--json, --csv and --health exclude each other");
     if (density && !(*density > 0))
       sheet::fail(sheet::ExitCode::usage, "--density: {} is not positive", *density);
     if (inputs.empty())
       inputs.emplace_back("-");
     for (const std::string& input : inputs)
       sheet::claim_file(input, sheet::FileRole::input); // before the output is emptied
-    const auto report = json ? sheet::make_json_report() : csv ? sheet::make_csv_report() : sheet::make_text_report();
+    const auto report = json     ? sheet::make_json_report()
+                        : csv    ? sheet::make_csv_report()
+                        : health ? sheet::make_health_report()
+                                 : sheet::make_text_report();
     sheet::OutputFile out(output, sheet::OutputFile::Content::text);
     std::string head = report->begin();
     sheet::SceneDensity scene;
@@ -54,7 +60,7 @@ int main(int argc, char** argv) {
             report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame, std::move(measured)})));
       }
     }
-    out.write(head + report->end());
+    out.write(sheet::formats::printable(head + report->end()));
     out.close();
   });
 }

@@ -2,7 +2,9 @@
 // sheet-init: from a scene file to the first frame.
 #include <fmt/format.h>
 
+#include <array>
 #include <sstream>
+#include <utility>
 
 #include "formats/cpp/printable.h"
 #include "formats/cpp/stream_writer.h"
@@ -18,28 +20,49 @@
 
 namespace {
 
-sheet::Scene read(const std::string& file, const std::vector<std::string>& sets) {
-  if (file.empty())
+struct Source {
+  std::string file; // "-": standard input
+  std::vector<std::string> sets;
+  sheet::Quality quality = sheet::Quality::normal;
+};
+
+constexpr std::array qualities{std::pair{"draft", sheet::Quality::draft}, std::pair{"normal", sheet::Quality::normal},
+                               std::pair{"fine", sheet::Quality::fine}};
+
+sheet::Scene read(const Source& source) {
+  if (source.file.empty())
     sheet::fail(sheet::ExitCode::usage, "no scene: give a scene file, or --example for one to start from");
-  if (file == "-")
-    return sheet::parse_scene(sheet::read_text_file("-"), "standard input", sets);
-  return sheet::read_scene(file, sets);
+  return sheet::at_quality(source.file == "-"
+                               ? sheet::parse_scene(sheet::read_text_file("-"), "standard input", source.sets)
+                               : sheet::read_scene(source.file, source.sets),
+                           source.quality);
+}
+
+// The command that makes the first frame.
+std::string command_of(const Source& source) {
+  std::string init = "sheet-init " + sheet::shell_quoted(source.file == "-" ? "scene.toml" : source.file);
+  for (const auto& [word, quality] : qualities)
+    if (quality == source.quality && quality != sheet::Quality::normal)
+      init += std::string(" --quality ") + word;
+  for (const std::string& set : source.sets)
+    init += " --set " + sheet::shell_quoted(set);
+  return init;
 }
 
 // What is wrong with the variants of the scene that the lines of `rows` make: settings KEY=VALUE, separated by tabs.
 // Throws one Error (bad_input) with all of it, each line with its row's number.
-void check_rows(const std::string& file, const std::vector<std::string>& sets, const std::string& rows) {
+void check_rows(const Source& source, const std::string& rows) {
   std::istringstream lines(sheet::read_text_file(rows));
   const std::string name = rows == "-" ? "standard input" : rows;
   std::string wrong, line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
-    std::vector<std::string> all = sets;
+    Source variant = source;
     std::istringstream settings(line);
     for (std::string set; std::getline(settings, set, '\t');)
       if (!set.empty())
-        all.push_back(set);
+        variant.sets.push_back(set);
     try {
-      (void)sheet::checked_first_frame(read(file, all));
+      (void)sheet::checked_first_frame(read(variant));
     } catch (const sheet::Error& error) {
       std::istringstream problems(error.what());
       for (std::string problem; std::getline(problems, problem);)
@@ -50,13 +73,10 @@ void check_rows(const std::string& file, const std::vector<std::string>& sets, c
     throw sheet::Error(sheet::ExitCode::bad_input, wrong);
 }
 
-// What --check prints.
-std::string explained(const std::string& file, const std::vector<std::string>& sets) {
-  const sheet::Scene scene = read(file, sets);
+// What --check prints; of that, what --ring does.
+std::string explained(Source source, bool ring_alone) {
+  const sheet::Scene scene = read(source);
   const sheet::formats::Frame frame = sheet::checked_first_frame(scene);
-  std::string init = "sheet-init " + sheet::shell_quoted(file == "-" ? "scene.toml" : file);
-  for (const std::string& set : sets)
-    init += " --set " + sheet::shell_quoted(set);
   const sheet::scene::Measured measured = sheet::measured(frame);
   sheet::scene::Explanation explanation = sheet::scene::explain(scene, measured);
   const double thickness = sheet::landing_thickness(scene, frame);
@@ -64,9 +84,12 @@ std::string explained(const std::string& file, const std::vector<std::string>& s
     explanation.warnings.emplace_back("all is symmetric about the sheet's plane: it would grow thicker where it should "
                                       "fold. [[sheet]] perturbation lets it begin, as in the ring below");
     for (const std::string& set : sheet::small_noise(scene, *measured.thickness))
-      init += " --set " + sheet::shell_quoted(set);
+      source.sets.push_back(set);
   }
-  return sheet::formats::printable(sheet::scene::to_text(explanation) + sheet::ring_text(scene, frame, init));
+  const std::string init = command_of(source);
+  return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, source.quality, init)
+                                              : sheet::scene::to_text(explanation) +
+                                                    sheet::ring_text(scene, frame, source.quality, init));
 }
 
 } // namespace
@@ -78,16 +101,23 @@ int main(int argc, char** argv) {
       "a stream of one frame. The scene travels along in the frame, and every stage reads from there what "
       "concerns it.\nEvery key is checked; all that is wrong is told at once, with file, line and the nearest "
       "known key.");
-  std::string scene_file, output = "-", rows;
-  std::vector<std::string> sets;
-  bool example = false, check = false, no_provenance = false;
-  tool.argument("SCENE", scene_file, "scene file; - for standard input");
-  tool.option("--set", sets, "KEY=VALUE",
+  Source source;
+  std::string output = "-", rows;
+  bool example = false, check = false, ring = false, no_provenance = false;
+  tool.argument("SCENE", source.file, "scene file; - for standard input");
+  tool.option("--set", source.sets, "KEY=VALUE",
               "change or add a key of the scene, as in material.viscosity=50 or "
               "'hold.0.kind=pinned'; may be given again and again");
   tool.flag("--check", check,
             "explain the scene instead: what will be modelled, what not, the dimensionless numbers that say why it "
             "matters, and the ring to run; refuses what any stage would refuse at the first frame",
+            sheet::Tool::Provenance::omit);
+  tool.choice("--quality", source.quality, {qualities.begin(), qualities.end()},
+              "edges as long as the scene says (normal), twice as long (draft) or half as long (fine); the ring of "
+              "--check then steps less or more accurately, too");
+  tool.flag("--ring", ring,
+            "print the ring of --check alone, for a program to read: lines \"first COMMAND\", \"until SECONDS\", "
+            "\"fps FPS\", \"stages PIPELINE\"",
             sheet::Tool::Provenance::omit);
   tool.option("--check-rows", rows, "FILE",
               "check many variants of the scene instead: each line of FILE (- for standard input) has settings as "
@@ -106,17 +136,17 @@ int main(int argc, char** argv) {
                "are all of these scenes well?");
   return tool.run(argc, argv, [&] {
     if (!rows.empty()) {
-      check_rows(scene_file, sets, rows);
+      check_rows(source, rows);
       return;
     }
-    if (example || check) {
-      const std::string text = example ? std::string(sheet::scene::example()) : explained(scene_file, sets);
+    if (example || check || ring) {
+      const std::string text = example ? std::string(sheet::scene::example()) : explained(source, ring);
       sheet::OutputFile file(output, sheet::OutputFile::Content::text);
       file.write(text);
       file.close();
       return;
     }
-    sheet::formats::Frame frame = sheet::first_frame(read(scene_file, sets));
+    sheet::formats::Frame frame = sheet::first_frame(read(source));
     if (!no_provenance)
       sheet::record_provenance(frame, tool.command_line());
     sheet::log::detail("{} vertices, {} triangles", frame.vertices, frame.triangles);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libsheet/loop/film.h"
+#include "libsheet/loop/select.h"
 #include "libsheet/render/render_stage.h"
 
 int main(int argc, char** argv) {
@@ -18,10 +19,9 @@ int main(int argc, char** argv) {
   sheet::FilmOptions film;
   tool.argument("INPUT", film.input, "stream to read; - for standard input");
   sheet::render::declare_render_options(tool, o);
-  tool.option(
-      "--frames", film.frames, "RANGES",
-      "draw only these frames, as in 0,5,10-20,30-; counted from 0. Negative ones count from the end of a file");
-  tool.option("--view-of", film.view, "RANGES",
+  tool.option("--frames", film.frames, "LIST",
+              std::string("draw only these frames, ") + sheet::indices_help + "; from the end only of a file");
+  tool.option("--view-of", film.view, "LIST",
               "place camera, scale and ground as for these frames of a file; without it, as for those to draw. With 0- "
               "parts of a film that are drawn by themselves fit together");
   tool.example("sheet-render run.sheet -o frames/%04d.png --material honey", "a picture of each frame");

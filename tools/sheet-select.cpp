@@ -17,9 +17,8 @@ int main(int argc, char** argv) {
   sheet::SelectOptions options;
   bool last = false;
   tool.argument("INPUT", input, "stream to read; - for standard input");
-  tool.option(
-      "--index", indices, "LIST",
-      "frames by index: 0,5,10-20. Negative ones count from the end, -1 being the last: -3--1; 10- goes to the end");
+  tool.option("--index,--frames", indices, "LIST",
+              std::string("frames by index, as sheet-render --frames takes them, ") + sheet::indices_help);
   tool.option(
       "--time", times, "LIST",
       "frames by time in seconds: 0.5 is the frame nearest to it, 1:2 all from 1 to 2; also 1: and :2, and lists "

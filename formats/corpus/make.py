@@ -218,6 +218,8 @@ passed = {
     "touch_wide": with_array("touch", Array(np.array([[0, 1], [0, 0], [2, 0]], "u8"), "vertex", "1", "common")),
     "touch_overshoot": with_array("touch_overshoot", Array(np.array([[0, 0, 0], [0, -0.0625, 0], [0, 0, 0]], "f8"), "vertex",
                                                            "m", "interpolate")),
+    "health": with_array("health", Array(np.array([[1, 40, 0.25, 0.5, 0.001953125, 0.5, 0.125, 12, 1, 0.5, 0, -0.25],
+                                                   [5, 3, 0.5, 0.5, 0.0009765625, 0.5, 0, 0, 0, 0, 0, 0]]), "frame", "1", "copy")),
 }
 
 failed = {
@@ -331,6 +333,7 @@ failed = {
     "director_angle_nan": with_array("director_angle", Array(np.full(3, np.nan), "edge", "rad", "drop")),
     "director_angle_place": with_array("director_angle", Array(np.zeros(3), "vertex", "rad", "drop")),
     "touch_overshoot_nan": with_array("touch_overshoot", Array(np.full((3, 3), np.nan), "vertex", "m", "interpolate")),
+    "health_nan": with_array("health", Array(np.full((1, 12), np.nan), "frame", "1", "copy")),
 }
 
 

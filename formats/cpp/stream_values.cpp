@@ -54,6 +54,7 @@ constexpr std::array standards{
     Standard{"director_angle", Place::edge, Type::float64, 1, "rad", Transfer::drop, false},
     Standard{"next_output_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"step_size", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
+    Standard{"health", Place::frame, Type::float64, 12, "1", Transfer::copy, false},
     Standard{"scene", Place::frame, Type::text, 1, "1", Transfer::copy, false},
     Standard{"provenance", Place::frame, Type::text, 1, "1", Transfer::copy, false},
 };
@@ -116,7 +117,10 @@ std::string find_triangle_error(const Frame& frame, const Array& array) {
 }
 
 // Rows of an array at place frame. The contact arrays go together: whichever is there has as many as contact_vertex.
-std::uint64_t rows_wanted(const Frame& frame, const Standard& standard) {
+// Health has any number.
+std::uint64_t rows_wanted(const Frame& frame, const Standard& standard, const Array& array) {
+  if (standard.name == "health")
+    return array.rows;
   if (!standard.name.starts_with("contact_"))
     return 1;
   const Array* vertices = frame.find("contact_vertex");
@@ -153,7 +157,7 @@ std::string find_error(const Frame& frame, const Standard& standard, const Array
     return find_contact_error(frame, array);
   if (array.type != Type::float64)
     return {};
-  if (const std::uint64_t rows = rows_wanted(frame, standard); array.place == Place::frame && array.rows != rows)
+  if (const std::uint64_t rows = rows_wanted(frame, standard, array); array.place == Place::frame && array.rows != rows)
     return fmt::format("array \"{}\" has {} rows, it must have {}", array.name, array.rows, rows);
   const auto values = array.values<double>();
   const std::size_t row = first_not_finite(values, array.components);

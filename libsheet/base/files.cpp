@@ -13,6 +13,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/file_lock.h"
 #include "libsheet/base/file_roles.h"
+#include "libsheet/base/named_files.h"
 
 namespace sheet {
 
@@ -31,6 +32,7 @@ InputFile::InputFile(const std::string& path) : name_(path == "-" ? "standard in
       ::close(descriptor_);
       fail(ExitCode::io, "cannot read {}: it is a folder", path);
     }
+    look_beside(path);
   }
   widen_pipe(descriptor_);
 }

@@ -88,6 +88,8 @@ void run_filter(const Tool& tool, const FilterOptions& options, const std::funct
   report_time(tool.name(), reader.frames(), busy);
 }
 
+bool in_ring() { return std::getenv(report_descriptor_variable) != nullptr; }
+
 void record_provenance(formats::Frame& frame, const std::string& line) {
   const formats::Array* old = frame.find("provenance");
   const std::string_view text = old == nullptr ? std::string_view() : old->text();

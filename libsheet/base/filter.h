@@ -25,6 +25,8 @@ void run_filter(const Tool& tool, const FilterOptions& options, const std::funct
 
 // Environment variable by which sheet-loop tells its stages the descriptor for a line "time PID NAME FRAMES SECONDS".
 inline constexpr const char* report_descriptor_variable = "SHEET_REPORT_FD";
+// Whether sheet-loop runs this program.
+[[nodiscard]] bool in_ring();
 
 // Counts `line` in the frame's provenance (formats/sheet.md, section 5).
 void record_provenance(formats::Frame& frame, const std::string& line);

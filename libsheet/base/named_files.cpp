@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/base/named_files.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include <sys/stat.h>
 #include <xxhash.h>
@@ -30,6 +34,39 @@ std::vector<fs::path> endings_of(const fs::path& name) {
   }
   return endings;
 }
+
+// Where streams are that are read, absolute.
+std::vector<fs::path>& stream_folders() {
+  static std::vector<fs::path> folders = [] {
+    const char* told = std::getenv(stream_folder_variable);
+    return told == nullptr ? std::vector<fs::path>() : std::vector<fs::path>{told};
+  }();
+  return folders;
+}
+
+// A file of this name and checksum is looked for.
+struct Search {
+  std::string name, checksum;
+  std::string other = {}; // the first of its name that is another
+
+  // From a folder, and from each one above; `as_told` is how that folder is told, "": not at all.
+  std::optional<std::string> upwards_from(fs::path folder, fs::path as_told) {
+    std::error_code error;
+    for (; true; folder = folder.parent_path(), as_told /= "..") {
+      for (const fs::path& ending : endings_of(name)) {
+        const std::string path = (as_told / ending).string();
+        if (!fs::is_regular_file(path, error))
+          continue;
+        if (checksum_of_file(path) == checksum)
+          return path;
+        if (other.empty())
+          other = path;
+      }
+      if (folder == folder.parent_path())
+        return {};
+    }
+  }
+};
 
 } // namespace
 
@@ -58,33 +95,32 @@ std::string checksum_of_file(const std::string& path) {
   return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
 }
 
+void look_beside(const std::string& stream) {
+  std::error_code error;
+  const fs::path folder = fs::absolute(stream, error).parent_path();
+  if (!error && std::ranges::find(stream_folders(), folder) == stream_folders().end())
+    stream_folders().push_back(folder);
+}
+
 std::string find_named_file(const std::string& name, const std::string& checksum) {
   if (checksum.empty())
     return name;
-  std::error_code error;
-  std::string other; // the first of its name that is another
-  fs::path above;
-  for (fs::path folder = fs::current_path(); true; folder = folder.parent_path(), above /= "..") {
-    for (const fs::path& ending : endings_of(name)) {
-      const std::string path = (above / ending).string();
-      if (!fs::is_regular_file(path, error))
-        continue;
-      if (checksum_of_file(path) == checksum)
-        return path;
-      if (other.empty())
-        other = path;
-    }
-    if (folder == folder.parent_path())
-      break;
-  }
-  if (!other.empty())
+  Search search{.name = name, .checksum = checksum};
+  if (const auto found = search.upwards_from(fs::current_path(), {}))
+    return *found;
+  for (const fs::path& folder : stream_folders())
+    if (const auto found = search.upwards_from(folder, folder))
+      return *found;
+  if (!search.other.empty())
     fail(ExitCode::bad_input,
          "{}: it has changed since sheet-init ran (its checksum is {}, the scene says {}): bring the old one back, or "
          "make the first frame anew",
-         other, checksum_of_file(other), checksum);
+         search.other, checksum_of_file(search.other), checksum);
   check_named_file(name);
   fail(ExitCode::io,
-       "{}: there is no such file, neither as seen from here or from a folder above, nor without its folders", name);
+       "{}: there is no such file, neither as seen from here, from the stream's folder or from one above, nor without "
+       "its folders",
+       name);
 }
 
 formats::MeshImport import_named_mesh(const std::string& path) try {

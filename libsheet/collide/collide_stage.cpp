@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
@@ -17,6 +19,7 @@
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
 #include "libsheet/collide/solid_sweep.h"
+#include "libsheet/health/teller.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/frame_mesh.h"
@@ -139,6 +142,7 @@ struct CollideStage::Impl {
   std::vector<Vector3> last_end; // safe, so a step that starts there on the same mesh needs no check
   KnownTriangles known;          // those of the last end: of another mesh, pairs of them need no check
   Totals totals;
+  health::Teller teller;
 
   void read_scene_of(const Frame& frame) {
     scene = &scenes.of(frame);
@@ -236,10 +240,10 @@ struct CollideStage::Impl {
       off = coming_off(frame, path);
       const SolidReport report = resolve_solids(path, *solids);
       if (report.unresolved > 0)
-        log::warning(
-            "step {}: {} triangles come too close to solids (nothing to worry about once in a while; if it comes "
-            "back step after step, take shorter steps or shorter edges)",
-            frame.step, report.unresolved);
+        teller.tell(frame, health::Trouble::close_to_solid, report.unresolved, report.unresolved_at,
+                    fmt::format("step {}: {} triangles come too close to solids (nothing to worry about once in a "
+                                "while; if it comes back step after step, take shorter steps or shorter edges)",
+                                frame.step, report.unresolved));
       totals.add(report);
       totals.released += off.size();
       totals.with_solids += watch.lap();
@@ -254,7 +258,7 @@ struct CollideStage::Impl {
       check_start(path);
       totals.check += watch.lap();
       const std::vector<Axes> fixed = path.fixed;
-      resolve_self_beside_solids(path, reach, frame.step);
+      resolve_self_beside_solids(path, reach, frame);
       totals.response += watch.lap();
       set_springs(frame, path, fixed, reach);
       known.remember(path.triangles, path.start, path.end);
@@ -317,7 +321,7 @@ struct CollideStage::Impl {
   }
 
   // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
-  void resolve_self_beside_solids(StepPath& path, std::span<const double> reach, std::uint64_t step) {
+  void resolve_self_beside_solids(StepPath& path, std::span<const double> reach, Frame& frame) {
     const StepPath asked = path;
     const std::vector<RigidStep> steps = solid_steps(path);
     SelfReport report;
@@ -336,12 +340,13 @@ struct CollideStage::Impl {
       path.fixed = std::move(fixed);
     }
     if (report.held_back > 0)
-      log::warning("step {}: {} vertices on solids or held stay behind, or the sheet would pass through itself "
-                   "(nothing to worry about in a few steps; if it comes back step after step, solids or [[hold]]s "
-                   "leave the sheet too little room)",
-                   step, report.held_back);
+      teller.tell(frame, health::Trouble::held_back, report.held_back, report.held_at,
+                  fmt::format("step {}: {} vertices on solids or held stay behind, or the sheet would pass through "
+                              "itself (nothing to worry about in a few steps; if it comes back step after step, solids "
+                              "or [[hold]]s leave the sheet too little room)",
+                              frame.step, report.held_back));
     totals.add(report);
-    log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", step, report.hits,
+    log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", frame.step, report.hits,
                 report.by_impulses, report.in_groups, report.pulled_back);
   }
 
@@ -374,6 +379,7 @@ void CollideStage::step(Frame& frame) {
 
 void CollideStage::report() const {
   const Totals& t = impl_->totals;
+  impl_->teller.report();
   if (t.steps == 0)
     return;
   const double ms = 1e3 / static_cast<double>(t.steps);

@@ -232,6 +232,8 @@ private:
       if (level[v] > 0) {
         ++report_.pulled_back;
         report_.held_back += driven[v];
+        if (driven[v])
+          report_.held_at = path_.end[v];
       }
   }
 

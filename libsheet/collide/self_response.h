@@ -43,12 +43,13 @@
 namespace sheet::collide {
 
 struct SelfReport {
-  std::size_t hits = 0;        // pairs that hit on the way that was asked for
-  std::size_t rounds = 0;      // of any of the three means
-  std::size_t by_impulses = 0; // inequalities
-  std::size_t in_groups = 0;   // vertices that moved in rigid groups
-  std::size_t pulled_back = 0; // vertices, all kinds
-  std::size_t held_back = 0;   // those whose motion is prescribed, among them
+  std::size_t hits = 0;              // pairs that hit on the way that was asked for
+  std::size_t rounds = 0;            // of any of the three means
+  std::size_t by_impulses = 0;       // inequalities
+  std::size_t in_groups = 0;         // vertices that moved in rigid groups
+  std::size_t pulled_back = 0;       // vertices, all kinds
+  std::size_t held_back = 0;         // those whose motion is prescribed, among them
+  Vector3 held_at = Vector3::Zero(); // the last of those, where held_back > 0
 };
 
 // Corrects end and velocity of the path. `reach`: contact distance at each vertex [m]; `prescribed`: axes along which

@@ -344,7 +344,7 @@ private:
 
   void carry(const FoundHit& hit) {
     if (hit.kind == FoundHit::Kind::across) {
-      ++report_.unresolved;
+      leave_unresolved(hit);
       return;
     }
     bool any = false; // moved in this round, by this hit or another
@@ -361,7 +361,12 @@ private:
       any = any || changed_[v] != 0;
     }
     if (!any)
-      ++report_.unresolved;
+      leave_unresolved(hit);
+  }
+
+  void leave_unresolved(const FoundHit& hit) {
+    ++report_.unresolved;
+    report_.unresolved_at = path_.end[path_.triangles[hit.triangle][0]];
   }
 
   // What the sheet itself may not move along a wall with this normal: rims that meet on a wall push each other along

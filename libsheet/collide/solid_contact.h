@@ -32,13 +32,14 @@
 namespace sheet::collide {
 
 struct SolidReport {
-  std::size_t touching = 0;       // vertices held by solids at the end
-  std::size_t caught = 0;         // those that were not at the start
-  std::size_t pushed = 0;         // impulses on triangles
-  std::size_t carried = 0;        // vertices carried with a solid because impulses did not help
-  std::size_t started_across = 0; // triangles that start across a solid's surface
-  std::size_t brought_out = 0;    // vertices that started inside a solid, by at most half an edge
-  std::size_t unresolved = 0;     // triangles that still come too close (see above)
+  std::size_t touching = 0;                // vertices held by solids at the end
+  std::size_t caught = 0;                  // those that were not at the start
+  std::size_t pushed = 0;                  // impulses on triangles
+  std::size_t carried = 0;                 // vertices carried with a solid because impulses did not help
+  std::size_t started_across = 0;          // triangles that start across a solid's surface
+  std::size_t brought_out = 0;             // vertices that started inside a solid, by at most half an edge
+  std::size_t unresolved = 0;              // triangles that still come too close (see above)
+  Vector3 unresolved_at = Vector3::Zero(); // a corner of the last of those, where unresolved > 0
 };
 
 // Corrects end, velocity, touch and fixed of the path; `touch` has a solid or no_solid for each vertex at the start,

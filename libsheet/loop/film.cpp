@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/loop/film.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -27,23 +28,14 @@ public:
     if (!text.empty())
       ranges_ = parse_indices(text);
   }
-  [[nodiscard]] bool needs_total() const {
-    for (const IndexRange& r : ranges_)
-      if (r.first < 0 || (r.last < 0 && r.last != -1))
-        return true;
-    return false;
-  }
+  [[nodiscard]] bool needs_total() const { return std::ranges::any_of(ranges_, &IndexRange::needs_total); }
   void set_total(std::uint64_t total) { total_ = static_cast<std::int64_t>(total); }
   [[nodiscard]] bool has(std::uint64_t index) const {
     const auto i = static_cast<std::int64_t>(index);
-    for (const IndexRange& r : ranges_)
-      if (i >= from_start(r.first) && (r.last == -1 || i <= from_start(r.last)))
-        return true;
-    return ranges_.empty();
+    return ranges_.empty() || std::ranges::any_of(ranges_, [&](const IndexRange& r) { return r.has(i, total_); });
   }
 
 private:
-  [[nodiscard]] std::int64_t from_start(std::int64_t i) const { return i < 0 ? i + total_ : i; }
   std::vector<IndexRange> ranges_;
   std::int64_t total_ = 0;
 };

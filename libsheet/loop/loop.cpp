@@ -5,6 +5,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <future>
 #include <limits>
@@ -19,6 +20,8 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/named_files.h"
+#include "libsheet/loop/health_watch.h"
 #include "libsheet/loop/kept_stream.h"
 #include "libsheet/loop/pipeline.h"
 #include "libsheet/loop/pipeline_end.h"
@@ -108,13 +111,22 @@ public:
         pipeline.begin_round();
       if (!round(pipeline, signals, sent, returned)) {
         progress.clear();
-        interrupted(pipeline);
-        return signals.take();
+        const int signal = signals.take();
+        interrupted(pipeline, signals, sent, returned, rounds,
+                    std::chrono::duration<double>(Clock::now() - begin).count());
+        return signal;
       }
       ++rounds;
       slow = Clock::now() - round_begin > std::chrono::milliseconds(100); // else it would cost too much to watch
       write_first();
-      keep_frame();
+      const bool wanted = is_wanted();
+      health_.follow(back_, frame_, wanted);
+      if (const std::string serious = health_.become_serious(frame_); !serious.empty()) {
+        progress.clear();
+        log::warning(serious);
+      }
+      if (wanted)
+        write_frame();
       progress.show(frame_.time, frame_.step, output_->frames());
       if (!options_.checkpoint.empty() &&
           std::chrono::duration<double>(Clock::now() - checkpointed).count() >= options_.checkpoint_every) {
@@ -130,6 +142,7 @@ public:
     save_state();
     finish(pipeline, sent, returned, rounds, elapsed);
     output_->end();
+    tell_of_health();
     return 0;
   }
 
@@ -157,6 +170,14 @@ private:
     }
     record_once(frame_, provenance_line_);
     warn_of_missing_stages();
+    tell_stages_where_the_stream_is();
+  }
+
+  // They read a pipe, and meshes that frames name may lie beside the stream.
+  void tell_stages_where_the_stream_is() const {
+    const std::string& stream = options_.resume.empty() ? options_.input : options_.resume;
+    if (stream != "-")
+      ::setenv(stream_folder_variable, std::filesystem::absolute(stream).parent_path().c_str(), 1);
   }
 
   // By --set. The frame from which the new scene counts stands in the provenance; a run that is gone on with by the
@@ -236,7 +257,7 @@ private:
       }
     }
     if ((!readable || !error.empty()) &&
-        sending.wait_for(std::chrono::seconds(readable ? 5 : 0)) != std::future_status::ready)
+        !(sent_ = sending.wait_for(std::chrono::seconds(readable ? 5 : 1)) == std::future_status::ready))
       pipeline.kill();
     try {
       sending.get();
@@ -271,13 +292,15 @@ private:
     told_of_silence_ = true;
   }
 
-  void keep_frame() {
-    const bool wanted = keep_.last_only      ? false
-                        : keep_.output_times ? frame_.time >= back_.find("next_output_time")->values<double>()[0]
-                                             : frame_.step % keep_.every == 0;
-    if (!wanted)
-      return;
-    write_frame();
+  [[nodiscard]] bool is_wanted() const {
+    return keep_.last_only      ? false
+           : keep_.output_times ? frame_.time >= back_.find("next_output_time")->values<double>()[0]
+                                : frame_.step % keep_.every == 0;
+  }
+
+  void tell_of_health() {
+    if (const std::string report = health_.at_the_end(frame_); !report.empty())
+      log::note(report);
   }
 
   // The first frame is written when the first round has gone well: a ring that cannot start leaves an earlier result
@@ -335,17 +358,42 @@ private:
     pipeline.note_early_ends();
     const PipelineEnd end = pipeline.finish(5);
     try_to_save_state();
+    tell_of_health();
     if (const StageStatus* stage = first_failure(end, true))
       fail(exit_code_of(*stage), "{} in the step after {}", describe(*stage), whereabouts());
     fail(ExitCode::corrupt, "{}; in the step after {}", error, whereabouts());
   }
 
-  void interrupted(Pipeline& pipeline) {
-    pipeline.kill();
+  void interrupted(Pipeline& pipeline, const Signals& signals, StreamWriter& sent, StreamReader& returned,
+                   std::uint64_t rounds, double elapsed) {
     write_first();
     save_state();
     log::warning("interrupted in the step after {}", whereabouts());
     output_->end();
+    wind_down(pipeline, signals, sent, returned);
+    if (rounds > 0)
+      report_times(pipeline.finish(2), rounds, elapsed);
+    tell_of_health();
+  }
+
+  // Lets the stages end their step and tell what they have to tell, if they do soon and no further signal comes.
+  void wind_down(Pipeline& pipeline, const Signals& signals, StreamWriter& sent, StreamReader& returned) {
+    constexpr auto patience = std::chrono::seconds(5);
+    if (!sent_)
+      return pipeline.kill();
+    const std::future<void> ending = std::async(std::launch::async, [&] {
+      try {
+        sent.end();
+        pipeline.close_input();
+        while (returned.read(back_))
+          continue;
+      } catch (const StreamError&) { // a stage that has died has told why
+      }
+    });
+    const auto deadline = Clock::now() + patience;
+    while (ending.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready)
+      if (signals.come() || Clock::now() > deadline)
+        return pipeline.kill();
   }
 
   // Ends the stream to the pipeline and sees every stage end well.
@@ -374,7 +422,9 @@ private:
   std::unique_ptr<KeptStream> output_;
   std::optional<Frame> first_; // not yet written
   Frame frame_, back_;         // the newest state; the one that comes back (after a round: the one before)
+  HealthWatch health_;
   bool told_of_silence_ = false;
+  bool sent_ = false; // where a round was broken off: the stages have its whole frame
   bool kept_ = false; // the newest state is in the output
 };
 

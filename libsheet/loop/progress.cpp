@@ -47,7 +47,7 @@ std::string Progress::line(double time, std::uint64_t step, std::uint64_t frames
 
 void Progress::show(double time, std::uint64_t step, std::uint64_t frames_kept) {
   const auto now = Clock::now();
-  if (!terminal_ || (visible_ && now - shown_ < std::chrono::milliseconds(200)))
+  if (!terminal_ || (visible_ && now - shown_ < std::chrono::seconds(1)))
     return;
   shown_ = now;
   visible_ = true;

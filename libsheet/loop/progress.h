@@ -18,7 +18,7 @@ public:
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  // Writes the line anew, at most five times a second, if stderr is a terminal and -q was not given.
+  // Writes the line anew, at most once a second, if stderr is a terminal and -q was not given.
   void show(double time, std::uint64_t step, std::uint64_t frames_kept);
   // The line without the terminal: "step 12, t = 0.5 of 2 s, 3 frames, 0.12 s a step, 18 s left".
   [[nodiscard]] std::string line(double time, std::uint64_t step, std::uint64_t frames_kept, double elapsed) const;

@@ -31,11 +31,22 @@ std::vector<std::string> split(const std::string& text) {
   return items;
 }
 
+std::string without_blanks_around(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
 } // namespace
+
+bool IndexRange::has(std::int64_t index, std::int64_t total) const {
+  const auto from_start = [total](std::int64_t i) { return i < 0 ? i + total : i; };
+  return index >= from_start(first) && (last == -1 || index <= from_start(last));
+}
 
 std::vector<IndexRange> parse_indices(const std::string& text) {
   std::vector<IndexRange> ranges;
-  for (const std::string& item : split(text)) {
+  for (const std::string& blanks : split(text)) {
+    const std::string item = without_blanks_around(blanks);
     const std::size_t dash = item.find('-', 1); // a first one is a sign
     const auto first = parse_number<std::int64_t>(item.substr(0, dash));
     auto last = first;

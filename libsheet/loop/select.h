@@ -15,6 +15,10 @@ namespace sheet {
 // Frames from `first` to `last`, both included; negative ones count from the end, -1 being the last frame.
 struct IndexRange {
   std::int64_t first = 0, last = 0;
+  // In a stream of so many frames.
+  [[nodiscard]] bool has(std::int64_t index, std::int64_t total) const;
+  // Whether one must know how many frames there are to say what it has.
+  [[nodiscard]] bool needs_total() const { return first < 0 || last < -1; }
 };
 
 // Frames between the times [s], ends included; or the one nearest to a time (the first of them), if that is `nearest`.
@@ -23,8 +27,11 @@ struct TimeRange {
   bool nearest = false;
 };
 
-// "0,5,10-20,30-,-3--1": throws Error (usage).
+// "0,5,10-20,30-,-3--1": throws Error (usage). Blanks around the commas count for nothing.
 [[nodiscard]] std::vector<IndexRange> parse_indices(const std::string& text);
+// What parse_indices reads, in words, for the options that take it.
+inline constexpr const char* indices_help =
+    "counted from 0: 0,5,10-20. Negative ones count from the end, -1 being the last: -3--1; 10- goes to the end";
 // "0.5,1:2,3:": throws Error (usage).
 [[nodiscard]] std::vector<TimeRange> parse_times(const std::string& text);
 

@@ -21,6 +21,11 @@ Signals::~Signals() {
   pthread_sigmask(SIG_SETMASK, &old_, nullptr);
 }
 
+bool Signals::come() const {
+  pollfd waited{descriptor_, POLLIN, 0};
+  return ::poll(&waited, 1, 0) > 0;
+}
+
 int Signals::take() const {
   signalfd_siginfo info{};
   return ::read(descriptor_, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : SIGINT;

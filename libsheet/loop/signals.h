@@ -38,6 +38,8 @@ public:
         return true;
     }
   }
+  // Whether one has come that was not taken.
+  [[nodiscard]] bool come() const;
   // The signal that wait_readable saw.
   [[nodiscard]] int take() const;
 

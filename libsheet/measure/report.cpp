@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "libsheet/health/report.h"
 
 namespace sheet {
 
@@ -166,8 +169,24 @@ private:
   std::vector<std::string> forces_; // of the first frame's scene
 };
 
+class HealthReport : public Report {
+public:
+  std::string add(const ReportEntry& e) override {
+    const std::string before = e.file == file_ ? std::string() : end();
+    const std::string report = health::report(*e.frame);
+    file_ = e.file;
+    text_ = fmt::format("{}: {}\n", file_, report.empty() ? "nothing went wrong that anybody noticed" : report);
+    return before;
+  }
+  std::string end() override { return std::exchange(text_, {}); }
+
+private:
+  std::string file_, text_; // of the newest frame
+};
+
 } // namespace
 
+std::unique_ptr<Report> make_health_report() { return std::make_unique<HealthReport>(); }
 std::unique_ptr<Report> make_text_report() { return std::make_unique<TextReport>(); }
 std::unique_ptr<Report> make_csv_report() { return std::make_unique<CsvReport>(); }
 

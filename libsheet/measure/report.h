@@ -32,5 +32,7 @@ public:
 [[nodiscard]] std::unique_ptr<Report> make_json_report();
 // A header and a row a frame; what does not exist is nan. With several files the last column names the file.
 [[nodiscard]] std::unique_ptr<Report> make_csv_report();
+// For each file, what its last frame says of trouble on the way there.
+[[nodiscard]] std::unique_ptr<Report> make_health_report();
 
 } // namespace sheet

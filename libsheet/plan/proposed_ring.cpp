@@ -11,7 +11,6 @@
 
 #include "libsheet/geometry/area.h"
 #include "libsheet/plan/first_frame.h"
-#include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
@@ -154,15 +153,24 @@ double landing_thickness(const Scene& scene, const Frame& first) {
   return least;
 }
 
-std::string ring_text(const Scene& scene, const Frame& frame, const std::string& init) {
-  const double until = until_of(scene, frame);
-  const double fps = rate_of(until);
+ProposedRing proposed_ring(const Scene& scene, const Frame& first, Quality quality) {
+  const double until = until_of(scene, first);
+  return {.until = until, .fps = rate_of(until), .stages = pipeline_at(scene, quality)};
+}
+
+std::string ring_text(const Scene& scene, const Frame& first, Quality quality, const std::string& init) {
+  const ProposedRing ring = proposed_ring(scene, first, quality);
   return fmt::format(
              "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:g} "
              "--fps {:g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
-             "is below 0.01 of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
-             init, until, fps, scene::pipeline_of(scene), mean_edge_of(frame)) +
-         finer_folds(scene, frame);
+             "is below {:g} of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
+             init, ring.until, ring.fps, ring.stages, mean_edge_of(first), tolerance_at(quality)) +
+         finer_folds(scene, first);
+}
+
+std::string ring_lines(const Scene& scene, const Frame& first, Quality quality, const std::string& init) {
+  const ProposedRing ring = proposed_ring(scene, first, quality);
+  return fmt::format("first {}\nuntil {:g}\nfps {:g}\nstages {}\n", init, ring.until, ring.fps, ring.stages);
 }
 
 } // namespace sheet

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "formats/cpp/stream_frame.h"
+#include "libsheet/plan/quality.h"
 #include "libsheet/scene/scene.h"
 
 namespace sheet {
@@ -14,8 +15,20 @@ namespace sheet {
 // 10]); of what is there from the start, its thickness.
 [[nodiscard]] double landing_thickness(const Scene& scene, const formats::Frame& first);
 
-// How to run the scene: commands to paste, and what they compute with. `init` is the command that makes the first
-// frame.
-[[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& first, const std::string& init);
+// How to run a scene.
+struct ProposedRing {
+  double until;       // [s]
+  double fps;         // frames to keep [1/s]
+  std::string stages; // joined by pipes
+};
+// `first`: the scene's first frame, at that quality.
+[[nodiscard]] ProposedRing proposed_ring(const Scene& scene, const formats::Frame& first, Quality quality);
+
+// The same as commands to paste, and what they compute with. `init` is the command that makes the first frame.
+[[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& first, Quality quality,
+                                    const std::string& init);
+// The same for a program: lines "first INIT", "until SECONDS", "fps FPS", "stages PIPELINE".
+[[nodiscard]] std::string ring_lines(const Scene& scene, const formats::Frame& first, Quality quality,
+                                     const std::string& init);
 
 } // namespace sheet

@@ -54,8 +54,9 @@ void RemeshStage::remesh(formats::Frame& frame) {
               frame.step, report.splits, report.collapses, report.flips, report.smoothed, report.absorbed, vertices,
               frame.vertices, 1e3 * seconds);
   if (report.budget_reached)
-    log::warning("step {}: more edits were due than one call makes ({} were made); the next call goes on", frame.step,
-                 report.edits());
+    teller_.tell(frame, {.trouble = health::Trouble::edits_due, .value = static_cast<double>(report.edits())},
+                 fmt::format("step {}: more edits were due than one call makes ({} were made); the next call goes on",
+                             frame.step, report.edits()));
   if (report.sharp > 0)
     log::detail("step {}: {} triangles have an angle below 20 degrees", frame.step, report.sharp);
   total_.splits += report.splits;
@@ -67,6 +68,7 @@ void RemeshStage::remesh(formats::Frame& frame) {
 }
 
 void RemeshStage::report() const {
+  teller_.report();
   if (frames_ > 0)
     log::detail("{} frames: {} splits, {} collapses, {} flips, {} moved, {} absorbed", frames_, total_.splits,
                 total_.collapses, total_.flips, total_.smoothed, total_.absorbed);

@@ -3,6 +3,7 @@
 #pragma once
 #include <optional>
 
+#include "libsheet/health/teller.h"
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/scene/frame_scene.h"
 
@@ -19,12 +20,13 @@ public:
   explicit RemeshStage(const StageOptions& options);
   void remesh(formats::Frame& frame); // errors as remesh::remesh; usage: no edge length; bad_input: a scene
                                       // that cannot be read
-  void report() const;                // with -v: how many edits of each kind, over all frames
+  void report() const; // with -v: how many edits of each kind, over all frames; trouble that came more than once
 
 private:
   StageOptions options_;
   FrameScene scenes_;
   Report total_;
+  health::Teller teller_;
   std::uint64_t frames_ = 0;
 };
 

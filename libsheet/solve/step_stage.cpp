@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/error.h"
 #include "libsheet/base/file_roles.h"
@@ -13,6 +15,7 @@
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/base/whole_file.h"
+#include "libsheet/health/teller.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/frame_mesh.h"
@@ -118,6 +121,7 @@ struct StepStage::Impl {
   std::shared_ptr<const solid::Solids> solids; // if something needs their surfaces
   std::optional<Stepper> stepper;
   Totals totals;
+  health::Teller teller;
 
   [[nodiscard]] static double end_of_step(const Scene& scene, const Frame& frame) {
     double until = next_event(scene, frame.time);
@@ -188,9 +192,13 @@ struct StepStage::Impl {
         frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error, report.worst,
         1e3 * elapsed);
     if (report.unfinished > 0)
-      log::warning("step {}: {} of its {} parts taken before Newton's iterations had converged: stable, but less "
-                   "accurate; shorter steps or remeshing help",
-                   frame.step + 1, report.unfinished, report.substeps);
+      teller.tell(frame,
+                  {.trouble = health::Trouble::not_converged,
+                   .value = static_cast<double>(report.unfinished),
+                   .amount = static_cast<double>(report.unfinished)},
+                  fmt::format("step {}: {} of its {} parts taken before Newton's iterations had converged: stable, but "
+                              "less accurate; shorter steps or remeshing help",
+                              frame.step + 1, report.unfinished, report.substeps));
     else if (report.inaccurate > 0)
       warn_of_inaccurate(frame, state, report);
     refuse_impossible_speed(frame, start, state);
@@ -215,12 +223,13 @@ struct StepStage::Impl {
   }
 
   // state: at the end of the step.
-  static void warn_of_inaccurate(const Frame& frame, const State& state, const StepReport& report) {
+  void warn_of_inaccurate(Frame& frame, const State& state, const StepReport& report) {
     const Vector3& x = state.positions[report.worst];
-    log::warning(
-        "step {}: its error is about {:.2g} of an edge length, above the tolerance, at vertex {} ({:.4g}, {:.4g}, "
-        "{:.4g}) m: no step from t = {:.6g} s keeps to it; remeshing helps",
-        frame.step + 1, report.error, report.worst, x.x(), x.y(), x.z(), frame.time);
+    teller.tell(
+        frame, {.trouble = health::Trouble::above_tolerance, .value = report.error, .place = x},
+        fmt::format("step {}: its error is about {:.2g} of an edge length, above the tolerance, at vertex {} ({:.4g}, "
+                    "{:.4g}, {:.4g}) m: no step from t = {:.6g} s keeps to it; remeshing helps",
+                    frame.step + 1, report.error, report.worst, x.x(), x.y(), x.z(), frame.time));
   }
 };
 
@@ -267,6 +276,7 @@ void StepStage::step(Frame& frame) {
 
 void StepStage::report() const {
   const Totals& t = impl_->totals;
+  impl_->teller.report();
   if (t.steps == 0)
     return;
   log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs, {} unfinished, "

@@ -61,7 +61,7 @@ setup() {
 # The programs that read a stream from standard input when called without arguments, and what makes them write.
 stream_reader() {
   case $PROGRAM in
-  sheet-init | sheet-loop | sheet-diff | sheet-parse) return 1 ;;
+  sheet-init | sheet-loop | sheet-diff | sheet-parse | sheet-run) return 1 ;;
   sheet-export) arguments=(--format obj -o -) ;;
   sheet-step) arguments=(--dt 0.01) ;;
   sheet-remesh) arguments=(--edge-length 1) ;;

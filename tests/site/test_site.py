@@ -129,13 +129,13 @@ class Tutorial(unittest.TestCase):
                 commands.append(line[6:])
             elif commands and "<< 'END'" in commands[-1] and not commands[-1].endswith("\nEND"):
                 commands[-1] += "\n" + line[4:]
-        self.assertEqual(len(commands), 12)
+        self.assertEqual(len(commands), 14)
         script = "\n".join(commands).replace("--until 0.3", "--until 0.05").replace('"20 mm"', '"40 mm"').replace(
-            "14 mm", "30 mm").replace("320x180", "64x36")
+            "14 mm", "30 mm").replace("320x180", "64x36").replace("--until 0.5", "--until 0.05")
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run(["bash", "-ec", "set -o pipefail\n" + script], cwd=folder, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            for name in ("run.html", "compare.html", "hang.mp4", "run.csv"):
+            for name in ("run.html", "compare.html", "hang.mp4", "run.csv", "ribbon-draft/film.mp4", "ribbon-draft/health.txt"):
                 self.assertGreater((pathlib.Path(folder) / name).stat().st_size, 500, name)
             self.assertIn("Reynolds = rho V L / mu = 12", done.stdout)
 

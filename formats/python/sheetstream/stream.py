@@ -62,6 +62,7 @@ _STANDARD = {
     "contact_rest": ("frame", "float64", 1, "m", "drop"),
     "contact_anchor": ("frame", "float64", 3, "m", "drop"),
     "contact_stiffness": ("frame", "float64", 2, "N/m", "drop"),
+    "health": ("frame", "float64", 12, "1", "copy"),
     "scene": ("frame", "text", 1, "1", "copy"),
     "provenance": ("frame", "text", 1, "1", "copy"),
 }
@@ -319,7 +320,7 @@ def _find_standard_error(frame: Frame, name: str, array: Array) -> str | None:
     if place == "frame" and kind != "text":
         contacts = frame.arrays.get("contact_vertex")
         rows = 1 if not name.startswith("contact_") else contacts.rows if contacts else 0
-        if array.rows != rows:
+        if array.rows != rows and name != "health":
             return f'array "{name}" has {array.rows} rows, it must have {rows}'
     if name == "contact_vertex":
         return _find_contact_error(frame, values)

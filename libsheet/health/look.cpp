@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/health/look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "libsheet/base/overloaded.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/scene/scales.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::health {
+
+namespace {
+
+using formats::Frame;
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Triangle {
+  Vector3 normal, middle;
+  double area, longest, least_angle; // [m²], [m], [rad]
+};
+
+// By the angle between two sides, found where it is least: opposite the shortest side.
+double least_angle_of(const TriangleArea& t, double area) {
+  const std::array<double, 3> squares{t.edge[0].squaredNorm(), t.edge[1].squaredNorm(), t.edge[2].squaredNorm()};
+  const auto i = static_cast<std::size_t>(std::ranges::min_element(squares) - squares.begin());
+  const double dot = -t.edge[(i + 1) % 3].dot(t.edge[(i + 2) % 3]);
+  return std::atan2(2 * area, dot);
+}
+
+struct Surface {
+  std::vector<Triangle> triangles;
+  double area = 0, volume = 0;
+};
+
+Surface surface_of(const Frame& frame) {
+  const auto x = positions(frame);
+  Surface surface;
+  surface.triangles.reserve(frame.triangles);
+  for (const Corners& c : triangles(frame)) {
+    const TriangleArea t(x[c[0]], x[c[1]], x[c[2]]);
+    const double longest =
+        std::sqrt(std::max({t.edge[0].squaredNorm(), t.edge[1].squaredNorm(), t.edge[2].squaredNorm()}));
+    surface.triangles.push_back(
+        {t.normal, (x[c[0]] + x[c[1]] + x[c[2]]) / 3, t.area, longest, least_angle_of(t, t.area)});
+    surface.area += t.area;
+  }
+  const auto v = volumes(frame);
+  surface.volume = std::accumulate(v.begin(), v.end(), 0.0);
+  return surface;
+}
+
+// The worst of the triangles that are beyond the kind's limit, and the share of the area of all of those.
+class Worst {
+public:
+  explicit Worst(Trouble trouble) : kind_(kind_of(trouble)) {}
+
+  void see(double value, const Triangle& triangle) {
+    const double limit = kind_.noted.worst;
+    if (kind_.least ? value >= limit : value <= limit)
+      return;
+    area_ += triangle.area;
+    ++number_;
+    if (number_ == 1 || (kind_.least ? value < value_ : value > value_)) {
+      value_ = value;
+      place_ = triangle.middle;
+    }
+  }
+
+  void add_to(std::vector<Observation>& seen, double whole_area) const {
+    const double share = whole_area > 0 ? area_ / whole_area : 0;
+    if (number_ > 0 && share >= kind_.noted.share)
+      seen.push_back({kind_.trouble, value_, share, static_cast<double>(number_), place_});
+  }
+
+private:
+  const Kind& kind_;
+  std::size_t number_ = 0;
+  double value_ = 0, area_ = 0;
+  Vector3 place_ = Vector3::Zero();
+};
+
+// The least thickness with which liquid of the scene begins [m]; where meshes say it, the mean of the sheet now.
+double start_thickness(const Scene& scene, const Surface& surface) {
+  double least = infinity;
+  for (const scene::SheetTable& sheet : scene.sheets)
+    if (const auto* uniform = std::get_if<double>(&sheet.thickness))
+      least = std::min(least, *uniform);
+  for (const scene::Inflow& inflow : scene.inflows)
+    least = std::min(least, inflow.thickness);
+  return std::isfinite(least) ? least : surface.volume / surface.area;
+}
+
+// With [tear] the scene itself says what becomes of thin places.
+void look_for_thin(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
+  if (scene.tear)
+    return;
+  const double start = start_thickness(scene, surface);
+  const auto volume = volumes(frame);
+  Worst worst(Trouble::thin);
+  for (std::size_t t = 0; t < frame.triangles; ++t)
+    worst.see(volume[t] / (surface.triangles[t].area * start), surface.triangles[t]);
+  worst.add_to(seen, surface.area);
+}
+
+void look_for_sharp(const Surface& surface, std::vector<Observation>& seen) {
+  Worst worst(Trouble::sharp);
+  for (const Triangle& triangle : surface.triangles)
+    worst.see(triangle.least_angle * degrees, triangle);
+  worst.add_to(seen, surface.area);
+}
+
+// Over an edge the sheet turns by twice the angle between a triangle and the mean of those around its corner, about.
+void look_for_coarse_folds(const Frame& frame, const Surface& surface, std::vector<Observation>& seen) {
+  const auto corners = triangles(frame);
+  std::vector<Vector3> normal(frame.vertices, Vector3::Zero());
+  for (std::size_t t = 0; t < corners.size(); ++t)
+    for (const auto v : corners[t])
+      normal[v] += surface.triangles[t].area * surface.triangles[t].normal;
+  Worst worst(Trouble::coarse_fold);
+  const double half_limit = kind_of(Trouble::coarse_fold).noted.worst / degrees / 2;
+  const double cosine_limit = std::cos(half_limit);
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const Triangle& triangle = surface.triangles[t];
+    double cosine = 1;
+    for (const auto v : corners[t])
+      if (const double length = normal[v].norm(); length > 0)
+        cosine = std::min(cosine, triangle.normal.dot(normal[v]) / length);
+    if (cosine < cosine_limit)
+      worst.see(std::min(180.0, 2 * degrees * std::acos(std::max(-1.0, cosine))), triangle);
+  }
+  worst.add_to(seen, surface.area);
+}
+
+// How wide what a sheet may lie on is at least [m]: the radius of what is round, the narrower side of a box's largest
+// face. Of a mesh it is not known.
+double width_of(const scene::SolidShape& shape) {
+  return std::visit(
+      Overloaded{[](const scene::Sphere& s) { return s.radius; },
+                 [](const scene::SolidBox& b) {
+                   std::array<double, 3> sides{b.size.x(), b.size.y(), b.size.z()};
+                   std::ranges::sort(sides);
+                   return sides[1];
+                 },
+                 [](const scene::Capsule& c) { return c.radius; }, [](const scene::Cylinder& c) { return c.radius; },
+                 [](const scene::HalfSpace&) { return infinity; }, [](const scene::SolidMesh&) { return infinity; }},
+      shape);
+}
+
+void look_at_solids(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
+  if (scene.solids.empty() || frame.find("touch") == nullptr)
+    return;
+  std::vector<double> width;
+  for (const scene::Solid& solid : scene.solids)
+    width.push_back(width_of(solid.shape));
+  const auto touch = touched_solids(frame, scene.solids.size());
+  const auto corners = triangles(frame);
+  Worst worst(Trouble::coarse_solid);
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    double least = infinity;
+    for (const auto v : corners[t])
+      if (touch[v] != no_solid)
+        least = std::min(least, width[static_cast<std::size_t>(touch[v])]);
+    worst.see(surface.triangles[t].longest / least, surface.triangles[t]);
+  }
+  worst.add_to(seen, surface.area);
+}
+
+// The step that the control tries next: the one taken may have been cut short by an output time.
+void look_at_step(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
+  const double step = number(frame, "step_size", infinity);
+  const scene::Scales scales = scene::scales_of(
+      scene, {.length = std::sqrt(surface.area), .thickness = surface.volume / surface.area, .curvature = {}});
+  if (!scales.length || !(scales.speed > 0))
+    return;
+  const double part = step * scales.speed / *scales.length;
+  if (part < kind_of(Trouble::short_steps).noted.worst)
+    seen.push_back({.trouble = Trouble::short_steps, .value = part});
+}
+
+double account(const Frame& frame, std::string_view name) {
+  const formats::Array* array = frame.find(name);
+  return array == nullptr || array->type != formats::Type::float64 || array->rows == 0 ? 0 : array->values<double>()[0];
+}
+
+void look_for_crumbs(const Frame& frame, const Surface& surface, std::vector<Observation>& seen) {
+  const double dropped = account(frame, "tear.volume");
+  const double share = dropped / (dropped + surface.volume);
+  if (share > kind_of(Trouble::crumbs).noted.worst)
+    seen.push_back({.trouble = Trouble::crumbs, .value = share});
+}
+
+// Of what is there and what has left, less what has entered [m^3].
+double total_volume(const Frame& frame) {
+  const auto v = volumes(frame);
+  return std::accumulate(v.begin(), v.end(), 0.0) + account(frame, "tear.volume") + account(frame, "outflow.volume") -
+         account(frame, "emit.volume");
+}
+
+} // namespace
+
+std::vector<Observation> look(const Frame& frame, const Scene* scene) {
+  std::vector<Observation> seen;
+  if (frame.triangles == 0)
+    return seen;
+  const Surface surface = surface_of(frame);
+  if (!(surface.area > 0 && std::isfinite(surface.area)))
+    return seen;
+  look_for_sharp(surface, seen);
+  look_for_coarse_folds(frame, surface, seen);
+  look_for_crumbs(frame, surface, seen);
+  if (scene == nullptr)
+    return seen;
+  look_for_thin(frame, surface, *scene, seen);
+  look_at_solids(frame, surface, *scene, seen);
+  look_at_step(frame, surface, *scene, seen);
+  return seen;
+}
+
+double unexplained_volume(const Frame& before, const Frame& after) {
+  return total_volume(after) - total_volume(before);
+}
+
+} // namespace sheet::health

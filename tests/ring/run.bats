@@ -1,0 +1,130 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# sheet-run: from a scene to stream, film, picture, table and health, in one command that goes on where it was.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+  mkdir "$BATS_TEST_TMPDIR/a folder"
+  cd "$BATS_TEST_TMPDIR/a folder" || exit
+  cat > 'my scene.toml' << 'END_OF_SCENE'
+[sheet]
+shape = "disk"
+radius = "10 mm"
+edge_length = "3 mm"
+thickness = "2 mm"
+center = [0, "20 mm", 0]
+[material]
+viscosity = "10 Pa*s"
+density = "1400 kg/m^3"
+[environment]
+gravity = [0, "-9.81 m/s^2", 0]
+[[solid]]
+shape = "plane"
+END_OF_SCENE
+}
+
+@test "a scene becomes a folder of all, by commands that are told and that can be pasted" {
+  sheet-run 'my scene.toml' --quality draft --until 0.1 --fps 40 2> log
+  cd 'my scene-draft'
+  for file in run.sheet run.csv picture.png film.mp4 health.txt check.txt; do [[ -s $file ]]; done
+  [[ $(sheet-print run.sheet | grep -c '^frame$') == 5 && $(wc -l < run.csv) == 6 ]]
+  [[ $(ffprobe -v error -count_frames -show_entries stream=width,nb_read_frames -of csv=p=0 film.mp4) == 320,5 ]]
+  grep -q 'film.mp4' ../log
+  grep -q 'Reynolds' check.txt
+  cd ..
+  # what it printed makes the same stream
+  sed -n 's/^  \(sheet-\(init\|loop\)\)/\1/p' log > commands
+  [[ $(wc -l < commands) == 2 ]]
+  mv 'my scene-draft' made
+  mkdir 'my scene-draft'
+  bash -e commands 2> /dev/null
+  cmp 'my scene-draft/run.sheet' made/run.sheet
+}
+
+@test "draft, normal and fine differ in edges and steps as --help says, and --check tells the same" {
+  mean_edge() { sheet-init --check --quality "$1" 'my scene.toml' | sed -n 's/.*Edges are \([0-9.e-]*\) m long.*/\1/p'; }
+  awk -v d="$(mean_edge draft)" -v n="$(mean_edge normal)" -v f="$(mean_edge fine)" \
+    'BEGIN {exit !(d / n > 1.6 && d / n < 2.4 && n / f > 1.6 && n / f < 2.4)}'
+  tolerance() { sheet-init --ring --quality "$1" 'my scene.toml' | sed -n 's/.*--tolerance \([0-9.]*\).*/\1/p'; }
+  [[ $(tolerance normal) == '' ]]
+  awk -v d="$(tolerance draft)" -v f="$(tolerance fine)" 'BEGIN {exit !(d / f > 9.9 && d / f < 10.1)}'
+  sheet-init --check --quality fine 'my scene.toml' | grep -q "below $(tolerance fine) of an edge"
+}
+
+@test "interrupted, the same command goes on: byte for byte the straight run; called again it does nothing" {
+  options=(--quality draft --until 0.2 --fps 40)
+  sheet-run -q 'my scene.toml' "${options[@]}" -o straight
+  mkdir slow # a ring that takes a while
+  printf '#!/bin/sh\n/usr/bin/python3 "%s/spoiler_stage.py" 1000000 0.1 | %s "$@"\n' "$BATS_TEST_DIRNAME" \
+    "$(command -v sheet-remesh)" > slow/sheet-remesh
+  chmod +x slow/sheet-remesh
+  PATH=$PWD/slow:$PATH sheet-run 'my scene.toml' "${options[@]}" -o run 2> log &
+  whole=$!
+  for _ in {1..200}; do
+    [[ ! -s run/run.sheet || $(stat -c %s run/run.sheet) -le $(stat -c %s straight/first.sheet) ]] || break
+    sleep 0.1
+  done
+  kill -TERM $whole
+  code=0
+  wait $whole || code=$?
+  [[ $code == 143 ]]
+  grep -q 'the same command again goes on' log
+  sheet-check -q run/run.sheet
+  [[ ! -e run/film.mp4 && $(stat -c %s run/run.sheet) -lt $(stat -c %s straight/run.sheet) ]]
+  # from elsewhere: the scene is the same, however it is called
+  folder=$PWD
+  (cd / && sheet-run -q "$folder/my scene.toml" "${options[@]}" -o "$folder/run")
+  cmp run/run.sheet straight/run.sheet
+  made=$(stat -c %y run/{film.mp4,picture.png})
+  sheet-run -q 'my scene.toml' "${options[@]}" -o run
+  [[ $(stat -c %y run/{film.mp4,picture.png}) == "$made" ]]
+}
+
+@test "a later --until makes the run longer, and the film" {
+  sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 100 -o run
+  sheet-run -q 'my scene.toml' --quality draft --until 0.1 --fps 100 -o run
+  [[ $(wc -l < run/run.csv) == 12 ]]
+  [[ $(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 run/film.mp4) == 11 ]]
+}
+
+@test "another scene, quality or rate is refused with what to do, and the folder stays as it is" {
+  sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
+  before=$(cd run && sha256sum ./*)
+  run -2 --separate-stderr sheet-run 'my scene.toml' --quality draft --until 0.05 --fps 50 -o run
+  [[ $stderr == *'run has a run of another ring'*'move it away, or give another folder by -o'* ]]
+  run -2 sheet-run 'my scene.toml' --until 0.05 --fps 40 -o run
+  sed -i 's/viscosity = .*/viscosity = 20/' 'my scene.toml'
+  run -2 --separate-stderr sheet-run 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
+  [[ $stderr == *'run has the run of another scene, or of another state of this one: move it away'* ]]
+  [[ $(cd run && sha256sum ./*) == "$before" ]]
+  # what the scene says in other words is the same
+  sed -i 's/viscosity = .*/viscosity = "100 P" # as before/' 'my scene.toml'
+  sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
+}
+
+@test "what is wrong with the scene is told as sheet-init tells it, and nothing is left" {
+  sed -i 's/viscosity/viscocity/' 'my scene.toml'
+  run -3 --separate-stderr sheet-run 'my scene.toml'
+  [[ $stderr == *'my scene.toml:8:'*'viscocity'*'viscosity'* ]]
+  run -6 sheet-run none.toml
+  run -2 sheet-run
+  [[ $(ls) == 'my scene.toml' ]]
+}
+
+@test "a run that fails leaves what there is of it, with the code of what failed" {
+  mkdir mine
+  printf '#!/bin/sh\n%s --steps=none 2> /dev/null; exit 5\n' "$(command -v sheet-step)" > mine/sheet-step
+  chmod +x mine/sheet-step
+  PATH=$PWD/mine:$PATH run -5 --separate-stderr sheet-run 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
+  [[ $stderr == *'sheet-step'*'failed with exit code 5'*'the run ended too early; what there is of it is in run'* ]]
+  sheet-check -q run/run.sheet
+}
+
+@test "five everyday scenes as drafts" {
+  for scene in honey-drop honey-spoon honey-roller batter-tray glass-pear; do
+    (cd "$BATS_TEST_DIRNAME/../everyday" && sheet-run -q "$scene.toml" --quality draft --until 0.1 -o "$BATS_TEST_TMPDIR/$scene")
+    sheet-check -q "$BATS_TEST_TMPDIR/$scene/run.sheet"
+    [[ -s $BATS_TEST_TMPDIR/$scene/film.mp4 && -s $BATS_TEST_TMPDIR/$scene/health.txt ]]
+  done
+}
