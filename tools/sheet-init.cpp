@@ -33,7 +33,7 @@ sheet::Scene read(const Source& source) {
   if (source.file.empty())
     sheet::fail(sheet::ExitCode::usage, "no scene: give a scene file, or --example for one to start from");
   return sheet::at_quality(source.file == "-"
-                               ? sheet::parse_scene(sheet::read_text_file("-"), "standard input", source.sets)
+                               ? sheet::parse_scene(sheet::read_utf8_file("-"), "standard input", source.sets)
                                : sheet::read_scene(source.file, source.sets),
                            source.quality);
 }
@@ -52,7 +52,7 @@ std::string command_of(const Source& source) {
 // What is wrong with the variants of the scene that the lines of `rows` make: settings KEY=VALUE, separated by tabs.
 // Throws one Error (bad_input) with all of it, each line with its row's number.
 void check_rows(const Source& source, const std::string& rows) {
-  std::istringstream lines(sheet::read_text_file(rows));
+  std::istringstream lines(sheet::read_utf8_file(rows));
   const std::string name = rows == "-" ? "standard input" : rows;
   std::string wrong, line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {

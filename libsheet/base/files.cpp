@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "formats/cpp/stream_writer.h"
+#include "formats/cpp/text_start.h"
 #include "libsheet/base/error.h"
 #include "libsheet/base/file_lock.h"
 #include "libsheet/base/file_roles.h"
@@ -112,6 +113,14 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
       fail(ExitCode::io, "cannot read {}: it is longer than {} bytes", file.name(), limit);
   }
   text.resize(size);
+  return text;
+}
+
+std::string read_utf8_file(const std::string& path, std::size_t limit) {
+  std::string text = read_text_file(path, limit);
+  if (formats::is_utf16(text))
+    fail(ExitCode::bad_input, "{}: {}", path == "-" ? "standard input" : path, formats::utf16_remedy);
+  text.erase(0, text.size() - formats::without_mark(text).size());
   return text;
 }
 

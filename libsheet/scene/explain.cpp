@@ -274,6 +274,12 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
     warn(*buckling);
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
+  constexpr double large = 20; // [m]
+  if (scales.length && *scales.length > large)
+    warn(fmt::format("the sheet is {} m long: {}", brief(*scales.length),
+                     std::holds_alternative<SheetMesh>(scene.sheets.front().shape)
+                         ? "if its mesh is in millimetres, give [sheet] scale = 0.001"
+                         : "numbers without unit are metres; write \"50 mm\" if you mean that"));
   if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
     warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
   else if (scene.environment.gravity && !carried && scene.solids.empty())

@@ -184,7 +184,7 @@ Scene parse_scene(std::string_view text, std::string_view name, std::span<const 
 }
 
 Scene read_scene(const std::filesystem::path& path, std::span<const std::string> sets) {
-  const std::string text = read_text_file(path.string());
+  const std::string text = read_utf8_file(path.string());
   std::filesystem::path folder = path.parent_path();
   if (folder.is_absolute())
     folder = folder.lexically_proximate(std::filesystem::current_path());

@@ -59,7 +59,7 @@ public:
   explicit RowFile(const std::string& path) : path_(path) {}
 
   Rows read() {
-    std::istringstream text(read_text_file(path_, std::size_t{1} << 26));
+    std::istringstream text(read_utf8_file(path_, std::size_t{1} << 26));
     for (std::string line; std::getline(text, line);) {
       ++line_;
       const std::string_view content = trim(line);
@@ -225,6 +225,13 @@ std::optional<std::pair<std::size_t, std::string>> find_fault(Rows& rows) {
     if (i > 0 && !(rows.times[i] > rows.times[i - 1]))
       return std::pair(i, fmt::format("times must increase, but {} s follows {} s", shortest(rows.times[i]),
                                       shortest(rows.times[i - 1])));
+    const double passed = i > 0 ? rows.times[i] - rows.times[i - 1] : 1;
+    const double moved = i > 0 && !rows.places.empty() ? (rows.places[i] - rows.places[i - 1]).norm() : 0;
+    if (!std::isfinite(1 / passed) || !std::isfinite(moved / passed) || !std::isfinite(passed))
+      return std::pair(i,
+                       fmt::format("from the row before it moves by {:.3g} m in {:.3g} s, a velocity beyond the range "
+                                   "of numbers",
+                                   moved, passed));
     if (rows.rotations.empty())
       continue;
     Quaterniond& q = rows.rotations[i];

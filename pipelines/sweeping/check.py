@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that can be told to be wrong with a sweep before anything runs, all of it at once."""
 import os
+import pathlib
 import re
 import shlex
 import shutil
@@ -24,11 +25,10 @@ _TOLD = 20  # problems of rows that are printed; how many more there are is said
 def named_files(scene, table):
     """What the scene and the table's columns KEY.file name, in order: {key of the scene or "": texts}."""
     try:
-        with open(scene, "rb") as file:
-            document = tomllib.load(file)
+        document = tomllib.loads(pathlib.Path(scene).read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise Problem(BAD_INPUT, f"{scene}: {error.strerror}") from error
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise Problem(BAD_INPUT, f"{scene}: {error}") from error
     named = {}
     if "file" in document.get("sheet", {}):

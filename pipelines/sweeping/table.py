@@ -52,10 +52,9 @@ def read_table(path):
     """Throws Problem: unreadable, or all that is wrong with its form (what the scene says of it is asked later)."""
     try:
         if path.suffix == ".toml":
-            with open(path, "rb") as file:
-                table = _from_toml(path, tomllib.load(file))
+            table = _from_toml(path, tomllib.loads(path.read_text(encoding="utf-8-sig")))
         else:
-            with open(path, newline="", encoding="utf-8") as file:
+            with open(path, newline="", encoding="utf-8-sig") as file:
                 table = _from_csv(path, file)
     except OSError as error:
         raise Problem(IO, f"{path}: {error.strerror}") from error

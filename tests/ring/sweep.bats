@@ -7,7 +7,7 @@ bats_require_minimum_version 1.5.0
 setup() {
   cd "$BATS_TEST_DIRNAME/../.." || exit
   t=$BATS_TEST_TMPDIR
-  cat > "$t/table.csv" << 'END'
+  { printf '\xef\xbb\xbf'; cat; } > "$t/table.csv" << 'END' # some programs begin text so
 material.viscosity,sheet.thickness [mm],dt
 "50 Pa*s",1,0.01
 100,2,0.01

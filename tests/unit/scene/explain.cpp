@@ -39,6 +39,28 @@ bool modelled(const Explanation& e, std::string_view name) {
 
 Explanation of(const std::string& text) { return explain(parse_scene(text, "s")); }
 
+TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
+  const auto warned = [](const Explanation& e, std::string_view words) {
+    return std::ranges::any_of(e.warnings, [&](const std::string& w) { return w.find(words) != std::string::npos; });
+  };
+  const auto led = [](const std::string& interpolation) {
+    return disk + liquid +
+           "[[solid]]\nshape = \"sphere\"\nradius = 0.1\nmotion = {kind = \"keyframed\", times = [0, 1], " +
+           "places = [[0, 0, 0], [1, 0, 0]], interpolation = \"" + interpolation + "\"}\n";
+  };
+  EXPECT_TRUE(warned(of(led("step")), "solid 0 jumps at its rows"));
+  EXPECT_FALSE(warned(of(led("smooth")), "jumps"));
+  EXPECT_FALSE(warned(of(led("linear")), "jumps"));
+  const auto sized = [](const std::string& radius) {
+    return "[sheet]\nshape = \"disk\"\nedge_length = 1\nthickness = 0.1\nradius = " + radius + "\n" + liquid;
+  };
+  EXPECT_TRUE(warned(of(sized("50")), "numbers without unit are metres"));
+  EXPECT_FALSE(warned(of(sized("5")), "numbers without unit are metres"));
+  const Scene mesh = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"a.obj\"\nthickness = 0.1\n" + liquid, "s");
+  EXPECT_TRUE(warned(explain(mesh, {.length = 50, .thickness = 0.1, .curvature = {}}), "scale = 0.001"));
+  EXPECT_FALSE(warned(explain(mesh, {.length = 5, .thickness = 0.1, .curvature = {}}), "scale = 0.001"));
+}
+
 TEST(Explain, TermsFollowTheTables) {
   const Explanation all = of(everything), little = of(disk + liquid);
   EXPECT_EQ(all.terms.size(), 13U);

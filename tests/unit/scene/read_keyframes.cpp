@@ -56,6 +56,18 @@ TEST_F(MotionFile, IsTheListsOfTheScene) {
   EXPECT_EQ(parse_scene(to_toml(scene), "s"), scene); // it needs the file no more
 }
 
+TEST_F(MotionFile, AndSceneMayBeginWithAByteOrderMark) {
+  const std::string rows = "time, x, y, z\n0, 0, 0, 0\n1, 1, 0, 0\n", mark = "\xEF\xBB\xBF";
+  const Scene plain = read(rows);
+  EXPECT_EQ(read(mark + rows), plain);
+  std::ofstream(folder_ / "marked.toml") << mark << std::ifstream(folder_ / "scene.toml").rdbuf();
+  EXPECT_EQ(read_scene(folder_ / "marked.toml"), plain);
+  std::string utf16 = "\xFF\xFE";
+  for (const char c : rows)
+    utf16 += {c, '\0'};
+  EXPECT_EQ(fault(utf16).substr(0, 15), ": it is UTF-16,");
+}
+
 TEST_F(MotionFile, ASolidThatDoesNotSayWhereItIsIsThere) {
   const std::string rows = "qw, qx, qy, qz, time, z, y, x\n0.8, 0, 0, 0.6, -1, 3, 2, 1\n0.8, 0, 0, 0.6, 1, 5, 2, 1\n";
   const std::string box = "[[solid]]\nshape = \"box\"\nsize = [1, 1, 1]\n";
@@ -130,6 +142,10 @@ TEST(Keyframed, ListsThatAreWrong) {
   EXPECT_EQ(fault("times = [0, 1], places = [[0, 0, 0]]"), "s:12:56: places: 1 of them, but 2 times");
   EXPECT_EQ(fault("times = [0, 0], places = [[0, 0, 0], [1, 0, 0]]"),
             "s:12:43: times: times must increase, but 0 s follows 0 s");
+  EXPECT_EQ(fault("times = [0, 1, 2], places = [[0, 0, 0], [1, 0, 0], [1e308, 0, 0]]"),
+            "s:12:46: times: from the row before it moves by inf m in 1 s, a velocity beyond the range of numbers");
+  EXPECT_EQ(fault("times = [0, 1e-320], rotations = [[1, 0, 0, 0], [0, 1, 0, 0]]"),
+            "s:12:43: times: from the row before it moves by 0 m in 1e-320 s, a velocity beyond the range of numbers");
   EXPECT_EQ(fault("times = [0, 1], rotations = [[1, 0, 0], [1, 0, 0]]"),
             "s:12:60: rotations: expected unit quaternions [w, x, y, z]");
   EXPECT_EQ(fault("times = [], places = []"), "s:12:39: times: a motion takes two rows or more");
