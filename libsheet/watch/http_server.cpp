@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include <arpa/inet.h>
@@ -24,27 +25,40 @@ namespace {
 
 constexpr std::size_t most_connections = 256;
 
-// The value of the field, without blanks; empty if it is not there.
-std::string_view field(std::string_view request, std::string_view name) {
+// The value of the field, without blanks; empty if it is not there, or more than once.
+std::string_view only_field(std::string_view request, std::string_view name) {
+  std::string_view value;
+  bool found = false;
   for (std::size_t at = request.find("\r\n"); at != std::string_view::npos; at = request.find("\r\n", at)) {
     at += 2;
     const std::string_view line = request.substr(at, request.find("\r\n", at) - at);
     if (line.size() <= name.size() || line[name.size()] != ':' ||
         ::strncasecmp(line.data(), name.data(), name.size()) != 0)
       continue;
+    if (std::exchange(found, true))
+      return "";
     const std::size_t start = line.find_first_not_of(" \t", name.size() + 1);
-    return start == std::string_view::npos ? "" : line.substr(start, line.find_last_not_of(" \t") + 1 - start);
+    if (start != std::string_view::npos)
+      value = line.substr(start, line.find_last_not_of(" \t") + 1 - start);
   }
-  return "";
+  return value;
 }
 
 bool is_loopback(const in_addr& place) { return ntohl(place.s_addr) >> 24 == 127; }
 
-// In digits or as localhost; 127.example.org is a name of somebody else.
+// In digits or as localhost, with a port in digits or none; 127.example.org is a name of somebody else, and so is
+// localhost:80@example.org.
 bool names_loopback(std::string_view host) {
   const std::string name(host.substr(0, host.find(':')));
+  if (host.find_first_not_of("0123456789", name.size() + 1) != std::string_view::npos)
+    return false;
   in_addr place{};
   return name == "localhost" || (::inet_pton(AF_INET, name.c_str(), &place) == 1 && is_loopback(place));
+}
+
+// The one that has waited longest for a request: it makes way for others.
+std::vector<HttpConnection>::iterator idle_one(std::vector<HttpConnection>& connections) {
+  return std::ranges::find(connections, POLLIN, &HttpConnection::events); // they are in the order in which they came
 }
 
 // For poll: until the first deadline [ms]; -1: there is none.
@@ -98,7 +112,7 @@ void HttpServer::serve() {
     std::vector<pollfd> watched = {{end_, POLLIN, 0}};
     for (const HttpConnection& connection : connections)
       watched.push_back({connection.descriptor(), connection.events(), 0});
-    if (connections.size() < most_connections)
+    if (connections.size() < most_connections || idle_one(connections) != connections.end())
       watched.push_back({listener_, POLLIN, 0});
     if (::poll(watched.data(), watched.size(), time_left(connections)) < 0 && errno != EINTR)
       return;
@@ -111,8 +125,12 @@ void HttpServer::serve() {
         open.push_back(std::move(connections[i]));
     connections = std::move(open);
     if (watched.back().fd == listener_ && watched.back().revents != 0)
-      if (const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK); client >= 0)
+      if (const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK); client >= 0) {
+        if (connections.size() >= most_connections)
+          if (const auto idle = idle_one(connections); idle != connections.end())
+            connections.erase(idle);
         connections.emplace_back(client);
+      }
   }
 }
 
@@ -124,7 +142,7 @@ Answer HttpServer::answer_to(std::string_view request) const {
     return plain_answer(400, "this is no request of HTTP\n");
   if (line.substr(0, first) != "GET")
     return plain_answer(405, "nothing can be changed here: GET only\n");
-  if (loopback_ && !names_loopback(field(request, "Host")))
+  if (loopback_ && !names_loopback(only_field(request, "Host")))
     return plain_answer(403, "ask for localhost or 127.0.0.1\n");
   const std::string_view target = line.substr(first + 1, second - first - 1);
   return answer_(target.substr(0, target.find('?')));

@@ -134,7 +134,11 @@ class Test(unittest.TestCase):
             refused.exception.close()
         for name in ("evil.example", "127.0.0.1.evil.example", "127.evil.example", ""):
             self.assertEqual(watch.get("", Host=f"{name}:{port}")[0], 403, name)
+        self.assertEqual(watch.get("", Host=f"localhost:{port}@evil.example")[0], 403)
         self.assertEqual(watch.get("", Host=f"localhost:{port}")[0], 200)
+        for second, status in (b"", b"200"), (b"Host: evil.example\r\n", b"403"), (b"host: localhost\r\n", b"403"):
+            with self.connect(watch, b"GET / HTTP/1.1\r\nHost: localhost\r\n" + second + b"\r\n") as client:
+                self.assertEqual(client.recv(12), b"HTTP/1.1 " + status)
         self.assertEqual(watch.get("../../etc/passwd")[0], 404)
         for junk in (b"\r\n\r\n", b"GET\r\n\r\n", b"\0" * 20000, b"GET / HTTP/1.1\r\n" + b"a: b\r\n" * 5000):
             with socket.create_connection(("127.0.0.1", int(port)), timeout=10) as client:
@@ -175,6 +179,17 @@ class Test(unittest.TestCase):
         self.assertEqual(watch.end(), 0)
         self.assertLess(time.monotonic() - start, 2)
         self.assertEqual(pathlib.Path("passed.sheet").read_bytes(), pathlib.Path("run.sheet").read_bytes())
+
+    def test_more_idle_ones_than_there_are_connections_make_way(self):
+        watch = self.watch()
+        watch.give(self.run_of[0])
+        watch.state_at(self.rows[0]["step"])
+        idle = [self.connect(watch, b"") for _ in range(300)]
+        start = time.monotonic()
+        self.assertEqual(watch.get("frame.html")[0], 200)
+        self.assertLess(time.monotonic() - start, 3)  # less than what an idle one is given
+        self.assertEqual(len(idle), 300)
+        self.assertEqual(watch.end(), 0)
 
     def test_a_request_that_does_not_end_is_given_up_and_a_slow_reader_gets_all(self):
         watch = self.watch()
