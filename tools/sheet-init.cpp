@@ -146,7 +146,7 @@ int main(int argc, char** argv) {
       file.close();
       return;
     }
-    sheet::formats::Frame frame = sheet::first_frame(read(source));
+    sheet::formats::Frame frame = sheet::checked_first_frame(read(source));
     if (!no_provenance)
       sheet::record_provenance(frame, tool.command_line());
     sheet::log::detail("{} vertices, {} triangles", frame.vertices, frame.triangles);

@@ -55,10 +55,11 @@ Connectivity connect(std::size_t vertices, std::span<const Corners> triangles) {
       const int side = triangles[h->triangle][(h->corner + 1) % 3] == low ? 0 : 1;
       auto& slot = c.edge_triangles.back()[side];
       if (slot != no_index)
-        fail(ExitCode::bad_input,
-             "edge ({}, {}): triangles {} and {} run along it in the same direction (not a consistently oriented "
-             "surface; duplicate the edge's vertices)",
-             low, h->high, slot, h->triangle);
+        fail(
+            ExitCode::bad_input,
+            "edge ({}, {}): triangles {} and {} run along it in the same direction: turn the faces the same way; where "
+            "more than two meet, duplicate the edge's vertices",
+            low, h->high, slot, h->triangle);
       slot = h->triangle;
       c.triangle_edges[h->triangle][h->corner] = static_cast<std::uint32_t>(c.edges.size() - 1);
     }

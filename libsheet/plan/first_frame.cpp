@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/plan/first_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libsheet/base/error.h"
@@ -32,21 +33,50 @@ double area_of(const Frame& frame) {
   return area;
 }
 
+constexpr double place_rounding = 1e-9; // of its norm
+
+// A triangle, all corners of which are outside, that reaches into a solid between them.
+void check_triangle_outside(const solid::Solids& solids, std::size_t i, double time, const Frame& frame,
+                            std::size_t t) {
+  const auto x = positions(frame);
+  const Corners& c = triangles(frame)[t];
+  const Eigen::Isometry3d pose = solids.pose(i, time), to_own = pose.inverse();
+  const solid::Triangle3 own{to_own * x[c[0]], to_own * x[c[1]], to_own * x[c[2]]};
+  const Eigen::Vector3d middle = (own[0] + own[1] + own[2]) / 3;
+  double reach = 0;
+  for (const Eigen::Vector3d& corner : own)
+    reach = std::max(reach, (corner - middle).norm());
+  if (solids.shape(i).distance(middle, 2 * reach) >= reach)
+    return;
+  const auto [weights, near] = solids.shape(i).deepest(own, 1e-3 * reach);
+  const Eigen::Vector3d place = pose * solid::point_of(own, weights);
+  if (near.distance < -place_rounding * place.norm())
+    fail(ExitCode::bad_input,
+         "the sheet starts across {}: triangle {} at ({:g}, {:g}, {:g}) m lies {:.2g} m under its surface, though its "
+         "corners do not; move one of them, or take shorter edges",
+         solids.name(i), t, place.x(), place.y(), place.z(), -near.distance);
+}
+
 // What is held, or stands in the inlet, may begin in a nozzle or a clamp.
 void check_outside_solids(const Scene& scene, const Frame& frame) {
   const solid::Solids solids(scene);
   const auto x = positions(frame);
   const auto held = holds(frame), inlet = masks(frame, "inlet");
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    for (std::size_t v = 0; v < x.size(); ++v) {
-      if ((!held.empty() && held[v] != 0) || (!inlet.empty() && inlet[v] != 0))
-        continue;
-      if (const double distance = solids.at(i, x[v], frame.time).distance; distance < -1e-9 * x[v].norm())
+  const auto is_free = [&](std::size_t v) {
+    return (held.empty() || held[v] == 0) && (inlet.empty() || inlet[v] == 0);
+  };
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (std::size_t v = 0; v < x.size(); ++v)
+      if (const double distance = is_free(v) ? solids.at(i, x[v], frame.time).distance : 0;
+          distance < -place_rounding * x[v].norm())
         fail(ExitCode::bad_input,
              "the sheet starts inside {}: vertex {} at ({:g}, {:g}, {:g}) m lies {:.2g} m under its surface; move one "
              "of them",
              solids.name(i), v, x[v].x(), x[v].y(), x[v].z(), -distance);
-    }
+    for (std::size_t t = 0; t < frame.triangles; ++t)
+      if (std::ranges::all_of(triangles(frame)[t], is_free))
+        check_triangle_outside(solids, i, frame.time, frame, t);
+  }
 }
 
 // What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/solid/check.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -32,6 +34,21 @@ void check_points(const SolidSurface& surface, const std::string& name) {
   }
 }
 
+// Whether each of these points is as good as another one.
+bool lie_on_each_other(std::vector<Vector3> points) {
+  Box3 box;
+  for (const Vector3& x : points)
+    box.extend(x);
+  const double close = 1e-6 * box.diagonal().norm();
+  std::ranges::sort(points, {}, [](const Vector3& x) { return x.x(); });
+  std::vector<bool> paired(points.size(), false);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = i + 1; j < points.size() && points[j].x() - points[i].x() <= close; ++j)
+      if ((points[j] - points[i]).norm() <= close)
+        paired[i] = paired[j] = true;
+  return std::ranges::all_of(paired, std::identity());
+}
+
 // The neighbour of each triangle across each side; fails where a side has not exactly one.
 std::vector<std::array<std::uint32_t, 3>> check_closed(const SolidSurface& surface, const std::string& name) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sides; // directed, with their triangle
@@ -50,17 +67,25 @@ std::vector<std::array<std::uint32_t, 3>> check_closed(const SolidSurface& surfa
   std::vector<std::array<std::uint32_t, 3>> neighbours(surface.triangles.size());
   std::size_t open = 0;
   std::string where;
+  std::vector<Vector3> middles; // of open edges
   for (const auto& [side, t] : sides) {
     const auto other = sides.find({side.second, side.first});
     if (other == sides.end()) {
       if (open++ == 0)
         where = at(side.first, side.second);
+      middles.emplace_back((surface.points[side.first] + surface.points[side.second]) / 2);
       continue;
     }
     for (std::size_t i = 0; i < 3; ++i)
       if (surface.triangles[t][i] == side.first)
         neighbours[t][i] = other->second;
   }
+  if (open > 0 && lie_on_each_other(std::move(middles)))
+    fail(ExitCode::bad_input,
+         "{}: the surface is open along {} edges that lie on each other, the first at {}: weld its vertices (merge "
+         "those "
+         "at the same place)",
+         name, open, where);
   if (open > 0)
     fail(ExitCode::bad_input, "{}: the surface is open along {} edges, the first at {}; close its holes", name, open,
          where);
@@ -134,6 +159,12 @@ void check_sides(const SolidSurface& surface, const std::vector<Triangles>& part
       if (k != i)
         around += std::abs(winding(surface, parts[k], x));
     const bool hollow = std::lround(around) % 2 == 1;
+    if (hollow && volumes[i] > 0)
+      fail(ExitCode::bad_input,
+           "{}: the part at {} lies inside another one and faces outward, as it does; take it away, or turn its "
+           "triangles "
+           "round if it is the wall of a hollow",
+           name, written(x));
     if (hollow != (volumes[i] < 0))
       fail(ExitCode::bad_input, "{}: the surface at {} is inside out; turn its triangles round", name, written(x));
   }

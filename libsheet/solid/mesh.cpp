@@ -99,7 +99,7 @@ SolidSurface read_surface(const scene::SolidMesh& mesh) {
   } else {
     const formats::MeshImport import = import_named_mesh(file);
     for (const std::string& note : import.notes)
-      log::warning("{} (nothing to worry about: what is left is checked to be the closed surface of a solid)", note);
+      log::warning("{} (what is left must be the closed surface of a solid)", note);
     for (const auto& [x, y, z] : import.mesh.points)
       surface.points.emplace_back(x, y, z);
     surface.triangles = import.mesh.triangles;

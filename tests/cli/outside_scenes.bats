@@ -174,9 +174,22 @@ gravity = [0, 0, -9.81]'
   refused 'the sheet starts inside solid 0 (sphere)' $'[[solid]]\nshape = "sphere"\nradius = 0.5'
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n' > turned.obj
   sed 's/^shape.*/shape = "mesh"\nfile = "turned.obj"/; /^radius/d; /^edge_length/d' disk.toml > turned.toml
-  sheet-init turned.toml | run -3 sheet-step --dt 1e-3
-  run -3 sheet-init --check turned.toml
-  [[ $output == *'triangles 0 and 1 run along it in the same direction'* ]]
+  for check in '' --check; do
+    run -3 sheet-init $check turned.toml -o turned.sheet
+    [[ $output == *'triangles 0 and 1 run along it in the same direction'*'turn the faces the same way'* ]]
+    [ ! -e turned.sheet ]
+  done
+  # A ball smaller than a triangle, under whose corners it is not.
+  refused 'the sheet starts across solid 0 (sphere): triangle ' $'[[solid]]\nshape = "sphere"\nradius = "2 mm"\ncenter = [0.013, 0.017, 0.001]'
+  run -3 sheet-init scene.toml -o across.sheet
+  [[ $output == *'the sheet starts across solid 0 (sphere): triangle '*' m under its surface'* ]]
+  printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nv 0 0 1\nv 0 3 1\nf 1 2 3\nf 4 5 6\n' > crossing.obj
+  sed 's/^shape.*/shape = "mesh"\nfile = "crossing.obj"/; /^radius/d; /^edge_length/d' disk.toml > crossing.toml
+  printf '[contact]\nself = true\n' >> crossing.toml
+  for check in '' --check; do
+    run -3 sheet-init $check crossing.toml -o crossing.sheet
+    [[ $output == *'triangles 0 and 1'* ]]
+  done
   refused 'points out of the sheet' $'[inflow]\nregion = "rim"\nthickness = 0.01\nvelocity = [1, 0, 0]'
   sed -i 's/^thickness/center = [1e300, 0, 0]\nthickness/' disk.toml
   run -3 sheet-init disk.toml

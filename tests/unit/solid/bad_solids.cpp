@@ -55,10 +55,29 @@ TEST(BadSolids, Open) {
                                       HasSubstr("close its holes")));
 }
 
+TEST(BadSolids, NotWelded) {
+  for (const double apart : {0.0, 1e-16}) {
+    SolidSurface soup;
+    for (const auto& triangle : box().triangles) {
+      for (const std::uint32_t v : triangle)
+        soup.points.push_back(box().points[v] * (1 + apart * static_cast<double>(soup.triangles.size())));
+      const auto last = static_cast<std::uint32_t>(soup.points.size());
+      soup.triangles.push_back({last - 3, last - 2, last - 1});
+    }
+    EXPECT_THAT(problem(soup), AllOf(HasSubstr("open along 36 edges that lie on each other"), HasSubstr("weld")));
+  }
+}
+
 TEST(BadSolids, InsideOut) {
   SolidSurface surface;
   append(surface, box(), {0, 0, 0}, true);
   EXPECT_THAT(problem(surface), AllOf(HasSubstr("inside out"), HasSubstr("turn its triangles round")));
+}
+
+TEST(BadSolids, OnePartInsideAnother) {
+  SolidSurface surface = box();
+  append(surface, box_surface({0.5, 0.5, 0.5}), {0, 0, 0}, false);
+  EXPECT_THAT(problem(surface), AllOf(HasSubstr("lies inside another one"), HasSubstr("take it away")));
 }
 
 TEST(BadSolids, OnePartInsideOut) {
