@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What text files begin with that is no text.
 #pragma once
+#include <cstddef>
 #include <string_view>
 
 namespace sheet::formats {
