@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Triangle {
   Vector3 normal, middle;
-  double area, longest, least_angle; // [m²], [m], [rad]
+  double area, longest, smallest_angle; // [m²], [m], [rad]
 };
 
 // By the angle between two sides, found where it is least: opposite the shortest side.
@@ -112,7 +112,7 @@ void look_for_thin(const Frame& frame, const Surface& surface, const Scene& scen
 void look_for_sharp(const Surface& surface, std::vector<Observation>& seen) {
   Worst worst(Trouble::sharp);
   for (const Triangle& triangle : surface.triangles)
-    worst.see(triangle.least_angle * degrees, triangle);
+    worst.see(triangle.smallest_angle * degrees, triangle);
   worst.add_to(seen, surface.area);
 }
 

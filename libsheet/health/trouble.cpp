@@ -53,8 +53,8 @@ constexpr std::array table{
          .told = Told::plainly,
          .what = "steps are down to {} of the time in which the scene flows",
          .counted = "",
-         .noted = {.worst = 1e-3, .share = 0, .times = 3},
-         .serious = {.worst = 1e-5, .share = 0, .times = 3},
+         .noted = {.worst = 1e-3, .share = 0, .times = 3, .of_steps = 0.01},
+         .serious = {.worst = 1e-5, .share = 0, .times = 3, .of_steps = 0.01},
          .remedy = "look at what moves there (sheet-render --look speed, or sheet-view): mend what else is told here, "
                    "or ask for less by sheet-step --tolerance"},
     Kind{.trouble = Trouble::held_back,
