@@ -68,7 +68,20 @@ spoiled() { # [OPTION]...: the ring with the stage that spoils
   sheet-diff --ignore provenance --ignore health by-hand.sheet run.sheet
 }
 
-@test "a stage's repeated warnings are told once, and counted" {
+@test "a stage's repeated warnings are told once, and counted; without a ring by the stage itself" {
+  # no step is as accurate as that
+  sheet-loop -i first.sheet --until 0.05 --steps 60 --keep 1 -o run.sheet -- 'sheet-step --tolerance 1e-11' 2> log
+  [[ $(grep -c 'its error is about .* remeshing helps (told once, then counted)' log) == 1 ]]
+  [[ $(grep -c 'its error is about' log) == 1 ]]
+  grep -q 'steps above the tolerance: the error of a step is up to .* of an edge, and no shorter step was better, at (.*) m, t = ' log
+  times=$(sed -n '/steps above the tolerance/{n;s/.*seen \([0-9]*\) times from .*/\1/p}' log)
+  ((times > 3))
+  sheet-select --index 1-10 run.sheet | sheet-step --tolerance 1e-11 -o again.sheet 2> log
+  [[ $(grep -c 'its error is about' log) == 1 ]]
+  grep -q 'sheet-step: steps above the tolerance: [0-9]* times in all' log
+}
+
+@test "what stands still over and over is told once, and counted; then it is serious" {
   # of two layers the upper is led down through the lower, which is held
   awk 'BEGIN {for (k = 0; k < 2; ++k) {for (i = 0; i < 4; ++i) print "v", i % 2, int(i / 2), k * 0.0101
     print "f", 1 + 4 * k, 2 + 4 * k, 4 + 4 * k; print "f", 1 + 4 * k, 4 + 4 * k, 3 + 4 * k}}' > layers.obj
