@@ -139,7 +139,7 @@ radius = 1
 center = [0, 0, -5]
 [inflow]
 region = "rim"
-velocity = [0, 0, -1]
+velocity = [0, -1, 0]
 thickness = 0.01
 END
   sheet-init all.toml -o all.sheet
@@ -311,10 +311,13 @@ END
     collided $folder
     (cd $folder && sheet-render out.sheet -o out.png --size 32x18 --samples 2 -q)
   done
-  run -6 collided else
+  collided else # it is found from the stream
+  astray() { (cd else && sheet-collide box.sheet -o out.sheet); }
+  cp project/out/box.sheet else/
+  run -6 astray
   [[ $output == *'there is no such file'* ]]
   box_mesh 0.11 > else/meshes/box.obj # has the name and is another
-  run -3 collided else
+  run -3 astray
   [[ $output == *'meshes/box.obj: it has changed since sheet-init ran'* ]]
   cp else/meshes/box.obj project/scenes/meshes/
   run -3 collided project
