@@ -172,8 +172,12 @@ void look_at_solids(const Frame& frame, const Surface& surface, const Scene& sce
   worst.add_to(seen, surface.area);
 }
 
-// The step that the control tries next: the one taken may have been cut short by an output time.
+// The step that the control tries next: the one taken may have been cut short by an output time. Not judged where gas
+// drives the sheet: a frame's scene has its amount, and its pressure changes.
 void look_at_step(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
+  const auto& pressure = scene.environment.pressure;
+  if (pressure && std::holds_alternative<scene::GasPressure>(*pressure))
+    return;
   const double step = number(frame, "step_size", infinity);
   const scene::Scales scales = scene::scales_of(
       scene, {.length = std::sqrt(surface.area), .thickness = surface.volume / surface.area, .curvature = {}});

@@ -24,8 +24,8 @@ constexpr std::array table{
          .told = Told::plainly,
          .what = "triangles have angles down to {} degrees",
          .counted = "",
-         .noted = {.worst = 5, .share = 0, .times = 1},
-         .serious = {.worst = 0.5, .share = 0, .times = 1},
+         .noted = {.worst = 5, .share = 0, .times = 3},
+         .serious = {.worst = 0.5, .share = 0, .times = 3, .of_steps = 0.01},
          .remedy = "put sheet-remesh --smooth first into the ring; if it is there: shorter edges (edge_length), or "
                    "[tear], as strands of the width of a triangle stay sharp"},
     Kind{.trouble = Trouble::coarse_fold,

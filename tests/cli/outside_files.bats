@@ -180,3 +180,51 @@ full() {
   done
   [[ $found == 1 ]]
 }
+
+@test "a mesh that a frame names is found beside the stream, by programs and by the stages of a ring" {
+  mkdir here elsewhere
+  printf '%s\n' OFF '4 4 0' '-1 -1 -1' '3 -1 -1' '-1 -1 3' '0 0.5 0' '3 0 1 2' '3 0 3 1' '3 0 2 3' '3 1 3 2' > here/block.off
+  cat > here/mesh.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = [1, 1]
+center = [0, 3, 0]
+edge_length = 0.3
+thickness = 0.01
+[material]
+viscosity = 10
+density = 1000
+[environment]
+gravity = [0, -9.81, 0]
+[[solid]]
+shape = "mesh"
+file = "block.off"
+END
+  (cd here && sheet-init mesh.toml -o first.sheet)
+  cd elsewhere
+  sheet-loop -q -i ../here/first.sheet -o run.sheet --steps 1 -- 'sheet-step --dt 0.001 | sheet-collide'
+  mv run.sheet ../here
+  sheet-loop -q --resume ../here/run.sheet --steps 2 -- 'sheet-step --dt 0.001 | sheet-collide'
+  sheet-render -q ../here/run.sheet --frames -1 --ppm --size 16x9 --samples 1 > picture.ppm
+  run -6 bash -c 'sheet-collide < ../here/run.sheet > out.sheet' # nothing says where that stream is
+  [[ $output == *'block.off: there is no such file'* ]]
+  echo >> ../here/block.off
+  run -3 sheet-collide ../here/run.sheet -o out.sheet
+  [[ $output == *'here/block.off: it has changed since sheet-init ran'* ]]
+}
+
+@test "sheet-select and sheet-render read and mean the same by a list of frames" {
+  sheet-init "$SHEET_SOURCE/pipelines/catenary/scene.toml" --set 'sheet.segments=[8, 4]' | sheet-loop -q --steps 5 -o six.sheet -- sheet-pass
+  drawn() { sheet-render -v six.sheet "--frames=$1" --ppm --size 16x9 --samples 1 2>&1 > /dev/null | sed -n 's/.*: frame \([0-9]*\): .*/\1/p' | tr '\n' ' '; }
+  picked() { sheet-select "$2=$1" six.sheet | sheet-print | sed -n 's/^step //p' | tr '\n' ' '; }
+  for list in 0 -1 0,2 '4, 0 , 2' 1-3 4- -3- -3--2 2--2 -9- 3-99 -2-4; do
+    [[ -n $(drawn "$list") ]]
+    [[ $(drawn "$list") == "$(picked "$list" --index)" && $(drawn "$list") == "$(picked "$list" --frames)" ]]
+  done
+  for list in 3-1 x 1-x 1, ,1 '1 2' 1:2; do
+    run -2 sheet-render six.sheet "--frames=$list" --ppm --size 16x9
+    run -2 sheet-select "--index=$list" six.sheet
+  done
+  run -3 sheet-render six.sheet --frames=6-9 --ppm --size 16x9
+  run -3 sheet-select --index=6-9 six.sheet
+}
