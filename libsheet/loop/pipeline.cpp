@@ -190,12 +190,16 @@ void Pipeline::reap(int options) {
 }
 
 void Pipeline::note_early_ends() {
+  constexpr int pause = 10; // [ms]
   for (int wait = 0; wait < 50; ++wait) {
     reap(WNOHANG);
     if (stages_.back().ended)
       break;
-    ::poll(nullptr, 0, 10); // [ms]
+    ::poll(nullptr, 0, pause);
   }
+  // A process that dies closes its files before it has ended: those that end of it may be seen first.
+  ::poll(nullptr, 0, 2 * pause);
+  reap(WNOHANG);
   for (Stage& stage : stages_)
     stage.early = stage.ended;
 }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -73,8 +71,7 @@ double thickness_after_fall(const Scene& scene, const Frame& first, std::size_t 
 std::string finer_folds(const Scene& scene, const Frame& first) {
   const bool folds = !scene.solids.empty() || (scene.contact && scene.contact->self);
   return folds ? fmt::format(
-                     "  For folds finer than edges, at two to three times the cost: sheet-remesh --adaptive {:.1g} "
-                     "--smooth\n",
+                     "  For folds finer than edges, and longer computing: sheet-remesh --adaptive {:.1g} --smooth\n",
                      landing_thickness(scene, first) / 2)
                : "";
 }

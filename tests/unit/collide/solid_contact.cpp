@@ -437,6 +437,24 @@ TEST(SolidContact, WhatTouchesNothingIsLetGo) {
   EXPECT_EQ(sheet.path.touch, std::vector<std::int32_t>(end.size(), no_solid));
 }
 
+// What is across a solid with a corner that is held there stays: its free corners cannot bring it out.
+TEST(SolidContact, FreeCornersDoNotBringOutWhatIsHeldInside) {
+  const solid::Solids rod = solids_of({solid(scene::Capsule{5e-3, 0.1}, {0, -0.05, 0})});
+  FallingSheet sheet = falling(0);
+  sheet.triangles = {{0, 1, 2}};
+  sheet.path.triangles = sheet.triangles;
+  sheet.start = {{0, -0.05, 0}, {0.02, -0.05, -0.01}, {0.02, -0.05, 0.01}};
+  sheet.path.start = sheet.path.end = sheet.start;
+  for (auto* list : {&sheet.path.thickness, &sheet.path.mass})
+    list->assign(3, thickness_of_sheet);
+  sheet.path.touch.assign(3, no_solid);
+  sheet.path.fixed = {all_axes, 0, 0};
+  sheet.path.velocity.assign(3, Vector3::Zero());
+  EXPECT_GT(resolve_solids(sheet.path, rod).started_across, 0U);
+  for (std::size_t v = 0; v < 3; ++v)
+    EXPECT_EQ(sheet.path.end[v], sheet.start[v]) << v;
+}
+
 // A pin stops a triangle at a point far from its lightest corner, which is not thrown.
 TEST(SolidContact, NoLeverThrowsALightCorner) {
   const solid::Solids pin = solids_of({solid(scene::Capsule{1e-5, 0.1}, {0, -0.05, 0})});
