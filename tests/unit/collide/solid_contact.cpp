@@ -443,7 +443,7 @@ TEST(SolidContact, FreeCornersDoNotBringOutWhatIsHeldInside) {
   FallingSheet sheet = falling(0);
   sheet.triangles = {{0, 1, 2}};
   sheet.path.triangles = sheet.triangles;
-  sheet.start = {{0, -0.05, 0}, {0.02, -0.05, -0.01}, {0.02, -0.05, 0.01}};
+  sheet.start = {{-0.01, -0.05, 0}, {0.02, -0.05, -0.01}, {0.02, -0.05, 0.01}};
   sheet.path.start = sheet.path.end = sheet.start;
   for (auto* list : {&sheet.path.thickness, &sheet.path.mass})
     list->assign(3, thickness_of_sheet);
