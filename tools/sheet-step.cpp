@@ -19,8 +19,10 @@ int main(int argc, char** argv) {
               "fixed time step, shortened where equal steps must land on an output time; without it, "
               "steps are chosen by --tolerance, which is the better choice unless steps must be equal: then take the "
               "shortest that -v shows with --tolerance, or a tenth of the time in which anything moves by an edge");
-  tool.option("--tolerance", o.tolerance, "E",
-              "choose steps whose estimated error is below this part of the edges' length (the default, with 0.001)");
+  tool.option(
+      "--tolerance", o.tolerance, "E",
+      fmt::format("choose steps whose estimated error is below this part of the edges' length (the default, with {})",
+                  sheet::default_tolerance));
   tool.choice("--scheme", o.scheme,
               {{"sdirk2", sheet::Scheme::sdirk2}, {"backward-euler", sheet::Scheme::backward_euler}},
               "second order, or the paper's first order");

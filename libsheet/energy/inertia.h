@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia of one stage: W = m |x - x̂|² / (2 τ²) for each vertex, x̂ (Stage::inertial) where it would go without force
-// [m], m a third of the mass ρ V of each triangle at it [kg] (lumped).
+// [m], m a third of the mass ρ V of each triangle at it [kg] (lumped). Where inertia gives way to force in another time
+// than the stage's (Stage::inertial_time), that takes the place of one τ.
 #pragma once
 #include "libsheet/energy/element.h"
 
@@ -31,7 +32,7 @@ public:
 
 private:
   [[nodiscard]] double weight(std::size_t i) const {
-    return density_ * stage_->vertex_volumes[i] / (stage_->duration * stage_->duration);
+    return density_ * stage_->vertex_volumes[i] / (stage_->duration * stage_->inertial_time);
   }
 
   double density_; // [kg/m³]

@@ -22,6 +22,10 @@ struct BathModel {
   double drag = 0;      // of what slides on it [Pa s/m]
 };
 
+// Which forces of holds and walls are wanted: none, those in the implicit solve of a step's last stage, which cost next
+// to nothing, or those at the step's end, which take a solve of their own.
+enum class Reactions { none, of_stage, at_end };
+
 enum class Bending { none, mid_edge, hinge, hinge_paper };
 
 struct Model {
@@ -36,7 +40,7 @@ struct Model {
   bool arcs = false;       // with mid-edge bending: edges are arcs in the membrane's strain
   std::vector<Hold> holds; // of two that hold the same unknown, the later one
   std::vector<Wall> walls; // along which liquid flows
-  bool reactions = false;  // whether the forces of holds and walls are wanted
+  Reactions reactions = Reactions::none;
   std::vector<ContactSpring> contacts;
   bool contacts_adhere = false;
   bool contacts_flow = false; // they let layers flow along each other, and press them flat

@@ -32,6 +32,7 @@ struct WallSite {
 struct Stage {
   const State* start = nullptr;
   double duration = 0;                // of the implicit solve: dt, or gamma dt [s]
+  double inertial_time = 0;           // in which inertia gives way to force: the duration; longer in an instant [s]
   double left_over = 0;               // of the start's overshoot, at the end of the stage: the part not yet made up for
   double end_time = 0;                // at which time-dependent forces act [s]
   double ratio = 0;                   // 0 in a first stage, (1 - gamma)/gamma in a second

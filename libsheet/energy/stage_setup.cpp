@@ -54,6 +54,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
   const std::size_t n = state.positions.size();
   stage.start = &state;
   stage.duration = duration;
+  stage.inertial_time = duration;
   stage.end_time = end_time;
   stage.begin = Unknowns::Zero(static_cast<Eigen::Index>(3 * n + (angles ? mesh.edges.size() : 0)));
   stage.predicted.resize(n);

@@ -361,8 +361,10 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
   model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
   model.contacts_flow = layers_flow(scene);
-  model.reactions =
-      scene::wants_forces(scene) || (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene)));
+  if (scene::wants_forces(scene))
+    model.reactions = Reactions::at_end;
+  else if (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene)))
+    model.reactions = Reactions::of_stage;
   return model;
 }
 

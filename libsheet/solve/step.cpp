@@ -9,11 +9,11 @@
 
 #include "libsheet/base/each.h"
 #include "libsheet/base/error.h"
-#include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/levelling.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/energy/wall_distance.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/solve/reactions.h"
 
 namespace sheet {
 
@@ -32,28 +32,6 @@ bool sound(const State& s) {
     if (!(TriangleArea(s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]).area > 1e-9 * longest))
       result.store(false, std::memory_order_relaxed);
   });
-  return result;
-}
-
-// What holds and walls must add to the other forces, inertia included, so that the sum vanishes: the potential's
-// gradient in the directions that they prescribe, and the walls' drag.
-std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const Model& model, const Stage& stage,
-                               const Unknowns& u) {
-  const Constraints constraints = system.constraints();
-  Eigen::VectorXd gradient;
-  system.constrain({}, 0);
-  (void)system.gradient(terms, u, gradient);
-  Eigen::VectorXd free = gradient;
-  constraints.project(free);
-  gradient -= free;
-  std::vector<Vector3> result = drag_on_walls(stage, model.viscosity, u);
-  if (model.contacts_flow && !model.contacts.empty()) {
-    ContactShear shear(model.contacts, model.viscosity);
-    shear.begin(stage);
-    shear.add_wall_forces(stage, u, result);
-  }
-  for (std::size_t v = 0; v < result.size(); ++v)
-    result[v] += gradient.segment<3>(static_cast<Eigen::Index>(3 * v));
   return result;
 }
 
@@ -141,7 +119,7 @@ struct Stepper::Cache {
   std::vector<std::uint32_t> signature;
   Terms terms;
   LinearSystem system;
-  Stage stage; // lives as long as the terms that refer to it; what it refers to itself does so only during an attempt
+  Stage stage, instant; // live as long as the terms that refer to them; what they refer to does so only in an attempt
 };
 
 Stepper::Stepper(Model model, StepOptions options) : model_(std::move(model)), options_(options) {}
@@ -251,21 +229,11 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     term->finish(last, end);
   if (!sound(end))
     return Outcome::shrinks_to_nothing;
-  if (model_.reactions) {
-    // What is prescribed does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
-    const Constraints& constraints = cache_->system.constraints();
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(last.size());
-    for (std::size_t v = 0; v < n; ++v)
-      change.segment<3>(static_cast<Eigen::Index>(3 * v)) =
-          end.positions[v] - stage.duration * stage.duration / dt * (end.velocities[v] - state.velocities[v]) -
-          stage.inertial[v];
-    Eigen::VectorXd free = change;
-    constraints.project(free);
-    change -= free;
-    for (std::size_t v = 0; v < n; ++v)
-      stage.inertial[v] += change.segment<3>(static_cast<Eigen::Index>(3 * v));
-    report.reactions = reactions(cache_->system, cache_->terms, model_, stage, last);
-  }
+  if (model_.reactions == Reactions::of_stage)
+    report.reactions = stage_reactions(cache_->system, cache_->terms, model_, state, end, dt, stage, last);
+  else if (model_.reactions == Reactions::at_end)
+    report.reactions =
+        end_reactions(cache_->system, cache_->terms, model_, state, end, dt, options_.newton, cache_->instant);
   if (level_layers(stage, {model_.viscosity, model_.density, model_.surface_tension, model_.gravity}, model_.holds, dt,
                    end))
     set_prescribed_velocities(stage, end);

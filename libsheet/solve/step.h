@@ -57,7 +57,7 @@ struct StepReport {
   // (docs/model.md, stopping rule), greatest of the substeps.
   double error = 0;
   std::size_t worst = 0;          // the vertex that has it
-  std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex, at the end [N]
+  std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex [N]
   double seconds_analysis = 0;
   // Assembled terms, their element work summed over threads, and gathering; again for what was done without arcs.
   std::vector<TermTime> terms;

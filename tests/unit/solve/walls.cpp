@@ -34,7 +34,7 @@ Model heavy_layer() {
   m.viscosity = 3;
   m.density = 2;
   m.gravity = {1.5, 0.5, -9};
-  m.reactions = true;
+  m.reactions = Reactions::of_stage;
   return m;
 }
 

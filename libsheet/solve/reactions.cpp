@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solve/reactions.h"
+
+#include "libsheet/energy/contact_shear.h"
+#include "libsheet/energy/stage_setup.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr double instant_part = 1e-3;      // of a step: an instant, whose end has the shape of its start
+constexpr double instant_tolerance = 1e-6; // of an edge a step: what may remain of the velocities at an instant
+
+// Of forces [N, N m], one an unknown, the part that what is prescribed has to balance.
+Eigen::VectorXd prescribed_part(const Constraints& constraints, const Eigen::VectorXd& forces) {
+  Eigen::VectorXd free = forces;
+  constraints.project(free);
+  return forces - free;
+}
+
+// The potential's gradient in the prescribed directions, and the walls' drag.
+std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const Model& model, const Stage& stage,
+                               const Unknowns& u) {
+  const Constraints constraints = system.constraints();
+  Eigen::VectorXd gradient;
+  system.constrain({}, 0);
+  (void)system.gradient(terms, u, gradient);
+  gradient = prescribed_part(constraints, gradient);
+  std::vector<Vector3> result = drag_on_walls(stage, model.viscosity, u);
+  if (model.contacts_flow && !model.contacts.empty()) {
+    ContactShear shear(model.contacts, model.viscosity);
+    shear.begin(stage);
+    shear.add_wall_forces(stage, u, result);
+  }
+  for (std::size_t v = 0; v < result.size(); ++v)
+    result[v] += gradient.segment<3>(static_cast<Eigen::Index>(3 * v));
+  system.constrain(constraints, system.floor());
+  return result;
+}
+
+// The acceleration of what is prescribed, at the end of a step of dt [s], from its velocities just before: those at the
+// end itself may be another motion's [m/s²]. Free directions have none.
+std::vector<Vector3> prescribed_accelerations(const Model& model, const Stage& stage, const State& end, double dt) {
+  const double moment = instant_part * dt;
+  const auto before = [&](double time) {
+    State state = end;
+    for (std::size_t v = 0; v < state.positions.size(); ++v)
+      state.positions[v] -= time * end.velocities[v];
+    set_velocities_on_walls(model.walls, stage, end.time - time, state);
+    set_held_velocities(model.holds, end.time - time, state);
+    return state.velocities;
+  };
+  std::vector<Vector3> result = before(moment);
+  const std::vector<Vector3> earlier = before(2 * moment);
+  for (std::size_t v = 0; v < result.size(); ++v)
+    result[v] = (result[v] - earlier[v]) / moment;
+  return result;
+}
+
+} // namespace
+
+std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, const Model& model, const State& start,
+                                     const State& end, double dt, Stage& stage, const Unknowns& u) {
+  // What is prescribed does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(u.size());
+  for (std::size_t v = 0; v < stage.vertices(); ++v)
+    change.segment<3>(static_cast<Eigen::Index>(3 * v)) =
+        end.positions[v] - stage.duration * stage.duration / dt * (end.velocities[v] - start.velocities[v]) -
+        stage.inertial[v];
+  change = prescribed_part(system.constraints(), change);
+  for (std::size_t v = 0; v < stage.vertices(); ++v)
+    stage.inertial[v] += change.segment<3>(static_cast<Eigen::Index>(3 * v));
+  return reactions(system, terms, model, stage, u);
+}
+
+std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, const Model& model, const State& start,
+                                   const State& end, double dt, const NewtonOptions& options, Stage& instant) {
+  const double duration = instant_part * dt;
+  State before = end;
+  before.time = end.time - duration; // so that what is prescribed moves as it did until the end
+  instant = first_stage(before, duration, end.time, model.has_angles());
+  instant.inertial_time = dt;
+  for (std::size_t v = 0; v < end.positions.size(); ++v)
+    instant.inertial[v] -= duration * (end.velocities[v] - start.velocities[v]);
+  set_wall_sites(model.walls, instant);
+  system.constrain(constraints_of(model.holds, instant), system.floor());
+  Unknowns guess = instant.begin;
+  for (std::size_t v = 0; v < end.positions.size(); ++v)
+    guess.segment<3>(static_cast<Eigen::Index>(3 * v)) = instant.predicted[v];
+  turn_with_normals(instant, guess);
+  const Eigen::VectorXd scale = instant_part * step_scale(end, guess.size());
+  const NewtonOptions strict{.tolerance = instant_tolerance, .iterations = options.iterations};
+  NewtonReport report;
+  Unknowns u;
+  StageSolve solver(system, terms, model.holds, scale, strict, Demand::converged);
+  (void)solver.solve(instant, guess, instant.begin, options.iterations, report, u);
+  const std::vector<Vector3> prescribed = prescribed_accelerations(model, instant, end, dt);
+  for (std::size_t v = 0; v < end.positions.size(); ++v)
+    instant.inertial[v] = instant.position(u, static_cast<std::uint32_t>(v)) - duration * dt * prescribed[v];
+  return reactions(system, terms, model, instant, u);
+}
+
+} // namespace sheet
