@@ -10,8 +10,10 @@ namespace sheet {
 
 namespace {
 
-constexpr double longest_rise = 0.1; // of a layer in a step, as part of its edges
-constexpr int most_layers = 100;     // that lie on each other
+constexpr double longest_rise = 0.1;   // of a layer in a step, as part of its edges
+constexpr double greatest_slope = 0.3; // of a layer's middle over its wall
+constexpr int most_passes = 20;
+constexpr int most_layers = 100; // that lie on each other
 
 // The area of a triangle as the wall sees it that all its corners touch [m²]; 0 where it does not lie on one.
 double lying_area(const Stage& stage, const State& end, const Corners& c) {
@@ -22,6 +24,27 @@ double lying_area(const Stage& stage, const State& end, const Corners& c) {
   const Vector3 normal = site_at(stage, c[0])->normal + site_at(stage, c[1])->normal + site_at(stage, c[2])->normal;
   const double seen = std::abs(whole.dot(normal.normalized()));
   return seen > least_lying_cosine * whole.norm() ? seen : 0;
+}
+
+// The distances of vertices at whose ends of an edge both are known (not 0), lowered until none is above another's by
+// more than the greatest slope times their way along the wall.
+void flatten(const Stage& stage, const State& end, std::vector<double>& distance) {
+  const auto lower = [&](const Edge& e, int high) {
+    double& own = distance[e[high]];
+    const double other = distance[e[1 - high]];
+    if (own == 0 || other == 0)
+      return false;
+    const Vector3 way = end.positions[e[1]] - end.positions[e[0]], &normal = site_at(stage, e[high])->normal;
+    const double most = other + greatest_slope * (way - way.dot(normal) * normal).norm();
+    return own > most && (own = most, true);
+  };
+  bool lowered = true;
+  for (int pass = 0; pass < most_passes && lowered; ++pass) {
+    lowered = false;
+    for (const Edge& e : end.mesh->edges)
+      for (const int high : {0, 1})
+        lowered = lower(e, high) || lowered;
+  }
 }
 
 // By holds that have nothing to do with walls.
@@ -97,17 +120,20 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
                               std::span<const ContactSpring> contacts, const Stage& stage, State& end) {
   if (stage.sites.empty())
     return;
-  const std::vector<double> thickness = lying_thickness(stage, end);
+  std::vector<double> distance = lying_thickness(stage, end);
+  for (double& d : distance)
+    d /= 2;
+  flatten(stage, end, distance);
   const std::vector<char> held = held_elsewhere(holds, stage);
   const Eigen::VectorXd lengths = step_scale(end, static_cast<Eigen::Index>(3 * stage.vertices()));
   Shifts shifts(stage.vertices());
   for (const WallSite& site : stage.sites) {
     shifts.known[site.vertex] = 1;
-    if (thickness[site.vertex] == 0 || site.across.size() > 1)
+    if (distance[site.vertex] == 0 || site.across.size() > 1)
       continue;
     const WallPoint point = walls[site.wall].nearest(end.time, end.positions[site.vertex]);
     const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
-    shifts.of[site.vertex] = std::clamp(thickness[site.vertex] / 2 - point.distance, -most, most) * point.normal;
+    shifts.of[site.vertex] = std::clamp(distance[site.vertex] - point.distance, -most, most) * point.normal;
   }
   for (int layer = 0; layer < most_layers && shifts.pass_on(contacts); ++layer) {
   }

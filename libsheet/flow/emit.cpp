@@ -47,6 +47,9 @@ public:
     bits_.assign(bits.begin(), bits.end());
     for (std::uint32_t v = 0; v < x_.size(); ++v)
       vertices_.keep(v);
+    for (const std::int32_t solid : touched_solids(frame, scene.solids.size()))
+      on_wall_.push_back(solid != no_solid &&
+                         scene.solids[static_cast<std::size_t>(solid)].contact == SolidContact::flow);
     stays_.assign(frame.triangles, true);
   }
 
@@ -198,7 +201,9 @@ private:
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::size_t i = 0; i < chain.border.size(); ++i) {
         const std::size_t from_border = rows.size() - 1 - r;
-        set_bits(rows[r][i], from_border == 0 ? in_inlet | at_inlet_border : from_border == 1 ? behind_inlet : 0);
+        set_bits(rows[r][i], from_border == 0   ? in_inlet | at_inlet_border
+                             : from_border == 1 ? behind_inlet | (on_wall_[chain.border[i]] ? in_inlet : 0)
+                                                : 0);
       }
   }
 
@@ -347,6 +352,7 @@ private:
   RowPerturbation perturbation_;
   std::vector<Vector3> x_, origins_;
   std::vector<std::uint64_t> bits_;
+  std::vector<bool> on_wall_; // of the old vertices: on which liquid flows
   Lineage vertices_;
   std::vector<bool> stays_; // for each old triangle
   std::vector<Made> made_;

@@ -43,7 +43,7 @@ Marked marked(const Frame& frame, std::span<const std::uint64_t> bits, std::span
     }
   }
   for (std::uint32_t v = 0; v < bits.size(); ++v)
-    if (bits[v] == behind_inlet)
+    if ((bits[v] & (behind_inlet | at_inlet_border)) == behind_inlet)
       m.rows.emplace(place(origins[v]), v);
   return m;
 }

@@ -6,7 +6,11 @@
 //
 //     a' -> b'   border: bits in_inlet and at_inlet_border
 //     |  /  |    strip, or the same with the other diagonal
-//     a --- b    first row: bit behind_inlet, and the origin of the border's vertex above
+//     a --- b    first row: bit behind_inlet, and the origin of the border's vertex above; in_inlet, too, on a wall
+//
+// On a wall along which liquid flows the inlet is a channel one row long: the first row moves at the inflow's velocity
+// as the border does. Else liquid that piles up before it, as it cannot flow away as fast as it enters, turns the strip
+// around the inlet's ends, and comes back behind it.
 #pragma once
 #include <array>
 #include <cstdint>

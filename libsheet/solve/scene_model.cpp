@@ -361,9 +361,11 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
   model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
   model.contacts_flow = layers_flow(scene);
-  if (scene::wants_forces(scene))
+  // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
+  if (scene.model.forces && !scene::has_rolls(scene))
     model.reactions = Reactions::at_end;
-  else if (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene)))
+  else if (scene::has_rolls(scene) ||
+           (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene))))
     model.reactions = Reactions::of_stage;
   return model;
 }

@@ -116,3 +116,44 @@ END
   echo "steps $(last spoon step)"
   (($(last spoon step) <= 150))
 }
+
+@test "liquid that flows in on a wall faster than it can flow away piles up, and does not turn around the inlet" {
+  cat > steps.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = ["15 mm", "30 mm"]
+edge_length = "2.5 mm"
+thickness = "3 mm"
+center = [0, "21.5 mm", 0]
+velocity = ["60 mm/s", 0, 0]
+[material]
+viscosity = "5 Pa*s"
+density = "1250 kg/m^3"
+surface_tension = "0.03 N/m"
+[environment]
+gravity = [0, "-9.81 m/s^2", 0]
+[[inflow]]
+region = "x_min"
+velocity = ["60 mm/s", 0, 0]
+[[solid]]
+shape = "box"
+size = ["60 mm", "20 mm", "100 mm"]
+center = ["-20 mm", "10 mm", 0]
+contact = "flow"
+[[solid]]
+shape = "box"
+size = ["10 mm", "15 mm", "100 mm"]
+center = ["15 mm", "7.5 mm", 0]
+contact = "flow"
+[[solid]]
+shape = "plane"
+contact = "flow"
+[contact]
+self = true
+END
+  run_scene steps 0.7 50 'sheet-emit |'
+  echo "steps $(last steps step), $(last steps kinetic_energy) J"
+  (($(last steps step) <= 200))
+  awk -v volume="$(last steps volume)" 'BEGIN { exit !(volume > 5e-6) }' # 1.35 ml at the start, 3.78 ml have entered
+  awk -v e="$(last steps kinetic_energy)" 'BEGIN { exit !(e < 2e-5) }'   # of 6.4 g: below 80 mm/s
+}

@@ -169,6 +169,26 @@ TEST(Emit, TheSheetsNoiseGoesOnInWhatEnters) {
   EXPECT_GT(*ways.rbegin(), 0.005);
 }
 
+// On a wall the first row moves as the border does, until another one is put behind it; elsewhere it is free.
+TEST(Emit, OnAWallTheInletIsAChannelOneRowLong) {
+  for (const char* contact : {"flow", "stick", ""}) {
+    const std::string solid = "[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncenter = [0, 0, -0.125]\ncontact = \"";
+    const bool touches = *contact != '\0';
+    const Scene scene = scene_of("[0, -1, 0]", touches ? solid + contact + "\"\n" : "");
+    Frame frame = curtain();
+    if (touches)
+      put_touched_solids(frame, std::vector<std::int32_t>(frame.vertices, 0), 1);
+    for (const int rows : {1, 2}) {
+      move(frame, scene, rows == 1 ? 1.5 : 1);
+      emit(frame, scene);
+      const bool channel = std::string_view(contact) == "flow";
+      EXPECT_EQ(count(frame, in_inlet | at_inlet_border), 5);
+      EXPECT_EQ(count(frame, behind_inlet | in_inlet), channel ? 5 : 0);
+      EXPECT_EQ(count(frame, behind_inlet), channel ? 0 : 5);
+    }
+  }
+}
+
 TEST(Emit, RowsAreThoseOfAnyOtherStep) {
   const Scene scene = scene_of("[0, -1, 0]");
   const auto run = [&](double dt) {
