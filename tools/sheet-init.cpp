@@ -11,6 +11,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/shell_words.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/symmetry.h"
