@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/loop/recorded_ring.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <regex>
