@@ -2,7 +2,10 @@
 // sheet-init: from a scene file to the first frame.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -11,7 +14,9 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/shell_words.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/scene/example.h"
@@ -24,6 +29,7 @@ struct Source {
   std::string file; // "-": standard input
   std::vector<std::string> sets;
   sheet::Quality quality = sheet::Quality::normal;
+  std::optional<double> until, fps; // of the ring
 };
 
 constexpr std::array qualities{std::pair{"draft", sheet::Quality::draft}, std::pair{"normal", sheet::Quality::normal},
@@ -86,10 +92,12 @@ std::string explained(Source source, bool ring_alone) {
     for (const std::string& set : sheet::small_noise(scene, *measured.thickness))
       source.sets.push_back(set);
   }
+  std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));
   const std::string init = command_of(source);
-  return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, source.quality, init)
+  const sheet::RingWishes wishes{source.quality, source.until, source.fps};
+  return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, wishes, init)
                                               : sheet::scene::to_text(explanation) +
-                                                    sheet::ring_text(scene, frame, source.quality, init));
+                                                    sheet::ring_text(scene, frame, wishes, init));
 }
 
 } // namespace
@@ -115,6 +123,9 @@ int main(int argc, char** argv) {
   tool.choice("--quality", source.quality, {qualities.begin(), qualities.end()},
               "edges as long as the scene says (normal), twice as long (draft) or half as long (fine); the ring of "
               "--check then steps less or more accurately, too");
+  tool.option("--until", source.until, "SECONDS", "end of the ring that --check and --ring propose",
+              sheet::Tool::Provenance::omit);
+  tool.option("--fps", source.fps, "FPS", "frames a second of the same", sheet::Tool::Provenance::omit);
   tool.flag("--ring", ring,
             "print the ring of --check alone, for a program to read: lines \"first COMMAND\", \"until SECONDS\", "
             "\"fps FPS\", \"stages PIPELINE\"",
@@ -130,11 +141,17 @@ int main(int argc, char** argv) {
             sheet::Tool::Provenance::omit);
   tool.example("sheet-init --example > scene.toml", "start a scene of your own");
   tool.example("sheet-init --check scene.toml", "what will it model?");
+  tool.example("sheet-init --check --until 0.5 --fps 100 scene.toml", "the same, with the ring to that time");
   tool.example("sheet-init scene.toml --set material.viscosity='50 Pa*s' > first.sheet",
                "the first frame, with a change");
   tool.example("printf 'sheet.thickness=2 mm\\nsheet.thickness=3 mm\\n' | sheet-init --check-rows - scene.toml",
                "are all of these scenes well?");
   return tool.run(argc, argv, [&] {
+    for (const auto& [name, value] : {std::pair("--until", source.until), std::pair("--fps", source.fps)})
+      if (value && !(*value > 0))
+        sheet::fail(sheet::ExitCode::usage, "{}: {} is not a positive number", name, *value);
+      else if (value && !check && !ring)
+        sheet::fail(sheet::ExitCode::usage, "{} belongs to the ring of --check or --ring", name);
     if (!rows.empty()) {
       check_rows(source, rows);
       return;

@@ -42,21 +42,27 @@ int main(int argc, char** argv) {
       Provenance::omit);
   tool.option("--checkpoint-every", o.checkpoint_every, "SECONDS", "of the clock on the wall", Provenance::omit);
   tool.option("-i,--input", o.input, "FILE", "stream to start from; - for standard input", Provenance::omit);
-  tool.option("-o,--output", o.output, "FILE", "stream to write; - for standard output", Provenance::omit);
+  tool.option("-o,--output", o.output, "FILE",
+              "stream to write; - for standard output. A file that is there is kept as FILE~", Provenance::omit);
   bool no_provenance = false;
-  tool.flag("--no-provenance", no_provenance, "do not record the ring's options in the frames", Provenance::omit);
-  tool.required_argument("PIPELINE", o.pipeline, "the stages, as one shell command, behind --");
+  tool.flag("--no-provenance", no_provenance, "do not record pipeline and options in the frames", Provenance::omit);
+  tool.argument(
+      "PIPELINE", o.pipeline,
+      "the stages, as one shell command, behind --; with --resume it may be left out: the stream's frames know "
+      "the pipeline that made them, and the --fps and --keep that go with it");
   tool.example("sheet-init bunny.toml | sheet-loop --until 2 --fps 24 -- 'sheet-step | sheet-collide' > run.sheet",
                "two seconds of a film");
-  tool.example("sheet-loop --resume run.sheet --until 4 --fps 24 -- 'sheet-step | sheet-collide'",
-               "two seconds more, or go on after an interruption");
+  tool.example("sheet-loop --resume run.sheet --until 4",
+               "two seconds more, or go on after an interruption, with the same stages");
   tool.example("sheet-loop --resume run.sheet --set tear.below='1 mm' --until 6 -- 'sheet-tear | sheet-step'",
                "and two more, in which thin places tear");
   tool.example("sheet-init a.toml | sheet-loop --steps 100 --keep 10 -- 'sheet-step --dt 0.001' > run.sheet",
                "a hundred steps, every tenth kept");
   int signal = 0;
-  const int code =
-      tool.run(argc, argv, [&] { signal = sheet::run_loop(o, no_provenance ? std::string() : tool.command_line()); });
+  const int code = tool.run(argc, argv, [&] {
+    o.provenance = !no_provenance;
+    signal = sheet::run_loop(o);
+  });
   if (signal != 0) { // die of it, so that a calling script stops too
     std::signal(signal, SIG_DFL);
     std::raise(signal);

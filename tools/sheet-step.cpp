@@ -33,8 +33,11 @@ int main(int argc, char** argv) {
        {"hinge-paper", sheet::Bending::hinge_paper}},
       "how bending is discretised, if the scene has bending: directors (converges on any mesh), hinges with the mean "
       "constant, hinges as the paper prints them");
-  tool.option("--failed", o.failed, "FILE", "where a frame goes whose step fails; '' for nowhere",
-              sheet::Tool::Provenance::omit);
+  o.failed = sheet::beside_run(o.failed);
+  tool.option(
+      "--failed", o.failed, "FILE",
+      "where a frame goes whose step fails, by default beside the stream that sheet-loop writes; '' for nowhere",
+      sheet::Tool::Provenance::omit);
   tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-step --tolerance 1e-3' > run.sheet",
                "two seconds, steps as the error asks for");
   tool.example("sheet-step --dt 0.01 < a.sheet > b.sheet", "one step");

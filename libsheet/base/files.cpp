@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -14,6 +15,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/file_lock.h"
 #include "libsheet/base/file_roles.h"
+#include "libsheet/base/log.h"
 #include "libsheet/base/named_files.h"
 
 namespace sheet {
@@ -72,11 +74,48 @@ OutputFile::~OutputFile() {
   else if (descriptor_ >= 0) // which whoever started this program may go on with
     unlock(descriptor_);
   release_file(path_, FileRole::output);
+  if (!earlier_.empty())
+    release_file(earlier_, FileRole::output);
+}
+
+bool OutputFile::has_content() const {
+  struct stat status {};
+  return path_ != "-" && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
+}
+
+void OutputFile::keep_earlier() {
+  if (!has_content())
+    return;
+  std::error_code error;
+  const auto real = std::filesystem::canonical(path_, error); // so that a link to the file stays one
+  earlier_ = (error ? path_ : real.string()) + "~";
+  claim_file(earlier_, FileRole::output);
+}
+
+// The file becomes the earlier one, and a new one takes its name and this descriptor.
+void OutputFile::put_aside() {
+  const std::string path = earlier_.substr(0, earlier_.size() - 1);
+  struct stat status {};
+  ::fstat(descriptor_, &status);
+  release_file(path_, FileRole::output);
+  release_file(earlier_, FileRole::output);
+  if (::rename(path.c_str(), earlier_.c_str()) != 0)
+    fail(ExitCode::io, "cannot keep {} as {}: {}; move it away, or write to another file", path_, earlier_,
+         std::strerror(errno));
+  const int fresh = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, status.st_mode & 07777);
+  if (fresh < 0 || ::dup3(fresh, descriptor_, O_CLOEXEC) < 0)
+    fail(ExitCode::io, "cannot open {} for writing: {}; what it had is in {}", path_, std::strerror(errno), earlier_);
+  ::close(fresh);
+  lock_for_writing(descriptor_, name_);
+  claim_file(path_, FileRole::output);
+  log::note("{} was there: it is kept as {}", path_, path == path_ ? path_ + "~" : earlier_);
 }
 
 void OutputFile::start() {
   if (std::exchange(started_, true) || path_ == "-")
     return;
+  if (!earlier_.empty())
+    return put_aside();
   struct stat status {};
   if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && ::ftruncate(descriptor_, 0) != 0)
     fail(ExitCode::io, "cannot empty {}: {}", path_, std::strerror(errno));

@@ -36,6 +36,10 @@ public:
   OutputFile& operator=(const OutputFile&) = delete;
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  // Whoever calls this before start() loses nothing: what the file has then, if it is a regular one and not empty,
+  // stays beside it under its name with "~" behind it, in the place of what had that name. Throws Error: usage (this
+  // program reads the file of that name), io at start().
+  void keep_earlier();
   // There is something to write: empties the file. Does nothing when called again.
   void start();
   // Starts, if need be; close() does, too.
@@ -43,7 +47,10 @@ public:
   void close();
 
 private:
-  std::string path_, name_;
+  [[nodiscard]] bool has_content() const;
+  void put_aside();
+
+  std::string path_, name_, earlier_; // earlier_: the name under which what is there is kept; "": it is not
   int descriptor_ = -1;
   bool started_ = false, created_ = false;
 };

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <climits>
 #include <cstdlib>
+#include <filesystem>
 
 #include <fmt/core.h>
 #include <malloc.h>
@@ -89,6 +90,13 @@ void run_filter(const Tool& tool, const FilterOptions& options, const std::funct
 }
 
 bool in_ring() { return std::getenv(report_descriptor_variable) != nullptr; }
+
+std::string beside_run(const std::string& name) {
+  const char* folder = std::getenv(run_folder_variable);
+  return folder == nullptr
+             ? name
+             : (std::filesystem::path(folder) / name).lexically_proximate(std::filesystem::current_path()).string();
+}
 
 void record_provenance(formats::Frame& frame, const std::string& line) {
   const formats::Array* old = frame.find("provenance");

@@ -28,6 +28,11 @@ inline constexpr const char* report_descriptor_variable = "SHEET_REPORT_FD";
 // Whether sheet-loop runs this program.
 [[nodiscard]] bool in_ring();
 
+// Environment variable by which sheet-loop tells its stages the folder of the stream that they make.
+inline constexpr const char* run_folder_variable = "SHEET_RUN_FOLDER";
+// Where a stage puts a file of this name that belongs to the run: beside the stream that sheet-loop writes, else here.
+[[nodiscard]] std::string beside_run(const std::string& name);
+
 // Counts `line` in the frame's provenance (formats/sheet.md, section 5).
 void record_provenance(formats::Frame& frame, const std::string& line);
 

@@ -19,6 +19,7 @@
 #include "libsheet/base/edit_distance.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/parallel.h"
+#include "libsheet/base/shell_words.h"
 #include "libsheet/base/version.h"
 
 namespace sheet {
@@ -343,19 +344,6 @@ std::string Tool::command_line() const {
     }
   }
   return line;
-}
-
-std::string shell_quoted(std::string_view word) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("_-./:=+,%@^").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain))
-    return std::string(word);
-  std::string quoted = "'";
-  for (const char c : word)
-    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 } // namespace sheet

@@ -110,7 +110,4 @@ private:
   std::size_t first_common_ = 0; // options_ from here on are those of every program
 };
 
-// The shell's quoting, where a word needs it: 'it'\''s'.
-[[nodiscard]] std::string shell_quoted(std::string_view word);
-
 } // namespace sheet

@@ -241,8 +241,8 @@ struct CollideStage::Impl {
       const SolidReport report = resolve_solids(path, *solids);
       if (report.unresolved > 0)
         teller.tell(frame, health::Trouble::close_to_solid, report.unresolved, report.unresolved_at,
-                    fmt::format("step {}: {} triangles come too close to solids (nothing to worry about once in a "
-                                "while; if it comes back step after step, take shorter steps or shorter edges)",
+                    fmt::format("step {}: {} triangles come too close to solids; if that comes back step after step, "
+                                "take shorter steps or shorter edges",
                                 frame.step, report.unresolved));
       totals.add(report);
       totals.released += off.size();
@@ -342,8 +342,8 @@ struct CollideStage::Impl {
     if (report.held_back > 0)
       teller.tell(frame, health::Trouble::held_back, report.held_back, report.held_at,
                   fmt::format("step {}: {} vertices on solids or held stay behind, or the sheet would pass through "
-                              "itself (nothing to worry about in a few steps; if it comes back step after step, solids "
-                              "or [[hold]]s leave the sheet too little room)",
+                              "itself; if that comes back step after step, solids or [[hold]]s leave the sheet too "
+                              "little room",
                               frame.step, report.held_back));
     totals.add(report);
     log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", frame.step, report.hits,

@@ -35,7 +35,10 @@ Marked marked(const Frame& frame, std::span<const std::uint64_t> bits, std::span
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = c[i], b = c[(i + 1) % 3];
       if (on_border(a) && on_border(b) && !m.sides.emplace(std::pair(a, b), t).second)
-        fail(ExitCode::bad_input, "edge ({}, {}) of the inlet: two triangles run along it in the same direction", a, b);
+        fail(
+            ExitCode::bad_input,
+            "edge ({}, {}) of the inlet: two triangles run along it in the same direction: turn the faces the same way",
+            a, b);
     }
     if (bits[c[0]] != 0 && bits[c[1]] != 0 && bits[c[2]] != 0) {
       std::sort(c.begin(), c.end());

@@ -65,7 +65,7 @@ constexpr std::array table{
          .counted = "vertices",
          .noted = {.worst = 1, .share = 0, .times = 1},
          .serious = {.worst = 1, .share = 0, .times = 20, .of_steps = 0.1},
-         .remedy = "nothing to do for a few steps; else give the sheet more room between solids and [[hold]]s, or "
+         .remedy = "if it goes on step after step: give the sheet more room between solids and [[hold]]s, or "
                    "shorter edges"},
     Kind{.trouble = Trouble::close_to_solid,
          .name = "triangles too close to solids",
@@ -75,7 +75,7 @@ constexpr std::array table{
          .counted = "triangles",
          .noted = {.worst = 1, .share = 0, .times = 1},
          .serious = {.worst = 1, .share = 0, .times = 20, .of_steps = 0.1},
-         .remedy = "nothing to do for a few steps; else shorter edges than the solids' details, or shorter steps"},
+         .remedy = "if it goes on step after step: shorter edges than the solids' details, or shorter steps"},
     Kind{.trouble = Trouble::not_converged,
          .name = "steps not converged",
          .least = false,

@@ -60,7 +60,9 @@ std::unique_ptr<KeptStream> KeptStream::resume(const std::string& path, Frame& l
 }
 
 std::unique_ptr<KeptStream> KeptStream::create(const std::string& path) {
-  return std::unique_ptr<KeptStream>(new KeptStream(std::make_unique<OutputFile>(path, OutputFile::Content::binary)));
+  auto file = std::make_unique<OutputFile>(path, OutputFile::Content::binary);
+  file->keep_earlier();
+  return std::unique_ptr<KeptStream>(new KeptStream(std::move(file)));
 }
 
 KeptStream::KeptStream(std::unique_ptr<OutputFile> file)

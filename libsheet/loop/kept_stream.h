@@ -19,6 +19,7 @@ public:
   // Reads what is there, and leaves the last whole frame in `last`. What is behind it is cut off before the first frame
   // is added.
   [[nodiscard]] static std::unique_ptr<KeptStream> resume(const std::string& path, formats::Frame& last);
+  // What the file has had stays beside it, as OutputFile::keep_earlier says.
   [[nodiscard]] static std::unique_ptr<KeptStream> create(const std::string& path);
   ~KeptStream();
   KeptStream(const KeptStream&) = delete;

@@ -21,11 +21,13 @@
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/named_files.h"
+#include "libsheet/base/shell_words.h"
 #include "libsheet/loop/health_watch.h"
 #include "libsheet/loop/kept_stream.h"
 #include "libsheet/loop/pipeline.h"
 #include "libsheet/loop/pipeline_end.h"
 #include "libsheet/loop/progress.h"
+#include "libsheet/loop/recorded_ring.h"
 #include "libsheet/loop/same_run.h"
 #include "libsheet/loop/signals.h"
 #include "libsheet/scene/change.h"
@@ -79,19 +81,9 @@ void stamp_next_output_time(Frame& frame, const LoopOptions& options) {
   put_number(frame, "next_output_time", next);
 }
 
-// The ring's provenance is one line, not one a round.
-void record_once(Frame& frame, const std::string& line) {
-  const formats::Array* array = frame.find("provenance");
-  if (line.empty() ||
-      (array != nullptr && ("\n" + std::string(array->text()) + "\n").find("\n1 " + line + "\n") != std::string::npos))
-    return;
-  record_provenance(frame, line);
-}
-
 class Ring {
 public:
-  Ring(const LoopOptions& options, const std::string& provenance_line)
-      : options_(options), keep_(parse_keep(options)), provenance_line_(provenance_line) {}
+  explicit Ring(const LoopOptions& options) : options_(options) {}
 
   int run() {
     start();
@@ -156,50 +148,86 @@ private:
       if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint))
         take_checkpoint();
       log::detail("going on with {} at step {}, t = {} s", options_.resume, frame_.step, frame_.time);
-      change_scene();
+      if (options_.pipeline.empty())
+        take_recorded_ring();
+      keep_ = parse_keep(options_);
+      record_scene_and_ring();
     } else {
       const InputFile input(options_.input);
       frame_ = read_last_frame(input);
       claim_checkpoint();
       output_ = KeptStream::create(options_.output);
-      change_scene();
-      record_once(frame_, provenance_line_);
+      keep_ = parse_keep(options_);
+      record_scene_and_ring();
       if (!keep_.last_only)
         first_ = frame_;
       kept_ = first_.has_value();
     }
-    record_once(frame_, provenance_line_);
     warn_of_missing_stages();
-    tell_stages_where_the_stream_is();
+    tell_stages_where_the_streams_are();
   }
 
-  // They read a pipe, and meshes that frames name may lie beside the stream.
-  void tell_stages_where_the_stream_is() const {
-    const std::string& stream = options_.resume.empty() ? options_.input : options_.resume;
-    if (stream != "-")
-      ::setenv(stream_folder_variable, std::filesystem::absolute(stream).parent_path().c_str(), 1);
+  // The pipeline that has made the stream, with the options that go with it but for those that are given.
+  void take_recorded_ring() {
+    const std::optional<RecordedRing> ring = recorded_ring(frame_);
+    if (!ring)
+      fail(ExitCode::usage,
+           "{} does not tell the pipeline that made it: give the stages behind --, as in -- "
+           "'sheet-remesh | sheet-step'",
+           options_.resume);
+    options_.pipeline = ring->pipeline;
+    if (!options_.fps)
+      options_.fps = ring->fps;
+    if (options_.keep.empty())
+      options_.keep = ring->keep;
+    check(options_);
+    log::note("the ring is that of {}: {}{}-- {}", options_.resume,
+              options_.fps ? fmt::format("--fps {} ", *options_.fps) : "",
+              options_.keep.empty() ? "" : fmt::format("--keep {} ", options_.keep), shell_quoted(options_.pipeline));
   }
 
-  // By --set. The frame from which the new scene counts stands in the provenance; a run that is gone on with by the
-  // same command has it already.
-  void change_scene() {
-    if (options_.sets.empty())
+  // A run that is gone on with by the same ring has it in its record already.
+  void record_scene_and_ring() {
+    const bool changed = change_scene();
+    const RecordedRing ring{without_threads(options_.pipeline), options_.fps, options_.keep};
+    if (!options_.provenance)
       return;
-    const std::string line = std::exchange(provenance_line_, {});
+    if (changed)
+      record_change(frame_, ring, options_.sets);
+    else
+      record_ring(frame_, ring);
+  }
+
+  // They read a pipe, and meshes that frames name may lie beside the stream, as what belongs to the run shall.
+  void tell_stages_where_the_streams_are() const {
+    const auto tell = [](const char* variable, const std::string& stream) {
+      if (stream != "-")
+        ::setenv(variable, std::filesystem::absolute(stream).parent_path().c_str(), 1);
+    };
+    tell(stream_folder_variable, options_.resume.empty() ? options_.input : options_.resume);
+    if (const std::string& made = stream_path(); std::filesystem::is_regular_file(made)) // and no device
+      tell(run_folder_variable, made);
+  }
+
+  // By --set; false if nothing changes, as in a run that is gone on with by the same command.
+  bool change_scene() {
+    if (options_.sets.empty())
+      return false;
     const formats::Array* old = frame_.find("scene");
     if (old == nullptr)
       fail(ExitCode::usage, "--set: the frame has no scene to change");
     if (frame_.step == 0)
       fail(ExitCode::usage, "--set: the run has not begun; give --set to sheet-init");
     const std::string scene = scene::changed_scene(old->text(), options_.sets, frame_.time);
-    if (scene == old->text())
-      return log::detail("the scene is as --set wants it");
+    if (scene == old->text()) {
+      log::detail("the scene is as --set wants it");
+      return false;
+    }
     if (done())
       fail(ExitCode::usage, "--set: the run is at its end, step {}, t = {} s; give a later --until, or more --steps",
            frame_.step, frame_.time);
     frame_.put_text("scene", scene);
-    if (!line.empty())
-      record_provenance(frame_, fmt::format("{} # from step {}, t = {} s", line, frame_.step, frame_.time));
+    return true;
   }
 
   // What the scene says and no stage does would go wrong silently.
@@ -328,13 +356,18 @@ private:
     }
   }
 
+  // Where the stream that is made goes.
+  [[nodiscard]] const std::string& stream_path() const {
+    return options_.resume.empty() ? options_.output : options_.resume;
+  }
+
   // How to go on, for messages.
   [[nodiscard]] std::string whereabouts() const {
     std::string text = fmt::format("step {}, t = {} s; ", frame_.step, frame_.time);
     if (first_)
       return text + "nothing was written";
     text += fmt::format("{} whole frames kept", output_->frames());
-    const std::string& path = options_.resume.empty() ? options_.output : options_.resume;
+    const std::string& path = stream_path();
     text +=
         path == "-" ? "; go on with --resume FILE if they are in one" : fmt::format("; go on with --resume {}", path);
     return text;
@@ -418,7 +451,6 @@ private:
 
   LoopOptions options_;
   Keep keep_;
-  std::string provenance_line_;
   std::unique_ptr<KeptStream> output_;
   std::optional<Frame> first_; // not yet written
   Frame frame_, back_;         // the newest state; the one that comes back (after a round: the one before)
@@ -443,10 +475,12 @@ void check(const LoopOptions& options) {
     fail(ExitCode::usage, "--steps: {} is negative", *options.steps);
   if (!options.until && !options.steps)
     fail(ExitCode::usage, "when does it end? give --until SECONDS or --steps N");
-  if (options.pipeline.find_first_not_of(" \t\n") == std::string::npos)
+  if (options.resume.empty() && options.pipeline.find_first_not_of(" \t\n") == std::string::npos)
     fail(ExitCode::usage, "no pipeline: give the stages behind --, as in -- 'sheet-remesh | sheet-step'");
   if (!options.resume.empty() && (options.input != "-" || options.output != "-"))
     fail(ExitCode::usage, "--resume FILE is input and output at once: give neither INPUT nor -o with it");
+  if (options.pipeline.empty()) // the stream tells it, and the options that go with it
+    return;
   [[maybe_unused]] const Keep keep = parse_keep(options);
   [[maybe_unused]] const std::vector<std::string> stages = split_pipeline(options.pipeline);
 }
@@ -460,9 +494,9 @@ double next_output_time(double time, double fps) {
   return k / fps;
 }
 
-int run_loop(const LoopOptions& options, const std::string& provenance_line) {
+int run_loop(const LoopOptions& options) {
   check(options);
-  return Ring(options, provenance_line).run();
+  return Ring(options).run();
 }
 
 } // namespace sheet

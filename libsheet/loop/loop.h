@@ -9,7 +9,7 @@
 namespace sheet {
 
 struct LoopOptions {
-  std::string pipeline;              // shell command: the stages, joined by pipes
+  std::string pipeline;              // shell command: the stages, joined by pipes; "" with resume: the stream's own
   std::string input = "-";           // stream whose last frame is the start
   std::string output = "-";          // stream of the frames kept
   std::string resume;                // stream to go on with, instead of input and output
@@ -20,6 +20,7 @@ struct LoopOptions {
   std::string keep;             // "output" | "last" | a number n, for every n-th step; "" is output with fps, else 1
   std::string checkpoint;       // file that always holds the newest frame as a stream of its own
   double checkpoint_every = 60; // [s] of the clock on the wall
+  bool provenance = true;       // record the ring in the frames
 };
 
 // Checks the options against each other. Throws Error (usage), naming the option.
@@ -30,7 +31,7 @@ void check(const LoopOptions& options);
 // be written; what changed_scene throws. In each case the output holds whole frames only, and the message says where it
 // ended and how to go on.
 // Returns 0, or the number of the signal (SIGINT, SIGTERM) that ended the run in good order.
-[[nodiscard]] int run_loop(const LoopOptions& options, const std::string& provenance_line);
+[[nodiscard]] int run_loop(const LoopOptions& options);
 
 // The k-th output time k/fps that comes after `time` [s]; a time that is one itself does not count.
 [[nodiscard]] double next_output_time(double time, double fps);

@@ -10,7 +10,9 @@
 #include "libsheet/flow/emit.h"
 #include "libsheet/flow/tear.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/box.h"
 #include "libsheet/geometry/capped_volume.h"
+#include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/remesh/mesh.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/build.h"
@@ -35,12 +37,25 @@ double area_of(const Frame& frame) {
 
 constexpr double place_rounding = 1e-9; // of its norm
 
+// A wrong scale that would explain why the sheet and that solid are in each other's way; "" if none would.
+std::string scale_in_doubt(const Scene& scene, const solid::Solids& solids, std::size_t i, const Frame& frame) {
+  Box box;
+  for (const Vector3& x : positions(frame))
+    box.add(x);
+  std::string hint;
+  if (std::holds_alternative<scene::SheetMesh>(scene.sheets.front().shape))
+    hint = hint_of_scale("the sheet", box.diagonal());
+  if (hint.empty() && std::holds_alternative<scene::SolidMesh>(scene.solids[i].shape))
+    hint = hint_of_scale(solids.name(i), solids.shape(i).bounds().diagonal().norm());
+  return hint.empty() ? hint : " (" + hint + ")";
+}
+
 // A triangle, all corners of which are outside, that reaches into a solid between them.
-void check_triangle_outside(const solid::Solids& solids, std::size_t i, double time, const Frame& frame,
+void check_triangle_outside(const Scene& scene, const solid::Solids& solids, std::size_t i, const Frame& frame,
                             std::size_t t) {
   const auto x = positions(frame);
   const Corners& c = triangles(frame)[t];
-  const Eigen::Isometry3d pose = solids.pose(i, time), to_own = pose.inverse();
+  const Eigen::Isometry3d pose = solids.pose(i, frame.time), to_own = pose.inverse();
   const solid::Triangle3 own{to_own * x[c[0]], to_own * x[c[1]], to_own * x[c[2]]};
   const Eigen::Vector3d middle = (own[0] + own[1] + own[2]) / 3;
   double reach = 0;
@@ -53,8 +68,8 @@ void check_triangle_outside(const solid::Solids& solids, std::size_t i, double t
   if (near.distance < -place_rounding * place.norm())
     fail(ExitCode::bad_input,
          "the sheet starts across {}: triangle {} at ({:g}, {:g}, {:g}) m lies {:.2g} m under its surface, though its "
-         "corners do not; move one of them, or take shorter edges",
-         solids.name(i), t, place.x(), place.y(), place.z(), -near.distance);
+         "corners do not; move one of them, or take shorter edges{}",
+         solids.name(i), t, place.x(), place.y(), place.z(), -near.distance, scale_in_doubt(scene, solids, i, frame));
 }
 
 // What is held, or stands in the inlet, may begin in a nozzle or a clamp.
@@ -71,11 +86,11 @@ void check_outside_solids(const Scene& scene, const Frame& frame) {
           distance < -place_rounding * x[v].norm())
         fail(ExitCode::bad_input,
              "the sheet starts inside {}: vertex {} at ({:g}, {:g}, {:g}) m lies {:.2g} m under its surface; move one "
-             "of them",
-             solids.name(i), v, x[v].x(), x[v].y(), x[v].z(), -distance);
+             "of them{}",
+             solids.name(i), v, x[v].x(), x[v].y(), x[v].z(), -distance, scale_in_doubt(scene, solids, i, frame));
     for (std::size_t t = 0; t < frame.triangles; ++t)
       if (std::ranges::all_of(triangles(frame)[t], is_free))
-        check_triangle_outside(solids, i, frame.time, frame, t);
+        check_triangle_outside(scene, solids, i, frame, t);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/plan/blow_up.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/sheet/sheet.h"
@@ -82,6 +83,23 @@ double rounded(double value) {
   return std::stod(fmt::format("{:.2g}", std::ceil(value / unit) * unit));
 }
 
+// The same, not above the value.
+double rounded_down(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::stod(fmt::format("{:.2g}", std::floor(value / unit) * unit));
+}
+
+constexpr double before_blow_up = 0.9; // of the time to it
+
+std::string word_of_blow_up(const Scene& scene) {
+  const auto end = blow_up_time(scene);
+  return end ? fmt::format(
+                   "  The pressure blows the sheet up, to any size, within about {:.2g} s: end before, at {:.2g} s or "
+                   "so.\n",
+                   *end, before_blow_up * *end)
+             : "";
+}
+
 // The nearest of 1, 2, 5, 10, ... below.
 double round_number(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)));
@@ -150,24 +168,27 @@ double landing_thickness(const Scene& scene, const Frame& first) {
   return least;
 }
 
-ProposedRing proposed_ring(const Scene& scene, const Frame& first, Quality quality) {
-  const double until = until_of(scene, first);
-  return {.until = until, .fps = rate_of(until), .stages = pipeline_at(scene, quality)};
+ProposedRing proposed_ring(const Scene& scene, const Frame& first, const RingWishes& wishes) {
+  double until = until_of(scene, first);
+  if (const auto end = blow_up_time(scene))
+    until = std::min(until, rounded_down(before_blow_up * *end));
+  until = wishes.until.value_or(until);
+  return {.until = until, .fps = wishes.fps.value_or(rate_of(until)), .stages = pipeline_at(scene, wishes.quality)};
 }
 
-std::string ring_text(const Scene& scene, const Frame& first, Quality quality, const std::string& init) {
-  const ProposedRing ring = proposed_ring(scene, first, quality);
+std::string ring_text(const Scene& scene, const Frame& first, const RingWishes& wishes, const std::string& init) {
+  const ProposedRing ring = proposed_ring(scene, first, wishes);
   return fmt::format(
-             "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:g} "
-             "--fps {:g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
+             "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:.10g} "
+             "--fps {:.10g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
              "is below {:g} of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
-             init, ring.until, ring.fps, ring.stages, mean_edge_of(first), tolerance_at(quality)) +
-         finer_folds(scene, first);
+             init, ring.until, ring.fps, ring.stages, mean_edge_of(first), tolerance_at(wishes.quality)) +
+         word_of_blow_up(scene) + finer_folds(scene, first);
 }
 
-std::string ring_lines(const Scene& scene, const Frame& first, Quality quality, const std::string& init) {
-  const ProposedRing ring = proposed_ring(scene, first, quality);
-  return fmt::format("first {}\nuntil {:g}\nfps {:g}\nstages {}\n", init, ring.until, ring.fps, ring.stages);
+std::string ring_lines(const Scene& scene, const Frame& first, const RingWishes& wishes, const std::string& init) {
+  const ProposedRing ring = proposed_ring(scene, first, wishes);
+  return fmt::format("first {}\nuntil {:.10g}\nfps {:.10g}\nstages {}\n", init, ring.until, ring.fps, ring.stages);
 }
 
 } // namespace sheet

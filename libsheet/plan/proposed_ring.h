@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ring that `sheet-init --check` proposes: its stages, with lengths and times from the scene.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "formats/cpp/stream_frame.h"
@@ -21,14 +22,20 @@ struct ProposedRing {
   double fps;         // frames to keep [1/s]
   std::string stages; // joined by pipes
 };
-// `first`: the scene's first frame, at that quality.
-[[nodiscard]] ProposedRing proposed_ring(const Scene& scene, const formats::Frame& first, Quality quality);
+// What the user has settled.
+struct RingWishes {
+  Quality quality = Quality::normal;
+  std::optional<double> until, fps;
+};
+// `first`: the scene's first frame, at that quality. A run that would blow up ends at nine tenths of the time to it
+// (blow_up.h), unless the user wishes otherwise.
+[[nodiscard]] ProposedRing proposed_ring(const Scene& scene, const formats::Frame& first, const RingWishes& wishes);
 
 // The same as commands to paste, and what they compute with. `init` is the command that makes the first frame.
-[[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& first, Quality quality,
+[[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& first, const RingWishes& wishes,
                                     const std::string& init);
 // The same for a program: lines "first INIT", "until SECONDS", "fps FPS", "stages PIPELINE".
-[[nodiscard]] std::string ring_lines(const Scene& scene, const formats::Frame& first, Quality quality,
+[[nodiscard]] std::string ring_lines(const Scene& scene, const formats::Frame& first, const RingWishes& wishes,
                                      const std::string& init);
 
 } // namespace sheet

@@ -27,6 +27,9 @@ struct MirrorPlane {
   double size; // of what lies in it [m]
 
   [[nodiscard]] bool along(const Vector3d& v) const { return std::abs(v.dot(normal)) <= rounding * v.norm(); }
+  [[nodiscard]] bool turns_in_itself(const Vector3d& angular) const {
+    return normal.cross(angular).norm() <= rounding * angular.norm();
+  }
   [[nodiscard]] Vector3d mirrored(const Vector3d& v) const { return v - 2 * v.dot(normal) * normal; }
 };
 
@@ -91,7 +94,7 @@ bool meets_mirror_images(const Scene& scene, const MirrorPlane& plane, const for
 
 bool moves_along(const Scene& scene, const MirrorPlane& plane) {
   const auto sheet_is_quiet = [&](const scene::SheetTable& sheet) {
-    return plane.along(sheet.velocity) && !sheet.enters &&
+    return plane.along(sheet.velocity) && plane.turns_in_itself(sheet.angular_velocity) && !sheet.enters &&
            std::ranges::all_of(sheet.perturbations, &scene::Perturbation::of_thickness);
   };
   const auto inflow_is_quiet = [&](const scene::Inflow& inflow) {

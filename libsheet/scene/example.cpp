@@ -68,10 +68,12 @@ thickness = "10 mm"
 # "xy", "xz" or "yz"; by default horizontal, as gravity says.
 plane = "xz"
 
-# Where its middle is (a cap's: that of its sphere), how it is turned, how fast it moves at the start.
+# Where its middle is (a cap's: that of its sphere), how it is turned, how fast it moves at the start, and turns about its
+# center: angular_velocity points along the axis.
 center = [0, 0, 0]
 rotation = {axis = [0, 1, 0], angle = "0 deg"}
 velocity = [0, 0, 0]
+angular_velocity = [0, "0 rpm", 0]
 
 # Several sheets: [[sheet]] in place of [sheet], once for each. name = "lid" lets a [[hold]] and an [inflow] speak of one of
 # them, sheet = "lid"; enters = "2 s" lets it come in at that time (not the first one).
@@ -197,7 +199,8 @@ center = [0, "-0.3 m", 0]
 #radius = "0.05 m"
 #length = "0.4 m"
 #center = [0, -0.4, 0]
-#motion = {kind = "translating", velocity = [0.4, 0, 0]}
+# Short for a translating motion; angular_velocity = [0, "10 rpm", 0] is for one that rotates about the center.
+#velocity = [0.4, 0, 0]
 
 #[[solid]]
 #shape = "cylinder"

@@ -42,6 +42,27 @@ Motion read_motion(TableReader& parent, const Vector3d& center, const Files& fil
   return motion;
 }
 
+Motion read_motion_or_velocity(TableReader& parent, const Vector3d& center, const Files& files) {
+  const Motion motion = read_motion(parent, center, files);
+  const auto velocity = parent.timed_velocity("velocity");
+  const auto angular = parent.vector("angular_velocity", quantity::turning_rate);
+  const bool led = !parent.absent("motion"), moves = !parent.absent("velocity");
+  if (led && moves)
+    parent.wrong("velocity", "it is short for a motion, which is there too: give one of them");
+  if (led && !parent.absent("angular_velocity"))
+    parent.wrong("angular_velocity", "it is short for a motion, which is there too: give one of them");
+  if (!led && moves && !parent.absent("angular_velocity"))
+    parent.wrong("angular_velocity", "what moves and turns at once is led through places and rotations: motion = {kind "
+                                     "= \"keyframed\", ...}; or give one of velocity and angular_velocity");
+  if (led)
+    return motion;
+  if (velocity)
+    return Translating{*velocity};
+  if (angular && !angular->isZero(0))
+    return Rotating{*angular, center, {{{0, angular->stableNorm()}}}};
+  return Fixed{};
+}
+
 WhichSheet read_which_sheet(TableReader& table, std::span<const SheetTable> sheets, bool any) {
   const auto name = table.text("sheet");
   if (!name) {

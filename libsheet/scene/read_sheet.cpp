@@ -244,6 +244,7 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
   sheet.center = table.vector("center", quantity::length).value_or(Vector3d::Zero());
   sheet.rotation = read_rotation(table);
   sheet.velocity = table.vector("velocity", quantity::velocity).value_or(Vector3d::Zero());
+  sheet.angular_velocity = table.vector("angular_velocity", quantity::turning_rate).value_or(Vector3d::Zero());
   sheet.enters = table.quantity("enters", quantity::time, Bound::positive);
   if (sheet.enters && std::holds_alternative<SheetMesh>(sheet.shape)) // its file would have to travel with the stream
     table.wrong("enters", "a sheet from a mesh file is there from the start; a shape can enter");

@@ -213,7 +213,7 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
          {"radius", "size", "length", "height", "normal", "file", "scale", "voxel_size", "checksum", "rotation"})
       table.take(key); // judged when the shape is known
   }
-  solid.motion = read_motion(table, solid.center, files);
+  solid.motion = read_motion_or_velocity(table, solid.center, files);
   put_at_keyframes(table, solid);
   solid.surface_velocity = table.vector("surface_velocity", quantity::velocity).value_or(Vector3d::Zero());
   read_contact_with(table, solid);

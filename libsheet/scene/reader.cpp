@@ -171,6 +171,11 @@ std::optional<std::size_t> TableReader::choice(std::string_view key, std::span<c
   return {};
 }
 
+namespace {
+bool is_finite(double value) { return std::isfinite(value); }
+bool is_finite(const Eigen::Vector3d& value) { return value.allFinite(); }
+} // namespace
+
 template <class T, class ReadRow>
 std::optional<Timed<T>> TableReader::rows(const Node& list, std::string_view key, std::size_t width, ReadRow read_row) {
   Timed<T> result;
@@ -187,6 +192,14 @@ std::optional<Timed<T>> TableReader::rows(const Node& list, std::string_view key
     if (!result.entries.empty() && *time <= result.entries.back().time) {
       problems_.add(row.place, fmt::format("{}: times must increase, but {} s follows {} s", key, shortest(*time),
                                            shortest(result.entries.back().time)));
+      return {};
+    }
+    if (!result.entries.empty() &&
+        !is_finite((*value - result.entries.back().value) / (*time - result.entries.back().time))) {
+      problems_.add(row.place,
+                    fmt::format("{}: from the row before it changes so much in {} s that the change a second is "
+                                "beyond the range of numbers",
+                                key, shortest(*time - result.entries.back().time)));
       return {};
     }
     result.entries.push_back({*time, *value});

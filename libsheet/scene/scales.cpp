@@ -75,8 +75,10 @@ Scales scales_of(const Scene& scene, const Measured& measured) {
   for (const Inflow& inflow : scene.inflows)
     for (const auto& entry : inflow.velocity.entries)
       offer(scales, entry.value.norm(), "inflow");
-  for (const SheetTable& each : scene.sheets)
+  for (const SheetTable& each : scene.sheets) {
     offer(scales, each.velocity.norm(), "the sheet's velocity at the start");
+    offer(scales, each.angular_velocity.norm() * scales.length.value_or(0), "the sheet's turning at the start");
+  }
   for (const Hold& hold : scene.holds)
     offer(scales, hold.motion, "a moving hold");
   for (const Solid& solid : scene.solids) {

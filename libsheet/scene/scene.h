@@ -114,8 +114,9 @@ struct SheetTable {
   Plane plane = Plane::xz;
   Vector3d center = Vector3d::Zero(); // of the shape (cap: of its sphere; mesh: where the file's origin goes)
   std::optional<Rotation> rotation;
-  Vector3d velocity = Vector3d::Zero(); // at the start
-  std::optional<double> enters;         // it is there from this time on [s]; absent: from the start
+  Vector3d velocity = Vector3d::Zero();         // at the start [m/s]
+  Vector3d angular_velocity = Vector3d::Zero(); // likewise, about the center [rad/s]
+  std::optional<double> enters;                 // it is there from this time on [s]; absent: from the start
   bool operator==(const SheetTable&) const = default;
 };
 

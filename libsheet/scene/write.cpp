@@ -161,6 +161,7 @@ void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) 
   out.line_unless_zero("center", sheet.center);
   write_rotation(out, sheet.rotation);
   out.line_unless_zero("velocity", sheet.velocity);
+  out.line_unless_zero("angular_velocity", sheet.angular_velocity);
   out.line("enters", sheet.enters);
 }
 

@@ -191,10 +191,11 @@ formats::Frame build_sheet(const Scene& scene, std::size_t number) {
       fail(ExitCode::bad_input, "triangle {} of the sheet has no area: repair the mesh first", t);
   }
   formats::Frame frame = make_frame(mesh.positions, mesh.triangles, volumes);
-  if (!mesh.velocities.empty() || table.velocity != Vector3d::Zero()) {
+  if (!mesh.velocities.empty() || table.velocity != Vector3d::Zero() || table.angular_velocity != Vector3d::Zero()) {
     const std::span<Vector3d> v = velocities(frame);
     for (std::size_t i = 0; i < v.size(); ++i)
-      v[i] = table.velocity + (mesh.velocities.empty() ? Vector3d::Zero() : mesh.velocities[i]);
+      v[i] = table.velocity + table.angular_velocity.cross(mesh.positions[i] - table.center) +
+             (mesh.velocities.empty() ? Vector3d::Zero() : mesh.velocities[i]);
   }
   if (!scene.holds.empty())
     std::copy(holds.begin(), holds.end(), put_masks(frame, "hold").begin());

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 
 #include "libsheet/base/error.h"
 #include "libsheet/geometry/box_tree.h"
+#include "libsheet/geometry/coincident.h"
 #include "libsheet/geometry/triangle_pair.h"
 
 namespace sheet::solid {
@@ -34,19 +34,32 @@ void check_points(const SolidSurface& surface, const std::string& name) {
   }
 }
 
-// Whether each of these points is as good as another one.
-bool lie_on_each_other(std::vector<Vector3> points) {
+// How many of these points are as good as another one.
+std::size_t lie_on_each_other(const std::vector<Vector3>& points) {
   Box3 box;
   for (const Vector3& x : points)
     box.extend(x);
-  const double close = 1e-6 * box.diagonal().norm();
-  std::ranges::sort(points, {}, [](const Vector3& x) { return x.x(); });
-  std::vector<bool> paired(points.size(), false);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = i + 1; j < points.size() && points[j].x() - points[i].x() <= close; ++j)
-      if ((points[j] - points[i]).norm() <= close)
-        paired[i] = paired[j] = true;
-  return std::ranges::all_of(paired, std::identity());
+  constexpr double close = 1e-6; // of the whole
+  return static_cast<std::size_t>(std::ranges::count(coincident(points, close * box.diagonal().norm()), true));
+}
+
+// Fails if there are open edges, with these middles, the first at `where`.
+void refuse_open(const std::vector<Vector3>& middles, const std::string& where, const std::string& name) {
+  if (middles.empty())
+    return;
+  const std::size_t open = middles.size(), together = lie_on_each_other(middles);
+  if (together == open)
+    fail(ExitCode::bad_input,
+         "{}: the surface is open along {} edges that lie on each other, the first at {}: weld its vertices (merge "
+         "those at the same place)",
+         name, open, where);
+  if (together > 0)
+    fail(ExitCode::bad_input,
+         "{}: the surface is open along {} edges, the first at {}; {} of them lie on each other: weld its vertices "
+         "(merge those at the same place), and close the holes that remain",
+         name, open, where, together);
+  fail(ExitCode::bad_input, "{}: the surface is open along {} edges, the first at {}; close its holes", name, open,
+       where);
 }
 
 // The neighbour of each triangle across each side; fails where a side has not exactly one.
@@ -65,13 +78,12 @@ std::vector<std::array<std::uint32_t, 3>> check_closed(const SolidSurface& surfa
              name, at(a, b));
     }
   std::vector<std::array<std::uint32_t, 3>> neighbours(surface.triangles.size());
-  std::size_t open = 0;
   std::string where;
   std::vector<Vector3> middles; // of open edges
   for (const auto& [side, t] : sides) {
     const auto other = sides.find({side.second, side.first});
     if (other == sides.end()) {
-      if (open++ == 0)
+      if (middles.empty())
         where = at(side.first, side.second);
       middles.emplace_back((surface.points[side.first] + surface.points[side.second]) / 2);
       continue;
@@ -80,15 +92,7 @@ std::vector<std::array<std::uint32_t, 3>> check_closed(const SolidSurface& surfa
       if (surface.triangles[t][i] == side.first)
         neighbours[t][i] = other->second;
   }
-  if (open > 0 && lie_on_each_other(std::move(middles)))
-    fail(ExitCode::bad_input,
-         "{}: the surface is open along {} edges that lie on each other, the first at {}: weld its vertices (merge "
-         "those "
-         "at the same place)",
-         name, open, where);
-  if (open > 0)
-    fail(ExitCode::bad_input, "{}: the surface is open along {} edges, the first at {}; close its holes", name, open,
-         where);
+  refuse_open(middles, where, name);
   return neighbours;
 }
 
@@ -149,9 +153,9 @@ std::vector<double> check_volumes(const SolidSurface& surface, const std::vector
   return volumes;
 }
 
-// Parts face outward, those inside another one inward: the walls of hollows.
-void check_sides(const SolidSurface& surface, const std::vector<Triangles>& parts, const std::vector<double>& volumes,
-                 const std::string& name) {
+// Parts face outward, those inside another one inward: the walls of hollows. What is wrong with that; "" if nothing is.
+std::string fault_of_sides(const SolidSurface& surface, const std::vector<Triangles>& parts,
+                           const std::vector<double>& volumes) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Vector3& x = surface.points[surface.triangles[parts[i].front()][0]];
     double around = 0; // of the others, whichever way they face
@@ -160,14 +164,13 @@ void check_sides(const SolidSurface& surface, const std::vector<Triangles>& part
         around += std::abs(winding(surface, parts[k], x));
     const bool hollow = std::lround(around) % 2 == 1;
     if (hollow && volumes[i] > 0)
-      fail(ExitCode::bad_input,
-           "{}: the part at {} lies inside another one and faces outward, as it does; take it away, or turn its "
-           "triangles "
-           "round if it is the wall of a hollow",
-           name, written(x));
+      return fmt::format("the part at {} lies inside another one and faces outward, as it does; take it away, or turn "
+                         "its triangles round if it is the wall of a hollow",
+                         written(x));
     if (hollow != (volumes[i] < 0))
-      fail(ExitCode::bad_input, "{}: the surface at {} is inside out; turn its triangles round", name, written(x));
+      return fmt::format("the surface at {} is inside out; turn its triangles round", written(x));
   }
+  return {};
 }
 
 void check_simple(const SolidSurface& surface, const std::string& name) {
@@ -203,9 +206,11 @@ void check_surface(const SolidSurface& surface, const std::string& name, bool si
   check_points(surface, name);
   const std::vector<Triangles> parts = parts_of(check_closed(surface, name));
   const std::vector<double> volumes = check_volumes(surface, parts, name);
-  if (!simple)
+  const std::string fault = fault_of_sides(surface, parts, volumes);
+  if (!simple || !fault.empty()) // what intersects itself has no sides
     check_simple(surface, name);
-  check_sides(surface, parts, volumes, name);
+  if (!fault.empty())
+    fail(ExitCode::bad_input, "{}: {}", name, fault);
 }
 
 } // namespace sheet::solid

@@ -165,7 +165,8 @@ private:
     fail(
         ExitCode::not_converged,
         "the steps have come down to nothing at t = {} s: the sheet changes faster and faster there, most at vertex {} "
-        "({:.4g}, {:.4g}, {:.4g}) m; the flow may have no later state (a film that bursts), else remeshing helps",
+        "({:.4g}, {:.4g}, {:.4g}) m; the flow may have no later state (a film that bursts), else shorter edges there "
+        "may help",
         state_.time, best_->worst, x.x(), x.y(), x.z());
   }
 

@@ -228,7 +228,7 @@ struct StepStage::Impl {
     teller.tell(
         frame, {.trouble = health::Trouble::above_tolerance, .value = report.error, .place = x},
         fmt::format("step {}: its error is about {:.2g} of an edge length, above the tolerance, at vertex {} ({:.4g}, "
-                    "{:.4g}, {:.4g}) m: no step from t = {:.6g} s keeps to it; remeshing helps",
+                    "{:.4g}, {:.4g}) m: no step from t = {:.6g} s keeps to it; shorter edges there may help",
                     frame.step + 1, report.error, report.worst, x.x(), x.y(), x.z(), frame.time));
   }
 };

@@ -59,6 +59,35 @@ prepare_files() {
   [[ $("$SHEET_SOURCE/tests/cli/doc_commands.py" "$SHEET_SOURCE/README.md" | wc -l) -ge 6 ]]
 }
 
+@test "the quickstart builds every program, and Blender's add-on" {
+  mkdir -p clone/{pipelines/bunny,tests,bin}
+  cp "$SHEET_SOURCE/pipelines/quickstart" clone/pipelines/
+  ln -s "$SHEET_SOURCE/tools" clone/
+  for program in clone/{pipelines/bunny/run,tests/install,bin/cmake}; do
+    printf '#!/bin/sh\necho "$@"\n' > "$program"
+    chmod +x "$program"
+  done
+  PATH=$PWD/clone/bin:$PATH clone/pipelines/quickstart > told
+  targets=" $(sed -n 's/^--build .*--target //p' told) "
+  for program in "$SHEET_BUILD"/bin/sheet-*; do
+    [[ $targets == *" ${program##*/} "* ]]
+  done
+  [[ $targets == *' blender_add_on '* ]]
+  grep -q "^  export PATH=.*/clone/build/bin:" told
+}
+
+@test "README's commands run in a shell that knows nothing of the programs" {
+  ln -s "$SHEET_BUILD" build
+  prepare_files
+  {
+    grep -m1 '^    export PATH=' "$SHEET_SOURCE/README.md"
+    echo 'set -eo pipefail'
+    "$SHEET_SOURCE/tests/cli/doc_commands.py" "$SHEET_SOURCE/README.md" | grep -v '^sheet-run\|ffmpeg'
+  } > commands
+  grep -q "sheet-emit" commands
+  env -i HOME="$HOME" PATH=/usr/bin:/bin bash commands
+}
+
 @test "23: every example of every program's help runs" {
   local program told=0
   for program in "$SHEET_BUILD"/bin/sheet-*; do

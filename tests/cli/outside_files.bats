@@ -151,9 +151,49 @@ full() {
   sheet-export large.sheet --format obj -o - | cmp - out/real.obj
 }
 
-@test "19: a step that does not converge says so, also where nothing can be written" {
+@test "sheet-loop -o keeps an earlier run beside it, once the ring runs" {
+  sheet-loop -q -i a.sheet --steps 1 -o run.sheet -- sheet-pass
+  cp run.sheet earlier.sheet
+  run -2 sheet-loop -i a.sheet --steps 2 -o run.sheet -- nonesuch
+  cmp run.sheet earlier.sheet
+  [[ ! -e run.sheet~ ]]
+  ln -s run.sheet link.sheet
+  sheet-loop -i a.sheet --steps 2 -o link.sheet -- sheet-pass 2> log
+  [[ $(grep -c 'link.sheet was there: it is kept as .*run.sheet~' log) == 1 ]]
+  cmp run.sheet~ earlier.sheet
+  [[ -L link.sheet && $(sheet-print run.sheet | grep -c '^frame$') == 3 ]]
+  # what is read is no place for it, and an empty file is nothing to keep
+  keeps run.sheet~ 2 sheet-loop -i run.sheet~ --steps 1 -o run.sheet -- sheet-pass
+  true > empty.sheet
+  sheet-loop -q -i a.sheet --steps 1 -o empty.sheet -- sheet-pass
+  [[ ! -e empty.sheet~ ]]
+  sheet-loop -q -i a.sheet --steps 1 -o run.sheet -- sheet-pass
+  cmp run.sheet earlier.sheet
+}
+
+# usage: make_wild: wild.sheet, which no step can take.
+make_wild() {
   sheet-print a.sheet | sed '/^array volume /i array velocity vertex float64 3 m/s interpolate\n1e29 0 0\n-1e29 0 0\n0 1e29 0\n0 0 1e29' |
     sheet-parse > wild.sheet
+}
+
+@test "a step that fails leaves its frame beside the run, and says where" {
+  make_wild
+  mkdir runs
+  run -5 timeout 60 sheet-loop --steps 2 -i wild.sheet -o runs/run.sheet -- 'sheet-step --dt 0.01'
+  [[ $output == *'the frame before it is in runs/failed-step.sheet'* ]]
+  rm runs/failed-step.sheet # there it was
+  cp wild.sheet runs/resumed.sheet
+  run -5 timeout 60 sheet-loop --steps 2 --resume runs/resumed.sheet -- 'sheet-step --dt 0.01'
+  rm runs/failed-step.sheet
+  run -5 timeout 60 sheet-loop --steps 2 -i wild.sheet -o /dev/null -- 'sheet-step --dt 0.01'
+  rm failed-step.sheet # not in /dev
+  run -5 timeout 60 sheet-step --dt 0.01 wild.sheet -o runs/out.sheet
+  rm failed-step.sheet
+}
+
+@test "19: a step that does not converge says so, also where nothing can be written" {
+  make_wild
   for failed in nowhere/failed.sheet /dev/full; do
     run -5 timeout 60 sheet-step --dt 0.01 --failed "$failed" wild.sheet -o out.sheet
     [[ $output == *'did not converge'*'could not be kept: '* ]]

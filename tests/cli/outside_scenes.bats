@@ -374,7 +374,86 @@ END
     print "f", 1 + 4 * k, 2 + 4 * k, 4 + 4 * k; print "f", 1 + 4 * k, 4 + 4 * k, 3 + 4 * k } }' > layers.obj
   sed -i 's/^shape.*/shape = "mesh"\nfile = "layers.obj"/; /^radius/d; /^edge_length/d' disk.toml
   warned "$(printf '[[hold]]\nregion = {box = [[-1, -1, -1], [2, 2, 1]]}\n%s\n[[solid]]\nshape = "sphere"\nradius = 0.1\ncenter = [0.6, 0.4, -0.12]' "$down")"
-  [[ $stderr == *'triangles come too close to solids (nothing to worry about once in a while; if '*'take shorter steps'* ]]
+  [[ $stderr == *'triangles come too close to solids; if that comes back step after step, take shorter steps'* ]]
   warned "$(printf '[[hold]]\nregion = {box = [[-1, -1, -0.001], [2, 2, 0.001]]}\n[[hold]]\nregion = {box = [[-1, -1, 0.009], [2, 2, 0.02]]}\n%s' "$down")"
-  [[ $stderr == *'stay behind'*'(nothing to worry about in a few steps; if it comes back '*'too little room)'* ]]
+  [[ $stderr == *'stay behind'*'; if that comes back step after step, '*'too little room'* ]]
+}
+
+# usage: square_scene: scene.toml, a sheet of mesh.obj.
+square_scene() {
+  cat > scene.toml << 'END'
+[sheet]
+shape = "mesh"
+file = "mesh.obj"
+thickness = 0.01
+[material]
+viscosity = 100
+density = 1000
+END
+}
+
+@test "--check warns of seams that are not welded, of pieces, and of needles; a good mesh has none of it" {
+  square_scene
+  warnings() { sheet-init --check scene.toml | sed -n '/^Warnings/,/^$/p'; }
+  printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' > mesh.obj
+  run warnings
+  [[ $output != *weld* && $output != *needle* ]]
+  for ulp in 1 1.0000000000000002; do
+    printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv %s 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n' $ulp > mesh.obj
+    run warnings
+    [[ $output == *"2 edges of the sheet's border lie on each other, the first at (0.5, 0.5, 0) m"*'weld'* ]]
+  done
+  printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 5 0 0\nv 6 1 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n' > mesh.obj
+  run warnings
+  [[ $output == *"the sheet's mesh has 2 pieces that nothing joins"* ]]
+  printf 'v 0 0 0\nv 1 0 0\nv 1 0.05 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' > mesh.obj
+  run warnings
+  [[ $output == *"1 of the sheet's triangles are needles, the sharpest with 2.9 degrees, number 0 at (0, 0, 0) m"* ]]
+}
+
+@test "a mesh a thousand times too large is told its scale, also where it is in the way" {
+  square_scene
+  printf 'v -500 0 -500\nv 500 0 -500\nv 0 0 500\nf 1 3 2\n' > mesh.obj
+  run -0 sheet-init --check scene.toml
+  [[ $output == *'if its mesh is in millimetres, give [sheet] scale = 0.001'* ]]
+  printf '[[solid]]\nshape = "sphere"\nradius = 1\n' >> scene.toml
+  run -3 sheet-init --check scene.toml
+  [[ $output == *'the sheet is 1.41e+03 m long: if its mesh is in millimetres, give it scale = 0.001'* ]]
+  printf 'v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' > solid.obj
+  sed -i 's/^shape = "mesh"/&\nscale = 0.001\ncenter = [10, 10, 10]/; s/^shape = "sphere"/shape = "mesh"\nfile = "solid.obj"/; s/^radius.*//' scene.toml
+  run -3 sheet-init --check scene.toml
+  [[ $output == *'(solid.obj) is 173 m long: if its mesh is in millimetres, give it scale = 0.001'* ]]
+  printf 'center = [20, 20, 20]\n' >> scene.toml
+  run -0 sheet-init --check scene.toml
+  [[ $output == *'Warnings'*'(solid.obj) is 173 m long: if its mesh is in millimetres, give it scale = 0.001'* ]]
+}
+
+@test "rows between which a rate or a velocity changes beyond all numbers are named" {
+  sheet-init --example | sed '/^\[\[solid/,$d' > scene.toml
+  for row in 'kind = "rotating", axis = [0, 1, 0], rate = [[0, 0], [1e-320, 1]]' \
+    'kind = "translating", velocity = [[0, 0, 0, 0], [1, 1e308, 0, 0], [2, -1e308, 0, 0]]'; do
+    printf '[[solid]]\nshape = "sphere"\nradius = 0.1\ncenter = [0, -1, 0]\nmotion = {%s}\n' "$row" | cat scene.toml - > moved.toml
+    run -3 sheet-init moved.toml
+    [[ $output == *"moved.toml:$(wc -l < moved.toml):"*'from the row before it changes so much'*'beyond the range of numbers'* ]]
+  done
+}
+
+@test "--check proposes the ring that --until and --fps ask for, and ends before pressure has blown the sheet up" {
+  proposed() { sheet-init --ring "$@" | tr '\n' ' '; }
+  sheet-init --example > scene.toml
+  [[ $(proposed --until 0.123456789 --fps 30 scene.toml) == *'until 0.123456789 fps 30 '* ]]
+  sheet-init --check --until 0.7 scene.toml | grep -q -- '--until 0.7 --fps '
+  run -2 sheet-init --check --until 0 scene.toml
+  run -2 sheet-init --fps 3 scene.toml
+  balloon=$SHEET_SOURCE/pipelines/balloon/scene.toml
+  [[ $(proposed "$balloon") == *'until 0.36 '* ]] # of 4 mu h / (p r) = 0.4 s
+  sheet-init --check "$balloon" | grep -q 'blows the sheet up, to any size, within about 0.4 s: end before, at 0.36 s'
+  [[ $(proposed --until 0.39 "$balloon") == *'until 0.39 '* ]]
+  law='environment.pressure={law = "inverse_square", value = 0.1, reference_radius = 1}'
+  sheet-init --check --set "$law" "$balloon" | grep -q 'within about 1.2 s'
+  tube=(--set 'sheet.shape=tube' --set 'sheet.height=1') # 2 mu h / (p r)
+  [[ $(proposed "${tube[@]}" "$balloon") == *'until 0.18 '* ]]
+  # what tension holds together is not blown up
+  run -0 sheet-init --check --set material.surface_tension=0.03 "$balloon"
+  [[ $output != *'blows the sheet up'* ]]
 }

@@ -73,8 +73,10 @@ provenance_of() { sheet-print "$1" | sed -n '/^array provenance/,/^array/s/^| //
 @test "a checkpoint behind a change goes on, too" {
   cp begun.sheet run.sheet
   change=(--set 'material.viscosity=50 Pa*s' --set 'hold.0.until=70 ms' --checkpoint newest.sheet --checkpoint-every 0.0001)
+  cp run.sheet straight.sheet
+  accident=true sheet-loop -q --resume straight.sheet "${change[@]:0:4}" --fps 50 --until 0.1 -- "$ring | accident_at 10"
   run -1 sheet-loop -q --resume run.sheet "${change[@]}" --fps 50 --until 0.1 -- "$ring | accident_at 10"
-  sheet-loop -q --resume run.sheet --checkpoint newest.sheet --fps 50 --until 0.1 -- "$ring"
+  accident=true sheet-loop -q --resume run.sheet --checkpoint newest.sheet --until 0.1
   cmp run.sheet straight.sheet
 }
 

@@ -71,7 +71,7 @@ spoiled() { # [OPTION]...: the ring with the stage that spoils
 @test "a stage's repeated warnings are told once, and counted; without a ring by the stage itself" {
   # no step is as accurate as that
   sheet-loop -i first.sheet --until 0.05 --steps 60 --keep 1 -o run.sheet -- 'sheet-step --tolerance 1e-11' 2> log
-  [[ $(grep -c 'its error is about .* remeshing helps (told once, then counted)' log) == 1 ]]
+  [[ $(grep -c 'its error is about .* shorter edges there may help (told once, then counted)' log) == 1 ]]
   [[ $(grep -c 'its error is about' log) == 1 ]]
   grep -q 'steps above the tolerance: the error of a step is up to .* of an edge, and no shorter step was better, at (.*) m, t = ' log
   times=$(sed -n '/steps above the tolerance/{n;s/.*seen \([0-9]*\) times from .*/\1/p}' log)

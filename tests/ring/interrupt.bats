@@ -32,7 +32,7 @@ ring_with_accident() {
 }
 
 resumed_equals_straight() {
-  accident=true sheet-loop -q --resume run.sheet "${run_options[@]}" -- 'sheet-pass | accident_at -1 | sheet-pass'
+  accident=true sheet-loop -q --resume run.sheet "${run_options[@]}" -- 'sheet-pass | accident_at 35 | sheet-pass'
   cmp run.sheet "$straight"
 }
 
@@ -89,6 +89,36 @@ whole_frames() { # FILE COUNT: so many whole frames and nothing behind them
   [[ $output == *'cut short'* ]]
   run -4 sheet-loop -i start.sheet --steps 5 -o run.sheet -- 'sheet-pass | tr S T'
   [[ $output == *'not a sheet stream'* ]]
+}
+
+@test "without a pipeline --resume takes the frames' own, with its options; one that is given wins, and is theirs then" {
+  # a quote, a line break, a number of threads, and --keep: all come back
+  pipeline="sheet-pass --threads 1 | accident_at 35 | bash -c 'exec sheet-pass # it'\"'\"'s
+'"
+  accident=true sheet-loop -q -i start.sheet --steps 60 --keep 7 -o once.sheet -- "$pipeline"
+  accident=true sheet-loop -q -i start.sheet --steps 14 --keep 7 -o run.sheet -- "$pipeline"
+  accident=true sheet-loop --resume run.sheet --steps 60 2> log
+  cmp run.sheet once.sheet
+  grep -q 'the ring is that of run.sheet: --keep 7 -- ' log
+  sheet-loop -q --resume run.sheet --steps 61 --keep 1 -- 'sheet-pass | sheet-pass'
+  sheet-loop --resume run.sheet --steps 62 2> log
+  grep -q "the ring is that of run.sheet: --keep 1 -- 'sheet-pass | sheet-pass'" log
+  accident=true sheet-loop -q --resume run.sheet --steps 63 --keep 7 -- "$pipeline"
+  accident=true sheet-loop --resume run.sheet --steps 64 2> log
+  grep -q 'the ring is that of run.sheet: --keep 7 -- ' log
+  [[ $(sheet-select --last run.sheet | sheet-print | grep -c '^| [0-9]* sheet-loop') == 2 ]]
+}
+
+@test "a stream that tells no pipeline is refused with what to do, and so is a resumed run without an end" {
+  sheet-loop -q -i start.sheet --steps 2 --no-provenance -o run.sheet -- sheet-pass
+  cp run.sheet before.sheet
+  run -2 sheet-loop --resume run.sheet --steps 4
+  [[ $output == *'run.sheet does not tell the pipeline that made it: give the stages behind --'* ]]
+  cmp run.sheet before.sheet
+  run -2 sheet-loop --resume run.sheet
+  [[ $output == *'when does it end?'* ]]
+  run -2 sheet-loop -i start.sheet --steps 4
+  [[ $output == *'no pipeline: give the stages behind --'* ]]
 }
 
 @test "disk full: exit code 6, whole frames, resume elsewhere gives the straight run" {

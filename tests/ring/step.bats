@@ -12,8 +12,8 @@ fixed='sheet-step --dt 0.003'
 setup_file() {
   cd "$BATS_FILE_TMPDIR" || exit
   sheet-init "$BATS_TEST_DIRNAME/../../pipelines/catenary/scene.toml" --set 'sheet.segments=[8, 4]' -o start.sheet
-  sheet-loop -q -i start.sheet "${options[@]}" -o adaptive.sheet -- "$adaptive"
-  sheet-loop -q -i start.sheet "${options[@]}" -o fixed.sheet -- "$fixed"
+  accident=true sheet-loop -q -i start.sheet "${options[@]}" -o adaptive.sheet -- "$adaptive | accident_at 11"
+  accident=true sheet-loop -q -i start.sheet "${options[@]}" -o fixed.sheet -- "$fixed | accident_at 11"
 }
 
 setup() {
@@ -34,7 +34,7 @@ interrupted_equals_straight() {
   [[ $code == "$4" ]]
   grep -q 'in the step after step 1[01], t = 0.0[0-9]* s' log
   is_beginning_of "$1"
-  sheet-loop -q --resume run.sheet "${options[@]}" -- "$2"
+  accident=true sheet-loop -q --resume run.sheet "${options[@]}" -- "$2 | accident_at 11"
   cmp run.sheet "$1"
 }
 

@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "scenes.h"
@@ -91,6 +92,39 @@ TEST(Read, ErrorsAreBadInput) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);
     EXPECT_STREQ(error.what(), "s: missing table [sheet]\ns: missing table [material]");
   }
+}
+
+TEST(Read, ShortFormsOfASolidsMotion) {
+  const auto motion = [](const std::string& keys) {
+    return parse_scene(disk + liquid + "[[solid]]\nshape = \"plane\"\ncenter = [1, 2, 3]\n" + keys, "s")
+        .solids[0]
+        .motion;
+  };
+  EXPECT_EQ(motion("velocity = [0, 0, \"40 cm/s\"]"),
+            motion("motion = {kind = \"translating\", velocity = [0, 0, 0.4]}"));
+  EXPECT_EQ(motion("velocity = [[0, 0, 0, 0], [1, 0, 0, 1]]"),
+            motion("motion = {kind = \"translating\", velocity = [[0, 0, 0, 0], [1, 0, 0, 1]]}"));
+  const Motion turning = motion("angular_velocity = [0, 0, \"-60 rpm\"]");
+  const Motion spoken = motion("motion = {kind = \"rotating\", axis = [0, 0, -1], rate = \"60 rpm\"}");
+  const Vector3d x(4, 5, 6);
+  EXPECT_LT((velocity_at(turning, 0.3, x) - velocity_at(spoken, 0.3, x)).norm(), 1e-13);
+  EXPECT_GT(velocity_at(turning, 0.3, x).norm(), 1);
+  EXPECT_EQ(motion("angular_velocity = [0, 0, 0]"), Motion(Fixed{}));
+}
+
+TEST(Read, OneFormOfASolidsMotion) {
+  const auto wrong = [](const std::string& keys) {
+    return problem(disk + liquid + "[[solid]]\nshape = \"plane\"\n" + keys);
+  };
+  const std::string led = "motion = {kind = \"fixed\"}\n";
+  EXPECT_THAT(wrong(led + "velocity = [1, 0, 0]"),
+              testing::EndsWith("velocity: it is short for a motion, which is there too: "
+                                "give one of them"));
+  EXPECT_THAT(wrong(led + "angular_velocity = [1, 0, 0]"),
+              testing::EndsWith("angular_velocity: it is short for a motion, which is there too: give one of them"));
+  EXPECT_THAT(wrong("velocity = [1, 0, 0]\nangular_velocity = [1, 0, 0]"),
+              testing::HasSubstr("motion = {kind = \"keyframed\", ...}; or give one of velocity and angular_velocity"));
+  EXPECT_THAT(wrong("angular_velocity = [1, 0, \"1 m/s\"]"), testing::HasSubstr("expected a turning rate"));
 }
 
 struct Case {

@@ -36,6 +36,7 @@ plane = "xz"
 center = [0, 1, 0]
 rotation = {axis = [0, 0, 1], angle = "45 deg"}
 velocity = [0, "-1 m/s", 0]
+angular_velocity = [0, 2, -3]
 [material]
 viscosity = "100 Pa*s"
 density = "0.978 g/cm^3"

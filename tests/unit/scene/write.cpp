@@ -26,6 +26,7 @@ plane = "xz"
 center = [0, 1, 0]
 rotation = {axis = [0, 0, 1], angle = 0.7853981633974483}
 velocity = [0, -1, 0]
+angular_velocity = [0, 2, -3]
 
 [material]
 viscosity = 100
@@ -148,6 +149,7 @@ public:
     if (below(2))
       sheet.rotation = Rotation{direction(), number()};
     sheet.velocity = maybe(vector());
+    sheet.angular_velocity = maybe(vector());
     s.material = {positive(), positive(), below(2) ? positive() : 0};
     if (below(3) == 0) { // another one like it, which enters
       sheet.name = "first \"one\"";

@@ -34,6 +34,18 @@ TEST(BuildFrame, TheInletIsABorderOfTheUndisturbedSheetWhereverItIsNow) {
   EXPECT_EQ(formats::find_value_error(frame), "");
 }
 
+TEST(BuildFrame, ASheetTurnsAboutItsCenter) {
+  const Frame frame = build_frame(parse_scene(
+      std::string(
+          "[sheet]\nshape = \"disk\"\nradius = 2\nedge_length = 1\nplane = \"xy\"\nthickness = 0.1\ncenter = [7, "
+          "0, 0]\nvelocity = [0, 0, 5]\nangular_velocity = [0, 0, \"3 rad/s\"]\n") +
+          liquid,
+      "scene"));
+  const auto x = positions(frame), v = frame.find("velocity")->values<Eigen::Vector3d>();
+  for (std::size_t i = 0; i < frame.vertices; ++i)
+    EXPECT_LT((v[i] - Eigen::Vector3d(-3 * x[i].y(), 3 * (x[i].x() - 7), 5)).norm(), 1e-14) << i;
+}
+
 TEST(BuildFrame, ARingIsAnInletAndNoInflowIsNone) {
   const std::string tube = "[sheet]\nshape = \"tube\"\nradius = 1\nheight = 2\nsegments = [12, 4]\npattern = "
                            "\"structured\"\nthickness = 0.1\n";

@@ -68,6 +68,30 @@ TEST(BadSolids, NotWelded) {
   }
 }
 
+TEST(BadSolids, PartlyWelded) {
+  SolidSurface surface = box(); // one side is a part of its own, less a triangle
+  surface.triangles.pop_back();
+  auto& corners = surface.triangles.back();
+  for (std::uint32_t& v : corners) {
+    surface.points.push_back(surface.points[v]);
+    v = static_cast<std::uint32_t>(surface.points.size() - 1);
+  }
+  EXPECT_THAT(problem(surface), AllOf(HasSubstr("4 of them lie on each other: weld"), HasSubstr("holes that remain")));
+}
+
+TEST(BadSolids, OverlappingPartsIntersectWhateverTheirSides) {
+  SolidSurface surface = box();
+  append(surface, box(), {0.4, 0.3, 0.2}, false);
+  for (const bool simple : {false, true}) {
+    try {
+      check_surface(surface, "x.off", simple);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("intersects itself"));
+    }
+  }
+}
+
 TEST(BadSolids, InsideOut) {
   SolidSurface surface;
   append(surface, box(), {0, 0, 0}, true);

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/mesh_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "libsheet/geometry/box.h"
+#include "libsheet/geometry/coincident.h"
+#include "libsheet/geometry/connectivity.h"
+#include "libsheet/geometry/disjoint_sets.h"
+#include "libsheet/shape/mesh_measure.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::Frame;
+
+constexpr double large = 20;                          // [m]
+constexpr double needle = 5 * std::numbers::pi / 180; // [rad]
+constexpr double close = 1e-6;                        // of the whole: what lies on each other
+
+std::string written(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z()); }
+
+bool is_mesh(const scene::SheetTable& sheet) { return std::holds_alternative<scene::SheetMesh>(sheet.shape); }
+
+std::size_t pieces_of(const Frame& frame) {
+  DisjointSets sets(frame.vertices);
+  for (const Corners& c : triangles(frame)) {
+    sets.join(c[0], c[1]);
+    sets.join(c[0], c[2]);
+  }
+  std::set<std::uint64_t> roots;
+  for (const Corners& c : triangles(frame))
+    roots.insert(sets.find(c[0]));
+  return roots.size();
+}
+
+std::vector<Vector3> border_middles(const Frame& frame) {
+  const auto x = positions(frame);
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  std::vector<Vector3> middles;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.on_rim(e))
+      middles.emplace_back((x[mesh.edges[e][0]] + x[mesh.edges[e][1]]) / 2);
+  return middles;
+}
+
+// Of seams that are not welded, or else of pieces that nothing joins.
+std::string warning_of_pieces(const Scene& scene, const Frame& first) {
+  if (std::ranges::none_of(scene.sheets, is_mesh))
+    return {};
+  Box box;
+  for (const Vector3& x : positions(first))
+    box.add(x);
+  const std::vector<Vector3> middles = border_middles(first);
+  const std::vector<bool> paired = coincident(middles, close * box.diagonal());
+  const auto seam = std::ranges::find(paired, true);
+  if (seam != paired.end())
+    return fmt::format(
+        "{} edges of the sheet's border lie on each other, the first at {}, and nothing joins them: weld "
+        "the mesh's vertices (merge those at the same place), or it comes apart there",
+        std::ranges::count(paired, true), written(middles[static_cast<std::size_t>(seam - paired.begin())]));
+  const auto present = std::ranges::count_if(scene.sheets, [](const auto& sheet) { return !sheet.enters; });
+  if (const std::size_t pieces = pieces_of(first); pieces > static_cast<std::size_t>(present))
+    return fmt::format("the sheet's mesh has {} pieces that nothing joins: if they belong together, weld its vertices",
+                       pieces - static_cast<std::size_t>(present) + 1);
+  return {};
+}
+
+std::string warning_of_needles(const Frame& first) {
+  const auto x = positions(first);
+  std::size_t count = 0, sharpest = 0;
+  double least = needle;
+  for (std::size_t t = 0; t < first.triangles; ++t) {
+    const Corners& c = triangles(first)[t];
+    const double angle = smallest_angle(x[c[0]], x[c[1]], x[c[2]]);
+    count += angle < needle ? 1 : 0;
+    if (angle < least) {
+      least = angle;
+      sharpest = t;
+    }
+  }
+  if (count == 0)
+    return {};
+  return fmt::format(
+      "{} of the sheet's triangles are needles, the sharpest with {:.2g} degrees, number {} at {}: steps "
+      "are short and inaccurate until sheet-remesh has mended them; better mesh it anew",
+      count, least * 180 / std::numbers::pi, sharpest, written(x[triangles(first)[sharpest][0]]));
+}
+
+} // namespace
+
+std::string hint_of_scale(const std::string& what, double length) {
+  return length > large && std::isfinite(length)
+             ? fmt::format("{} is {:.3g} m long: if its mesh is in millimetres, give it scale = 0.001", what, length)
+             : std::string();
+}
+
+std::vector<std::string> mesh_warnings(const Scene& scene, const Frame& first) {
+  std::vector<std::string> warnings{warning_of_pieces(scene, first), warning_of_needles(first)};
+  const solid::Solids solids(scene);
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    if (std::holds_alternative<scene::SolidMesh>(scene.solids[i].shape))
+      warnings.push_back(hint_of_scale(solids.name(i), solids.shape(i).bounds().diagonal().norm()));
+  std::erase(warnings, "");
+  return warnings;
+}
+
+} // namespace sheet

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is doubtful about the meshes of a scene, though it can be computed with.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+// Of a mesh that is longer than a sheet or a solid is likely to be: that its scale may be wrong; else "".
+[[nodiscard]] std::string hint_of_scale(const std::string& what, double length);
+
+// Of the first frame's meshes: borders that lie on each other but are not joined, pieces that nothing joins, needles,
+// and solids whose numbers may be millimetres. Each with place and remedy.
+[[nodiscard]] std::vector<std::string> mesh_warnings(const Scene& scene, const formats::Frame& first);
+
+} // namespace sheet
