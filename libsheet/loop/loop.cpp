@@ -167,7 +167,8 @@ private:
     tell_stages_where_the_streams_are();
   }
 
-  // The pipeline that has made the stream, with the options that go with it but for those that are given.
+  // The pipeline that has made the stream, with the options that go with it but for those that are given. A stream that
+  // somebody else has made shall not run commands.
   void take_recorded_ring() {
     const std::optional<RecordedRing> ring = recorded_ring(frame_);
     if (!ring)
@@ -175,6 +176,11 @@ private:
            "{} does not tell the pipeline that made it: give the stages behind --, as in -- "
            "'sheet-remesh | sheet-step'",
            options_.resume);
+    if (!is_harmless(ring->pipeline))
+      fail(ExitCode::usage,
+           "the ring of {} has more than Sheet's own stages, so it is not run unasked: if it is yours, or you trust "
+           "it, give it behind --, as in -- {}",
+           options_.resume, shell_quoted(ring->pipeline));
     options_.pipeline = ring->pipeline;
     if (!options_.fps)
       options_.fps = ring->fps;

@@ -25,6 +25,10 @@ struct RecordedRing {
 // (bad_input) if a line of it cannot be read.
 [[nodiscard]] std::optional<RecordedRing> recorded_ring(const formats::Frame& frame);
 
+// Whether the pipeline has nothing but stages of this program's own family, whose options name no files: what a stream
+// that somebody else has made may do here. Anything else is a command of its author's.
+[[nodiscard]] bool is_harmless(const std::string& pipeline);
+
 // Makes it the frame's last ring, unless it is: a line at the end of the provenance, counted up if it is there already.
 void record_ring(formats::Frame& frame, const RecordedRing& ring);
 

@@ -203,9 +203,8 @@ std::vector<DimensionlessNumber> numbers_of(const Scene& scene, const Scales& sc
 std::optional<double> longest_edge(const SheetTable& sheet) {
   if (sheet.edge_length || !sheet.segments)
     return sheet.edge_length;
-  const auto [around, along] = *sheet.segments;
-  const auto longer = [&](double circumference, double length) {
-    return std::optional(std::max(circumference / around, length / along));
+  const auto longer = [&segments = *sheet.segments](double circumference, double length) {
+    return std::optional(std::max(circumference / segments[0], length / segments[1]));
   };
   constexpr double pi = std::numbers::pi;
   return std::visit(Overloaded{[&](const Cap& c) {

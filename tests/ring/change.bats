@@ -76,7 +76,7 @@ provenance_of() { sheet-print "$1" | sed -n '/^array provenance/,/^array/s/^| //
   cp run.sheet straight.sheet
   accident=true sheet-loop -q --resume straight.sheet "${change[@]:0:4}" --fps 50 --until 0.1 -- "$ring | accident_at 10"
   run -1 sheet-loop -q --resume run.sheet "${change[@]}" --fps 50 --until 0.1 -- "$ring | accident_at 10"
-  accident=true sheet-loop -q --resume run.sheet --checkpoint newest.sheet --until 0.1
+  accident=true sheet-loop -q --resume run.sheet --checkpoint newest.sheet --fps 50 --until 0.1 -- "$ring | accident_at 10"
   cmp run.sheet straight.sheet
 }
 

@@ -92,21 +92,33 @@ whole_frames() { # FILE COUNT: so many whole frames and nothing behind them
 }
 
 @test "without a pipeline --resume takes the frames' own, with its options; one that is given wins, and is theirs then" {
-  # a quote, a line break, a number of threads, and --keep: all come back
-  pipeline="sheet-pass --threads 1 | accident_at 35 | bash -c 'exec sheet-pass # it'\"'\"'s
-'"
-  accident=true sheet-loop -q -i start.sheet --steps 60 --keep 7 -o once.sheet -- "$pipeline"
-  accident=true sheet-loop -q -i start.sheet --steps 14 --keep 7 -o run.sheet -- "$pipeline"
-  accident=true sheet-loop --resume run.sheet --steps 60 2> log
+  pipeline='sheet-pass --threads 1 | sheet-remesh --edge-length=0.3 | sheet-pass'
+  sheet-loop -q -i start.sheet --steps 60 --keep 7 -o once.sheet -- "$pipeline"
+  sheet-loop -q -i start.sheet --steps 14 --keep 7 -o run.sheet -- "$pipeline"
+  sheet-loop --resume run.sheet --steps 60 2> log
   cmp run.sheet once.sheet
   grep -q 'the ring is that of run.sheet: --keep 7 -- ' log
   sheet-loop -q --resume run.sheet --steps 61 --keep 1 -- 'sheet-pass | sheet-pass'
   sheet-loop --resume run.sheet --steps 62 2> log
   grep -q "the ring is that of run.sheet: --keep 1 -- 'sheet-pass | sheet-pass'" log
-  accident=true sheet-loop -q --resume run.sheet --steps 63 --keep 7 -- "$pipeline"
-  accident=true sheet-loop --resume run.sheet --steps 64 2> log
+  sheet-loop -q --resume run.sheet --steps 63 --keep 7 -- "$pipeline"
+  sheet-loop --resume run.sheet --steps 64 2> log
   grep -q 'the ring is that of run.sheet: --keep 7 -- ' log
   [[ $(sheet-select --last run.sheet | sheet-print | grep -c '^| [0-9]* sheet-loop') == 2 ]]
+}
+
+@test "a ring with commands of somebody's own is not run because a stream says so: it is told, to be pasted" {
+  # a quote and a line break come back as they were
+  sheet-loop -q -i start.sheet --steps 5 -o run.sheet -- "sheet-pass | bash -c 'touch ran; exec sheet-pass # it'\"'\"'s
+'"
+  rm ran
+  cp run.sheet before.sheet
+  run -2 sheet-loop --resume run.sheet --steps 10
+  [[ ! -e ran ]]
+  cmp run.sheet before.sheet
+  eval "sheet-loop -q --resume run.sheet --steps 10 -- ${output#*as in -- }"
+  [[ -e ran ]]
+  [[ $(sheet-select --last run.sheet | sheet-print | grep -c '^| [0-9]* sheet-loop') == 1 ]]
 }
 
 @test "a stream that tells no pipeline is refused with what to do, and so is a resumed run without an end" {

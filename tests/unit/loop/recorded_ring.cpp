@@ -31,6 +31,18 @@ TEST(RecordedRing, IsTheLastOne) {
   EXPECT_EQ(recorded_ring(frame), first);
 }
 
+TEST(RecordedRing, RunsSheetsOwnStagesOnly) {
+  for (const char* ours : {"sheet-step", "sheet-remesh --smooth|sheet-emit | sheet-step --tolerance 1e-3 -v",
+                           " sheet-step --dt=0.01 | sheet-collide | sheet-tear "})
+    EXPECT_TRUE(is_harmless(ours)) << ours;
+  for (const char* others :
+       {"", "rm x", "sheet-step; rm x", "sheet-step $(rm x)", "sheet-step `rm x`", "sheet-step > x", "sheet-step -o x",
+        "sheet-step --output x", "sheet-step --failed x", "sheet-step --failed=x", "sheet-step | ./mine",
+        "./sheet-step", "sheet-step\nrm x", "sheet-step | | sheet-step", "sheet-step 'a'", "sheet-export x",
+        "sheet-step &", "sheet-steps", "A=1 sheet-step"})
+    EXPECT_FALSE(is_harmless(others)) << others;
+}
+
 TEST(RecordedRing, RefusesWhatIsNoRate) {
   formats::Frame frame;
   frame.put_text("provenance", "1 sheet-loop (0.1.0) --fps x -- a");
