@@ -165,14 +165,19 @@ Momentum momentum(std::span<const std::uint32_t> members, std::span<const double
   return sum;
 }
 
+RigidVelocity rigid_velocity(std::span<const std::uint32_t> members, std::span<const double> mass,
+                             std::span<const Vector3> positions, const Momentum& wanted, const Vector3& center) {
+  const Body body = body_of(members, mass, positions);
+  return {body.center, wanted.linear / body.mass,
+          rate_of(body.inertia, wanted.angular - (body.center - center).cross(wanted.linear))};
+}
+
 void add_momentum(std::span<const std::uint32_t> members, std::span<const double> mass,
                   std::span<const Vector3> positions, std::span<Vector3> velocities, Momentum wanted,
                   const Vector3& center) {
-  const Body body = body_of(members, mass, positions);
-  const Vector3 shift = wanted.linear / body.mass;
-  const Vector3 turn = rate_of(body.inertia, wanted.angular - (body.center - center).cross(wanted.linear));
+  const RigidVelocity velocity = rigid_velocity(members, mass, positions, wanted, center);
   for (const std::uint32_t v : members)
-    velocities[v] += shift + turn.cross(positions[v] - body.center);
+    velocities[v] += velocity(positions[v]);
 }
 
 } // namespace sheet::collide

@@ -55,6 +55,17 @@ struct Momentum {
                                 std::span<const Vector3> positions, std::span<const Vector3> velocities,
                                 const Vector3& center);
 
+// Of a rigid body: at x, shift + turn x (x - center) [m/s].
+struct RigidVelocity {
+  Vector3 center = Vector3::Zero(), shift = Vector3::Zero(), turn = Vector3::Zero();
+  [[nodiscard]] Vector3 operator()(const Vector3& x) const { return shift + turn.cross(x - center); }
+};
+
+// That with the given momentum about `center`, without a turn about axes of nearly no inertia.
+[[nodiscard]] RigidVelocity rigid_velocity(std::span<const std::uint32_t> members, std::span<const double> mass,
+                                           std::span<const Vector3> positions, const Momentum& wanted,
+                                           const Vector3& center);
+
 // Adds the rigid velocity that has the given momentum about `center`.
 void add_momentum(std::span<const std::uint32_t> members, std::span<const double> mass,
                   std::span<const Vector3> positions, std::span<Vector3> velocities, Momentum wanted,

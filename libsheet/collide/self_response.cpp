@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace sheet::collide {
@@ -269,18 +270,31 @@ private:
         path_.velocity[v] += free_part(fixed).cwiseProduct(lost.linear) / mass;
   }
 
+  // How the vertices of an island move whose velocity is prescribed, as one rigid body; at rest without any.
+  [[nodiscard]] RigidVelocity velocity_of_fixed(const std::vector<std::uint32_t>& island,
+                                                const std::vector<Vector3>& before) const {
+    std::vector<std::uint32_t> fixed;
+    std::ranges::copy_if(island, std::back_inserter(fixed), [&](std::uint32_t v) { return prescribed_[v] != 0; });
+    if (fixed.empty())
+      return {};
+    const Vector3& center = path_.end[fixed.front()];
+    return rigid_velocity(fixed, path_.mass, path_.end, momentum(fixed, path_.mass, path_.end, before, center), center);
+  }
+
   // Contacts take energy: where features are brought apart that were too near, in a short step at a high speed, or
   // moved by much to get round each other, the way is not a velocity. Of all changes in an island that part is kept
-  // that gives it no more energy than it had, and than it may have from what moves it.
+  // that gives it no more energy than it had, seen by an observer who moves with what is prescribed in it (impulses of
+  // what rests do no work), and than it may have from what moves against him.
   void take_gained_energy(const std::vector<std::uint32_t>& island, const std::vector<Vector3>& before) {
+    const RigidVelocity frame = velocity_of_fixed(island, before);
     double mass = 0, along = 0, square = 0, fastest = 0;
     for (const std::uint32_t v : island) {
-      const Vector3 change = path_.velocity[v] - before[v];
+      const Vector3 change = path_.velocity[v] - before[v], seen = before[v] - frame(path_.end[v]);
       mass += path_.mass[v];
-      along += path_.mass[v] * change.dot(before[v]);
+      along += path_.mass[v] * change.dot(seen);
       square += path_.mass[v] * change.squaredNorm() / 2;
-      if (path_.fixed[v] != 0)
-        fastest = std::max(fastest, before[v].norm());
+      if (prescribed_[v] != 0)
+        fastest = std::max(fastest, seen.norm());
     }
     const double allowed = mass * fastest * fastest / 2;
     if (along + square <= allowed)

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -20,6 +23,8 @@ constexpr int rounds = 10;
 // By how many times the way that a point of a triangle is moved an impulse may move a corner. Of two corners with
 // masses m and M the lighter moves by up to sqrt(M/m)/2 times that way, so lighter ones count as having a part of M.
 constexpr double longest_corner_lever = 4, least_mass_part = 1 / (4 * longest_corner_lever * longest_corner_lever);
+// What two hits may differ by that come together: of the step, and of the thickness.
+constexpr double same = 1e-7;
 
 // A point of the solid's frame brought to `offset` from its surface, along the normal. One turn where the surface is
 // smooth; a hollow narrower than the offset has no such point, so the turns are counted.
@@ -88,10 +93,10 @@ public:
   SolidReport run() {
     hold_vertices();
     for (int round = 0; round < rounds && !active_.empty(); ++round) {
-      const auto hits = find_hits(path_, views_, rides_, active_, {.mend = true});
+      auto hits = find_hits(path_, views_, rides_, active_, {.mend = true});
+      std::ranges::stable_sort(hits, earlier); // whatever the order of the triangles
       count_across(hits);
-      for (const FoundHit& hit : hits)
-        push(hit);
+      push(hits);
       report_.pushed += hits.size();
       activate();
     }
@@ -105,6 +110,32 @@ public:
   }
 
 private:
+  // What is hit first is pushed first; of what is too near all the time, the deepest.
+  static bool earlier(const FoundHit& a, const FoundHit& b) {
+    return std::pair(a.s, a.point.near.distance) < std::pair(b.s, b.point.near.distance);
+  }
+
+  // Whether two hits come at the same time and as deep, but for round-off.
+  [[nodiscard]] bool together(const FoundHit& a, const FoundHit& b) const {
+    const double thickness = path_.thickness[path_.triangles[a.triangle][0]];
+    return std::abs(a.s - b.s) <= same && std::abs(a.point.near.distance - b.point.near.distance) <= same * thickness;
+  }
+
+  // One after the other; a vertex that several push together goes the mean of their ways: no order of them counts.
+  void push(std::span<const FoundHit> hits) {
+    for (std::size_t first = 0, last = 0; first < hits.size(); first = last) {
+      for (last = first + 1; last < hits.size() && together(hits[last - 1], hits[last]);)
+        ++last;
+      std::map<std::uint32_t, Push> pushes;
+      for (const FoundHit& hit : hits.subspan(first, last - first))
+        push(hit, pushes);
+      for (const auto& [v, push] : pushes) {
+        path_.end[v] += push.way / push.count;
+        path_.velocity[v] += push.change / push.count;
+      }
+    }
+  }
+
   // By a [[hold]], along all axes.
   [[nodiscard]] bool held(std::size_t v) const { return prescribed_[v] == all_axes; }
 
@@ -293,8 +324,14 @@ private:
     return lever;
   }
 
+  // What impulses do to a vertex: the sums over them.
+  struct Push {
+    Vector3 way = Vector3::Zero(), change = Vector3::Zero(); // of its place [m], its velocity [m/s]
+    int count = 0;
+  };
+
   // An inelastic impulse without slip: the point that hits first goes on with the solid.
-  void push(const FoundHit& hit) {
+  void push(const FoundHit& hit, std::map<std::uint32_t, Push>& pushes) {
     const SolidView& view = views_[hit.solid];
     const Corners& corners = path_.triangles[hit.triangle];
     const Lever lever = lever_of(hit);
@@ -336,8 +373,10 @@ private:
       const std::uint32_t v = corners[c];
       // A vertex that touches does not slide.
       const bool free = rides_[v] == no_solid;
-      path_.end[v] += lever.share[c].cwiseProduct(free ? move : outward(move));
-      path_.velocity[v] += lever.share[c].cwiseProduct(free ? change : outward(change));
+      Push& sum = pushes[v];
+      sum.way += lever.share[c].cwiseProduct(free ? move : outward(move));
+      sum.change += lever.share[c].cwiseProduct(free ? change : outward(change));
+      ++sum.count;
       changed_[v] = 1;
     }
   }

@@ -51,3 +51,11 @@ bounded() {
     printf 'shape = "plane"\n[[solid]]\nshape = "box"\nsize = [0.3, 0.02, 0.3]\ncenter = [0, 0.24, 0]\nmotion = {kind = "translating", velocity = [0, -2, 0]}\n'; } > tube.toml
   bounded 2 0.03
 }
+
+@test "sheet-collide takes energy, seen from a box that spins under a tube" {
+  { sed 's/^center.*/&\nvelocity = [0, -5, 0]/' tube
+    printf 'shape = "box"\nsize = [0.06, 0.01, 0.2]\ncenter = [0, 0.01, 0]\nmotion = {kind = "rotating", axis = [0, 1, 0], rate = "60 rad/s"}\n'; } > tube.toml
+  sheet-init tube.toml -o first.sheet
+  sheet-loop -q -i first.sheet --steps 12 --keep 1 -o run.sheet -- 'sheet-step --dt 0.002 | tee before.sheet | sheet-collide' 2> log
+  /usr/bin/python3 "$BATS_TEST_DIRNAME/energy_beside.py" 1200 60 before.sheet run.sheet
+}

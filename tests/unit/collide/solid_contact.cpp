@@ -455,6 +455,33 @@ TEST(SolidContact, FreeCornersDoNotBringOutWhatIsHeldInside) {
     EXPECT_EQ(sheet.path.end[v], sheet.start[v]) << v;
 }
 
+// The corners of each triangle and the triangles themselves in another order, and the sheet mirrored: another input of
+// the same step, with the same result up to round-off.
+TEST(SolidContact, NeitherOrderNorSideMatters) {
+  const std::vector<scene::SolidShape> shapes{scene::Sphere{4e-3}, scene::Capsule{2e-3, 0.01},
+                                              scene::SolidBox{{4e-3, 0.01, 6e-3}}, scene::Cylinder{3e-3, 0.01}};
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const auto below = [&](double side) { return solids_of({solid(shapes[i], {side * 0.0131, -8e-3, 0.0073})}); };
+    FallingSheet sheet = falling(0.4), turned = falling(0.4), mirrored = falling(0.4);
+    for (std::size_t t = 0; t < turned.triangles.size(); ++t) {
+      const auto [a, b, c] = turned.triangles[t];
+      turned.triangles[t] = t % 2 == 0 ? Corners{b, c, a} : Corners{c, a, b};
+    }
+    std::ranges::reverse(turned.triangles);
+    for (std::size_t v = 0; v < mirrored.start.size(); ++v)
+      for (Vector3* x : {&mirrored.start[v], &mirrored.path.end[v], &mirrored.path.velocity[v]})
+        x->x() *= -1;
+    EXPECT_GT(resolve_solids(sheet.path, below(1)).pushed, 0U) << i;
+    resolve_solids(turned.path, below(1));
+    resolve_solids(mirrored.path, below(-1));
+    for (std::size_t v = 0; v < sheet.start.size(); ++v) {
+      const Vector3& end = sheet.path.end[v];
+      EXPECT_LT((turned.path.end[v] - end).norm(), 1e-9) << i << ": " << v;
+      EXPECT_LT((mirrored.path.end[v].cwiseProduct(Vector3(-1, 1, 1)) - end).norm(), 1e-9) << i << ": " << v;
+    }
+  }
+}
+
 // A pin stops a triangle at a point far from its lightest corner, which is not thrown.
 TEST(SolidContact, NoLeverThrowsALightCorner) {
   const solid::Solids pin = solids_of({solid(scene::Capsule{1e-5, 0.1}, {0, -0.05, 0})});
