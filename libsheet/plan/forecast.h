@@ -19,11 +19,11 @@ struct Forecast {
 
 // Vertices are those of the first frame and, at the same density, of the area that flows in until the end and, at the
 // speed of the inflow, has not reached an outflow: what stretches or is drawn together is not foreseen.
-// Each output time ends a step. What moves takes steps more, of sqrt(tolerance l/a): an acceleration a that begins or
-// ends is an error of a dt² of an edge's length l. Sheets that fall freely have a = g, for two and a half times of
-// their fall, by which time most of them have come to rest; whatever else is driven has a = V²/L (scene/scales.h),
-// until the end, or until its inflow ends. Scenes that were run take a third to three times as many, but for strands
-// and films that draw out, spheres that crumple and tools that press on rims, which take many more.
+// Each output time ends a step. What moves takes steps more, of sqrt(tolerance l/a): an acceleration a that begins
+// or ends is an error of a dt² of an edge's length l. Sheets that fall freely have a = g, for 2.25 times their fall,
+// by which time most of them have come to rest; whatever else is driven has a = V²/L (scene/scales.h), until the
+// end, or until its inflow ends. Most scenes take a third to three times as many (docs/model.md): strands, thin
+// films and what crumples take more, films on rolls and what is blown fewer.
 [[nodiscard]] Forecast forecast(const Scene& scene, const formats::Frame& first, const ProposedRing& ring,
                                 double tolerance);
 
