@@ -144,6 +144,17 @@ struct CollideStage::Impl {
   Totals totals;
   health::Teller teller;
 
+  void tell_of_two_solids(Frame& frame, const SolidReport& report) {
+    teller.tell(frame,
+                {.trouble = health::Trouble::two_solids,
+                 .value = static_cast<double>(report.between) / static_cast<double>(frame.vertices),
+                 .amount = static_cast<double>(report.between),
+                 .place = report.between_at},
+                fmt::format("step {}: {} vertices lie between two solids that move past each other; the one that they "
+                            "touched first drags them, the other one only stops them",
+                            frame.step, report.between));
+  }
+
   void read_scene_of(const Frame& frame) {
     scene = &scenes.of(frame);
     if (!scenes.changed())
@@ -244,6 +255,8 @@ struct CollideStage::Impl {
                     fmt::format("step {}: {} triangles come too close to solids; if that comes back step after step, "
                                 "take shorter steps or shorter edges",
                                 frame.step, report.unresolved));
+      if (report.between > 0)
+        tell_of_two_solids(frame, report);
       totals.add(report);
       totals.released += off.size();
       totals.with_solids += watch.lap();
