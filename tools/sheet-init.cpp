@@ -15,6 +15,7 @@
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/shell_words.h"
+#include "libsheet/plan/contact_warnings.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/proposed_ring.h"
@@ -95,6 +96,8 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));
   const std::string init = command_of(source);
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
+  const double until = sheet::proposed_ring(scene, frame, wishes).until;
+  std::ranges::copy(sheet::contact_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, wishes, init)
                                               : sheet::scene::to_text(explanation) +
                                                     sheet::ring_text(scene, frame, wishes, init));

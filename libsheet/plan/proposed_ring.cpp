@@ -10,61 +10,23 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/plan/blow_up.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/forecast.h"
+#include "libsheet/plan/landing.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/sheet/sheet.h"
-#include "libsheet/solid/solids.h"
 
 namespace sheet {
 
 namespace {
 
-using Eigen::Vector3d;
 using formats::Frame;
-
-double mean_edge_of(const Frame& frame) {
-  const auto x = positions(frame);
-  double sum = 0;
-  for (const Corners& c : triangles(frame))
-    for (std::size_t i = 0; i < 3; ++i)
-      sum += (x[c[(i + 1) % 3]] - x[c[i]]).norm();
-  return sum / (3.0 * static_cast<double>(frame.triangles));
-}
-
-double size_of(const Frame& frame) { return *measured(frame).length; }
-
-// How far x can fall to the first solid [m]; infinite if there is none below.
-double fall_from(const solid::Solids& solids, const Vector3d& down, const Vector3d& x, double size, double t) {
-  constexpr double farthest = 100, near = 1e-3; // times the size
-  double way = 0;
-  while (way < farthest * size) {
-    double distance = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < solids.size(); ++i)
-      distance = std::min(distance, solids.at(i, x + way * down, t).distance);
-    if (distance < near * size)
-      return way;
-    way += distance;
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 // What an inflow has become at the end of its fall [m].
 double thickness_after_fall(const Scene& scene, const Frame& first, std::size_t number) {
   const scene::Inflow& inflow = scene.inflows[number];
-  const solid::Solids solids(scene);
-  const Vector3d gravity = scene.environment.gravity.value_or(Vector3d::Zero());
-  const double g = gravity.norm(), v0 = scene::value_at(inflow.velocity, first.time).norm();
-  if (!(g > 0) || !(v0 > 0) || solids.empty())
-    return inflow.thickness;
-  const double size = size_of(first);
-  double fall = std::numeric_limits<double>::infinity();
-  const auto inlets = masks(first, "inlet");
-  for (std::size_t v = 0; v < inlets.size(); ++v)
-    if (of_inlet(inlets[v], number) != 0)
-      fall = std::min(fall, fall_from(solids, gravity / g, positions(first)[v], size, first.time));
-  if (!std::isfinite(fall))
-    return inflow.thickness;
-  const double viscous = v0 + scene.material.density * g * fall * fall / (8 * scene.material.viscosity);
-  return inflow.thickness * v0 / std::min(std::sqrt(v0 * v0 + 2 * g * fall), viscous);
+  const double v0 = scene::value_at(inflow.velocity, first.time).norm();
+  const auto landing = landing_of_inflow(scene, first, number);
+  return landing && v0 > 0 ? inflow.thickness * v0 / speed_after_fall(scene, v0, landing->fall) : inflow.thickness;
 }
 
 // What else the remesher may be asked for, where something lands or folds: edges that follow bends of a layer as thick
@@ -106,27 +68,13 @@ double round_number(double value) {
   return unit * (value >= 5 * unit ? 5 : value >= 2 * unit ? 2 : 1);
 }
 
-// The longest way down from the sheet to a solid [m]; 0 where it hangs above none.
-double longest_fall(const Scene& scene, const Frame& first) {
-  const solid::Solids solids(scene);
-  const auto x = positions(first);
-  double longest = 0;
-  const std::size_t apart = std::max<std::size_t>(1, x.size() / 100);
-  for (std::size_t v = 0; v < x.size() && scene.environment.gravity; v += apart)
-    if (const double fall =
-            fall_from(solids, scene.environment.gravity->normalized(), x[v], size_of(first), first.time);
-        std::isfinite(fall))
-      longest = std::max(longest, fall);
-  return longest;
-}
-
 // Some times of the flow, of the fall and of what comes in; until whatever ends by the clock has ended.
 double until_of(const Scene& scene, const Frame& first) {
   const scene::Scales scales = scene::scales_of(scene, measured(first));
   const double length = scales.length.value_or(0);
   double until = length > 0 && scales.speed > 0 ? 5 * length / scales.speed : 1;
   if (scales.gravity > 0)
-    until += 4 * std::sqrt(2 * longest_fall(scene, first) / scales.gravity);
+    until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / scales.gravity);
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
   const auto comes_to_rest = [&](const scene::Motion& motion) {
     for (const double time : scene::events(motion))
@@ -156,6 +104,15 @@ double rate_of(double until) {
 
 } // namespace
 
+double mean_edge(const Frame& frame) {
+  const auto x = positions(frame);
+  double sum = 0;
+  for (const Corners& c : triangles(frame))
+    for (std::size_t i = 0; i < 3; ++i)
+      sum += (x[c[(i + 1) % 3]] - x[c[i]]).norm();
+  return sum / (3.0 * static_cast<double>(frame.triangles));
+}
+
 double landing_thickness(const Scene& scene, const Frame& first) {
   const auto x = positions(first);
   double least = std::numeric_limits<double>::infinity();
@@ -182,8 +139,9 @@ std::string ring_text(const Scene& scene, const Frame& first, const RingWishes& 
              "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:.10g} "
              "--fps {:.10g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
              "is below {:g} of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
-             init, ring.until, ring.fps, ring.stages, mean_edge_of(first), tolerance_at(wishes.quality)) +
-         word_of_blow_up(scene) + finer_folds(scene, first);
+             init, ring.until, ring.fps, ring.stages, mean_edge(first), tolerance_at(wishes.quality)) +
+         forecast_text(scene, first, ring, tolerance_at(wishes.quality)) + word_of_blow_up(scene) +
+         finer_folds(scene, first);
 }
 
 std::string ring_lines(const Scene& scene, const Frame& first, const RingWishes& wishes, const std::string& init) {

@@ -11,10 +11,11 @@
 namespace sheet {
 
 // How thick the thinnest of the sheet is when it lands [m]: of an inflow, what the fall to the first solid below
-// leaves, h v0/v, v the least of sqrt(v0² + 2 g H) (free fall) and v0 + rho g H²/(8 mu) (a viscous curtain's first
-// stretching, whose force at y is rho g (H - y) h and equals 4 mu h dv/dy [Trouton 1906; Brown 1961, J. Fluid Mech.
-// 10]); of what is there from the start, its thickness.
+// leaves, h v0/v, v as in landing.h; of what is there from the start, its thickness.
 [[nodiscard]] double landing_thickness(const Scene& scene, const formats::Frame& first);
+
+// The mean length of the sheet's edges, those between triangles counted twice [m].
+[[nodiscard]] double mean_edge(const formats::Frame& frame);
 
 // How to run a scene.
 struct ProposedRing {

@@ -233,6 +233,58 @@ END
   done
 }
 
+@test "7: --check asks about liquid that sticks where it would run, and about what folds through itself" {
+  cat > pour.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = ["60 mm", "20 mm"]
+edge_length = "5 mm"
+plane = "xz"
+center = [0, 0, "60 mm"]
+thickness = "3 mm"
+velocity = [0, 0, "-0.15 m/s"]
+[material]
+viscosity = 5
+density = 1300
+[environment]
+gravity = [0, 0, -9.81]
+[[inflow]]
+region = "z_max"
+velocity = [0, 0, "-0.15 m/s"]
+[[solid]]
+shape = "plane"
+normal = [0, 0, 1]
+[contact]
+END
+  warnings() { sheet-init --check "$@" | sed -n '/^Warnings/,/^$/p' | tr '\n' ' '; }
+  asks='does liquid stay where it touches solid 0 (plane)? contact = "stick" holds it there, though'
+  folds='lands on solid 0 (plane) and folds or piles up, but may pass through itself: [contact] self = true'
+  run warnings pour.toml
+  [[ $output == *"$asks what flows in would spread on it by about "*'contact = "flow" lets it'* && $output != *'pass through'* ]]
+  for set in 'solid.contact="flow"' 'solid.surface_velocity=[0.1, 0, 0]' material.viscosity=1e7; do # nothing to ask
+    run warnings pour.toml --set "$set"
+    [[ $output != *'does liquid stay'* ]]
+  done
+  run warnings pour.toml --set contact.self=false
+  [[ $output == *"what flows in $folds"* ]]
+  run warnings pour.toml --set contact.self=false --set 'solid.surface_velocity=[2, 0, 0]' # which draws it away
+  [[ $output != *'pass through'* ]]
+
+  # sheets that fall, without inflow: the upright one folds, the level one does not
+  sed '/^.*inflow/,/^velocity/d; /^.contact/d' pour.toml > fall.toml
+  run warnings fall.toml
+  [[ $output == *"the upright sheet $folds"* && $output != *'does liquid stay'* ]]
+  run warnings fall.toml --set 'sheet.plane="xy"'
+  [[ $output != *'pass through'* && $output != *'does liquid stay'* ]]
+  slope=(--set 'sheet.plane="xy"' --set 'solid.normal=[1, 0, 1.7]' --until 2)
+  run warnings fall.toml "${slope[@]}" # 8 mm, less than three thicknesses
+  [[ $output != *'does liquid stay'* ]]
+  run warnings fall.toml "${slope[@]}" --set 'sheet.thickness="6 mm"' # 1300 * 9.81 * 0.507 * 36e-6 / 15 * 2
+  [[ $output == *"$asks down its slope a layer as thick as the sheet would run about 0.03 m within 2 s"* ]]
+  run warnings fall.toml "${slope[@]}" --set 'sheet.thickness="6 mm"' --set 'solid.contact="flow"'
+  [[ $output != *'does liquid stay'* ]]
+}
+
 @test "7: --check proposes times that the scene needs" {
   proposes() { # UNTIL FPS SET...
     sheet-init --check disk.toml "${@:3}" | grep -q -- "--until $1 --fps $2 --"

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/contact_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "libsheet/geometry/area.h"
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/landing.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+using Eigen::Vector3d;
+using formats::Frame;
+
+constexpr double far_down = 3, far_spread = 5, long_fall = 3; // thicknesses
+
+std::string question(const std::string& solid, const std::string& otherwise) {
+  return fmt::format("does liquid stay where it touches {}? contact = \"stick\" holds it there, though {}: contact = "
+                     "\"flow\" lets it",
+                     solid, otherwise);
+}
+
+// Of an inflow that lands on a solid at rest, to which it sticks; else "".
+std::string warning_of_stuck_inflow(const Scene& scene, const solid::Solids& solids, const Frame& first,
+                                    std::size_t number, double until) {
+  const auto landing = landing_of_inflow(scene, first, number);
+  if (!landing || scene.solids[landing->solid].contact != SolidContact::stick || landing->there.velocity.norm() > 0)
+    return {};
+  const scene::Inflow& inflow = scene.inflows[number];
+  const double viscosity = scene.material.viscosity, density = scene.material.density;
+  const double q = inflow.thickness * scene::value_at(inflow.velocity, first.time).norm();
+  const double spread =
+      std::pow(density * scene.environment.gravity->norm() * q * q * q / (3 * viscosity), 0.2) * std::pow(until, 0.8);
+  if (!(spread > far_spread * inflow.thickness))
+    return {};
+  return question(solids.name(landing->solid),
+                  fmt::format("what flows in would spread on it by about {:.1g} m within {:.3g} s", spread, until));
+}
+
+// Of the sheet, where it lies on or falls on an inclined solid, to which it sticks; else "".
+std::string warning_of_stuck_slope(const Scene& scene, const solid::Solids& solids, std::size_t number,
+                                   const std::vector<Landing>& all, double thickness, double until) {
+  if (scene.solids[number].contact != SolidContact::stick)
+    return {};
+  const Vector3d down = scene.environment.gravity.value_or(Vector3d::Zero()).normalized();
+  double slope = 0;
+  for (const Landing& landing : all)
+    if (landing.solid == number)
+      slope += landing.there.normal.cross(down).norm() / static_cast<double>(all.size());
+  const double viscosity = scene.material.viscosity, density = scene.material.density;
+  const double way =
+      slope > 0 ? density * scene.environment.gravity->norm() * slope * thickness * thickness / (3 * viscosity) * until
+                : 0;
+  if (!(way > far_down * thickness))
+    return {};
+  return question(solids.name(number),
+                  fmt::format("down its slope a layer as thick as the sheet would run about {:.1g} "
+                              "m within {:.3g} s",
+                              way, until));
+}
+
+// Whether what lands there with that speed [m/s] is not drawn away faster by a belt.
+bool piles_up(const Landing& landing, double speed, double thickness) {
+  return landing.fall > long_fall * thickness && landing.there.velocity.norm() < speed;
+}
+
+// Whether the most of it is steeper than 60 degrees.
+bool is_upright(const Scene& scene, const Frame& first) {
+  const Vector3d down = scene.environment.gravity->normalized();
+  const auto x = positions(first);
+  double area = 0, below = 0;
+  for (const Corners& c : triangles(first)) {
+    const TriangleArea triangle(x[c[0]], x[c[1]], x[c[2]]);
+    area += triangle.area;
+    below += std::abs((x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).dot(down)) / 2;
+  }
+  return below < area / 2;
+}
+
+// Of the first solid on which something folds or piles up, though it may pass through itself; else "".
+std::string warning_of_passing_through(const Scene& scene, const solid::Solids& solids, const Frame& first,
+                                       const std::vector<Landing>& all, double thickness) {
+  if (scene.contact && scene.contact->self)
+    return {};
+  const auto warning = [&](const std::string& what, std::size_t solid) {
+    return fmt::format("{} lands on {} and folds or piles up, but may pass through itself: [contact] self = true keeps "
+                       "its layers apart",
+                       what, solids.name(solid));
+  };
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    const double v0 = scene::value_at(scene.inflows[i].velocity, first.time).norm();
+    if (const auto landing = landing_of_inflow(scene, first, i);
+        landing && piles_up(*landing, speed_after_fall(scene, v0, landing->fall), scene.inflows[i].thickness))
+      return warning("what flows in", landing->solid);
+  }
+  if (all.empty() || !scene.holds.empty() || !scene.inflows.empty() || !is_upright(scene, first))
+    return {};
+  const auto landing = std::ranges::max_element(all, {}, &Landing::fall);
+  const bool piles = piles_up(*landing, speed_after_fall(scene, 0, landing->fall), thickness);
+  return piles ? warning("the upright sheet", landing->solid) : "";
+}
+
+} // namespace
+
+std::vector<std::string> contact_warnings(const Scene& scene, const Frame& first, double until) {
+  const solid::Solids solids(scene);
+  const std::vector<Landing> all = landings(scene, first);
+  const double thickness = *measured(first).thickness;
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i)
+    warnings.push_back(warning_of_stuck_inflow(scene, solids, first, i, until));
+  const bool asked = std::ranges::any_of(warnings, [](const std::string& warning) { return !warning.empty(); });
+  for (std::size_t i = 0; i < solids.size() && !asked; ++i)
+    warnings.push_back(warning_of_stuck_slope(scene, solids, i, all, thickness, until));
+  warnings.push_back(warning_of_passing_through(scene, solids, first, all, thickness));
+  std::erase(warnings, "");
+  return warnings;
+}
+
+} // namespace sheet

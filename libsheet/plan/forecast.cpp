@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/forecast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/landing.h"
+#include "libsheet/scene/scales.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::Frame;
+
+// Until what enters there at `speed` has gone the way to the nearest outflow [s].
+double time_to_leave(const Scene& scene, const Vector3& inlet, double speed) {
+  double time = std::numeric_limits<double>::infinity();
+  for (const scene::Outflow& outflow : scene.outflows)
+    time = std::min(time, std::abs((outflow.point - inlet).dot(outflow.normal.normalized())) / speed);
+  return time;
+}
+
+// What has flowed in at the end, and not yet left [m²].
+double entered_area(const Scene& scene, const Frame& first, double until, double edge) {
+  const auto inlets = masks(first, "inlet");
+  double area = 0;
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    const scene::Inflow& inflow = scene.inflows[i];
+    const double speed = scene::value_at(inflow.velocity, first.time).norm();
+    for (std::size_t v = 0; v < inlets.size(); ++v)
+      if ((of_inlet(inlets[v], i) & at_inlet_border) != 0)
+        area += edge * speed *
+                std::min({until, inflow.until.value_or(until), time_to_leave(scene, positions(first)[v], speed)});
+  }
+  return area;
+}
+
+bool lies_on_itself(const Scene& scene) { return scene.contact && scene.contact->self && !scene.inflows.empty(); }
+
+// Of a frame in a ring, for each vertex and its share of triangles and edges.
+double bytes_of_a_vertex(const Scene& scene) {
+  constexpr double alone = 140; // positions, velocities, triangles, volumes, directors, the step's start
+  constexpr double touching = 40, at_inlets = 32, contacts = 80;
+  return alone + (scene.solids.empty() ? 0 : touching) + (scene.inflows.empty() ? 0 : at_inlets) +
+         (lies_on_itself(scene) ? contacts : 0);
+}
+
+// What a sheet that falls freely lands on does not drive it on.
+bool only_falls(const Scene& scene, const std::vector<Landing>& all) {
+  return scene.holds.empty() && scene.inflows.empty() && !all.empty() &&
+         std::ranges::none_of(
+             all, [&](const Landing& landing) { return scene.solids[landing.solid].surface_velocity.norm() > 0; });
+}
+
+// Steps besides those that end at output times.
+double steps_of_motion(const Scene& scene, const Frame& first, double until, double edge, double tolerance) {
+  constexpr double falls = 2.25;
+  const std::vector<Landing> all = landings(scene, first);
+  const scene::Scales scales = scene::scales_of(scene, measured(first));
+  const double falling = all.empty() ? 0 : falls * std::sqrt(2 * longest_fall(all) / scales.gravity);
+  const bool falls_freely = only_falls(scene, all);
+  const double length = scales.length.value_or(0);
+  const double acceleration = falls_freely ? scales.gravity : length > 0 ? scales.speed * scales.speed / length : 0;
+  double end = scene.inflows.empty() ? falls_freely ? falling : until : 0;
+  for (const scene::Inflow& inflow : scene.inflows)
+    end = std::max(end, inflow.until ? *inflow.until + falling : until);
+  return acceleration > 0 ? std::min(end, until) / std::sqrt(tolerance * edge / acceleration) : 0;
+}
+
+// With so many digits, but for those before the point.
+std::string roughly(double value, int digits) {
+  const double unit = value > 0 ? std::pow(10, std::floor(std::log10(value)) + 1 - digits) : 1;
+  return fmt::format("{:.10g}", std::round(value / unit) * unit);
+}
+
+} // namespace
+
+Forecast forecast(const Scene& scene, const Frame& first, const ProposedRing& ring, double tolerance) {
+  constexpr double of_a_frame = 2500;      // names of arrays, the scene, what made it [bytes]
+  constexpr double on_one_thread = 2.5e-5; // for a vertex, in a step [s]
+  const double edge = mean_edge(first), start = static_cast<double>(first.vertices);
+  const double area = std::pow(*measured(first).length, 2), until = std::max(0.0, ring.until - first.time);
+  const double entered = entered_area(scene, first, until, edge) / area * start;
+  Forecast run{};
+  run.frames = 1 + std::ceil(until * ring.fps * (1 - 1e-9));
+  run.vertices = start + entered / 2;
+  run.bytes = run.frames * (of_a_frame + run.vertices * bytes_of_a_vertex(scene));
+  run.steps = run.frames - 1 + steps_of_motion(scene, first, until, edge, tolerance);
+  run.seconds = run.steps * run.vertices * on_one_thread;
+  return run;
+}
+
+std::string forecast_text(const Scene& scene, const Frame& first, const ProposedRing& ring, double tolerance) {
+  const Forecast run = forecast(scene, first, ring, tolerance);
+  return fmt::format("  To expect: {:.0f} frames, about {} MB; about {} steps, {} s of computing on one thread. Most\n"
+                     "  scenes come within three times of that; strands, thin films and what crumples take more.\n",
+                     run.frames, roughly(run.bytes / 1e6, 2), roughly(std::round(run.steps), 2),
+                     roughly(run.seconds, 1));
+}
+
+} // namespace sheet

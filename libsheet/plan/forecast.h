@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run will come to: frames, megabytes, steps and seconds, by order of magnitude, from the scene's own scales.
+#pragma once
+#include <string>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/plan/proposed_ring.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+struct Forecast {
+  double frames;   // kept, with the first one
+  double bytes;    // of all of them
+  double vertices; // in the mean over the run
+  double steps;
+  double seconds; // of computing, on one thread
+};
+
+// Vertices are those of the first frame and, at the same density, of the area that flows in until the end and, at the
+// speed of the inflow, has not reached an outflow: what stretches or is drawn together is not foreseen.
+// Each output time ends a step. What moves takes steps more, of sqrt(tolerance l/a): an acceleration a that begins or
+// ends is an error of a dt² of an edge's length l. Sheets that fall freely have a = g, for two and a half times of
+// their fall, by which time most of them have come to rest; whatever else is driven has a = V²/L (scene/scales.h),
+// until the end, or until its inflow ends. Scenes that were run take a third to three times as many, but for strands
+// and films that draw out, spheres that crumple and tools that press on rims, which take many more.
+[[nodiscard]] Forecast forecast(const Scene& scene, const formats::Frame& first, const ProposedRing& ring,
+                                double tolerance);
+
+// A paragraph of it, indented as ring_text.
+[[nodiscard]] std::string forecast_text(const Scene& scene, const formats::Frame& first, const ProposedRing& ring,
+                                        double tolerance);
+
+} // namespace sheet

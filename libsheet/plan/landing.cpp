@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/landing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+using Eigen::Vector3d;
+using formats::Frame;
+
+// Of what is at x at time t and falls `down` (a unit vector); size: of the sheet [m].
+std::optional<Landing> landing_from(const solid::Solids& solids, const Vector3d& down, const Vector3d& x, double size,
+                                    double t) {
+  constexpr double farthest = 100, near = 1e-3; // times the size
+  double way = 0;
+  while (way < farthest * size) {
+    Landing nearest{.solid = 0, .fall = way, .there = {std::numeric_limits<double>::infinity(), -down, {}}};
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      if (const solid::SolidPoint point = solids.at(i, x + way * down, t); point.distance < nearest.there.distance) {
+        nearest.solid = i;
+        nearest.there = point;
+      }
+    if (nearest.there.distance < near * size)
+      return nearest;
+    way += nearest.there.distance;
+  }
+  return {};
+}
+
+bool falls(const Scene& scene) {
+  return !scene.solids.empty() && scene.environment.gravity && scene.environment.gravity->norm() > 0;
+}
+
+} // namespace
+
+std::vector<Landing> landings(const Scene& scene, const Frame& first) {
+  std::vector<Landing> all;
+  if (!falls(scene))
+    return all;
+  constexpr std::size_t probes = 100;
+  const solid::Solids solids(scene);
+  const auto x = positions(first);
+  const Vector3d down = scene.environment.gravity->normalized();
+  const double size = *measured(first).length;
+  const std::size_t apart = std::max<std::size_t>(1, x.size() / probes);
+  for (std::size_t v = 0; v < x.size(); v += apart)
+    if (const auto landing = landing_from(solids, down, x[v], size, first.time))
+      all.push_back(*landing);
+  return all;
+}
+
+double longest_fall(const std::vector<Landing>& landings) {
+  double longest = 0;
+  for (const Landing& landing : landings)
+    longest = std::max(longest, landing.fall);
+  return longest;
+}
+
+std::optional<Landing> landing_of_inflow(const Scene& scene, const Frame& first, std::size_t number) {
+  std::optional<Landing> shortest;
+  if (!falls(scene))
+    return shortest;
+  const solid::Solids solids(scene);
+  const Vector3d down = scene.environment.gravity->normalized();
+  const double size = *measured(first).length;
+  const auto inlets = masks(first, "inlet");
+  for (std::size_t v = 0; v < inlets.size(); ++v)
+    if (of_inlet(inlets[v], number) != 0)
+      if (const auto landing = landing_from(solids, down, positions(first)[v], size, first.time);
+          landing && (!shortest || landing->fall < shortest->fall))
+        shortest = landing;
+  return shortest;
+}
+
+double speed_after_fall(const Scene& scene, double v0, double fall) {
+  const double g = scene.environment.gravity.value_or(Vector3d::Zero()).norm();
+  const double viscous = v0 + scene.material.density * g * fall * fall / (8 * scene.material.viscosity);
+  return std::min(std::sqrt(v0 * v0 + 2 * g * fall), viscous);
+}
+
+} // namespace sheet

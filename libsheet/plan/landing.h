@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where what falls would land: the first solid straight below it.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+#include "libsheet/solid/solids.h"
+
+namespace sheet {
+
+struct Landing {
+  std::size_t solid;       // its number in the scene
+  double fall;             // the way down to it [m]
+  solid::SolidPoint there; // of the solid, at the first frame's time
+};
+
+// Of about a hundred of the sheet's vertices, spread over it, those that are above a solid; none without gravity.
+[[nodiscard]] std::vector<Landing> landings(const Scene& scene, const formats::Frame& first);
+
+// The longest of their falls [m]; 0 if there is none.
+[[nodiscard]] double longest_fall(const std::vector<Landing>& landings);
+
+// The shortest fall of what stands at the inlet of that inflow; nothing if it is above no solid, or without gravity.
+[[nodiscard]] std::optional<Landing> landing_of_inflow(const Scene& scene, const formats::Frame& first,
+                                                       std::size_t number);
+
+// Of what begins a fall with the speed v0 [m/s], at its end: the least of sqrt(v0² + 2 g H) (free fall) and
+// v0 + rho g H²/(8 mu) (a viscous curtain's first stretching, whose force at y is rho g (H - y) h and equals
+// 4 mu h dv/dy [Trouton 1906; Brown 1961, J. Fluid Mech. 10]).
+[[nodiscard]] double speed_after_fall(const Scene& scene, double v0, double fall);
+
+} // namespace sheet
