@@ -258,7 +258,8 @@ struct CollideStage::Impl {
       check_start(path);
       totals.check += watch.lap();
       const std::vector<Axes> fixed = path.fixed;
-      const double taken = taken_by_solids(path, velocities(frame)) + resolve_self_beside_solids(path, reach, frame);
+      double taken = taken_by_solids(path, velocities(frame));
+      taken += resolve_self_beside_solids(path, reach, frame);
       totals.response += watch.lap();
       set_springs(frame, path, fixed, reach, taken);
       known.remember(path.triangles, path.start, path.end);
