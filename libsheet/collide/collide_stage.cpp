@@ -259,7 +259,7 @@ struct CollideStage::Impl {
       totals.check += watch.lap();
       const std::vector<Axes> fixed = path.fixed;
       double taken = taken_by_solids(path, velocities(frame));
-      taken += resolve_self_beside_solids(path, reach, frame);
+      taken = std::max(0.0, taken + resolve_self_beside_solids(path, reach, frame));
       totals.response += watch.lap();
       set_springs(frame, path, fixed, reach, taken);
       known.remember(path.triangles, path.start, path.end);
@@ -331,7 +331,7 @@ struct CollideStage::Impl {
   }
 
   // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
-  // Returns the kinetic energy that it took [J].
+  // Returns the kinetic energy that it took, less what it gave [J].
   double resolve_self_beside_solids(StepPath& path, std::span<const double> reach, Frame& frame) {
     const StepPath asked = path;
     const std::vector<RigidStep> steps = solid_steps(path);

@@ -297,10 +297,9 @@ private:
         fastest = std::max(fastest, seen.norm());
     }
     const double allowed = mass * fastest * fastest / 2;
-    if (along + square <= allowed) {
-      report_.taken += std::max(0.0, -along - square);
+    report_.taken -= std::min(along + square, allowed);
+    if (along + square <= allowed)
       return;
-    }
     const double part = (std::sqrt(along * along + 4 * square * allowed) - along) / (2 * square);
     for (const std::uint32_t v : island)
       path_.velocity[v] = before[v] + part * (path_.velocity[v] - before[v]);
