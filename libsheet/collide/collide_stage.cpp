@@ -271,9 +271,10 @@ struct CollideStage::Impl {
       check_start(path);
       totals.check += watch.lap();
       const std::vector<Axes> fixed = path.fixed;
-      resolve_self_beside_solids(path, reach, frame);
+      double taken = taken_by_solids(path, velocities(frame));
+      taken = std::max(0.0, taken + resolve_self_beside_solids(path, reach, frame));
       totals.response += watch.lap();
-      set_springs(frame, path, fixed, reach);
+      set_springs(frame, path, fixed, reach, taken);
       known.remember(path.triangles, path.start, path.end);
       last_end = path.end;
       totals.springs += watch.lap();
@@ -333,8 +334,18 @@ struct CollideStage::Impl {
     return moving ? steps : std::vector<RigidStep>{};
   }
 
+  // The kinetic energy that solids took [J], seen from them: an impulse without bounce that changes velocities by w
+  // takes m w²/2 at least.
+  static double taken_by_solids(const StepPath& path, std::span<const Vector3> before) {
+    double taken = 0;
+    for (std::size_t v = 0; v < before.size(); ++v)
+      taken += path.mass[v] * (path.velocity[v] - before[v]).squaredNorm() / 2;
+    return taken;
+  }
+
   // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
-  void resolve_self_beside_solids(StepPath& path, std::span<const double> reach, Frame& frame) {
+  // Returns the kinetic energy that it took, less what it gave [J].
+  double resolve_self_beside_solids(StepPath& path, std::span<const double> reach, Frame& frame) {
     const StepPath asked = path;
     const std::vector<RigidStep> steps = solid_steps(path);
     SelfReport report;
@@ -361,16 +372,18 @@ struct CollideStage::Impl {
     totals.add(report);
     log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", frame.step, report.hits,
                 report.by_impulses, report.in_groups, report.pulled_back);
+    return report.taken;
   }
 
-  void set_springs(Frame& frame, StepPath& path, const std::vector<Axes>& fixed, std::span<const double> reach) {
+  void set_springs(Frame& frame, StepPath& path, const std::vector<Axes>& fixed, std::span<const double> reach,
+                   double taken) {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
     const SpringSheet sheet{path.start,  path.end, reach,         path.thickness,
                             at_end.area, fixed,    path.length(), path.end_thickness};
     std::vector<ContactSpring> springs = read_springs(frame);
     drop_within_layers(springs, search->layers(), sheet);
     const std::vector<ContactSpring> loose = take_loose(springs, *mesh.mesh(), path.start);
-    follow(springs, *scene, sheet);
+    follow(springs, *scene, sheet, {positions(frame), taken});
     const std::size_t old = springs.size();
     add_springs(springs, search->near(path.end, reach), search->layers(), *scene, sheet);
     hand_over(loose, path.end, springs);

@@ -345,15 +345,11 @@ private:
       return;
     }
     const solid::Near& near = hit.point.near;
+    if (hit.kind == FoundHit::Kind::across && std::ranges::any_of(corners, [&](std::uint32_t v) { return held(v); }))
+      return; // out of what a [[hold]] keeps in nothing comes
     // Out to the target along the normal, without speed, what an impulse of this round at the same place (an edge that
-    // two triangles share) has not yet brought it out. What lies deep comes out by half the thickness at a time: the
-    // nearest way out of it may be through the sheet, and what would come out in one leap would pull the sheet along.
-    double out = std::max(0.0, target * lever.half - near.distance);
-    if (hit.kind == FoundHit::Kind::across) {
-      if (std::ranges::any_of(corners, [&](std::uint32_t v) { return held(v); }))
-        return; // out of what a [[hold]] keeps in nothing comes
-      out = std::min(out, lever.half);
-    }
+    // two triangles share) has not yet brought it out.
+    const double out = std::max(0.0, target * lever.half - near.distance);
     const double already = std::clamp((lever.end - hit.place).dot(near.normal), 0.0, out);
     const bool sticks = solids_.scene(hit.solid).contact == SolidContact::stick;
     Vector3 move = (out - already) * near.normal; // in the solid's frame
