@@ -144,6 +144,17 @@ struct CollideStage::Impl {
   Totals totals;
   health::Teller teller;
 
+  void tell_of_two_solids(Frame& frame, const SolidReport& report) {
+    teller.tell(frame,
+                {.trouble = health::Trouble::two_solids,
+                 .value = static_cast<double>(report.between) / static_cast<double>(frame.vertices),
+                 .amount = static_cast<double>(report.between),
+                 .place = report.between_at},
+                fmt::format("step {}: {} vertices lie between two solids that move past each other; the one that they "
+                            "touched first drags them, the other one only stops them",
+                            frame.step, report.between));
+  }
+
   void read_scene_of(const Frame& frame) {
     scene = &scenes.of(frame);
     if (!scenes.changed())
@@ -244,6 +255,8 @@ struct CollideStage::Impl {
                     fmt::format("step {}: {} triangles come too close to solids; if that comes back step after step, "
                                 "take shorter steps or shorter edges",
                                 frame.step, report.unresolved));
+      if (report.between > 0)
+        tell_of_two_solids(frame, report);
       totals.add(report);
       totals.released += off.size();
       totals.with_solids += watch.lap();
@@ -258,9 +271,10 @@ struct CollideStage::Impl {
       check_start(path);
       totals.check += watch.lap();
       const std::vector<Axes> fixed = path.fixed;
-      resolve_self_beside_solids(path, reach, frame);
+      double taken = taken_by_solids(path, velocities(frame));
+      taken = std::max(0.0, taken + resolve_self_beside_solids(path, reach, frame));
       totals.response += watch.lap();
-      set_springs(frame, path, fixed, reach);
+      set_springs(frame, path, fixed, reach, taken);
       known.remember(path.triangles, path.start, path.end);
       last_end = path.end;
       totals.springs += watch.lap();
@@ -320,8 +334,18 @@ struct CollideStage::Impl {
     return moving ? steps : std::vector<RigidStep>{};
   }
 
+  // The kinetic energy that solids took [J], seen from them: an impulse without bounce that changes velocities by w
+  // takes m w²/2 at least.
+  static double taken_by_solids(const StepPath& path, std::span<const Vector3> before) {
+    double taken = 0;
+    for (std::size_t v = 0; v < before.size(); ++v)
+      taken += path.mass[v] * (path.velocity[v] - before[v]).squaredNorm() / 2;
+    return taken;
+  }
+
   // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
-  void resolve_self_beside_solids(StepPath& path, std::span<const double> reach, Frame& frame) {
+  // Returns the kinetic energy that it took, less what it gave [J].
+  double resolve_self_beside_solids(StepPath& path, std::span<const double> reach, Frame& frame) {
     const StepPath asked = path;
     const std::vector<RigidStep> steps = solid_steps(path);
     SelfReport report;
@@ -348,16 +372,18 @@ struct CollideStage::Impl {
     totals.add(report);
     log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", frame.step, report.hits,
                 report.by_impulses, report.in_groups, report.pulled_back);
+    return report.taken;
   }
 
-  void set_springs(Frame& frame, StepPath& path, const std::vector<Axes>& fixed, std::span<const double> reach) {
+  void set_springs(Frame& frame, StepPath& path, const std::vector<Axes>& fixed, std::span<const double> reach,
+                   double taken) {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
     const SpringSheet sheet{path.start,  path.end, reach,         path.thickness,
                             at_end.area, fixed,    path.length(), path.end_thickness};
     std::vector<ContactSpring> springs = read_springs(frame);
     drop_within_layers(springs, search->layers(), sheet);
     const std::vector<ContactSpring> loose = take_loose(springs, *mesh.mesh(), path.start);
-    follow(springs, *scene, sheet);
+    follow(springs, *scene, sheet, {positions(frame), taken});
     const std::size_t old = springs.size();
     add_springs(springs, search->near(path.end, reach), search->layers(), *scene, sheet);
     hand_over(loose, path.end, springs);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace sheet::collide {
 
@@ -59,6 +60,37 @@ bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   return s.stiffness[0] * (gap - s.rest) <= *scene.contact->adhesion * s.area(sheet.area);
 }
 
+// Its strain, along its normal and across, is that of libsheet/energy/contact.h.
+double energy_of(const ContactSpring& s, const Scene& scene, std::span<const Vector3> x) {
+  const bool pulls = !scene.contact || scene.contact->adhesion != 0.0;
+  const Vector3 strain = s.offset(x) - s.anchor;
+  const double gap = s.normal.dot(s.offset(x)) - s.rest, across = s.normal.dot(strain);
+  const double normal = pulls || gap < 0 ? s.stiffness[0] : 0;
+  return 0.5 * (normal * gap * gap + s.stiffness[1] * (strain - across * s.normal).squaredNorm());
+}
+
+// Leaves the spring this part of its strain.
+void ease(ContactSpring& s, double part, std::span<const Vector3> x) {
+  const Vector3 c = s.offset(x);
+  s.rest = s.normal.dot(c) + part * (s.rest - s.normal.dot(c));
+  s.anchor = c + part * (s.anchor - c);
+}
+
+// springs: each with what corrections have made its energy grow by [J], less than 0 where it fell.
+void ease_strained(std::vector<std::pair<ContactSpring, double>>& springs, const Scene& scene, const SpringSheet& sheet,
+                   double taken) {
+  double grown = 0, given = taken;
+  for (const auto& [s, change] : springs)
+    (change > 0 ? grown : given) += std::abs(change);
+  if (grown <= given)
+    return;
+  for (auto& [s, change] : springs)
+    if (change > 0) {
+      const double energy = energy_of(s, scene, sheet.end);
+      ease(s, std::sqrt(std::max(0.0, 1 - (1 - given / grown) * change / energy)), sheet.end);
+    }
+}
+
 } // namespace
 
 void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet) {
@@ -67,8 +99,22 @@ void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& 
   });
 }
 
-void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet) {
-  std::erase_if(springs, [&](ContactSpring& s) { return !follows(s, scene, sheet); });
+void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet,
+            const Corrections& corrections) {
+  SpringSheet free = sheet;
+  free.end = corrections.end;
+  std::vector<std::pair<ContactSpring, double>> followed;
+  for (ContactSpring s : springs) {
+    ContactSpring without = s;
+    if (!follows(s, scene, sheet))
+      continue;
+    follows(without, scene, free); // its energy is sought, whether it parts or not
+    followed.emplace_back(s, energy_of(s, scene, sheet.end) - energy_of(without, scene, free.end));
+  }
+  ease_strained(followed, scene, sheet, corrections.taken);
+  springs.clear();
+  for (const auto& [s, change] : followed)
+    springs.push_back(s);
 }
 
 void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,

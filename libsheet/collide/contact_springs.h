@@ -40,13 +40,24 @@ struct SpringSheet {
   std::span<const double> end_thickness = {}; // where layers flow; their springs rest at what they thin to [m]
 };
 
+// What contacts did in the step besides what springs do.
+struct Corrections {
+  std::span<const Vector3> end; // where the sheet would be without [m]
+  double taken = 0;             // the kinetic energy that they took, as far as springs may have got it [J]
+};
+
 // Takes away the springs within one layer, by the positions and contact distances at the start: those of a layer that
 // has become thicker than the loop between them is long, and those of streams from before layers were told apart.
 void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet);
 
 // Turns the springs with their features and takes away those that parted: whose features passed each other or became
 // parallel edges, and whose tension [Pa] exceeds the scene's adhesion. Without `adhesion` in the scene none parts.
-void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet);
+//
+// Where impulses and what carries or pulls back vertices have moved them, that is no work: all springs that it has
+// strained give up the same part of that strain's energy, so that springs get no more of it than other springs gave and
+// `taken`. Their rest and anchor follow, so that they push and pull less from where they are.
+void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet,
+            const Corrections& corrections);
 
 // Adds springs for near pairs of two layers that have none.
 void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,

@@ -297,6 +297,7 @@ private:
         fastest = std::max(fastest, seen.norm());
     }
     const double allowed = mass * fastest * fastest / 2;
+    report_.taken -= std::min(along + square, allowed);
     if (along + square <= allowed)
       return;
     const double part = (std::sqrt(along * along + 4 * square * allowed) - along) / (2 * square);

@@ -52,6 +52,7 @@ struct SelfReport {
   std::size_t pulled_back = 0;       // vertices, all kinds
   std::size_t held_back = 0;         // those whose motion is prescribed, among them
   Vector3 held_at = Vector3::Zero(); // the last of those, where held_back > 0
+  double taken = 0;                  // of kinetic energy less what was given, seen by the observer above [J]
 };
 
 // Corrects end and velocity of the path. `reach`: contact distance at each vertex [m]; `prescribed`: axes along which

@@ -23,6 +23,8 @@ constexpr int rounds = 10;
 // By how many times the way that a point of a triangle is moved an impulse may move a corner. Of two corners with
 // masses m and M the lighter moves by up to sqrt(M/m)/2 times that way, so lighter ones count as having a part of M.
 constexpr double longest_corner_lever = 4, least_mass_part = 1 / (4 * longest_corner_lever * longest_corner_lever);
+// By what part of its reach a vertex may be farther from a solid that stops it than where that puts it.
+constexpr double as_near = 0.01;
 // What two hits may differ by that come together: of the step, and of the thickness.
 constexpr double same = 1e-7;
 
@@ -343,15 +345,11 @@ private:
       return;
     }
     const solid::Near& near = hit.point.near;
+    if (hit.kind == FoundHit::Kind::across && std::ranges::any_of(corners, [&](std::uint32_t v) { return held(v); }))
+      return; // out of what a [[hold]] keeps in nothing comes
     // Out to the target along the normal, without speed, what an impulse of this round at the same place (an edge that
-    // two triangles share) has not yet brought it out. What lies deep comes out by half the thickness at a time: the
-    // nearest way out of it may be through the sheet, and what would come out in one leap would pull the sheet along.
-    double out = std::max(0.0, target * lever.half - near.distance);
-    if (hit.kind == FoundHit::Kind::across) {
-      if (std::ranges::any_of(corners, [&](std::uint32_t v) { return held(v); }))
-        return; // out of what a [[hold]] keeps in nothing comes
-      out = std::min(out, lever.half);
-    }
+    // two triangles share) has not yet brought it out.
+    const double out = std::max(0.0, target * lever.half - near.distance);
     const double already = std::clamp((lever.end - hit.place).dot(near.normal), 0.0, out);
     const bool sticks = solids_.scene(hit.solid).contact == SolidContact::stick;
     Vector3 move = (out - already) * near.normal; // in the solid's frame
@@ -458,7 +456,30 @@ private:
       }
       path_.velocity[v] = with_fixed(prescribed_[v], path_.velocity[v], velocity);
       ++report_.touching;
+      count_between(static_cast<std::uint32_t>(v));
     }
+  }
+
+  // A vertex that would touch another solid, too, which moves along or against its own one: that stops it at most.
+  void count_between(std::uint32_t v) {
+    const SolidView& own = own_view(v);
+    const double half = path_.half_thickness(v);
+    const bool between = std::ranges::any_of(views_, [&](const SolidView& other) {
+      if (&other == &own || !moves_past(own, other, path_.start[v]))
+        return false;
+      const double reach = catching_distance(path_, other, v, other.own(0, path_.start[v]), 2 * half);
+      const double most = (1 + as_near) * reach;
+      return other.shape().distance(other.own(other.pieces(), path_.end[v]), most) < most;
+    });
+    if (!between)
+      return;
+    ++report_.between;
+    report_.between_at = path_.end[v];
+  }
+
+  // Whether two solids' surfaces move with respect to each other at a point, by more than round-off.
+  [[nodiscard]] static bool moves_past(const SolidView& one, const SolidView& other, const Vector3& x) {
+    return one.runs() || other.runs() || (one.carried(x) - other.carried(x)).norm() > 1e-9 * (1 + x.norm());
   }
 
   StepPath& path_;

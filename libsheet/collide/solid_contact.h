@@ -38,6 +38,8 @@ struct SolidReport {
   std::size_t carried = 0;                 // vertices carried with a solid because impulses did not help
   std::size_t started_across = 0;          // triangles that start across a solid's surface
   std::size_t brought_out = 0;             // vertices that started inside a solid, by at most half an edge
+  std::size_t between = 0;                 // vertices held by one solid that another one stops which moves past it
+  Vector3 between_at = Vector3::Zero();    // the last of those, where between > 0
   std::size_t unresolved = 0;              // triangles that still come too close (see above)
   Vector3 unresolved_at = Vector3::Zero(); // a corner of the last of those, where unresolved > 0
 };

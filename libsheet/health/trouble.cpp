@@ -123,6 +123,17 @@ constexpr std::array table{
          .serious = {.worst = 1e-3, .share = 0, .times = 1},
          .remedy = "look at the stages of your own: what leaves or enters belongs into the frame's accounts "
                    "(formats/sheet.md, section 5)"},
+    Kind{.trouble = Trouble::two_solids,
+         .name = "between two solids",
+         .least = false,
+         .told = Told::in_percent,
+         .what = "up to {} of the vertices lay between two solids that move past each other",
+         .counted = "vertices",
+         .noted = {.worst = 0, .share = 0, .times = 3},
+         .serious = {.worst = 0.05, .share = 0, .times = 20, .of_steps = 0.1},
+         .remedy =
+             "believe nothing of what is rolled, pressed or combed there: a vertex feels the solid that it touched "
+             "first, the other one only stops it; wider gaps than the sheet is thick have no such places"},
 };
 
 } // namespace

@@ -23,6 +23,7 @@ enum class Trouble : std::uint8_t {
   edits_due = 10,
   crumbs = 11,
   volume = 12,
+  two_solids = 13,
 };
 
 // From where on trouble counts: all three must be reached.

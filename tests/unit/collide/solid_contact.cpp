@@ -53,6 +53,25 @@ TEST(SolidContact, NothingToDo) {
   EXPECT_TRUE(unsafe_triangles(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).empty());
 }
 
+// Between two plates 2.2 mm apart a sheet of 2 mm touches the lower one, then comes within reach of the upper one, too.
+TEST(SolidContact, WhatLiesBetweenSolidsThatMovePastEachOtherIsCounted) {
+  for (const bool upper_moves : {false, true}) {
+    FallingSheet sheet = falling(1, 1.05e-3);
+    scene::Solid upper = solid(scene::SolidBox{{1, 0.1, 1}}, {0, 0.05 + 2.2e-3, 0});
+    if (upper_moves)
+      upper.motion = scene::Translating{{{{0, {0.05, 0, 0}}}}};
+    const solid::Solids solids = solids_of({solid(scene::HalfSpace{{0, 1, 0}}), upper});
+    const SolidReport first = resolve_solids(sheet.path, solids);
+    EXPECT_EQ(first.touching, sheet.path.start.size());
+    EXPECT_EQ(first.between, 0U); // all are 1.2 mm from the upper one
+    upper.center.y() -= 0.25e-3;
+    sheet.path.start = sheet.path.end;
+    std::ranges::fill(sheet.path.fixed, Axes{0});
+    EXPECT_EQ(resolve_solids(sheet.path, solids_of({solid(scene::HalfSpace{{0, 1, 0}}), upper})).between,
+              upper_moves ? sheet.path.start.size() : 0U);
+  }
+}
+
 // A sheet flies aslant over a ball: each vertex is caught where its path comes within half the thickness, no earlier,
 // and what it would have gone beyond that is told.
 TEST(SolidContact, IsCaughtWhereItsPathMeetsTheSurface) {

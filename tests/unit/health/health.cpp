@@ -233,6 +233,10 @@ TEST(Health, OfStagesIsSeriousWhereItComesBack) {
               HasSubstr("steps above the tolerance: the error of a step is up to 0.05 of an edge"));
   EXPECT_THAT(told({.trouble = Trouble::above_tolerance, .value = 0.05}, 20), Not(HasSubstr("serious")));
   EXPECT_THAT(told({.trouble = Trouble::above_tolerance, .value = 0.5}, 20), HasSubstr("serious"));
+  EXPECT_EQ(told({.trouble = Trouble::two_solids, .value = 0.1, .amount = 3}, 2), "");
+  EXPECT_THAT(told({.trouble = Trouble::two_solids, .value = 0.1, .amount = 3}, 3), Not(HasSubstr("serious")));
+  EXPECT_THAT(told({.trouble = Trouble::two_solids, .value = 0.1, .amount = 3}, 20),
+              HasSubstr("serious: between two solids: up to 10 % of the vertices"));
 }
 
 TEST(Health, RecordKeepsTheWorstAndCounts) {
