@@ -226,7 +226,7 @@ private:
       s_ = first;
       return true;
     }
-    if (first - from < (to - from) / 4)
+    if (first <= from || first - from < (to - from) / 4) // an instant has no rest to be searched
       return false;
     search(part, first, to);
     return true;
