@@ -364,8 +364,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))
     model.reactions = Reactions::at_end;
-  else if (scene::has_rolls(scene) ||
-           (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene))))
+  else if (scene::has_rolls(scene) || (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene))))
     model.reactions = Reactions::of_stage;
   return model;
 }
