@@ -232,5 +232,21 @@ TEST(Searches, TakeNoMoreWhereContactIsNear) {
     }
 }
 
+// A crushed triangle of lava on stairs, thrown through the lowest step: advancement came to an instant, and searched
+// its rest again and again until the stack was full.
+TEST(Searches, EndWhereTheyComeToAnInstant) {
+  const auto box = make_distance(scene::SolidBox{{1, 0.9, 4}});
+  const MovingTriangle thrown{{Vector3(0x1.cddb0a8a61dc6p-3, 0x1.4c7cf656bfa78p+0, 0x1.7a86ab9ee01ap+1),
+                               Vector3(0x1.982740566091ep-3, 0x1.469efe8cca1cdp+0, 0x1.7a62cacb4a985p+1),
+                               Vector3(0x1.a5858ec136806p-3, 0x1.4945fd206d6eep+0, 0x1.77deab3ad8ee6p+1)},
+                              {Vector3(0x1.4ed76992e7204p-2, 0x1.15e18e5d16638p+0, 0x1.6ca904c8890e1p+1),
+                               Vector3(0x1.5313c72590802p-1, 0x1.3333333333332p-3, -0x1.1d73d04d19a9dp+0),
+                               Vector3(0x1.13b668da58421p-3, 0x1.ccccccccccccdp-2, -0x1.d2813c38b1b2p-3)}};
+  const auto hit = box->first_hit(thrown, 0x1.860aaf661b3c3p-65, 0x1.6c895cd9fd9b7p-42);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->point.near.distance, 0, 5e-9); // lowest points are found to 1e-9 of the longest side, 5 m
+  EXPECT_GE(box->separation(thrown.at(0.99 * hit->s), 10, 1e-6), 0);
+}
+
 } // namespace
 } // namespace sheet::solid
