@@ -8,16 +8,17 @@ namespace sheet {
 
 void Membrane::begin(const Stage& stage) {
   stage_ = &stage;
-  state_ = stage.start;
-  rate_ = viscosity_ / (4 * stage.duration);
-  const auto& triangles = state_->mesh->triangles;
+  const auto& triangles = stage.start->mesh->triangles;
+  const double rate = viscosity_ / (4 * stage.duration);
   reference_.resize(triangles.size());
+  weight_.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Corners& v = triangles[t];
     const auto lengths = [&](const Unknowns& u) {
       return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
     };
     const Vector3 start = lengths(stage.begin);
+    weight_[t] = 2 * rate * stage.start->volumes[t] * stage.stiffening(t);
     reference_[t] = stage.previous ? Vector3(start + stage.ratio * (lengths(*stage.previous) - start)) : start;
   }
 }
@@ -26,13 +27,13 @@ double Membrane::value(std::size_t i, const VectorN<9>& u) const {
   const Vector3 m = squared_lengths(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)) - reference_[i];
   const RaisedMetric& a = stage_->raised[i];
   const double trace = a.trace.dot(m);
-  return 2 * rate_ * state_->volumes[i] * (trace * trace - form_determinant(m) / a.determinant);
+  return weight_[i] * (trace * trace - form_determinant(m) / a.determinant);
 }
 
 double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];
-  const Vector3 s = (2 * rate_ * state_->volumes[i]) * stage_->raised[i].dissipated(m);
+  const Vector3 s = weight_[i] * stage_->raised[i].dissipated(m);
   springs.gradient(s, gradient);
   return 0.5 * m.dot(s);
 }
@@ -42,7 +43,7 @@ double Membrane::derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gra
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];
   const RaisedMetric& a = stage_->raised[i];
-  const Matrix3 c = (2 * rate_ * state_->volumes[i]) * a.dissipation();
+  const Matrix3 c = weight_[i] * a.dissipation();
   const Vector3 s = c * m; // ∂W/∂q [N/m]
   springs.gradient(s, gradient);
   springs.hessian(c, definite ? a.positive_part(s) : s, hessian);

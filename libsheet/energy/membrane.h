@@ -23,10 +23,9 @@ public:
 
 private:
   double viscosity_;
-  double rate_ = 0;                // μ/(4τ) [Pa]
-  const State* state_ = nullptr;   // volumes
   const Stage* stage_ = nullptr;   // raised metrics
   std::vector<Vector3> reference_; // squared edge lengths ā [m²]
+  std::vector<double> weight_;     // V μ/(2τ) [J]
 };
 
 } // namespace sheet

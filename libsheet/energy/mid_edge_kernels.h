@@ -31,9 +31,9 @@ struct alignas(64) MidEdgeState {
 struct alignas(64) MidEdgeStart {
   LaneNumbers x[9];              // corners at the start of the step [m]
   LaneNumbers metric[3], volume; // squared lengths of the raised metric [m²], [m³]
+  LaneNumbers rate;              // μ/(2 τ) [Pa]
   LaneNumbers sign[3];           // 1 where edge k runs from its lower to its higher vertex, else -1
   double ratio;                  // of the stage, see stage.h
-  double rate;                   // μ/(2 τ) [Pa]
 };
 
 // What works on the area A within the arcs (area_loads.h).

@@ -40,6 +40,7 @@ struct Stage {
   const Unknowns* previous = nullptr; // the first stage's result, null in a first stage
   std::vector<EdgeFrame> frames;      // of the directors, at the start of the step; empty without directors
   std::vector<RaisedMetric> raised;   // for each triangle: the metric that raises indices and weighs by area
+  std::vector<double> stiffened;      // of each triangle: by how much its viscosity is raised (films.h), or none
   std::vector<double> vertex_volumes; // of each vertex: a third of the volume of each triangle there [m³]
   std::vector<Vector3> inertial;      // where the vertices would go without force [m]
   std::vector<Vector3> predicted;     // the extrapolated end of the stage, for what is lagged [m]
@@ -49,6 +50,7 @@ struct Stage {
   std::vector<double> wall_turns;        // of these directors, by the predicted end of the stage [rad]
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
+  [[nodiscard]] double stiffening(std::size_t triangle) const { return stiffened.empty() ? 1 : stiffened[triangle]; }
   [[nodiscard]] Vector3 position(const Unknowns& u, std::uint32_t v) const { return u.segment<3>(3 * v); }
 };
 

@@ -9,6 +9,7 @@
 
 #include "libsheet/base/each.h"
 #include "libsheet/base/error.h"
+#include "libsheet/energy/films.h"
 #include "libsheet/energy/levelling.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/energy/wall_distance.h"
@@ -52,11 +53,10 @@ bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const E
   });
 }
 
-// How much each vertex counts: wholly, but less as the sheet there is thinner than a tenth of its mean thickness, or as
-// the vertex carries less than a hundredth of the mean volume. Films and strands of next to no mass swing in ways that
-// nobody sees, and shall rule neither steps nor iterations.
+// How much each vertex counts: wholly, but less in films, the thinner they are, or as the vertex carries less than a
+// hundredth of the mean volume: strands of next to no mass shall rule neither steps nor iterations, either.
 Eigen::VectorXd vertex_weights(const Stage& stage) {
-  constexpr double thick_enough = 0.1, carries_enough = 0.01;
+  constexpr double carries_enough = 0.01;
   const auto& triangles = stage.start->mesh->triangles;
   Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stage.vertices())), weight = area;
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -65,7 +65,7 @@ Eigen::VectorXd vertex_weights(const Stage& stage) {
   double volume = 0;
   for (const double v : stage.start->volumes)
     volume += v;
-  const double thickness = thick_enough * volume / area.sum();
+  const double thickness = film_thickness * volume / area.sum();
   const double carried = carries_enough * volume / static_cast<double>(area.size());
   for (Eigen::Index v = 0; v < area.size(); ++v) {
     const double own = stage.vertex_volumes[static_cast<std::size_t>(v)];
@@ -99,6 +99,8 @@ Beginning begin_step(const Model& model, const State& state, double duration) {
   Stage& stage = result.stage;
   result.lengths = step_scale(state, stage.begin.size());
   result.scale = measures(stage, result.lengths);
+  stage.stiffened =
+      stiffened_films(stage, model.viscosity, model.has_inertia() ? model.density : 0, model.surface_tension);
   set_wall_sites(model.walls, stage);
   result.guess = stage.begin;
   for (std::size_t v = 0; v < state.positions.size(); ++v)

@@ -40,13 +40,13 @@ struct Batch {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const auto vector = [&] { return Vector3(uniform(random), uniform(random), uniform(random)); };
-    start.rate = 3;
     for (int lane = 0; lane < lane_count; ++lane) {
       std::array<Vector3, 3> x{vector(), Vector3(2, 0, 0) + vector(), Vector3(0, 2, 0) + vector()};
       if (lane == 2)
         x = {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0.5, 0.5 * std::tan(0.087), 0)};
       const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
       const Vector3 q = squared_lengths(x[0], x[1], x[2]);
+      start.rate[lane] = 3;
       start.volume[lane] = 0.01 * RaisedMetric(q).area();
       for (std::size_t k = 0; k < 3; ++k) {
         const auto at = static_cast<int>(k);

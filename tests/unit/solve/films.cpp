@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Films that tension draws together faster than a step resolves (energy/films.h).
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/energy/films.h"
+#include "libsheet/energy/stage_setup.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/solve/step.h"
+#include "tests/support/meshes.h"
+
+namespace sheet {
+namespace {
+
+Model liquid() {
+  Model m;
+  m.arcs = true;
+  m.viscosity = 5;
+  m.density = 1300;
+  m.surface_tension = 0.05;
+  m.bending = Bending::mid_edge;
+  return m;
+}
+
+// 40 mm square, 2 mm thick, but `part` of that along one side.
+State with_film(double part) {
+  State s = test::at_rest(test::rectangle(0.04, 0.04, 10, 10, 0.2), 0.002);
+  const auto at_the_side = [](const Vector3& x) { return x.x() > 0.025; };
+  for (std::size_t t = 0; t < s.volumes.size(); ++t)
+    if (std::ranges::all_of(s.mesh->triangles[t], [&](auto v) { return at_the_side(s.positions[v]); }))
+      s.volumes[t] *= part;
+  return s;
+}
+
+std::vector<double> areas(const State& s) {
+  std::vector<double> result;
+  for (const Corners& c : s.mesh->triangles)
+    result.push_back(TriangleArea(s.positions[c[0]], s.positions[c[1]], s.positions[c[2]]).area);
+  return result;
+}
+
+std::vector<double> stiffened(const State& s, double dt) {
+  return stiffened_films(first_stage(s, dt, dt, false), liquid().viscosity, liquid().density, liquid().surface_tension);
+}
+
+// μ h/(4 γ) is 0.5 s in the sheet.
+TEST(Films, AreStiffenedWhereStepsDoNotResolveThem) {
+  EXPECT_TRUE(stiffened(with_film(1), 0.01).empty());
+  EXPECT_TRUE(stiffened(with_film(0.2), 10).empty()); // no film
+  EXPECT_TRUE(stiffened(with_film(1e-3), 1e-6).empty());
+  for (const double part : {1e-4, 1e-8}) {
+    const State s = with_film(part);
+    const std::vector<double> raised = stiffened(s, 0.01), area = areas(s);
+    ASSERT_EQ(raised.size(), s.volumes.size());
+    for (std::size_t t = 0; t < raised.size(); ++t) {
+      const double h = s.volumes[t] / area[t];
+      if (h > 1e-3)
+        EXPECT_EQ(raised[t], 1);
+      else
+        EXPECT_NEAR(raised[t] * liquid().viscosity * h / 4 / 0.01, 2 * liquid().surface_tension, 0.01)
+            << part; // less near the greatest
+    }
+  }
+}
+
+// Triangles at that side of all thicknesses from `part` of the sheet's on, next to each other.
+State with_uneven_film(double part) {
+  State s = with_film(1);
+  const State film = with_film(part);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (std::size_t t = 0; t < s.volumes.size(); ++t)
+    s.volumes[t] *= std::pow(film.volumes[t] / s.volumes[t], uniform(random));
+  return s;
+}
+
+TEST(Films, StepsLongerThanTheyTakeToContractNeedFewIterations) {
+  for (const double part : {1e-3, 1e-5, 1e-8})
+    for (const double dt : {1e-3, 1e-2}) {
+      State s = with_uneven_film(part);
+      Stepper stepper(liquid(), {});
+      int spent = 0;
+      for (int k = 0; k < 3; ++k) {
+        const std::vector<double> before = areas(s);
+        const StepReport r = stepper.step(s, dt);
+        EXPECT_EQ(r.failed, 0) << part << " " << dt;
+        spent += r.newton.spent();
+        const std::vector<double> after = areas(s);
+        for (std::size_t t = 0; t < before.size(); ++t)
+          EXPECT_GE(after[t], 0.3 * before[t]) << part << " " << dt;
+      }
+      EXPECT_LE(spent, 24) << part << " " << dt;
+    }
+}
+
+} // namespace
+} // namespace sheet
