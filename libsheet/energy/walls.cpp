@@ -94,25 +94,36 @@ double lying(const Stage& stage, std::size_t triangle, const WallSite& site) {
 
 namespace {
 
-// Whether all corners of a triangle touch one wall, and it lies on it.
-bool lies_on_wall(const Stage& stage, std::size_t triangle) {
+// Of a triangle that lies on the wall which all of its corners touch, the side that it turns away from it: 1 its
+// positive one, -1 the other; else 0.
+int side_on_wall(const Stage& stage, std::size_t triangle) {
   const Corners& c = stage.start->mesh->triangles[triangle];
-  return common_wall(stage, c) != no_index &&
-         lying(stage, triangle, *site_at(stage, c[0])) > least_lying_cosine * least_lying_cosine;
+  if (common_wall(stage, c) == no_index)
+    return 0;
+  const WallSite& site = *site_at(stage, c[0]);
+  if (!(lying(stage, triangle, site) > least_lying_cosine * least_lying_cosine))
+    return 0;
+  const auto& x = stage.start->positions;
+  return (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).dot(site.normal) > 0 ? 1 : -1;
 }
 
-// The directors of edges between triangles that lie on walls are not free to turn: they follow the sheet's normals.
+// The directors of edges between triangles that lie on walls are not free to turn: they follow the sheet's normals. Not
+// so where the sheet is folded back on itself within the wall's plane: there the mean of the normals is about nothing,
+// and turns over as the fold passes 180 degrees.
 void set_wall_turns(Stage& stage) {
   stage.wall_edges.clear();
   stage.wall_turns.clear();
   if (stage.frames.empty())
     return;
   const Connectivity& mesh = *stage.start->mesh;
-  std::vector<char> lies(mesh.triangles.size());
-  each_in_parallel(lies.size(), [&](std::size_t t) { lies[t] = lies_on_wall(stage, t); });
-  for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
-    if (std::ranges::all_of(mesh.edge_triangles[e], [&](std::uint32_t t) { return t == no_index || lies[t] != 0; }))
+  std::vector<signed char> sides(mesh.triangles.size());
+  each_in_parallel(sides.size(), [&](std::size_t t) { sides[t] = static_cast<signed char>(side_on_wall(stage, t)); });
+  for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [left, right] = mesh.edge_triangles[e];
+    const int one = sides[left == no_index ? right : left], other = sides[right == no_index ? left : right];
+    if (one != 0 && one == other)
       stage.wall_edges.push_back(e);
+  }
   if (stage.wall_edges.empty())
     return;
   Unknowns u = stage.begin;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Steps of liquid that flows along walls: forces, rigid motion, corners, length of steps.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/solve/step.h"
 #include "tests/support/meshes.h"
@@ -237,6 +239,23 @@ TEST(Walls, StepsPassHalfAnEdgeAtMost) {
   Stepper stepper(m, {});
   EXPECT_GE(stepper.step(s, 0.1).substeps, 8); // edges of 0.2 and their diagonals
   EXPECT_DOUBLE_EQ(s.time, 0.1);
+}
+
+// Directors follow the normals of a layer, but not where it is folded back on itself within the wall's plane: the mean
+// of the normals there turns over at once as the fold passes 180 degrees.
+TEST(Walls, DirectorsOfFlatFoldsAreFree) {
+  State s = resting(0.1);
+  const auto folded = [](const Vector3& x) { return std::abs(x.x() - 0.6) < 1e-9; };
+  std::vector<char> at_fold;
+  for (const Edge& edge : s.mesh->edges)
+    at_fold.push_back(folded(s.positions[edge[0]]) && folded(s.positions[edge[1]]) ? 1 : 0);
+  for (Vector3& x : s.positions)
+    x.x() = std::min(x.x(), 1.2 - x.x());
+  Stage stage = first_stage(s, 0.01, 0.01, true);
+  set_wall_sites({floor_of(s)}, stage);
+  EXPECT_EQ(std::ranges::count(at_fold, 1), 5);
+  for (std::uint32_t e = 0; e < at_fold.size(); ++e)
+    EXPECT_NE(std::ranges::binary_search(stage.wall_edges, e), at_fold[e] != 0);
 }
 
 // Root mean square of the differences of thickness from triangle to triangle [m].
