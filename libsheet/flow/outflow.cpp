@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "libsheet/base/error.h"
-#include "libsheet/flow/cracks.h"
+#include "libsheet/flow/drop.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/sheet.h"
@@ -64,33 +64,6 @@ Dropped pull_back(Frame& frame, const Scene& scene) {
   }
   std::ranges::copy(x, positions(frame).begin());
   return sum_of(gone, loses, scene.material.density);
-}
-
-// Takes triangles away. Parts of a crumpled sheet that hang together by them alone, and would cross when they come
-// apart, stay together for now: what joins them leaves later.
-Dropped drop(Frame& frame, std::vector<bool> leaves, double density) {
-  const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const Frame&>(frame)));
-  const auto x = positions(static_cast<const Frame&>(frame));
-  for (;;) {
-    std::vector<bool> cut(mesh.edges.size(), false);
-    for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-      cut[e] = !mesh.on_rim(e) && leaves[mesh.edge_triangles[e][0]] != leaves[mesh.edge_triangles[e][1]];
-    const Fans fans = take_apart(mesh, cut);
-    const std::vector<Vector3> opened = open_clear_cracks(mesh, fans, leaves, x);
-    const std::vector<bool> crossing = crossing_at(mesh, x, fans, opened, leaves);
-    bool any = false;
-    for (std::size_t t = 0; t < leaves.size(); ++t)
-      if (leaves[t] && std::ranges::any_of(mesh.triangles[t], [&](std::uint32_t v) { return crossing[v]; })) {
-        leaves[t] = false;
-        any = true;
-      }
-    if (any)
-      continue;
-    const Dropped dropped = sum_of(frame, leaves, density);
-    if (dropped.triangles > 0)
-      put_fans(frame, fans, leaves, opened);
-    return dropped;
-  }
 }
 
 } // namespace

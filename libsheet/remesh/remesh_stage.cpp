@@ -5,6 +5,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/base/stopwatch.h"
+#include "libsheet/flow/threads.h"
 
 namespace sheet::remesh {
 
@@ -46,6 +47,8 @@ void RemeshStage::remesh(formats::Frame& frame) {
                                               ? *scene->sheets.front().edge_length
                                               : own_edge_length(frame);
   }
+  if (scene != nullptr)
+    cut_threads(frame, *scene);
   const std::uint64_t vertices = frame.vertices;
   Stopwatch watch;
   const Report report = remesh::remesh(frame, scene, options_.remeshing);
@@ -67,8 +70,19 @@ void RemeshStage::remesh(formats::Frame& frame) {
   ++frames_;
 }
 
+void RemeshStage::cut_threads(formats::Frame& frame, const Scene& scene) {
+  const flow::Dropped cut = flow::cut_threads(frame, scene, options_.remeshing.size.shortest_in_strips());
+  if (cut.triangles == 0)
+    return;
+  log::detail("step {}: {} triangles of threads cut, {:.3g} m^3", frame.step, cut.triangles, cut.volume);
+  threads_ += cut.triangles;
+  thread_volume_ += cut.volume;
+}
+
 void RemeshStage::report() const {
   teller_.report();
+  if (threads_ > 0)
+    log::detail("{} triangles of threads cut, {:.3g} m^3 (the frame's array tear.volume)", threads_, thread_volume_);
   if (frames_ > 0)
     log::detail("{} frames: {} splits, {} collapses, {} flips, {} moved, {} absorbed", frames_, total_.splits,
                 total_.collapses, total_.flips, total_.smoothed, total_.absorbed);

@@ -23,11 +23,14 @@ public:
   void report() const; // with -v: how many edits of each kind, over all frames; trouble that came more than once
 
 private:
+  void cut_threads(formats::Frame& frame, const Scene& scene);
+
   StageOptions options_;
   FrameScene scenes_;
   Report total_;
   health::Teller teller_;
-  std::uint64_t frames_ = 0;
+  std::uint64_t frames_ = 0, threads_ = 0;
+  double thread_volume_ = 0; // [m³]
 };
 
 } // namespace sheet::remesh

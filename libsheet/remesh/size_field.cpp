@@ -223,6 +223,8 @@ SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeO
   fit_strips(sheet, options);
 }
 
+double SizeOptions::shortest_in_strips() const { return min_edge.value_or(finest_in_strips * edge_length); }
+
 void SizeField::note_thick(const EditableSheet& sheet) {
   std::vector<double> thick = thickness_at_vertices(sheet);
   for (std::uint32_t v = 0; v < thick.size(); ++v)
@@ -233,7 +235,7 @@ void SizeField::note_thick(const EditableSheet& sheet) {
 }
 
 void SizeField::fit_strips(const EditableSheet& sheet, const SizeOptions& options) {
-  const double floor = options.min_edge.value_or(finest_in_strips * options.edge_length);
+  const double floor = options.shortest_in_strips();
   const std::vector<double> width = strip_widths(sheet), thickness = thickness_at_vertices(sheet);
   std::vector<double> fitted(width.size());
   bool any = false;

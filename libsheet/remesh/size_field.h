@@ -19,6 +19,8 @@ struct SizeOptions {
   std::optional<double> min_edge, max_edge; // bounds [m]; absent: edge_length; adaptive: a quarter, four times
   // Error(usage) if a value is not positive and finite, or the upper bound is below twice the lower one while adaptive.
   void check() const;
+  // The least edge that a strip gets [m].
+  [[nodiscard]] double shortest_in_strips() const;
 };
 
 // Adaptive length at a vertex, the least of these, but not below h, within the bounds, growing by at most 0.4 of the

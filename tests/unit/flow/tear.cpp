@@ -18,6 +18,7 @@ namespace {
 
 using formats::Frame;
 using test::error_of;
+using test::momentum;
 using testing::HasSubstr;
 
 constexpr double thin = 0.01, thick = 0.1, below = 0.05;
@@ -104,14 +105,6 @@ Shape shape_of(const Frame& frame) {
     for (std::size_t t = s + 1; t < corners.size(); ++t)
       shape.touching += triangles_intersect(positions(frame), corners[s], corners[t]) ? 1 : 0;
   return shape;
-}
-
-Vector3 momentum(const Frame& frame) {
-  Vector3 p = Vector3::Zero();
-  for (std::size_t t = 0; t < frame.triangles; ++t)
-    for (const std::uint32_t v : triangles(frame)[t])
-      p += volumes(frame)[t] / 3 * velocities(frame)[v];
-  return p;
 }
 
 void set_turning(Frame& frame) {

@@ -49,6 +49,15 @@ inline double area(const formats::Frame& frame, std::size_t t) {
   return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
 }
 
+// Of unit density [kg m/s].
+inline Vector3 momentum(const formats::Frame& frame) {
+  Vector3 p = Vector3::Zero();
+  for (std::size_t t = 0; t < frame.triangles; ++t)
+    for (const std::uint32_t v : triangles(frame)[t])
+      p += volumes(frame)[t] / 3 * velocities(frame)[v];
+  return p;
+}
+
 // The message of the Error that `work` throws, "" if it throws none.
 template <class Work> std::string error_of(Work work) {
   try {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Triangles taken away from a sheet, such that what stays is a manifold that does not pass through itself.
+#pragma once
+#include <vector>
+
+#include "libsheet/flow/put_fans.h"
+
+namespace sheet::flow {
+
+// Takes these triangles away. Vertices at which what stays would only touch itself come apart, as in tearing. Parts of
+// a crumpled sheet that hang together by such triangles alone, and would cross when they come apart, stay together for
+// now: what joins them leaves later. density [kg/m³]. Gives what has left; bit for bit the same frame if nothing has.
+Dropped drop(formats::Frame& frame, std::vector<bool> leaves, double density);
+
+} // namespace sheet::flow

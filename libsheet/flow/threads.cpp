@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/flow/threads.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "libsheet/flow/drop.h"
+#include "libsheet/flow/tear_cuts.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/geometry/disjoint_sets.h"
+#include "libsheet/scene/prescribed.h"
+#include "libsheet/sheet/account.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::flow {
+
+using formats::Frame;
+
+namespace {
+
+constexpr double longest_side = 2, greatest_height = 0.5; // of the shortest edge
+constexpr double greatest_volume = 1e-3;                  // of the triangles' mean
+
+// Triangles as small as those of threads.
+std::vector<bool> small_ones(const Frame& frame, double shortest_edge) {
+  const auto x = positions(frame);
+  const auto volume = volumes(frame);
+  const double mean =
+      std::accumulate(volume.begin(), volume.end(), 0.0) / static_cast<double>(std::max<std::size_t>(1, volume.size()));
+  const double height = greatest_height * shortest_edge;
+  std::vector<bool> small(frame.triangles, false);
+  for (std::size_t t = 0; t < frame.triangles; ++t) {
+    if (!(volume[t] < greatest_volume * mean))
+      continue;
+    const Corners& c = triangles(frame)[t];
+    const double side = std::max({(x[c[1]] - x[c[0]]).norm(), (x[c[2]] - x[c[1]]).norm(), (x[c[0]] - x[c[2]]).norm()});
+    const double area = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area, own = 2 * area / side;
+    small[t] = side < longest_side * shortest_edge && own < height && own * volume[t] < height * height * area;
+  }
+  return small;
+}
+
+// Vertices of the inlet, and what is held.
+std::vector<bool> prescribed(const Frame& frame, const Scene& scene) {
+  std::vector<bool> result;
+  for (const Axes axes : scene::prescribed_axes(frame, scene, frame.time))
+    result.push_back(axes != 0);
+  return result;
+}
+
+// Of the small ones, those with two free corners or more on a rim, or where others have left.
+std::vector<bool> at_rims(const Connectivity& mesh, const std::vector<bool>& small, const std::vector<bool>& fixed) {
+  std::vector<bool> on_rim(mesh.vertices, false), leaves(small.size(), false);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.on_rim(e))
+      on_rim[mesh.edges[e][0]] = on_rim[mesh.edges[e][1]] = true;
+  for (bool found = true; found;) {
+    found = false;
+    for (std::size_t t = 0; t < small.size(); ++t) {
+      const Corners& c = mesh.triangles[t];
+      if (!small[t] || leaves[t] || on_rim[c[0]] + on_rim[c[1]] + on_rim[c[2]] < 2 || fixed[c[0]] || fixed[c[1]] ||
+          fixed[c[2]])
+        continue;
+      leaves[t] = found = true;
+      on_rim[c[0]] = on_rim[c[1]] = on_rim[c[2]] = true;
+    }
+  }
+  return leaves;
+}
+
+// Of the pieces that are left, those that leave too: smaller than a crumb, free, and beside what leaves.
+void add_crumbs(const Connectivity& mesh, const std::vector<bool>& fixed, std::vector<bool>& leaves) {
+  DisjointSets pieces(leaves.size());
+  for (const auto& [one, other] : mesh.edge_triangles)
+    if (one != no_index && other != no_index && !leaves[one] && !leaves[other])
+      pieces.join(one, other);
+  std::vector<bool> beside(mesh.vertices, false);
+  for (std::size_t t = 0; t < leaves.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t])
+      beside[v] = beside[v] || leaves[t];
+  std::vector<std::size_t> size(leaves.size(), 0);
+  std::vector<bool> came_off(leaves.size(), false), stays(leaves.size(), false);
+  for (std::uint32_t t = 0; t < leaves.size(); ++t) {
+    const std::uint64_t piece = pieces.find(t);
+    ++size[piece];
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      came_off[piece] = came_off[piece] || beside[v];
+      stays[piece] = stays[piece] || (!leaves[t] && fixed[v]);
+    }
+  }
+  for (std::uint32_t t = 0; t < leaves.size(); ++t)
+    if (const std::uint64_t piece = pieces.find(t); size[piece] < crumb && came_off[piece] && !stays[piece])
+      leaves[t] = true;
+}
+
+} // namespace
+
+Dropped cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
+  const std::vector<bool> small = small_ones(frame, shortest_edge);
+  if (std::ranges::count(small, true) == 0)
+    return {};
+  const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const Frame&>(frame)));
+  const std::vector<bool> fixed = prescribed(frame, scene);
+  std::vector<bool> leaves = at_rims(mesh, small, fixed);
+  if (std::ranges::count(leaves, true) == 0)
+    return {};
+  add_crumbs(mesh, fixed, leaves);
+  if (std::ranges::count(leaves, false) == 0)
+    return {};
+  const Dropped dropped = drop(frame, std::move(leaves), scene.material.density);
+  if (dropped.triangles > 0) {
+    add_to_account(frame, "tear.volume", "m^3", {&dropped.volume, 1});
+    add_to_account(frame, "tear.momentum", "kg*m/s", {dropped.momentum.data(), 3});
+  }
+  return dropped;
+}
+
+} // namespace sheet::flow

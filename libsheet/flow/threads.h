@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Threads: what a sheet draws out to where edges can no longer follow. A strand narrower than half the shortest edge
+// has triangles that are sharp however they are cut, which step by step take ever more iterations, and next to no
+// liquid; in truth such a thread parts by its surface tension [Rayleigh 1878].
+#pragma once
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/flow/put_fans.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet::flow {
+
+// Takes away the triangles of threads, and what hangs by them alone in pieces smaller than a crumb (tear_cuts.h); those
+// in an inlet or held stay. A triangle is of a thread if it has two corners or more on a rim, or
+// on others of it, no side above twice the shortest edge [m], a height below half of it, a section (that height times
+// its thickness) below that squared, and less than a thousandth of the mean volume. What has left is added to the
+// frame's arrays `tear.volume` [m³] and `tear.momentum` [kg m/s] (account.h). Bit for bit the same frame if there is no
+// thread.
+Dropped cut_threads(formats::Frame& frame, const Scene& scene, double shortest_edge);
+
+} // namespace sheet::flow

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Two pads that hang together by a thread.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/flow/threads.h"
+#include "libsheet/geometry/connectivity.h"
+#include "libsheet/geometry/disjoint_sets.h"
+#include "tests/unit/remesh/sheets.h"
+
+namespace sheet::flow {
+namespace {
+
+using formats::Frame;
+using test::momentum;
+using test::volume_of;
+
+constexpr double shortest = 1.0 / 16; // [m]
+
+Scene scene(const std::string& more = "") {
+  return parse_scene("[sheet]\nshape = \"rectangle\"\nsize = [4, 2]\nedge_length = 1\nthickness = 0.25\n"
+                     "[material]\nviscosity = 1\ndensity = 3\n" +
+                         more,
+                     "scene");
+}
+
+// Pads of 8 x 2 squares of 1 m, 0.2 m thick, and between them a thread of 6 columns, `width` wide, 0.3 m long, which
+// turn about the origin.
+Frame dumbbell(double width, double of_thread = 0.01) {
+  Frame frame = test::grid(22, 2, 1, 0.2);
+  constexpr double left = 8, right = 14, column = 0.05;
+  for (Vector3& x : positions(frame)) {
+    if (x.x() > left - 0.3 && x.x() < right + 0.3)
+      x.y() = 1 + (x.y() - 1) * width / 2;
+    if (x.x() > left)
+      x.x() = x.x() > right ? x.x() - (1 - column) * (right - left) : left + column * (x.x() - left);
+  }
+  for (std::size_t t = 0; t < frame.triangles; ++t)
+    volumes(frame)[t] = test::area(frame, t) * (test::area(frame, t) < 0.01 ? of_thread : 0.2);
+  for (std::size_t v = 0; v < frame.vertices; ++v)
+    velocities(frame)[v] = Vector3(0, 0, 1).cross(positions(frame)[v]);
+  return frame;
+}
+
+std::size_t pieces(const Frame& frame) {
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  DisjointSets sets(frame.triangles);
+  for (const auto& [one, other] : mesh.edge_triangles)
+    if (one != no_index && other != no_index)
+      sets.join(one, other);
+  const auto all = sets.take();
+  return std::set<std::uint64_t>(all.begin(), all.end()).size();
+}
+
+TEST(Threads, AreCutAndAccountedFor) {
+  Frame frame = dumbbell(0.02);
+  const double volume = volume_of(frame);
+  const Vector3 before = 3 * momentum(frame);
+  const Dropped cut = cut_threads(frame, scene(), shortest);
+  EXPECT_GE(cut.triangles, 12U);
+  EXPECT_LE(cut.triangles, 24U);
+  EXPECT_EQ(pieces(frame), 2U);
+  EXPECT_NEAR(volume_of(frame) + frame.find("tear.volume")->values<double>()[0], volume, 1e-14);
+  const auto gone = frame.find("tear.momentum")->values<double>();
+  EXPECT_NEAR((3 * momentum(frame) + Vector3(gone[0], gone[1], gone[2]) - before).norm(), 0, 1e-12);
+  const Frame after = frame;
+  EXPECT_EQ(cut_threads(frame, scene(), shortest).triangles, 0U);
+  EXPECT_EQ(frame, after);
+}
+
+// Wide enough for triangles of its own, or with a section that counts, or of a mesh that is fine everywhere.
+TEST(Threads, WhatIsNoneStays) {
+  for (Frame frame : {dumbbell(0.1), dumbbell(0.02, 3), test::grid(6, 2, 0.02, 0.001)}) {
+    const Frame before = frame;
+    EXPECT_EQ(cut_threads(frame, scene(), shortest).triangles, 0U);
+    EXPECT_EQ(frame, before);
+  }
+}
+
+TEST(Threads, WhatIsHeldStays) {
+  Frame frame = dumbbell(0.02);
+  formats::Array hold = formats::make_standard_array("hold", frame.vertices);
+  for (std::uint64_t& bits : hold.values<std::uint64_t>())
+    bits = 1;
+  frame.put(std::move(hold));
+  EXPECT_EQ(cut_threads(frame, scene("[[hold]]\nregion = \"rim\"\n"), shortest).triangles, 0U);
+}
+
+} // namespace
+} // namespace sheet::flow
