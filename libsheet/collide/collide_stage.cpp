@@ -19,6 +19,7 @@
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
 #include "libsheet/collide/solid_sweep.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/health/teller.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/prescribed.h"
@@ -83,21 +84,19 @@ struct Shares {
 
 Shares shares(std::span<const Corners> triangles, std::span<const double> volumes, std::span<const Vector3> x) {
   const std::size_t n = x.size();
-  Shares s{std::vector<double>(n, 0), std::vector<double>(n, 0), std::vector<double>(n, 0)};
-  std::vector<int> count(n, 0);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Corners& c = triangles[t];
-    const Vector3 u = x[c[1]] - x[c[0]], v = x[c[2]] - x[c[0]];
-    const double area = 0.5 * u.cross(v).norm(), edge = (u.norm() + v.norm() + (u - v).norm()) / 3;
-    for (const std::uint32_t i : c) {
-      s.area[i] += area / 3;
-      s.volume[i] += volumes[t] / 3;
-      s.edge[i] += edge;
-      ++count[i];
-    }
-  }
+  const auto side = [&](std::uint32_t t, std::size_t from, std::size_t to) {
+    return Vector3(x[triangles[t][to]] - x[triangles[t][from]]);
+  };
+  Shares s;
+  s.area =
+      vertex_shares(n, triangles, [&](std::uint32_t t) { return 0.5 * side(t, 0, 1).cross(side(t, 0, 2)).norm(); });
+  s.volume = vertex_shares(n, triangles, [&](std::uint32_t t) { return volumes[t]; });
+  s.edge = vertex_shares(n, triangles, [&](std::uint32_t t) {
+    return side(t, 0, 1).norm() + side(t, 0, 2).norm() + (side(t, 0, 1) - side(t, 0, 2)).norm();
+  });
+  const std::vector<double> count = sum_around(n, triangles, [](std::uint32_t) { return 1; });
   for (std::size_t i = 0; i < n; ++i)
-    s.edge[i] /= std::max(count[i], 1);
+    s.edge[i] /= std::max(count[i], 1.0);
   return s;
 }
 

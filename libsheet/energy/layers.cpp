@@ -2,17 +2,15 @@
 #include "libsheet/energy/layers.h"
 
 #include "libsheet/energy/walls.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
 LayerShares layer_shares(const Stage& stage) {
-  LayerShares s{std::vector<double>(stage.vertices(), 0), std::vector<double>(stage.vertices(), 0)};
   const auto& triangles = stage.start->mesh->triangles;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (const auto v : triangles[t]) {
-      s.area[v] += stage.raised[t].area() / 3;
-      s.thickness[v] += stage.start->volumes[t] / 3;
-    }
+  LayerShares s;
+  s.area = vertex_shares(stage.vertices(), triangles, [&](std::uint32_t t) { return stage.raised[t].area(); });
+  s.thickness = stage.vertex_volumes;
   for (std::size_t v = 0; v < s.area.size(); ++v)
     s.thickness[v] /= s.area[v];
   return s;

@@ -8,6 +8,7 @@
 #include "libsheet/base/each.h"
 #include "libsheet/geometry/angles.h"
 #include "libsheet/geometry/mean_normals.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
@@ -63,10 +64,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
     stage.predicted[v] = state.positions[v] + duration * state.velocities[v];
   });
   stage.inertial = stage.predicted;
-  stage.vertex_volumes.assign(n, 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const auto c : mesh.triangles[t])
-      stage.vertex_volumes[c] += state.volumes[t] / 3;
+  stage.vertex_volumes = vertex_shares(n, mesh.triangles, [&](std::uint32_t t) { return state.volumes[t]; });
   if (angles)
     stage.frames = director_frames(mesh, state.positions, state.director_angles);
   stage.raised.resize(mesh.triangles.size());

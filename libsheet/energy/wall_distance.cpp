@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
@@ -103,17 +104,9 @@ private:
 } // namespace
 
 std::vector<double> lying_thickness(const Stage& stage, const State& end) {
-  std::vector<double> volume(stage.vertices(), 0), area(volume);
-  for (std::size_t t = 0; t < end.volumes.size(); ++t)
-    if (const double seen = lying_area(stage, end, end.mesh->triangles[t]); seen > 0)
-      for (const auto v : end.mesh->triangles[t]) {
-        volume[v] += end.volumes[t];
-        area[v] += seen;
-      }
-  for (std::size_t v = 0; v < volume.size(); ++v)
-    if (area[v] > 0)
-      volume[v] /= area[v];
-  return volume;
+  const auto& triangles = end.mesh->triangles;
+  return thickness_around(stage.vertices(), triangles, end.volumes,
+                          [&](std::uint32_t t) { return lying_area(stage, end, triangles[t]); });
 }
 
 void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<Hold>& holds,

@@ -5,17 +5,15 @@
 #include <cmath>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
 namespace {
 
 std::vector<double> masses(const Model& model, const State& state) {
-  std::vector<double> mass(state.positions.size(), 0);
-  for (std::size_t t = 0; t < state.volumes.size(); ++t)
-    for (const auto v : state.mesh->triangles[t])
-      mass[v] += model.density * state.volumes[t] / 3;
-  return mass;
+  return vertex_shares(state.positions.size(), state.mesh->triangles,
+                       [&](std::uint32_t t) { return model.density * state.volumes[t]; });
 }
 
 double area_of(const State& state, const Corners& c) {

@@ -14,6 +14,7 @@
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/energy/wall_distance.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/solve/reactions.h"
 
 namespace sheet {
@@ -58,10 +59,10 @@ bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const E
 Eigen::VectorXd vertex_weights(const Stage& stage) {
   constexpr double carries_enough = 0.01;
   const auto& triangles = stage.start->mesh->triangles;
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stage.vertices())), weight = area;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (const auto v : triangles[t])
-      area[v] += stage.raised[t].area() / 3;
+  const std::vector<double> shares =
+      vertex_shares(stage.vertices(), triangles, [&](std::uint32_t t) { return stage.raised[t].area(); });
+  const Eigen::Map<const Eigen::VectorXd> area(shares.data(), static_cast<Eigen::Index>(shares.size()));
+  Eigen::VectorXd weight(area.size());
   double volume = 0;
   for (const double v : stage.start->volumes)
     volume += v;
