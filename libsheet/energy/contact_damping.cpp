@@ -16,8 +16,7 @@ void ContactDamping::begin(const Stage& stage) {
     const auto critical = [&](double k) { return std::sqrt(2 * k * area * density_ * h); };
     dampers_[i].normal = (0.5 * viscosity_ * h + critical(s.stiffness[0])) / stage.duration;
     dampers_[i].tangential = critical(s.stiffness[1]) / stage.duration;
-    for (std::size_t c = 0; c < 4; ++c)
-      dampers_[i].before += s.weights[c] * reference_position(stage, s.vertices[c]);
+    dampers_[i].before = s.sum([&](std::uint32_t v) { return reference_position(stage, v); });
   }
 }
 

@@ -16,12 +16,10 @@ struct Feature {
 
 Feature feature(const ContactSpring& s, std::size_t first, std::size_t end, const Stage& stage,
                 std::span<const double> thickness) {
-  Feature f;
-  for (std::size_t i = first; i < end; ++i) {
-    f.thickness += std::abs(s.weights[i]) * thickness[s.vertices[i]];
+  Feature f{s.mean_of_corners(first, end, thickness)};
+  for (std::size_t i = first; i < end; ++i)
     if (const WallSite* site = site_at(stage, s.vertices[i]))
       f.site = site;
-  }
   return f;
 }
 
@@ -32,7 +30,7 @@ void ContactShear::begin(const Stage& stage) {
   links_.assign(springs_.size(), {});
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
-    const std::size_t middle = s.of_vertex() ? 1 : 2;
+    const std::size_t middle = s.second_feature();
     const Feature one = feature(s, 0, middle, stage, shares.thickness);
     const Feature other = feature(s, middle, 4, stage, shares.thickness);
     // Where both touch walls, or none, neither carries the other one.

@@ -64,7 +64,7 @@ struct Shifts {
     std::vector<Vector3> sum(of.size(), Vector3::Zero());
     std::vector<double> weight(of.size(), 0);
     for (const ContactSpring& s : contacts) {
-      const std::size_t middle = s.of_vertex() ? 1 : 2;
+      const std::size_t middle = s.second_feature();
       const bool one = knows(s, 0, middle), other = knows(s, middle, 4);
       if (one == other)
         continue;
@@ -94,10 +94,7 @@ private:
   }
 
   [[nodiscard]] Vector3 mean(const ContactSpring& s, std::size_t first, std::size_t last) const {
-    Vector3 shift = Vector3::Zero();
-    for (std::size_t c = first; c < last; ++c)
-      shift += std::abs(s.weights[c]) * of[s.vertices[c]];
-    return shift;
+    return s.mean_of_corners(first, last, std::span<const Vector3>(of));
   }
 };
 

@@ -335,6 +335,8 @@ struct PlaneAxes {
 
 // Whether layers that lie on each other flow along each other: where liquid flows on solids or spreads on a bath.
 [[nodiscard]] bool layers_flow(const Scene& scene);
+// Whether what touches sticks: contact springs pull, too. They do unless the scene's adhesion is 0.
+[[nodiscard]] bool contacts_adhere(const Scene& scene);
 
 // Whether liquid enters or leaves: what sheet-emit does.
 [[nodiscard]] bool flows_in_or_out(const Scene& scene);
@@ -345,6 +347,7 @@ struct PlaneAxes {
 } // namespace sheet::scene
 
 namespace sheet {
+using scene::contacts_adhere;
 using scene::flows_in_or_out;
 using scene::flows_on_solids;
 using scene::layers_flow;

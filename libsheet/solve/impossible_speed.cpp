@@ -65,11 +65,8 @@ double work_on_area(const Model& model, const State& start, const State& end) {
 
 double energy_of_contacts(const Model& model, const State& start) {
   double energy = 0;
-  for (const ContactSpring& s : model.contacts) {
-    const Vector3 offset = s.offset(start.positions);
-    const double stretch = s.normal.dot(offset) - s.rest;
-    energy += 0.5 * s.stiffness[0] * stretch * stretch + 0.5 * s.stiffness[1] * (offset - s.anchor).squaredNorm();
-  }
+  for (const ContactSpring& s : model.contacts)
+    energy += s.energy(s.offset(start.positions), model.contacts_adhere);
   return energy;
 }
 

@@ -358,8 +358,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
                                      model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
   add_inlets(scene, frame, mesh, model);
-  model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
-  model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
+  model.contacts = read_springs(frame); // as sheet-collide has set them up
+  model.contacts_adhere = scene.contact && contacts_adhere(scene);
   model.contacts_flow = layers_flow(scene);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))

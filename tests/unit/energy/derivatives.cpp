@@ -417,29 +417,30 @@ std::vector<ContactSpring> random_springs() {
                        {3, 2}});
   return springs;
 }
+const std::vector<ContactSpring> springs = random_springs();
 
 TEST(Derivatives, Contact) {
-  check(Contact(random_springs(), true), {true, false});
-  check(Contact(random_springs(), false), {true, false});
+  check(Contact(springs, true), {true, false});
+  check(Contact(springs, false), {true, false});
 }
 
 TEST(Derivatives, ContactDamping) {
-  check(ContactDamping(random_springs(), 2, 5, true), {true, false});
-  check(ContactDamping(random_springs(), 2, 5, false), {true, false});
+  check(ContactDamping(springs, 2, 5, true), {true, false});
+  check(ContactDamping(springs, 2, 5, false), {true, false});
 }
 
 TEST(Derivatives, ContactShear) {
-  check(ContactShear(random_springs(), 2), {true, false});
-  check(ContactShear(random_springs(), 2), {false, false}, true, crumpled, touch_walls); // walls take a part
+  check(ContactShear(springs, 2), {true, false});
+  check(ContactShear(springs, 2), {false, false}, true, crumpled, touch_walls); // walls take a part
 }
 
 TEST(Derivatives, SqueezeOfArcs) {
-  check(MidEdgeShell(0.01, {.squeeze = ContactSqueeze(random_springs())}), {true, false}, true, crumpled, touch_walls);
+  check(MidEdgeShell(0.01, {.squeeze = ContactSqueeze(springs)}), {true, false}, true, crumpled, touch_walls);
 }
 
 TEST(Derivatives, ContactSqueeze) {
-  check(ContactSqueeze(random_springs()), {});
-  check(ContactSqueeze(random_springs()), {}, true, crumpled, touch_walls);
+  check(ContactSqueeze(springs), {});
+  check(ContactSqueeze(springs), {}, true, crumpled, touch_walls);
 }
 
 } // namespace
