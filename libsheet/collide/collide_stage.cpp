@@ -54,27 +54,8 @@ struct Totals {
   std::uint64_t steps = 0, with_hits = 0;
   SolidReport solids;
   SelfReport self;
-  std::size_t most_springs = 0, most_touching = 0, released = 0;
+  std::size_t most_springs = 0, released = 0;
   double with_solids = 0, check = 0, response = 0, springs = 0; // processor time [s]
-
-  void add(const SolidReport& r) {
-    most_touching = std::max(most_touching, r.touching);
-    solids.caught += r.caught;
-    solids.brought_out += r.brought_out;
-    solids.pushed += r.pushed;
-    solids.carried += r.carried;
-    solids.started_across = std::max(solids.started_across, r.started_across);
-  }
-
-  void add(const SelfReport& r) {
-    with_hits += r.hits > 0;
-    self.hits += r.hits;
-    self.rounds += r.rounds;
-    self.by_impulses += r.by_impulses;
-    self.in_groups += r.in_groups;
-    self.pulled_back += r.pulled_back;
-    self.held_back += r.held_back;
-  }
 };
 
 // Of each vertex: a third of its triangles'.
@@ -256,7 +237,7 @@ struct CollideStage::Impl {
                                 frame.step, report.unresolved));
       if (report.between > 0)
         tell_of_two_solids(frame, report);
-      totals.add(report);
+      totals.solids += report;
       totals.released += off.size();
       totals.with_solids += watch.lap();
     }
@@ -368,7 +349,8 @@ struct CollideStage::Impl {
                               "itself; if that comes back step after step, solids or [[hold]]s leave the sheet too "
                               "little room",
                               frame.step, report.held_back));
-    totals.add(report);
+    totals.with_hits += report.hits > 0;
+    totals.self += report;
     log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", frame.step, report.hits,
                 report.by_impulses, report.in_groups, report.pulled_back);
     return report.taken;
@@ -411,7 +393,7 @@ void CollideStage::report() const {
   if (impl_->solids) {
     log::detail("{} steps with solids: {} vertices caught, {} released, {} brought out, at most {} touching, at "
                 "most {} triangles that start across a surface, {} impulses, {} vertices carried",
-                t.steps, t.solids.caught, t.released, t.solids.brought_out, t.most_touching, t.solids.started_across,
+                t.steps, t.solids.caught, t.released, t.solids.brought_out, t.solids.touching, t.solids.started_across,
                 t.solids.pushed, t.solids.carried);
     log::detail("  processor time of a step: {:.2f} ms", ms * t.with_solids);
   }

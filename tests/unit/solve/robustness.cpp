@@ -254,6 +254,20 @@ TEST(HardCases, TermsOfChosenStepsWithoutArcsAreTold) {
   EXPECT_EQ(parts_told(r), 1);
 }
 
+// The worst vertex of a step that is done without arcs is that of the step, not the first one.
+TEST(HardCases, AStepWithoutArcsTellsItsWorstVertex) {
+  State s = square(0.02), same = s;
+  Model m = sagging(s);
+  Stepper rests(m, {});
+  rests.rest_arcs(true);
+  m.arcs = false;
+  const StepReport r = rests.step(s, 0.01), flat = Stepper(m, {}).step(same, 0.01);
+  EXPECT_EQ(r.flat_fallbacks, 1);
+  ASSERT_GT(flat.worst, 0);
+  EXPECT_EQ(r.worst, flat.worst);
+  EXPECT_EQ(r.error, flat.error);
+}
+
 // Where a triangle would shrink to nothing in the second stage, the step is done in pieces (surface tension on a disk:
 // without that its area fell by a factor of 1e20 in half of this step).
 TEST(HardCases, FreeDiskInStepsOfFiveTimesItsOwnTime) {
