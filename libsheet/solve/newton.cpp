@@ -8,7 +8,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "libsheet/base/stopwatch.h"
-#include "libsheet/solve/conjugate_gradients.h"
+#include "libsheet/linear/conjugate_gradients.h"
 
 namespace sheet {
 

@@ -16,9 +16,10 @@
 #include "libsheet/base/parallel.h"
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/model.h"
-#include "libsheet/solve/cholesky.h"
-#include "libsheet/solve/elimination_order.h"
-#include "libsheet/solve/supernodal_factor.h"
+#include "libsheet/linear/cholmod_library.h"
+#include "libsheet/linear/elimination_order.h"
+#include "libsheet/linear/supernodal_factor.h"
+#include "tests/support/cholesky.h"
 #include "tests/support/meshes.h"
 
 using namespace sheet;

@@ -20,8 +20,9 @@
 #include "libsheet/base/parallel.h"
 #include "libsheet/energy/model.h"
 #include "libsheet/energy/stage_setup.h"
-#include "libsheet/solve/cholesky.h"
+#include "libsheet/linear/cholmod_library.h"
 #include "libsheet/solve/linear_system.h"
+#include "tests/support/cholesky.h"
 #include "tests/support/meshes.h"
 
 using namespace sheet;

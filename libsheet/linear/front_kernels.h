@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libsheet/solve/front_shape.h"
+#include "libsheet/linear/front_shape.h"
 
 namespace sheet {
 

@@ -2,7 +2,7 @@
 // Partial Cholesky factorisation of one front, by blocks. Big fronts are cut into blocks whose size does not depend on
 // the number of threads, and every entry is summed in the same order whoever does it: so the bits are the same too.
 #pragma once
-#include "libsheet/solve/front_kernels.h"
+#include "libsheet/linear/front_kernels.h"
 
 namespace sheet {
 

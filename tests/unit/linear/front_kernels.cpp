@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every version of the kernels that this processor can run, against dense matrices.
-#include "libsheet/solve/front_kernels.h"
+#include "libsheet/linear/front_kernels.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "libsheet/solve/kept_buffer.h"
+#include "libsheet/linear/kept_buffer.h"
 
 using namespace sheet;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The multifrontal method: where everything lies, and in what order the fronts are eliminated.
-#include "libsheet/solve/supernodal_factor.h"
+#include "libsheet/linear/supernodal_factor.h"
 
 #include <algorithm>
 #include <atomic>
@@ -13,9 +13,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 
-#include "libsheet/solve/dense_front.h"
-#include "libsheet/solve/kept_buffer.h"
-#include "libsheet/solve/supernodes.h"
+#include "libsheet/linear/dense_front.h"
+#include "libsheet/linear/kept_buffer.h"
+#include "libsheet/linear/supernodes.h"
 
 namespace sheet {
 

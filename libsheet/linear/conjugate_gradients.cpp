@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "libsheet/solve/conjugate_gradients.h"
+#include "libsheet/linear/conjugate_gradients.h"
 
 namespace sheet {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Symbolic analysis, on the graph of the nodes.
-#include "libsheet/solve/supernodes.h"
+#include "libsheet/linear/supernodes.h"
 
 #include <algorithm>
 

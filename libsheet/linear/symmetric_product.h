@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "libsheet/energy/pattern.h"
+#include "libsheet/linear/sparse_lower.h"
 
 namespace sheet {
 

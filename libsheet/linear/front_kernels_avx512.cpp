@@ -4,7 +4,7 @@
 #define TILE_STRIPS 2
 #define TILE_COLUMNS 8
 #define SHUFFLES 1
-#include "libsheet/solve/front_kernels.inc"
+#include "libsheet/linear/front_kernels.inc"
 
 namespace sheet {
 

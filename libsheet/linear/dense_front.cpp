@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Blocks of a front: which strips and columns one call of a kernel works on.
-#include "libsheet/solve/dense_front.h"
+#include "libsheet/linear/dense_front.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Chooses the kernels for this processor.
-#include "libsheet/solve/front_kernels.h"
+#include "libsheet/linear/front_kernels.h"
 
 namespace sheet {
 

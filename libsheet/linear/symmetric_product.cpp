@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "libsheet/solve/symmetric_product.h"
+#include "libsheet/linear/symmetric_product.h"
 
 #include <stdexcept>
 

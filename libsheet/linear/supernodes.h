@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "libsheet/energy/pattern.h"
+#include "libsheet/linear/sparse_lower.h"
 
 namespace sheet {
 

@@ -4,7 +4,7 @@
 #define TILE_STRIPS 1
 #define TILE_COLUMNS 2
 #define SHUFFLES 0
-#include "libsheet/solve/front_kernels.inc"
+#include "libsheet/linear/front_kernels.inc"
 
 namespace sheet {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The multifrontal factorisation against CHOLMOD and dense matrices, and its promises: the same bits for any number of
 // threads, indefinite matrices refused, one object for one structure after another.
-#include "libsheet/solve/supernodal_factor.h"
+#include "libsheet/linear/supernodal_factor.h"
 
 #include <cmath>
 #include <limits>
@@ -15,9 +15,9 @@
 
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/model.h"
-#include "libsheet/solve/cholesky.h"
-#include "libsheet/solve/elimination_order.h"
-#include "libsheet/solve/symmetric_product.h"
+#include "libsheet/linear/elimination_order.h"
+#include "libsheet/linear/symmetric_product.h"
+#include "tests/support/cholesky.h"
 #include "tests/support/meshes.h"
 
 using namespace sheet;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "libsheet/solve/elimination_order.h"
+#include "libsheet/linear/elimination_order.h"
 
 #include <algorithm>
 #include <numeric>

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "libsheet/solve/conjugate_gradients.h"
+#include "libsheet/linear/conjugate_gradients.h"
 
 namespace sheet {
 namespace {
