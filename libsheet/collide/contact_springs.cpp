@@ -39,7 +39,8 @@ double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringShee
   const double g = scene.environment.gravity ? scene.environment.gravity->norm() : 0;
   const double time = time_of(s, g, d, sheet);
   const double inertia = scene.model.inertia ? mass / (time * time) : 0;
-  return inertia + 200 * mass * g / d + 0.5 * scene.material.viscosity * h / time;
+  const double viscosity = viscosity_of(scene.material, {1 / (time * time)});
+  return inertia + 200 * mass * g / d + 0.5 * viscosity * h / time;
 }
 
 // Goes with its features; false where it parts.

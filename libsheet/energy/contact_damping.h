@@ -14,9 +14,9 @@ namespace sheet {
 class ContactDamping {
 public:
   static constexpr Stencil stencil = Stencil::four;
-  // springs: outlive the term; viscosity [Pa s]; density [kg/m³], 0 without inertia; adhesion: the springs pull, too.
-  ContactDamping(std::span<const ContactSpring> springs, double viscosity, double density, bool adhesion)
-      : springs_(springs), viscosity_(viscosity), density_(density), adhesion_(adhesion) {}
+  // springs: outlive the term; inertia: it is modelled; adhesion: the springs pull, too.
+  ContactDamping(std::span<const ContactSpring> springs, bool inertia, bool adhesion)
+      : springs_(springs), inertia_(inertia), adhesion_(adhesion) {}
   [[nodiscard]] const char* name() const { return "damping of contact"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
@@ -62,8 +62,7 @@ private:
   };
 
   std::span<const ContactSpring> springs_;
-  double viscosity_, density_;
-  bool adhesion_;
+  bool inertia_, adhesion_;
   std::vector<Damper> dampers_;
 };
 

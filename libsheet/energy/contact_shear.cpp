@@ -27,6 +27,7 @@ Feature feature(const ContactSpring& s, std::size_t first, std::size_t end, cons
 
 void ContactShear::begin(const Stage& stage) {
   const LayerShares shares = layer_shares(stage);
+  const std::vector<double> viscosities = vertex_viscosities(stage);
   links_.assign(springs_.size(), {});
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
@@ -40,7 +41,7 @@ void ContactShear::begin(const Stage& stage) {
     const LayerShear shear = on_wall ? shear_on_wall(lower.thickness, upper.thickness, lower.site->slip_length)
                                      : shear_in_stack(lower.thickness, upper.thickness);
     Link& link = links_[i];
-    const double rate = s.area(shares.area) * viscosity_ / stage.duration;
+    const double rate = s.area(shares.area) * viscosity_between(s, viscosities) / stage.duration;
     link.shear = rate / shear.depth;
     link.squeeze = 3 * rate / ((lower.thickness + upper.thickness) / 2);
     link.before.setZero();

@@ -16,8 +16,8 @@ namespace sheet {
 class ContactShear {
 public:
   static constexpr Stencil stencil = Stencil::four;
-  // springs: outlive the term; viscosity [Pa s].
-  ContactShear(std::span<const ContactSpring> springs, double viscosity) : springs_(springs), viscosity_(viscosity) {}
+  // springs: outlive the term.
+  explicit ContactShear(std::span<const ContactSpring> springs) : springs_(springs) {}
   [[nodiscard]] const char* name() const { return "shear of layers"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
@@ -66,7 +66,6 @@ private:
   }
 
   std::span<const ContactSpring> springs_;
-  double viscosity_;
   std::vector<Link> links_;
 };
 

@@ -78,19 +78,19 @@ struct Carried {
 };
 
 // How fast unevenness of the size of an edge flows across it [m²/s]; 0 where nothing drags.
-double diffusivity(const WallSite& one, const WallSite& other, const LevellingLiquid& liquid, double h, double apart) {
+double diffusivity(const WallSite& one, const WallSite& other, const Liquid& liquid, double viscosity,
+                   const Vector3& gravity, double h, double apart) {
   if (one.slip_length == free_slip || other.slip_length == free_slip)
     return 0;
-  const double towards = std::max(0.0, -liquid.gravity.dot(one.normal + other.normal) / 2);
+  const double towards = std::max(0.0, -gravity.dot(one.normal + other.normal) / 2);
   const double stiffness = liquid.density * towards + liquid.surface_tension / (apart * apart);
-  return stiffness * h * h * (h + 3 * std::min(one.slip_length, other.slip_length)) / (3 * liquid.viscosity);
+  return stiffness * h * h * (h + 3 * std::min(one.slip_length, other.slip_length)) / (3 * viscosity);
 }
 
 } // namespace
 
-bool level_layers(const Stage& stage, const LevellingLiquid& liquid, const std::vector<Hold>& holds, double dt,
-                  State& end) {
-  if (stage.sites.empty() || !(liquid.viscosity > 0))
+bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<Hold>& holds, double dt, State& end) {
+  if (stage.sites.empty() || !stage.liquid.viscous())
     return false;
   const Connectivity& mesh = *end.mesh;
   const Layers layers = layers_of(end, held_unknowns(holds, stage));
@@ -110,8 +110,10 @@ bool level_layers(const Stage& stage, const LevellingLiquid& liquid, const std::
     const double length = (end.positions[b] - end.positions[a]).norm();
     const double apart = (middle_of(end, up) - middle_of(end, down)).norm();
     const double h = (layers.thickness[up] + layers.thickness[down]) / 2;
-    const double amount = rest * std::min(diffusivity(*one, *other, liquid, h, apart) * dt * length / apart,
-                                          most_in_a_step * std::min(layers.area[up], layers.area[down]));
+    const double viscosity = (stage.viscosity[up] + stage.viscosity[down]) / 2;
+    const double amount =
+        rest * std::min(diffusivity(*one, *other, stage.liquid, viscosity, gravity, h, apart) * dt * length / apart,
+                        most_in_a_step * std::min(layers.area[up], layers.area[down]));
     end.volumes[up] -= amount;
     end.volumes[down] += amount;
     carried.move(end, amount, up, down);

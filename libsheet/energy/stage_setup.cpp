@@ -49,11 +49,12 @@ std::vector<EdgeFrame> mean_normal_frames_of(const Stage& stage, const Unknowns&
 
 } // namespace
 
-Stage first_stage(const State& state, double duration, double end_time, bool angles) {
+Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles) {
   Stage stage;
   const Connectivity& mesh = *state.mesh;
   const std::size_t n = state.positions.size();
   stage.start = &state;
+  stage.liquid = liquid;
   stage.duration = duration;
   stage.inertial_time = duration;
   stage.end_time = end_time;
@@ -68,6 +69,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
   if (angles)
     stage.frames = director_frames(mesh, state.positions, state.director_angles);
   stage.raised.resize(mesh.triangles.size());
+  stage.viscosity.resize(mesh.triangles.size());
   const auto& x = state.positions;
   const auto& v = state.velocities;
   each_in_parallel(mesh.triangles.size(), [&](std::size_t t) {
@@ -78,6 +80,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
       change[k] = 2 * duration * (x[b] - x[a]).dot(v[b] - v[a]);
     }
     stage.raised[t] = predicted_metric(squared_lengths(x[c[0]], x[c[1]], x[c[2]]), change);
+    stage.viscosity[t] = viscosity_of(liquid, strain_rate(stage.raised[t], change, duration));
   });
   return stage;
 }
@@ -104,6 +107,7 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
     const Vector3 end =
         squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
     stage.raised[t] = predicted_metric(start, (end - start) / gamma);
+    stage.viscosity[t] = viscosity_of(stage.liquid, strain_rate(stage.raised[t], end - start, stage.duration));
     if (!(Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= least_ratio - 1))
       possible.store(false, std::memory_order_relaxed);
   });

@@ -16,7 +16,6 @@ namespace sheet {
 class WallDrag {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  explicit WallDrag(double viscosity) : viscosity_(viscosity) {}
   [[nodiscard]] const char* name() const { return "drag of walls"; }
   [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }
   void begin(const Stage& stage) {
@@ -28,7 +27,7 @@ public:
       for (std::size_t c = 0; c < 3; ++c)
         if (const WallSite* site = site_at(stage, corners[c]); site != nullptr && site->slip_length != free_slip) {
           const double lies = lying(stage, i, *site), foot = thickness / 2 * length_on_wall(stage, corners, c);
-          stiffness_[i][c] = (lies * area + (1 - lies) * 3 * foot) * viscosity_ /
+          stiffness_[i][c] = (lies * area + (1 - lies) * 3 * foot) * stage.viscosity[i] /
                              (stage.duration * (thickness + 3 * site->slip_length));
         }
     });
@@ -84,7 +83,6 @@ private:
     }
   }
 
-  double viscosity_;
   const Stage* stage_ = nullptr;
   std::vector<std::array<double, 3>> stiffness_; // of each corner of each triangle [N/m]; empty where nothing touches
 };

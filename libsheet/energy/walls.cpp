@@ -201,11 +201,11 @@ void turn_slides(const Stage& stage, Constraints& constraints) {
   constraints.let_slide(std::move(slides), stage.vertices());
 }
 
-std::vector<Vector3> drag_on_walls(const Stage& stage, double viscosity, const Unknowns& u) {
+std::vector<Vector3> drag_on_walls(const Stage& stage, const Unknowns& u) {
   std::vector<Vector3> force(stage.vertices(), Vector3::Zero());
   if (stage.sites.empty())
     return force;
-  WallDrag drag(viscosity);
+  WallDrag drag;
   drag.begin(stage);
   const auto& triangles = stage.start->mesh->triangles;
   for (std::size_t t = 0; t < triangles.size(); ++t) {

@@ -56,7 +56,7 @@ void place_on_walls(const Stage& stage, std::span<const char> held, Unknowns& u)
 void turn_slides(const Stage& stage, Constraints& constraints);
 
 // Force of the walls' drag on each vertex [N] (wall_drag.h).
-[[nodiscard]] std::vector<Vector3> drag_on_walls(const Stage& stage, double viscosity, const Unknowns& u);
+[[nodiscard]] std::vector<Vector3> drag_on_walls(const Stage& stage, const Unknowns& u);
 
 // Takes away the velocities across the walls, relative to them, at the time t [s].
 void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage, double t, State& state);

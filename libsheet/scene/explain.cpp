@@ -60,7 +60,7 @@ std::string where(const Scene& scene) {
   return depends_on_volume(*scene.environment.pressure) && scene.sheets.size() > 1 ? ", in each sheet by itself" : "";
 }
 
-std::string what_it_does(const Bath& bath) {
+std::string what_it_does(const BathLiquid& bath) {
   return fmt::format("liquid of {} kg/m³ below level {} m, which {}{}{}", brief(bath.density), brief(bath.level),
                      bath.clings ? "clings to the sheet" : "carries what is under its surface",
                      bath.spreads ? ", and on which it spreads" : "",
@@ -81,7 +81,7 @@ std::vector<Term> terms_of(const Scene& scene) {
   const auto term = [&](std::string_view name, bool modelled, std::string_view because, std::string_view because_not) {
     terms.push_back({name, modelled, std::string(modelled ? because : because_not)});
   };
-  const bool viscous = material.viscosity > 0;
+  const bool viscous = material.viscous();
   term("membrane", viscous, "viscosity resists stretching", "viscosity is 0");
   term("bending", viscous && model.bending, "viscosity resists bending (bending = false leaves a membrane)",
        viscous ? "[model] bending = false" : "viscosity is 0");
@@ -220,7 +220,7 @@ std::optional<double> longest_edge(const SheetTable& sheet) {
 // longer than half of that give way before the sheet does.
 std::optional<std::string> warning_of_buckling(const Scene& scene, const Scales& scales) {
   const auto edge = longest_edge(scene.sheets.front());
-  const bool viscous = scene.material.viscosity > 0 && scene.material.surface_tension > 0;
+  const bool viscous = scene.material.viscous() && scene.material.surface_tension > 0;
   if (!edge || !scales.thickness || !viscous || !scene.model.bending || scales.curvature <= 0 || scales.pressure > 0)
     return {};
   const double enough = 0.5 * std::sqrt(*scales.thickness / scales.curvature);

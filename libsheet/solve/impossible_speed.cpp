@@ -13,7 +13,7 @@ namespace {
 
 std::vector<double> masses(const Model& model, const State& state) {
   return vertex_shares(state.positions.size(), state.mesh->triangles,
-                       [&](std::uint32_t t) { return model.density * state.volumes[t]; });
+                       [&](std::uint32_t t) { return model.liquid.density * state.volumes[t]; });
 }
 
 double area_of(const State& state, const Corners& c) {
@@ -35,7 +35,7 @@ double fastest_prescribed(const Model& model, const State& end) {
 
 // Of gravity on all vertices, as if none had lost what another one gained, and of what the bath carries.
 double work_of_gravity(const Model& model, const State& start, const State& end, const std::vector<double>& mass) {
-  const double lift = model.bath ? 1 + model.bath->density / model.density : 1;
+  const double lift = model.bath ? 1 + model.bath->density / model.liquid.density : 1;
   double work = 0;
   for (std::size_t v = 0; v < mass.size(); ++v)
     work += lift * mass[v] * std::abs(model.gravity.dot(end.positions[v] - start.positions[v]));
@@ -56,9 +56,9 @@ double work_on_area(const Model& model, const State& start, const State& end) {
     double way = 0;
     for (const auto v : c)
       way = std::max(way, (end.positions[v] - start.positions[v]).norm());
-    work += 2 * model.surface_tension * std::max(0.0, before - after) + pressure * std::max(before, after) * way;
+    work += 2 * model.liquid.surface_tension * std::max(0.0, before - after) + pressure * std::max(before, after) * way;
     if (!model.walls.empty() || model.bath)
-      work += model.density * model.gravity.norm() * start.volumes[t] * start.volumes[t] / before;
+      work += model.liquid.density * model.gravity.norm() * start.volumes[t] * start.volumes[t] / before;
   }
   return work;
 }

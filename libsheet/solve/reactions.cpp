@@ -26,9 +26,9 @@ std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const M
   system.constrain({}, 0);
   (void)system.gradient(terms, u, gradient);
   gradient = prescribed_part(constraints, gradient);
-  std::vector<Vector3> result = drag_on_walls(stage, model.viscosity, u);
+  std::vector<Vector3> result = drag_on_walls(stage, u);
   if (model.contacts_flow && !model.contacts.empty()) {
-    ContactShear shear(model.contacts, model.viscosity);
+    ContactShear shear(model.contacts);
     shear.begin(stage);
     shear.add_wall_forces(stage, u, result);
   }
@@ -78,7 +78,7 @@ std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, con
   const double duration = instant_part * dt;
   State before = end;
   before.time = end.time - duration; // so that what is prescribed moves as it did until the end
-  instant = first_stage(before, duration, end.time, model.has_angles());
+  instant = first_stage(before, model.liquid, duration, end.time, model.has_angles());
   instant.inertial_time = dt;
   for (std::size_t v = 0; v < end.positions.size(); ++v)
     instant.inertial[v] -= duration * (end.velocities[v] - start.velocities[v]);

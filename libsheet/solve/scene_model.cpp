@@ -86,10 +86,6 @@ std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, c
   return laws;
 }
 
-BathModel bath_model(const scene::Bath& bath) {
-  return {bath.density, bath.level, bath.clings, bath.spreads, bath.drag};
-}
-
 // By a scene's motion, and by that of a belt's surface [m/s].
 void move(Hold& hold, const scene::Motion& motion, const Vector3& surface_velocity = Vector3::Zero()) {
   hold.motion = [=](double from, double to) {
@@ -342,9 +338,7 @@ void put_reactions(std::span<const Vector3> reactions, bool of_holds, Frame& fra
 Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh, Bending bending, bool arcs,
                const std::shared_ptr<const solid::Solids>& solids) {
   Model model;
-  model.viscosity = scene.material.viscosity;
-  model.density = scene.material.density;
-  model.surface_tension = scene.material.surface_tension;
+  model.liquid = scene.material;
   model.inertia = scene.model.inertia;
   model.bending = scene.model.bending ? bending : Bending::none;
   model.arcs = arcs;
@@ -352,8 +346,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
     model.gravity = *scene.environment.gravity;
   if (scene.environment.pressure)
     model.pressures = pressure_laws(scene, frame, mesh);
-  if (scene.environment.bath)
-    model.bath = bath_model(*scene.environment.bath);
+  model.bath = scene.environment.bath;
   const bool touching = add_touching(scene, frame, mesh, solids,
                                      model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);

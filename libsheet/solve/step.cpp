@@ -96,12 +96,11 @@ struct Beginning {
 };
 
 Beginning begin_step(const Model& model, const State& state, double duration) {
-  Beginning result{first_stage(state, duration, state.time + duration, model.has_angles()), {}, {}, {}};
+  Beginning result{first_stage(state, model.liquid, duration, state.time + duration, model.has_angles()), {}, {}, {}};
   Stage& stage = result.stage;
   result.lengths = step_scale(state, stage.begin.size());
   result.scale = measures(stage, result.lengths);
-  stage.stiffened =
-      stiffened_films(stage, model.viscosity, model.has_inertia() ? model.density : 0, model.surface_tension);
+  stage.stiffened = stiffened_films(stage, model.has_inertia());
   set_wall_sites(model.walls, stage);
   result.guess = stage.begin;
   for (std::size_t v = 0; v < state.positions.size(); ++v)
@@ -237,8 +236,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   else if (model_.reactions == Reactions::at_end)
     report.reactions =
         end_reactions(cache_->system, cache_->terms, model_, state, end, dt, options_.newton, cache_->instant);
-  if (level_layers(stage, {model_.viscosity, model_.density, model_.surface_tension, model_.gravity}, model_.holds, dt,
-                   end))
+  if (level_layers(stage, model_.gravity, model_.holds, dt, end))
     set_prescribed_velocities(stage, end);
   set_distances_from_walls(model_.walls, model_.holds, model_.contacts, stage, end);
   return Outcome::done;

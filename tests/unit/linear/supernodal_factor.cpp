@@ -97,7 +97,7 @@ Eigen::MatrixXd random_dense(int size, double per_row, unsigned seed) {
 Problem sheet_matrix(const test::Mesh& mesh, unsigned seed) {
   const State s = test::at_rest(mesh, 0.01);
   Model m;
-  m.viscosity = 100;
+  m.liquid.viscosity = 100;
   m.bending = Bending::mid_edge;
   Assembly assembly(s.mesh, make_terms(m, s.mesh), true);
   assembly.set_order(elimination_order(s.positions.size(), assembly.vertex_graph()));
