@@ -17,7 +17,7 @@ public:
   // springs: outlive the term; inertia: it is modelled; adhesion: the springs pull, too.
   ContactDamping(std::span<const ContactSpring> springs, bool inertia, bool adhesion)
       : springs_(springs), inertia_(inertia), adhesion_(adhesion) {}
-  [[nodiscard]] const char* name() const { return "damping of contact"; }
+  [[nodiscard]] const char* name() const { return "contact damping"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
   void begin(const Stage& stage);

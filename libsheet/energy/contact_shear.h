@@ -44,9 +44,8 @@ public:
     return value(i, u);
   }
 
-  // Adds to each vertex' force what the wall that it touches takes of the shear: what the layers do not give each
-  // other [N].
-  void add_wall_forces(const Stage& stage, const Unknowns& u, std::span<Vector3> force) const;
+  // What the wall takes of the shear: what the layers do not give each other.
+  void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const;
 
 private:
   struct Link {
@@ -66,6 +65,7 @@ private:
   }
 
   std::span<const ContactSpring> springs_;
+  const Stage* stage_ = nullptr;
   std::vector<Link> links_;
 };
 

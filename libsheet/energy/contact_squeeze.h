@@ -22,7 +22,7 @@ public:
   static constexpr Kind kind = Kind::elastic;
   // springs: outlive the term.
   explicit ContactSqueeze(std::span<const ContactSpring> springs) : springs_(springs) {}
-  [[nodiscard]] const char* name() const { return "squeeze of layers"; }
+  [[nodiscard]] const char* name() const { return "squeezed layers"; }
   [[nodiscard]] std::size_t size() const { return work_.size(); }
   void begin(const Stage& stage);
   [[nodiscard]] double work(std::size_t i) const { return work_[i]; } // q V of triangle i [J]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The physics of a sheet as plain numbers, and the terms that follow from it: a term exists only if it is asked for.
+// The physics of a sheet as plain numbers. What terms follow from it says term_table.h: one exists only if it is asked
+// for.
 #pragma once
 #include <optional>
 #include <vector>
@@ -8,7 +9,6 @@
 #include "libsheet/energy/holds.h"
 #include "libsheet/energy/inertia.h"
 #include "libsheet/energy/pressure.h"
-#include "libsheet/energy/term.h"
 #include "libsheet/energy/walls.h"
 #include "libsheet/material/bath_liquid.h"
 #include "libsheet/material/liquid.h"
@@ -40,8 +40,5 @@ struct Model {
   [[nodiscard]] bool has_inertia() const { return inertia && liquid.density > 0; }
   [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && liquid.viscous(); }
 };
-
-// Throws Error (bad_input) where there are none.
-[[nodiscard]] Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& mesh);
 
 } // namespace sheet

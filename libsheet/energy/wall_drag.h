@@ -59,6 +59,18 @@ public:
     return gradient(i, u, g);
   }
 
+  void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
+    const auto& triangles = stage_->start->mesh->triangles;
+    for (std::size_t t = 0; t < stiffness_.size(); ++t) {
+      VectorN<9> x, pull;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        x.segment<3>(3 * c) = stage_->position(u, triangles[t][static_cast<std::size_t>(c)]);
+      (void)gradient(t, x, pull);
+      for (Eigen::Index c = 0; c < 3; ++c)
+        force[triangles[t][static_cast<std::size_t>(c)]] -= pull.segment<3>(3 * c);
+    }
+  }
+
 private:
   // Of the edges at a corner whose both ends touch its wall, at the start of the step [m].
   static double length_on_wall(const Stage& stage, const Corners& corners, std::size_t corner) {

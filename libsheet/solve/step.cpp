@@ -12,6 +12,7 @@
 #include "libsheet/energy/films.h"
 #include "libsheet/energy/levelling.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/energy/wall_distance.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/vertex_shares.h"
@@ -232,7 +233,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   if (!sound(end))
     return Outcome::shrinks_to_nothing;
   if (model_.reactions == Reactions::of_stage)
-    report.reactions = stage_reactions(cache_->system, cache_->terms, model_, state, end, dt, stage, last);
+    report.reactions = stage_reactions(cache_->system, cache_->terms, state, end, dt, stage, last);
   else if (model_.reactions == Reactions::at_end)
     report.reactions =
         end_reactions(cache_->system, cache_->terms, model_, state, end, dt, options_.newton, cache_->instant);

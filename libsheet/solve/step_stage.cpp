@@ -14,6 +14,7 @@
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/base/whole_file.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/health/teller.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/rolls.h"

@@ -16,6 +16,7 @@
 #include "libsheet/base/parallel.h"
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/model.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/linear/cholmod_library.h"
 #include "libsheet/linear/elimination_order.h"
 #include "libsheet/linear/supernodal_factor.h"

@@ -7,6 +7,7 @@
 
 #include "libsheet/energy/model.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/solve/newton.h"
 #include "tests/support/meshes.h"
 

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "libsheet/base/parallel.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/linear/cholmod_library.h"
 #include "libsheet/solve/step.h"
 #include "tests/support/meshes.h"

@@ -15,6 +15,7 @@
 #include "libsheet/base/parallel.h"
 #include "libsheet/energy/model.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/linear/cholmod_library.h"
 #include "libsheet/solve/newton.h"
 #include "tests/support/meshes.h"

@@ -5,6 +5,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/term_table.h"
 
 namespace sheet::validation {
 

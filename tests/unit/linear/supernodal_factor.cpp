@@ -15,6 +15,7 @@
 
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/model.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/linear/elimination_order.h"
 #include "libsheet/linear/symmetric_product.h"
 #include "tests/support/cholesky.h"
