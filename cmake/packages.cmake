@@ -16,7 +16,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME sheet)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-# Loaded by sheet-step at run time, which shlibdeps cannot see (libsheet/solve/cholesky.cpp).
+# Loaded by sheet-step at run time, which shlibdeps cannot see (libsheet/linear/cholmod_library.cpp).
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "libcholmod3, libopenblas0-pthread | libopenblas0")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS ffmpeg)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "sheet-formats-dev, sheet-doc, blender, paraview")

@@ -18,6 +18,7 @@
 #include "libsheet/plan/contact_warnings.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/mesh_warnings.h"
+#include "libsheet/plan/modelled.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/scene/example.h"
@@ -85,7 +86,7 @@ std::string explained(Source source, bool ring_alone) {
   const sheet::Scene scene = read(source);
   const sheet::formats::Frame frame = sheet::checked_first_frame(scene);
   const sheet::scene::Measured measured = sheet::measured(frame);
-  sheet::scene::Explanation explanation = sheet::scene::explain(scene, measured);
+  sheet::scene::Explanation explanation = sheet::scene::explain(scene, measured, sheet::modelled(scene));
   const double thickness = sheet::landing_thickness(scene, frame);
   if (sheet::stays_in_its_plane(scene, frame, thickness)) {
     explanation.warnings.emplace_back("all is symmetric about the sheet's plane: it would grow thicker where it should "

@@ -19,6 +19,7 @@
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
 #include "libsheet/collide/solid_sweep.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/health/teller.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/prescribed.h"
@@ -53,27 +54,8 @@ struct Totals {
   std::uint64_t steps = 0, with_hits = 0;
   SolidReport solids;
   SelfReport self;
-  std::size_t most_springs = 0, most_touching = 0, released = 0;
+  std::size_t most_springs = 0, released = 0;
   double with_solids = 0, check = 0, response = 0, springs = 0; // processor time [s]
-
-  void add(const SolidReport& r) {
-    most_touching = std::max(most_touching, r.touching);
-    solids.caught += r.caught;
-    solids.brought_out += r.brought_out;
-    solids.pushed += r.pushed;
-    solids.carried += r.carried;
-    solids.started_across = std::max(solids.started_across, r.started_across);
-  }
-
-  void add(const SelfReport& r) {
-    with_hits += r.hits > 0;
-    self.hits += r.hits;
-    self.rounds += r.rounds;
-    self.by_impulses += r.by_impulses;
-    self.in_groups += r.in_groups;
-    self.pulled_back += r.pulled_back;
-    self.held_back += r.held_back;
-  }
 };
 
 // Of each vertex: a third of its triangles'.
@@ -83,21 +65,19 @@ struct Shares {
 
 Shares shares(std::span<const Corners> triangles, std::span<const double> volumes, std::span<const Vector3> x) {
   const std::size_t n = x.size();
-  Shares s{std::vector<double>(n, 0), std::vector<double>(n, 0), std::vector<double>(n, 0)};
-  std::vector<int> count(n, 0);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Corners& c = triangles[t];
-    const Vector3 u = x[c[1]] - x[c[0]], v = x[c[2]] - x[c[0]];
-    const double area = 0.5 * u.cross(v).norm(), edge = (u.norm() + v.norm() + (u - v).norm()) / 3;
-    for (const std::uint32_t i : c) {
-      s.area[i] += area / 3;
-      s.volume[i] += volumes[t] / 3;
-      s.edge[i] += edge;
-      ++count[i];
-    }
-  }
+  const auto side = [&](std::uint32_t t, std::size_t from, std::size_t to) {
+    return Vector3(x[triangles[t][to]] - x[triangles[t][from]]);
+  };
+  Shares s;
+  s.area =
+      vertex_shares(n, triangles, [&](std::uint32_t t) { return 0.5 * side(t, 0, 1).cross(side(t, 0, 2)).norm(); });
+  s.volume = vertex_shares(n, triangles, [&](std::uint32_t t) { return volumes[t]; });
+  s.edge = vertex_shares(n, triangles, [&](std::uint32_t t) {
+    return side(t, 0, 1).norm() + side(t, 0, 2).norm() + (side(t, 0, 1) - side(t, 0, 2)).norm();
+  });
+  const std::vector<double> count = sum_around(n, triangles, [](std::uint32_t) { return 1; });
   for (std::size_t i = 0; i < n; ++i)
-    s.edge[i] /= std::max(count[i], 1);
+    s.edge[i] /= std::max(count[i], 1.0);
   return s;
 }
 
@@ -257,7 +237,7 @@ struct CollideStage::Impl {
                                 frame.step, report.unresolved));
       if (report.between > 0)
         tell_of_two_solids(frame, report);
-      totals.add(report);
+      totals.solids += report;
       totals.released += off.size();
       totals.with_solids += watch.lap();
     }
@@ -369,7 +349,8 @@ struct CollideStage::Impl {
                               "itself; if that comes back step after step, solids or [[hold]]s leave the sheet too "
                               "little room",
                               frame.step, report.held_back));
-    totals.add(report);
+    totals.with_hits += report.hits > 0;
+    totals.self += report;
     log::detail("step {}: {} hits; {} impulses, {} vertices in rigid groups, {} pulled back", frame.step, report.hits,
                 report.by_impulses, report.in_groups, report.pulled_back);
     return report.taken;
@@ -412,7 +393,7 @@ void CollideStage::report() const {
   if (impl_->solids) {
     log::detail("{} steps with solids: {} vertices caught, {} released, {} brought out, at most {} touching, at "
                 "most {} triangles that start across a surface, {} impulses, {} vertices carried",
-                t.steps, t.solids.caught, t.released, t.solids.brought_out, t.most_touching, t.solids.started_across,
+                t.steps, t.solids.caught, t.released, t.solids.brought_out, t.solids.touching, t.solids.started_across,
                 t.solids.pushed, t.solids.carried);
     log::detail("  processor time of a step: {:.2f} ms", ms * t.with_solids);
   }

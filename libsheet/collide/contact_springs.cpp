@@ -39,7 +39,8 @@ double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringShee
   const double g = scene.environment.gravity ? scene.environment.gravity->norm() : 0;
   const double time = time_of(s, g, d, sheet);
   const double inertia = scene.model.inertia ? mass / (time * time) : 0;
-  return inertia + 200 * mass * g / d + 0.5 * scene.material.viscosity * h / time;
+  const double viscosity = viscosity_of(scene.material, {1 / (time * time)});
+  return inertia + 200 * mass * g / d + 0.5 * viscosity * h / time;
 }
 
 // Goes with its features; false where it parts.
@@ -60,13 +61,8 @@ bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   return s.stiffness[0] * (gap - s.rest) <= *scene.contact->adhesion * s.area(sheet.area);
 }
 
-// Its strain, along its normal and across, is that of libsheet/energy/contact.h.
 double energy_of(const ContactSpring& s, const Scene& scene, std::span<const Vector3> x) {
-  const bool pulls = !scene.contact || scene.contact->adhesion != 0.0;
-  const Vector3 strain = s.offset(x) - s.anchor;
-  const double gap = s.normal.dot(s.offset(x)) - s.rest, across = s.normal.dot(strain);
-  const double normal = pulls || gap < 0 ? s.stiffness[0] : 0;
-  return 0.5 * (normal * gap * gap + s.stiffness[1] * (strain - across * s.normal).squaredNorm());
+  return s.energy(s.offset(x), contacts_adhere(scene));
 }
 
 // Leaves the spring this part of its strain.
@@ -120,8 +116,7 @@ void follow(std::vector<ContactSpring>& springs, const Scene& scene, const Sprin
 void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
                       const std::vector<Axes>& fixed, std::span<Vector3> velocity) {
   constexpr int sweeps = 30;
-  constexpr double longest_lever = 4; // as of impulses (self_response.cpp): a vertex may change by so much of the rate
-  const bool sticks = !scene.contact || scene.contact->adhesion != 0.0;
+  const bool sticks = contacts_adhere(scene);
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (const ContactSpring& s : springs) {
       double rate = 0, compliance = 0, farthest = 0;
@@ -143,7 +138,7 @@ void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair
                  const Scene& scene, const SpringSheet& sheet) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> linked; // vertices of the two features of a spring
   const auto link = [&](const ContactSpring& s) {
-    const std::size_t first = s.of_vertex() ? 1 : 2;
+    const std::size_t first = s.second_feature();
     for (std::size_t a = 0; a < first; ++a)
       for (std::size_t b = first; b < 4; ++b)
         linked.emplace(s.vertices[a], s.vertices[b]);

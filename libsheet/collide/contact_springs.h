@@ -67,7 +67,7 @@ void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair
 // to each other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of
 // Gauss-Seidel: nearly all of it in small piles). Where the scene's adhesion is 0, only that of approach. `mass` [kg];
 // along fixed axes it is infinite. Where nearly all of a contact is fixed, so that the rest would have to change by
-// more than 4 times the rate, it is left as it is: it would be thrown.
+// more than longest_lever times the rate, it is left as it is: it would be thrown.
 void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,
                       const std::vector<Axes>& fixed, std::span<Vector3> velocity);
 

@@ -42,8 +42,8 @@ struct Force {
 };
 
 Force force_of(const ContactSpring& s, std::span<const Vector3> x) {
-  const Vector3 c = s.offset(x), slide = c - s.anchor;
-  return {s.stiffness[0] * (s.normal.dot(c) - s.rest), s.stiffness[1] * (slide - s.normal.dot(slide) * s.normal)};
+  const Vector3 c = s.offset(x);
+  return {s.stiffness[0] * s.gap(c), s.stiffness[1] * s.slide(c)};
 }
 
 } // namespace

@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t impulse_rounds = 10, sweeps_of_round = 30, group_rounds = 5;
 constexpr std::array<double, 4> parts_of_way = {1, 0.5, 0.25, 0}; // pull-back
 constexpr double impulse_part = 0.5;                              // of the contact distance, that impulses want
-constexpr double longest_lever = 4; // by how many times the way wanted of a contact an impulse may move a vertex
 
 // n·Σ w_i x_i ≥ distance
 struct Inequality {
@@ -317,6 +316,19 @@ private:
 };
 
 } // namespace
+
+SelfReport& SelfReport::operator+=(const SelfReport& later) {
+  hits += later.hits;
+  rounds += later.rounds;
+  by_impulses += later.by_impulses;
+  in_groups += later.in_groups;
+  pulled_back += later.pulled_back;
+  held_back += later.held_back;
+  if (later.held_back > 0)
+    held_at = later.held_at;
+  taken += later.taken;
+  return *this;
+}
 
 SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
                         std::optional<std::vector<Axes>> prescribed, std::span<const RigidStep> solids) {

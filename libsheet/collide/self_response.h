@@ -53,6 +53,8 @@ struct SelfReport {
   std::size_t held_back = 0;         // those whose motion is prescribed, among them
   Vector3 held_at = Vector3::Zero(); // the last of those, where held_back > 0
   double taken = 0;                  // of kinetic energy less what was given, seen by the observer above [J]
+
+  SelfReport& operator+=(const SelfReport& later); // all adds up; the place is the later one's
 };
 
 // Corrects end and velocity of the path. `reach`: contact distance at each vertex [m]; `prescribed`: axes along which

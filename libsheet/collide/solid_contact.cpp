@@ -20,9 +20,9 @@ namespace {
 
 // Rounds of impulses before what still hits is carried.
 constexpr int rounds = 10;
-// By how many times the way that a point of a triangle is moved an impulse may move a corner. Of two corners with
-// masses m and M the lighter moves by up to sqrt(M/m)/2 times that way, so lighter ones count as having a part of M.
-constexpr double longest_corner_lever = 4, least_mass_part = 1 / (4 * longest_corner_lever * longest_corner_lever);
+// Of two corners with masses m and M the lighter moves by up to sqrt(M/m)/2 times the way of the triangle's point, so
+// lighter ones count as having a part of M.
+constexpr double least_mass_part = 1 / (4 * longest_lever * longest_lever);
 // By what part of its reach a vertex may be farther from a solid that stops it than where that puts it.
 constexpr double as_near = 0.01;
 // What two hits may differ by that come together: of the step, and of the thickness.
@@ -339,7 +339,7 @@ private:
     const Lever lever = lever_of(hit);
     const bool meets = hit.kind == FoundHit::Kind::meeting;
     // Nearly all of the point is held: left to the other means; all of it, and driven into the solid: to be told.
-    if (lever.longest > longest_corner_lever || (lever.compliance.isZero(0) && meets)) {
+    if (lever.longest > longest_lever || (lever.compliance.isZero(0) && meets)) {
       for (const std::uint32_t v : corners)
         changed_[v] = 1;
       return;
@@ -496,6 +496,22 @@ private:
 };
 
 } // namespace
+
+SolidReport& SolidReport::operator+=(const SolidReport& later) {
+  touching = std::max(touching, later.touching);
+  caught += later.caught;
+  pushed += later.pushed;
+  carried += later.carried;
+  started_across = std::max(started_across, later.started_across);
+  brought_out += later.brought_out;
+  between += later.between;
+  if (later.between > 0)
+    between_at = later.between_at;
+  unresolved += later.unresolved;
+  if (later.unresolved > 0)
+    unresolved_at = later.unresolved_at;
+  return *this;
+}
 
 SolidReport resolve_solids(StepPath& path, const solid::Solids& solids) {
   if (solids.empty() || path.triangles.empty())

@@ -42,6 +42,10 @@ struct SolidReport {
   Vector3 between_at = Vector3::Zero();    // the last of those, where between > 0
   std::size_t unresolved = 0;              // triangles that still come too close (see above)
   Vector3 unresolved_at = Vector3::Zero(); // a corner of the last of those, where unresolved > 0
+
+  // With what was done after it: of `touching` and `started_across` the most, all else adds up; places are the later
+  // ones'.
+  SolidReport& operator+=(const SolidReport& later);
 };
 
 // Corrects end, velocity, touch and fixed of the path; `touch` has a solid or no_solid for each vertex at the start,

@@ -11,6 +11,9 @@
 
 namespace sheet::collide {
 
+// By how many times the way (or the rate) that is wanted of a contact an impulse may change that of a vertex.
+inline constexpr double longest_lever = 4;
+
 // 1 along the axes that are free, 0 along the others.
 [[nodiscard]] inline Vector3 free_part(Axes fixed) {
   return {has_axis(fixed, 0) ? 0.0 : 1.0, has_axis(fixed, 1) ? 0.0 : 1.0, has_axis(fixed, 2) ? 0.0 : 1.0};

@@ -15,7 +15,7 @@ public:
   // drag: k [Pa s/m]; level: of the surface, against gravity [m].
   BathDrag(double drag, const Vector3& gravity, double level)
       : drag_(drag), up_(-gravity.normalized()), level_(level) {}
-  [[nodiscard]] const char* name() const { return "drag of the bath"; }
+  [[nodiscard]] const char* name() const { return "drag of a bath"; }
   [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }
   void begin(const Stage& stage) { stage_ = &stage; }
 

@@ -11,12 +11,17 @@
 
 namespace sheet {
 
+// Σ w_i u_i of the unknowns of an element of four vertices.
+[[nodiscard]] inline Vector3 weighted_sum(const std::array<double, 4>& w, const VectorN<12>& u) {
+  return w[0] * u.segment<3>(0) + w[1] * u.segment<3>(3) + w[2] * u.segment<3>(6) + w[3] * u.segment<3>(9);
+}
+
 class Contact {
 public:
   static constexpr Stencil stencil = Stencil::four;
   static constexpr Kind kind = Kind::elastic;
-  // adhesion: they pull, too; else they only push.
-  Contact(std::vector<ContactSpring> springs, bool adhesion) : springs_(std::move(springs)), adhesion_(adhesion) {}
+  // springs: outlive the term; adhesion: they pull, too; else they only push.
+  Contact(std::span<const ContactSpring> springs, bool adhesion) : springs_(springs), adhesion_(adhesion) {}
   [[nodiscard]] const char* name() const { return "contact"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
@@ -24,15 +29,13 @@ public:
 
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const {
     const ContactSpring& s = springs_[i];
-    const Vector3 c = offset(s, u), slide = tangential(s, c);
-    const double gap = s.normal.dot(c) - s.rest;
-    return 0.5 * normal_stiffness(s, gap) * gap * gap + 0.5 * s.stiffness[1] * slide.squaredNorm();
+    return s.energy(weighted_sum(s.weights, u), adhesion_);
   }
 
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian, bool) const {
     const ContactSpring& s = springs_[i];
-    const Vector3 c = offset(s, u), slide = tangential(s, c);
-    const double gap = s.normal.dot(c) - s.rest, k = normal_stiffness(s, gap);
+    const Vector3 c = weighted_sum(s.weights, u), slide = s.slide(c);
+    const double gap = s.gap(c), k = s.normal_stiffness(gap, adhesion_);
     const Vector3 force = k * gap * s.normal + s.stiffness[1] * slide;
     const Matrix3 nn = s.normal * s.normal.transpose();
     const Matrix3 stiffness = k * nn + s.stiffness[1] * (Matrix3::Identity() - nn);
@@ -42,23 +45,11 @@ public:
       for (int b = 0; b < 4; ++b)
         hessian.block<3, 3>(3 * a, 3 * b) = (wa * s.weights[static_cast<std::size_t>(b)]) * stiffness;
     }
-    return 0.5 * k * gap * gap + 0.5 * s.stiffness[1] * slide.squaredNorm();
+    return s.energy(c, adhesion_);
   }
 
 private:
-  static Vector3 offset(const ContactSpring& s, const VectorN<12>& u) {
-    return s.weights[0] * u.segment<3>(0) + s.weights[1] * u.segment<3>(3) + s.weights[2] * u.segment<3>(6) +
-           s.weights[3] * u.segment<3>(9);
-  }
-  static Vector3 tangential(const ContactSpring& s, const Vector3& c) {
-    const Vector3 d = c - s.anchor;
-    return d - s.normal.dot(d) * s.normal;
-  }
-  [[nodiscard]] double normal_stiffness(const ContactSpring& s, double gap) const {
-    return adhesion_ || gap < 0 ? s.stiffness[0] : 0;
-  }
-
-  std::vector<ContactSpring> springs_;
+  std::span<const ContactSpring> springs_;
   bool adhesion_;
 };
 

@@ -7,18 +7,17 @@
 // resists as the sheet itself does when it is stretched; the roots, with inertia only, damp two free layers critically.
 // Neither depends on the step. Without adhesion, across the layers only approach is damped.
 #pragma once
-#include "libsheet/energy/element.h"
-#include "libsheet/sheet/contact_spring.h"
+#include "libsheet/energy/contact.h"
 
 namespace sheet {
 
 class ContactDamping {
 public:
   static constexpr Stencil stencil = Stencil::four;
-  // viscosity [Pa s]; density [kg/m³], 0 without inertia; adhesion: the springs pull, too.
-  ContactDamping(std::vector<ContactSpring> springs, double viscosity, double density, bool adhesion)
-      : springs_(std::move(springs)), viscosity_(viscosity), density_(density), adhesion_(adhesion) {}
-  [[nodiscard]] const char* name() const { return "damping of contact"; }
+  // springs: outlive the term; inertia: it is modelled; adhesion: the springs pull, too.
+  ContactDamping(std::span<const ContactSpring> springs, bool inertia, bool adhesion)
+      : springs_(springs), inertia_(inertia), adhesion_(adhesion) {}
+  [[nodiscard]] const char* name() const { return "contact damping"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
   void begin(const Stage& stage);
@@ -55,18 +54,15 @@ private:
     double across, normal;
     Vector3 along;
     Way(const ContactDamping& d, std::size_t i, const VectorN<12>& u) {
-      const auto& w = d.springs_[i].weights;
-      const Vector3 e = w[0] * u.segment<3>(0) + w[1] * u.segment<3>(3) + w[2] * u.segment<3>(6) +
-                        w[3] * u.segment<3>(9) - d.dampers_[i].before;
+      const Vector3 e = weighted_sum(d.springs_[i].weights, u) - d.dampers_[i].before;
       across = d.springs_[i].normal.dot(e);
       along = e - across * d.springs_[i].normal;
       normal = d.adhesion_ || across < 0 ? d.dampers_[i].normal : 0;
     }
   };
 
-  std::vector<ContactSpring> springs_;
-  double viscosity_, density_;
-  bool adhesion_;
+  std::span<const ContactSpring> springs_;
+  bool inertia_, adhesion_;
   std::vector<Damper> dampers_;
 };
 

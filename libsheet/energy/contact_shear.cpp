@@ -16,23 +16,23 @@ struct Feature {
 
 Feature feature(const ContactSpring& s, std::size_t first, std::size_t end, const Stage& stage,
                 std::span<const double> thickness) {
-  Feature f;
-  for (std::size_t i = first; i < end; ++i) {
-    f.thickness += std::abs(s.weights[i]) * thickness[s.vertices[i]];
+  Feature f{s.mean_of_corners(first, end, thickness)};
+  for (std::size_t i = first; i < end; ++i)
     if (const WallSite* site = site_at(stage, s.vertices[i]))
       f.site = site;
-  }
   return f;
 }
 
 } // namespace
 
 void ContactShear::begin(const Stage& stage) {
+  stage_ = &stage;
   const LayerShares shares = layer_shares(stage);
+  const std::vector<double> viscosities = vertex_viscosities(stage);
   links_.assign(springs_.size(), {});
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
-    const std::size_t middle = s.of_vertex() ? 1 : 2;
+    const std::size_t middle = s.second_feature();
     const Feature one = feature(s, 0, middle, stage, shares.thickness);
     const Feature other = feature(s, middle, 4, stage, shares.thickness);
     // Where both touch walls, or none, neither carries the other one.
@@ -42,7 +42,7 @@ void ContactShear::begin(const Stage& stage) {
     const LayerShear shear = on_wall ? shear_on_wall(lower.thickness, upper.thickness, lower.site->slip_length)
                                      : shear_in_stack(lower.thickness, upper.thickness);
     Link& link = links_[i];
-    const double rate = s.area(shares.area) * viscosity_ / stage.duration;
+    const double rate = s.area(shares.area) * viscosity_between(s, viscosities) / stage.duration;
     link.shear = rate / shear.depth;
     link.squeeze = 3 * rate / ((lower.thickness + upper.thickness) / 2);
     link.before.setZero();
@@ -60,12 +60,12 @@ void ContactShear::begin(const Stage& stage) {
   }
 }
 
-void ContactShear::add_wall_forces(const Stage& stage, const Unknowns& u, std::span<Vector3> force) const {
+void ContactShear::add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
     VectorN<12> x;
     for (int c = 0; c < 4; ++c)
-      x.segment<3>(3 * c) = stage.position(u, s.vertices[static_cast<std::size_t>(c)]);
+      x.segment<3>(3 * c) = stage_->position(u, s.vertices[static_cast<std::size_t>(c)]);
     for (std::size_t c = 0; c < 4; ++c)
       force[s.vertices[c]] -= (links_[i].weights[c] - s.weights[c]) * links_[i].shear * way(i, x);
   }

@@ -9,16 +9,15 @@
 // second part is that of liquid which is drawn out or squeezed between the middles of the layers [Trouton 1906];
 // without it they would bounce on their springs whenever contacts change.
 #pragma once
-#include "libsheet/energy/element.h"
-#include "libsheet/sheet/contact_spring.h"
+#include "libsheet/energy/contact.h"
 
 namespace sheet {
 
 class ContactShear {
 public:
   static constexpr Stencil stencil = Stencil::four;
-  ContactShear(std::vector<ContactSpring> springs, double viscosity)
-      : springs_(std::move(springs)), viscosity_(viscosity) {}
+  // springs: outlive the term.
+  explicit ContactShear(std::span<const ContactSpring> springs) : springs_(springs) {}
   [[nodiscard]] const char* name() const { return "shear of layers"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
@@ -45,9 +44,8 @@ public:
     return value(i, u);
   }
 
-  // Adds to each vertex' force what the wall that it touches takes of the shear: what the layers do not give each
-  // other [N].
-  void add_wall_forces(const Stage& stage, const Unknowns& u, std::span<Vector3> force) const;
+  // What the wall takes of the shear: what the layers do not give each other.
+  void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const;
 
 private:
   struct Link {
@@ -59,20 +57,15 @@ private:
 
   // P e [m].
   [[nodiscard]] Vector3 way(std::size_t i, const VectorN<12>& u) const {
-    const Vector3 e = sum(links_[i].weights, u) - links_[i].before;
-    return e - springs_[i].normal.dot(e) * springs_[i].normal;
+    return springs_[i].along(weighted_sum(links_[i].weights, u) - links_[i].before);
   }
   // n·f [m].
   [[nodiscard]] double thickening(std::size_t i, const VectorN<12>& u) const {
-    return springs_[i].normal.dot(sum(springs_[i].weights, u)) - links_[i].thickness;
-  }
-  static Vector3 sum(const std::array<double, 4>& weights, const VectorN<12>& u) {
-    return weights[0] * u.segment<3>(0) + weights[1] * u.segment<3>(3) + weights[2] * u.segment<3>(6) +
-           weights[3] * u.segment<3>(9);
+    return springs_[i].normal.dot(weighted_sum(springs_[i].weights, u)) - links_[i].thickness;
   }
 
-  std::vector<ContactSpring> springs_;
-  double viscosity_;
+  std::span<const ContactSpring> springs_;
+  const Stage* stage_ = nullptr;
   std::vector<Link> links_;
 };
 

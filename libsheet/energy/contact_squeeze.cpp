@@ -12,13 +12,10 @@ namespace {
 std::vector<double> presses(std::span<const ContactSpring> springs, const Stage& stage) {
   std::vector<double> force(stage.vertices(), 0);
   for (const ContactSpring& s : springs) {
-    Vector3 offset = Vector3::Zero();
-    for (std::size_t c = 0; c < 4; ++c) {
-      const std::uint32_t v = s.vertices[c];
-      offset +=
-          s.weights[c] * (stage.previous != nullptr ? stage.position(*stage.previous, v) : stage.start->positions[v]);
-    }
-    const double press = s.stiffness[0] * (s.rest - s.normal.dot(offset));
+    const Vector3 offset = s.sum([&](std::uint32_t v) {
+      return stage.previous != nullptr ? stage.position(*stage.previous, v) : stage.start->positions[v];
+    });
+    const double press = -s.stiffness[0] * s.gap(offset);
     for (std::size_t c = 0; c < 4 && press > 0; ++c)
       force[s.vertices[c]] += std::abs(s.weights[c]) * press;
   }

@@ -20,8 +20,9 @@ class ContactSqueeze {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
-  explicit ContactSqueeze(std::vector<ContactSpring> springs) : springs_(std::move(springs)) {}
-  [[nodiscard]] const char* name() const { return "squeeze of layers"; }
+  // springs: outlive the term.
+  explicit ContactSqueeze(std::span<const ContactSpring> springs) : springs_(springs) {}
+  [[nodiscard]] const char* name() const { return "squeezed layers"; }
   [[nodiscard]] std::size_t size() const { return work_.size(); }
   void begin(const Stage& stage);
   [[nodiscard]] double work(std::size_t i) const { return work_[i]; } // q V of triangle i [J]
@@ -48,7 +49,7 @@ private:
     return -work_[i] * std::log(area / start_area_[i]);
   }
 
-  std::vector<ContactSpring> springs_;
+  std::span<const ContactSpring> springs_;
   std::vector<double> work_, start_area_; // q V [J], [m²]
 };
 

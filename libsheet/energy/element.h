@@ -9,6 +9,7 @@
 //   static constexpr bool linear = true;                      optional: the Hessian is zero and need not be added
 //   void begin(const Stage&);                                 start-of-stage quantities; called before each solve
 //   void prepare(const Unknowns&);                            optional: what is global (an enclosed volume)
+//   void add_wall_forces(const Unknowns&, span<Vector3>) const;   optional: what walls do along themselves, see term.h
 //   void finish(const Unknowns&, State&);                     optional: what a step leaves in the state, see term.h
 //   double rank_one(const Unknowns&, VectorXd&) const;        optional: what couples all unknowns, see term.h
 //   double value(i, u) const;                                 [J]

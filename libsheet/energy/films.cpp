@@ -8,9 +8,10 @@ constexpr double of_strip = 0.25;    // μ h/τ of this part of 2 γ and
 constexpr double of_triangle = 0.03; // ρ h A/τ² of this part let tension shorten a film by a tenth in a stage
 } // namespace
 
-std::vector<double> stiffened_films(const Stage& stage, double viscosity, double density, double tension) {
+std::vector<double> stiffened_films(const Stage& stage, bool inertia) {
   std::vector<double> raised;
-  if (!(viscosity > 0 && tension > 0))
+  const double tension = stage.liquid.surface_tension, density = inertia ? stage.liquid.density : 0;
+  if (!(stage.liquid.viscous() && tension > 0))
     return raised;
   const std::vector<double>& volumes = stage.start->volumes;
   double volume = 0, area = 0;
@@ -22,7 +23,7 @@ std::vector<double> stiffened_films(const Stage& stage, double viscosity, double
   for (std::size_t t = 0; t < volumes.size(); ++t) {
     const double own = stage.raised[t].area(), h = volumes[t] / own;
     const double pull = 2 * tension - of_triangle * density * h * own / (tau * tau);
-    const double excess = pull * tau / (of_strip * viscosity * h) - 1;
+    const double excess = pull * tau / (of_strip * stage.viscosity[t] * h) - 1;
     if (h >= thin || !(excess > 0))
       continue;
     raised.resize(volumes.size(), 1);

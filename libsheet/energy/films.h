@@ -19,7 +19,6 @@ inline constexpr double film_thickness = 0.1; // of the mean one: films are thin
 // the first from the strip's balance of W = (3/8) μ' h (a - 1)²/τ per area with 2 γ √a, a its stretch squared, the
 // second from a free triangle's with its inertia. Steps that resolve the film have μ' < μ, and do not know of it; pulls
 // of films at rest are as they were. Towards the films' greatest thickness it goes continuously to nothing.
-// viscosity [Pa s], density [kg/m³] (0: no inertia).
-[[nodiscard]] std::vector<double> stiffened_films(const Stage& stage, double viscosity, double density, double tension);
+[[nodiscard]] std::vector<double> stiffened_films(const Stage& stage, bool inertia);
 
 } // namespace sheet

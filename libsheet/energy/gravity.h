@@ -10,10 +10,13 @@ class Gravity {
 public:
   static constexpr Stencil stencil = Stencil::vertex;
   static constexpr bool linear = true;
-  Gravity(double density, const Vector3& gravity) : weight_(density * gravity) {}
+  explicit Gravity(const Vector3& gravity) : gravity_(gravity) {}
   [[nodiscard]] const char* name() const { return "gravity"; }
   [[nodiscard]] std::size_t size() const { return stage_ ? stage_->vertices() : 0; }
-  void begin(const Stage& stage) { stage_ = &stage; }
+  void begin(const Stage& stage) {
+    stage_ = &stage;
+    weight_ = stage.liquid.density * gravity_;
+  }
 
   [[nodiscard]] double value(std::size_t i, const Vector3& u) const {
     return -stage_->vertex_volumes[i] * weight_.dot(u - stage_->start->positions[i]);
@@ -30,7 +33,8 @@ public:
   }
 
 private:
-  Vector3 weight_; // of a cubic metre [N/m³]
+  Vector3 gravity_;                  // [m/s²]
+  Vector3 weight_ = Vector3::Zero(); // of a cubic metre [N/m³]
   const Stage* stage_ = nullptr;
 };
 

@@ -13,8 +13,7 @@ namespace {
 double turn(double difference) { return std::remainder(difference, 2 * std::numbers::pi); }
 } // namespace
 
-Hinge::Hinge(double viscosity, bool as_printed, const Connectivity& mesh)
-    : viscosity_(viscosity), as_printed_(as_printed) {
+Hinge::Hinge(bool as_printed, const Connectivity& mesh) : as_printed_(as_printed) {
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
     if (mesh.on_rim(e))
       continue;
@@ -32,7 +31,6 @@ Hinge::Hinge(double viscosity, bool as_printed, const Connectivity& mesh)
 
 void Hinge::begin(const Stage& stage) {
   const Connectivity& mesh = *stage.start->mesh;
-  const double constant = viscosity_ / (as_printed_ ? 3 : 18) / stage.duration;
   weight_.resize(nodes_.size());
   reference_.resize(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -43,16 +41,18 @@ void Hinge::begin(const Stage& stage) {
     reference_[i] = angle(stage.begin);
     if (stage.previous)
       reference_[i] += stage.ratio * turn(angle(*stage.previous) - reference_[i]);
-    double area = 0, thickness = 0, length = 0;
+    double area = 0, thickness = 0, length = 0, viscosity = 0;
     for (const auto t : mesh.edge_triangles[edges_[i]]) {
       const RaisedMetric& a = stage.raised[t];
       area += a.area();
+      viscosity += 0.5 * stage.viscosity[t];
       thickness += 0.5 * stage.start->volumes[t] / a.area();
       for (std::size_t k = 0; k < 3; ++k)
         if (mesh.triangle_edges[t][k] == edges_[i])
           length += 0.5 * a.lengths[static_cast<Eigen::Index>(k)];
     }
-    weight_[i] = constant * thickness * thickness * thickness * 3 * length / area;
+    weight_[i] =
+        viscosity / (as_printed_ ? 3 : 18) / stage.duration * thickness * thickness * thickness * 3 * length / area;
   }
 }
 

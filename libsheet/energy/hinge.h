@@ -3,9 +3,9 @@
 // duration τ:
 //   W = (k μ ĥ³/τ) (θ - θ̄)² 3 l̂²/Â,   k = 1/3 as printed (Y h³/(12 (1 - ν²)) with Y = 3μ, ν = 1/2), 1/18 as the default
 //   hinge.
-// θ: angle between the two normals [rad], θ̄ its reference; ĥ the mean thickness, Â the sum of the areas, l̂ the length
-// of the edge, all three by the metric that raises indices (Stage::raised). No constant is right for every mesh
-// (docs/speed-error.md, V11).
+// θ: angle between the two normals [rad], θ̄ its reference; μ the mean viscosity, ĥ the mean thickness, Â the sum of the
+// areas, l̂ the length of the edge, all three by the metric that raises indices (Stage::raised). No constant is right
+// for every mesh (docs/speed-error.md, V11).
 #pragma once
 #include "libsheet/energy/element.h"
 
@@ -14,7 +14,7 @@ namespace sheet {
 class Hinge {
 public:
   static constexpr Stencil stencil = Stencil::hinge;
-  Hinge(double viscosity, bool as_printed, const Connectivity& mesh);
+  Hinge(bool as_printed, const Connectivity& mesh);
   [[nodiscard]] const char* name() const { return as_printed_ ? "bending (hinge as printed)" : "bending (hinge)"; }
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return nodes_[i]; }
@@ -24,7 +24,6 @@ public:
                      bool definite) const;
 
 private:
-  double viscosity_; // [Pa s]
   bool as_printed_;
   std::vector<std::array<std::uint32_t, 4>> nodes_;
   std::vector<std::uint32_t> edges_;       // of the hinges

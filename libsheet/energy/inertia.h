@@ -11,7 +11,6 @@ class Inertia {
 public:
   static constexpr Stencil stencil = Stencil::vertex;
   static constexpr Kind kind = Kind::inertial;
-  explicit Inertia(double density) : density_(density) {}
   [[nodiscard]] const char* name() const { return "inertia"; }
   [[nodiscard]] std::size_t size() const { return stage_ ? stage_->vertices() : 0; }
   void begin(const Stage& stage) { stage_ = &stage; }
@@ -32,10 +31,9 @@ public:
 
 private:
   [[nodiscard]] double weight(std::size_t i) const {
-    return density_ * stage_->vertex_volumes[i] / (stage_->duration * stage_->inertial_time);
+    return stage_->liquid.density * stage_->vertex_volumes[i] / (stage_->duration * stage_->inertial_time);
   }
 
-  double density_; // [kg/m³]
   const Stage* stage_ = nullptr;
 };
 

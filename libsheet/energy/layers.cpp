@@ -1,21 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/energy/layers.h"
 
+#include <cmath>
+
 #include "libsheet/energy/walls.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
 LayerShares layer_shares(const Stage& stage) {
-  LayerShares s{std::vector<double>(stage.vertices(), 0), std::vector<double>(stage.vertices(), 0)};
   const auto& triangles = stage.start->mesh->triangles;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (const auto v : triangles[t]) {
-      s.area[v] += stage.raised[t].area() / 3;
-      s.thickness[v] += stage.start->volumes[t] / 3;
-    }
+  LayerShares s;
+  s.area = vertex_shares(stage.vertices(), triangles, [&](std::uint32_t t) { return stage.raised[t].area(); });
+  s.thickness = stage.vertex_volumes;
   for (std::size_t v = 0; v < s.area.size(); ++v)
     s.thickness[v] /= s.area[v];
   return s;
+}
+
+// Means are sums of differences to one of the values, so that equal values have just that mean.
+std::vector<double> vertex_viscosities(const Stage& stage) {
+  const auto& triangles = stage.start->mesh->triangles;
+  std::vector<double> first(stage.vertices(), 0);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t v : triangles[t])
+      first[v] = stage.viscosity[t];
+  std::vector<double> more(stage.vertices(), 0);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t v : triangles[t])
+      more[v] += stage.start->volumes[t] / 3 * (stage.viscosity[t] - first[v]);
+  for (std::size_t v = 0; v < first.size(); ++v)
+    first[v] += more[v] / stage.vertex_volumes[v];
+  return first;
+}
+
+double viscosity_between(const ContactSpring& contact, std::span<const double> viscosities) {
+  const double first = viscosities[contact.vertices[0]];
+  double more = 0;
+  for (std::size_t i = 1; i < 4; ++i)
+    more += 0.5 * std::abs(contact.weights[i]) * (viscosities[contact.vertices[i]] - first);
+  return first + more;
 }
 
 LayerShear shear_on_wall(double lower, double upper, double slip_length) {

@@ -2,9 +2,11 @@
 // Layers of a sheet that lie on each other and flow, as the contact springs between them show (contact.h): what the
 // elements of contact_shear.h and contact_squeeze.h need to know of a stage. SI units.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "libsheet/energy/stage.h"
+#include "libsheet/sheet/contact_spring.h"
 
 namespace sheet {
 
@@ -13,6 +15,10 @@ struct LayerShares {
   std::vector<double> area, thickness; // a third of its triangles' [m²]; volume / area [m]
 };
 [[nodiscard]] LayerShares layer_shares(const Stage& stage);
+// Of each vertex the mean of its triangles' viscosities, by volume [Pa s].
+[[nodiscard]] std::vector<double> vertex_viscosities(const Stage& stage);
+// The mean over both features of a contact [Pa s].
+[[nodiscard]] double viscosity_between(const ContactSpring& contact, std::span<const double> viscosities);
 
 // How a layer that is sheared by the one below it lags behind. The velocity across each is a parabola, without stress
 // at the upper face of the upper one, and both, and their stresses, meet in between [Oron, Davis and Bankoff 1997,

@@ -6,6 +6,7 @@
 
 #include "libsheet/energy/walls.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
@@ -23,16 +24,13 @@ Layers layers_of(const State& state, std::span<const char> held) {
   const auto& triangles = state.mesh->triangles;
   const auto& x = state.positions;
   Layers layers;
-  std::vector<double> volume(x.size(), 0), area(x.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Corners& c = triangles[t];
     layers.area.push_back(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area);
     layers.thickness.push_back(state.volumes[t] / layers.area[t]);
-    for (const auto v : c) {
-      volume[v] += state.volumes[t];
-      area[v] += layers.area[t];
-    }
   }
+  const std::vector<double> around =
+      thickness_around(x.size(), triangles, state.volumes, [&](std::uint32_t t) { return layers.area[t]; });
   std::vector<char> on_rim(x.size(), 0);
   for (std::size_t e = 0; e < state.mesh->edges.size(); ++e)
     if (state.mesh->on_rim(e))
@@ -41,8 +39,7 @@ Layers layers_of(const State& state, std::span<const char> held) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Corners& c = triangles[t];
     layers.at_rim.push_back(on_rim[c[0]] != 0 || on_rim[c[1]] != 0 || on_rim[c[2]] != 0);
-    layers.rest.push_back(layers.thickness[t] -
-                          (volume[c[0]] / area[c[0]] + volume[c[1]] / area[c[1]] + volume[c[2]] / area[c[2]]) / 3);
+    layers.rest.push_back(layers.thickness[t] - (around[c[0]] + around[c[1]] + around[c[2]]) / 3);
   }
   return layers;
 }
@@ -54,10 +51,10 @@ Vector3 middle_of(const State& state, std::uint32_t t) {
 
 // Of volume and momentum (over the density) around the vertices.
 struct Carried {
-  explicit Carried(const State& state) : volume(state.positions.size(), 0), momentum(state.positions.size()) {
-    for (std::size_t t = 0; t < state.volumes.size(); ++t)
-      for (const auto v : state.mesh->triangles[t])
-        volume[v] += state.volumes[t] / 3;
+  explicit Carried(const State& state)
+      : volume(vertex_shares(state.positions.size(), state.mesh->triangles,
+                             [&](std::uint32_t t) { return state.volumes[t]; })),
+        momentum(state.positions.size()) {
     for (std::size_t v = 0; v < volume.size(); ++v)
       momentum[v] = volume[v] * state.velocities[v];
   }
@@ -81,19 +78,19 @@ struct Carried {
 };
 
 // How fast unevenness of the size of an edge flows across it [m²/s]; 0 where nothing drags.
-double diffusivity(const WallSite& one, const WallSite& other, const LevellingLiquid& liquid, double h, double apart) {
+double diffusivity(const WallSite& one, const WallSite& other, const Liquid& liquid, double viscosity,
+                   const Vector3& gravity, double h, double apart) {
   if (one.slip_length == free_slip || other.slip_length == free_slip)
     return 0;
-  const double towards = std::max(0.0, -liquid.gravity.dot(one.normal + other.normal) / 2);
+  const double towards = std::max(0.0, -gravity.dot(one.normal + other.normal) / 2);
   const double stiffness = liquid.density * towards + liquid.surface_tension / (apart * apart);
-  return stiffness * h * h * (h + 3 * std::min(one.slip_length, other.slip_length)) / (3 * liquid.viscosity);
+  return stiffness * h * h * (h + 3 * std::min(one.slip_length, other.slip_length)) / (3 * viscosity);
 }
 
 } // namespace
 
-bool level_layers(const Stage& stage, const LevellingLiquid& liquid, const std::vector<Hold>& holds, double dt,
-                  State& end) {
-  if (stage.sites.empty() || !(liquid.viscosity > 0))
+bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<Hold>& holds, double dt, State& end) {
+  if (stage.sites.empty() || !stage.liquid.viscous())
     return false;
   const Connectivity& mesh = *end.mesh;
   const Layers layers = layers_of(end, held_unknowns(holds, stage));
@@ -113,8 +110,10 @@ bool level_layers(const Stage& stage, const LevellingLiquid& liquid, const std::
     const double length = (end.positions[b] - end.positions[a]).norm();
     const double apart = (middle_of(end, up) - middle_of(end, down)).norm();
     const double h = (layers.thickness[up] + layers.thickness[down]) / 2;
-    const double amount = rest * std::min(diffusivity(*one, *other, liquid, h, apart) * dt * length / apart,
-                                          most_in_a_step * std::min(layers.area[up], layers.area[down]));
+    const double viscosity = (stage.viscosity[up] + stage.viscosity[down]) / 2;
+    const double amount =
+        rest * std::min(diffusivity(*one, *other, stage.liquid, viscosity, gravity, h, apart) * dt * length / apart,
+                        most_in_a_step * std::min(layers.area[up], layers.area[down]));
     end.volumes[up] -= amount;
     end.volumes[down] += amount;
     carried.move(end, amount, up, down);

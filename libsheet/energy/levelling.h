@@ -12,15 +12,9 @@
 
 namespace sheet {
 
-struct LevellingLiquid {
-  double viscosity = 0, density = 0, surface_tension = 0; // [Pa s], [kg/m³], [N/m]
-  Vector3 gravity = Vector3::Zero();                      // [m/s²]
-};
-
 // Levels `end`, the end of a step of dt [s] whose last stage is given: its volumes, and the velocities with them, so
 // that volume and momentum stay. No new extremes. Where the rim is not held at all, what is there stays as it is. False
 // where there is no wall.
-bool level_layers(const Stage& stage, const LevellingLiquid& liquid, const std::vector<Hold>& holds, double dt,
-                  State& end);
+bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<Hold>& holds, double dt, State& end);
 
 } // namespace sheet

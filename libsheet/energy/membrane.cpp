@@ -9,7 +9,6 @@ namespace sheet {
 void Membrane::begin(const Stage& stage) {
   stage_ = &stage;
   const auto& triangles = stage.start->mesh->triangles;
-  const double rate = viscosity_ / (4 * stage.duration);
   reference_.resize(triangles.size());
   weight_.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -18,6 +17,7 @@ void Membrane::begin(const Stage& stage) {
       return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
     };
     const Vector3 start = lengths(stage.begin);
+    const double rate = stage.viscosity[t] / (4 * stage.duration);
     weight_[t] = 2 * rate * stage.start->volumes[t] * stage.stiffening(t);
     reference_[t] = stage.previous ? Vector3(start + stage.ratio * (lengths(*stage.previous) - start)) : start;
   }

@@ -12,7 +12,6 @@ namespace sheet {
 class Membrane {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  explicit Membrane(double viscosity) : viscosity_(viscosity) {}
   [[nodiscard]] const char* name() const { return "membrane"; }
   [[nodiscard]] std::size_t size() const { return reference_.size(); }
   void begin(const Stage& stage);
@@ -22,7 +21,6 @@ public:
                      bool definite) const;
 
 private:
-  double viscosity_;
   const Stage* stage_ = nullptr;   // raised metrics
   std::vector<Vector3> reference_; // squared edge lengths ā [m²]
   std::vector<double> weight_;     // V μ/(2τ) [J]

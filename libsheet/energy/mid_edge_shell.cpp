@@ -68,12 +68,11 @@ void MidEdgeShell::refer(std::size_t batch) {
   MidEdgeStart start;
   MidEdgeState previous;
   start.ratio = stage_->previous ? stage_->ratio : 0;
-  const double rate = viscosity_ / (2 * stage_->duration);
   for (int lane = 0; lane < lane_count; ++lane) {
     const std::size_t t = std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1);
     const Corners& v = mesh_->triangles[t];
     start.volume[lane] = stage_->start->volumes[t];
-    start.rate[lane] = rate * stage_->stiffening(t);
+    start.rate[lane] = stage_->viscosity[t] / (2 * stage_->duration) * stage_->stiffening(t);
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const std::uint32_t edge = mesh_->triangle_edges[t][at];

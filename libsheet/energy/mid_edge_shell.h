@@ -30,9 +30,9 @@ namespace sheet {
 class MidEdgeShell {
 public:
   static constexpr Stencil stencil = Stencil::triangle_edges;
-  MidEdgeShell(double viscosity, bool arcs) : viscosity_(viscosity), arcs_(arcs) {}
+  explicit MidEdgeShell(bool arcs) : arcs_(arcs) {}
   // With arcs, on whose area `loads` work.
-  MidEdgeShell(double viscosity, AreaLoads loads) : viscosity_(viscosity), arcs_(true), area_loads_(std::move(loads)) {}
+  explicit MidEdgeShell(AreaLoads loads) : arcs_(true), area_loads_(std::move(loads)) {}
   [[nodiscard]] const char* name() const {
     return !arcs_              ? "bending (mid-edge)"
            : area_loads_.any() ? "membrane, bending and area (mid-edge, arcs)"
@@ -66,7 +66,6 @@ private:
   [[nodiscard]] MidEdgeState state_of(std::size_t first, int used, const double* u, int stride) const;
   [[nodiscard]] static MidEdgeState state_of(const VectorN<12>& u);
 
-  double viscosity_; // [Pa s]
   bool arcs_;
   AreaLoads area_loads_;
   const Stage* stage_ = nullptr;

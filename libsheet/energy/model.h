@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The physics of a sheet as plain numbers, and the terms that follow from it: a term exists only if it is asked for.
+// The physics of a sheet as plain numbers. What terms follow from it says term_table.h: one exists only if it is asked
+// for.
 #pragma once
 #include <optional>
 #include <vector>
@@ -8,19 +9,11 @@
 #include "libsheet/energy/holds.h"
 #include "libsheet/energy/inertia.h"
 #include "libsheet/energy/pressure.h"
-#include "libsheet/energy/term.h"
 #include "libsheet/energy/walls.h"
+#include "libsheet/material/bath_liquid.h"
+#include "libsheet/material/liquid.h"
 
 namespace sheet {
-
-// A bath below the sheet.
-struct BathModel {
-  double density = 0;   // [kg/m³]
-  double level = 0;     // of its surface, along the upward direction [m]
-  bool clings = false;  // it pulls what is above its level
-  bool spreads = false; // what floats on it spreads by its own weight
-  double drag = 0;      // of what slides on it [Pa s/m]
-};
 
 // Which forces of holds and walls are wanted: none, those in the implicit solve of a step's last stage, which cost next
 // to nothing, or those at the step's end, which take a solve of their own.
@@ -29,12 +22,10 @@ enum class Reactions { none, of_stage, at_end };
 enum class Bending { none, mid_edge, hinge, hinge_paper };
 
 struct Model {
-  double viscosity = 0;               // [Pa s]; 0: no viscous terms
-  double density = 0;                 // [kg/m³]
-  double surface_tension = 0;         // [N/m]
+  Liquid liquid;
   Vector3 gravity = Vector3::Zero();  // [m/s²]
   std::vector<PressureLaw> pressures; // one an enclosure
-  std::optional<BathModel> bath;      // needs gravity
+  std::optional<BathLiquid> bath;     // needs gravity
   bool inertia = true;
   Bending bending = Bending::none;
   bool arcs = false;       // with mid-edge bending: edges are arcs in the membrane's strain
@@ -45,11 +36,9 @@ struct Model {
   bool contacts_adhere = false;
   bool contacts_flow = false; // they let layers flow along each other, and press them flat
 
-  [[nodiscard]] bool has_inertia() const { return inertia && density > 0; }
-  [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && viscosity > 0; }
+  [[nodiscard]] bool has_weight() const { return liquid.density > 0 && gravity.squaredNorm() > 0; }
+  [[nodiscard]] bool has_inertia() const { return inertia && liquid.density > 0; }
+  [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && liquid.viscous(); }
 };
-
-// Throws Error (bad_input) where there are none.
-[[nodiscard]] Terms make_terms(const Model& model, const std::shared_ptr<const Connectivity>& mesh);
 
 } // namespace sheet

@@ -12,27 +12,9 @@
 
 #include "libsheet/energy/constraints.h"
 #include "libsheet/energy/element.h"
+#include "libsheet/linear/sparse_lower.h"
 
 namespace sheet {
-
-// Lower triangle of a symmetric matrix, compressed columns, rows ascending.
-struct SparseLower {
-  int size = 0;
-  std::vector<int> starts, rows;
-  std::vector<double> values;
-};
-
-// Which nodes have elements in common; nodes and rows are numbered in the order of elimination. Node k has the columns
-// first[k] to first[k + 1] of the matrix, and each of these has the rows of the node from the column's own on, then all
-// rows of the nodes later[start[k]] to later[start[k + 1]], which ascend.
-struct NodeGraph {
-  std::vector<int> first, start, later;
-  [[nodiscard]] int nodes() const { return static_cast<int>(first.size()) - 1; }
-  [[nodiscard]] int width(int node) const { return first[node + 1] - first[node]; }
-  [[nodiscard]] std::span<const int> neighbours(int node) const {
-    return {later.data() + start[node], static_cast<std::size_t>(start[node + 1] - start[node])};
-  }
-};
 
 // Elements of one stencil: the nodes of element i are nodes[i * width ...].
 struct ElementGroup {

@@ -11,6 +11,7 @@
 #include "libsheet/energy/state.h"
 #include "libsheet/geometry/director.h"
 #include "libsheet/geometry/metric.h"
+#include "libsheet/material/liquid.h"
 
 namespace sheet {
 
@@ -40,12 +41,14 @@ struct Stage {
   const Unknowns* previous = nullptr; // the first stage's result, null in a first stage
   std::vector<EdgeFrame> frames;      // of the directors, at the start of the step; empty without directors
   std::vector<RaisedMetric> raised;   // for each triangle: the metric that raises indices and weighs by area
-  std::vector<double> stiffened;      // of each triangle: by how much its viscosity is raised (films.h), or none
-  std::vector<double> vertex_volumes; // of each vertex: a third of the volume of each triangle there [m³]
-  std::vector<Vector3> inertial;      // where the vertices would go without force [m]
-  std::vector<Vector3> predicted;     // the extrapolated end of the stage, for what is lagged [m]
-  std::vector<WallSite> sites;        // of what touches walls, ascending
-  std::vector<std::uint32_t> site_of; // of each vertex, or no_index; empty without sites
+  Liquid liquid;
+  std::vector<double> viscosity;         // of each triangle, strained as the stage predicts [Pa s]
+  std::vector<double> stiffened;         // of each triangle: by how much its viscosity is raised (films.h), or none
+  std::vector<double> vertex_volumes;    // of each vertex: a third of the volume of each triangle there [m³]
+  std::vector<Vector3> inertial;         // where the vertices would go without force [m]
+  std::vector<Vector3> predicted;        // the extrapolated end of the stage, for what is lagged [m]
+  std::vector<WallSite> sites;           // of what touches walls, ascending
+  std::vector<std::uint32_t> site_of;    // of each vertex, or no_index; empty without sites
   std::vector<std::uint32_t> wall_edges; // whose directors stand as the wall lets them, ascending
   std::vector<double> wall_turns;        // of these directors, by the predicted end of the stage [rad]
 

@@ -8,6 +8,7 @@
 #include "libsheet/base/each.h"
 #include "libsheet/geometry/angles.h"
 #include "libsheet/geometry/mean_normals.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
@@ -48,11 +49,12 @@ std::vector<EdgeFrame> mean_normal_frames_of(const Stage& stage, const Unknowns&
 
 } // namespace
 
-Stage first_stage(const State& state, double duration, double end_time, bool angles) {
+Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles) {
   Stage stage;
   const Connectivity& mesh = *state.mesh;
   const std::size_t n = state.positions.size();
   stage.start = &state;
+  stage.liquid = liquid;
   stage.duration = duration;
   stage.inertial_time = duration;
   stage.end_time = end_time;
@@ -63,13 +65,11 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
     stage.predicted[v] = state.positions[v] + duration * state.velocities[v];
   });
   stage.inertial = stage.predicted;
-  stage.vertex_volumes.assign(n, 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const auto c : mesh.triangles[t])
-      stage.vertex_volumes[c] += state.volumes[t] / 3;
+  stage.vertex_volumes = vertex_shares(n, mesh.triangles, [&](std::uint32_t t) { return state.volumes[t]; });
   if (angles)
     stage.frames = director_frames(mesh, state.positions, state.director_angles);
   stage.raised.resize(mesh.triangles.size());
+  stage.viscosity.resize(mesh.triangles.size());
   const auto& x = state.positions;
   const auto& v = state.velocities;
   each_in_parallel(mesh.triangles.size(), [&](std::size_t t) {
@@ -80,6 +80,7 @@ Stage first_stage(const State& state, double duration, double end_time, bool ang
       change[k] = 2 * duration * (x[b] - x[a]).dot(v[b] - v[a]);
     }
     stage.raised[t] = predicted_metric(squared_lengths(x[c[0]], x[c[1]], x[c[2]]), change);
+    stage.viscosity[t] = viscosity_of(liquid, strain_rate(stage.raised[t], change, duration));
   });
   return stage;
 }
@@ -106,6 +107,7 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
     const Vector3 end =
         squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
     stage.raised[t] = predicted_metric(start, (end - start) / gamma);
+    stage.viscosity[t] = viscosity_of(stage.liquid, strain_rate(stage.raised[t], end - start, stage.duration));
     if (!(Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= least_ratio - 1))
       possible.store(false, std::memory_order_relaxed);
   });

@@ -5,8 +5,9 @@
 
 namespace sheet {
 
-// The first (or only) stage: refers to the start; metrics predicted from the velocities.
-[[nodiscard]] Stage first_stage(const State& state, double duration, double end_time, bool angles);
+// The first (or only) stage: refers to the start; metrics and viscosities predicted from the velocities.
+[[nodiscard]] Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time,
+                                bool angles);
 
 // Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it). False if a
 // triangle shrank so much that its reference metric is none, or nearly none: a principal stretch, squared, below 1/4 of

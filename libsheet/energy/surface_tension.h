@@ -14,20 +14,20 @@ class SurfaceTension {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
-  explicit SurfaceTension(double gamma) : gamma_(gamma) {}
   [[nodiscard]] const char* name() const { return "surface tension"; }
   [[nodiscard]] std::size_t size() const { return start_area_.size(); }
 
   void begin(const Stage& stage) {
     const auto& triangles = stage.start->mesh->triangles;
     start_area_.resize(triangles.size());
-    tension_.assign(triangles.size(), 2 * gamma_);
+    const double gamma = stage.liquid.surface_tension;
+    tension_.assign(triangles.size(), 2 * gamma);
     const auto& x = stage.start->positions;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
       for (const auto v : triangles[t])
         if (const WallSite* site = site_at(stage, v))
-          tension_[t] += gamma_ * (site->wetting - 2) / 3;
+          tension_[t] += gamma * (site->wetting - 2) / 3;
     }
   }
 
@@ -47,7 +47,6 @@ public:
   }
 
 private:
-  double gamma_;
   std::vector<double> start_area_, tension_; // [m²], [N/m]
 };
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "libsheet/energy/element.h"
@@ -34,6 +35,8 @@ public:
   // Sets Hessians, exact ones, to the part that is of one kind which the term has: the lower triangles at least.
   virtual void hessians_of(Kind kind, std::size_t first, std::size_t last, const double* u, int stride,
                            double* hessians) const = 0;
+  // Adds to each vertex' force what walls do to it along themselves [N].
+  virtual void add_wall_forces(const Unknowns&, std::span<Vector3>) const {}
   // What else a step leaves in the state, to whose end `last` the last stage led.
   virtual void finish(const Unknowns&, State&) {}
   // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an
@@ -72,6 +75,11 @@ public:
   void prepare(const Unknowns& u) override {
     if constexpr (requires { element_.prepare(u); })
       element_.prepare(u);
+  }
+
+  void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const override {
+    if constexpr (requires { element_.add_wall_forces(u, force); })
+      element_.add_wall_forces(u, force);
   }
 
   void finish(const Unknowns& last, State& end) override {

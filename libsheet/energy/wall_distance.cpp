@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
@@ -63,7 +64,7 @@ struct Shifts {
     std::vector<Vector3> sum(of.size(), Vector3::Zero());
     std::vector<double> weight(of.size(), 0);
     for (const ContactSpring& s : contacts) {
-      const std::size_t middle = s.of_vertex() ? 1 : 2;
+      const std::size_t middle = s.second_feature();
       const bool one = knows(s, 0, middle), other = knows(s, middle, 4);
       if (one == other)
         continue;
@@ -93,27 +94,16 @@ private:
   }
 
   [[nodiscard]] Vector3 mean(const ContactSpring& s, std::size_t first, std::size_t last) const {
-    Vector3 shift = Vector3::Zero();
-    for (std::size_t c = first; c < last; ++c)
-      shift += std::abs(s.weights[c]) * of[s.vertices[c]];
-    return shift;
+    return s.mean_of_corners(first, last, std::span<const Vector3>(of));
   }
 };
 
 } // namespace
 
 std::vector<double> lying_thickness(const Stage& stage, const State& end) {
-  std::vector<double> volume(stage.vertices(), 0), area(volume);
-  for (std::size_t t = 0; t < end.volumes.size(); ++t)
-    if (const double seen = lying_area(stage, end, end.mesh->triangles[t]); seen > 0)
-      for (const auto v : end.mesh->triangles[t]) {
-        volume[v] += end.volumes[t];
-        area[v] += seen;
-      }
-  for (std::size_t v = 0; v < volume.size(); ++v)
-    if (area[v] > 0)
-      volume[v] /= area[v];
-  return volume;
+  const auto& triangles = end.mesh->triangles;
+  return thickness_around(stage.vertices(), triangles, end.volumes,
+                          [&](std::uint32_t t) { return lying_area(stage, end, triangles[t]); });
 }
 
 void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<Hold>& holds,

@@ -16,7 +16,6 @@ namespace sheet {
 class WallDrag {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  explicit WallDrag(double viscosity) : viscosity_(viscosity) {}
   [[nodiscard]] const char* name() const { return "drag of walls"; }
   [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }
   void begin(const Stage& stage) {
@@ -28,7 +27,7 @@ public:
       for (std::size_t c = 0; c < 3; ++c)
         if (const WallSite* site = site_at(stage, corners[c]); site != nullptr && site->slip_length != free_slip) {
           const double lies = lying(stage, i, *site), foot = thickness / 2 * length_on_wall(stage, corners, c);
-          stiffness_[i][c] = (lies * area + (1 - lies) * 3 * foot) * viscosity_ /
+          stiffness_[i][c] = (lies * area + (1 - lies) * 3 * foot) * stage.viscosity[i] /
                              (stage.duration * (thickness + 3 * site->slip_length));
         }
     });
@@ -60,6 +59,18 @@ public:
     return gradient(i, u, g);
   }
 
+  void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
+    const auto& triangles = stage_->start->mesh->triangles;
+    for (std::size_t t = 0; t < stiffness_.size(); ++t) {
+      VectorN<9> x, pull;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        x.segment<3>(3 * c) = stage_->position(u, triangles[t][static_cast<std::size_t>(c)]);
+      (void)gradient(t, x, pull);
+      for (Eigen::Index c = 0; c < 3; ++c)
+        force[triangles[t][static_cast<std::size_t>(c)]] -= pull.segment<3>(3 * c);
+    }
+  }
+
 private:
   // Of the edges at a corner whose both ends touch its wall, at the start of the step [m].
   static double length_on_wall(const Stage& stage, const Corners& corners, std::size_t corner) {
@@ -84,7 +95,6 @@ private:
     }
   }
 
-  double viscosity_;
   const Stage* stage_ = nullptr;
   std::vector<std::array<double, 3>> stiffness_; // of each corner of each triangle [N/m]; empty where nothing touches
 };

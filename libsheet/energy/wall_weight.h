@@ -26,23 +26,24 @@ public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
   // bath_level: of a bath on which the sheet spreads, against gravity [m]; or no_bath.
-  WallWeight(double density, const Vector3& gravity, double bath_level)
-      : weight_(density * gravity), up_(-gravity.normalized()), bath_level_(bath_level) {}
+  WallWeight(const Vector3& gravity, double bath_level)
+      : gravity_(gravity), up_(-gravity.normalized()), bath_level_(bath_level) {}
   [[nodiscard]] const char* name() const { return "weight on walls"; }
   [[nodiscard]] std::size_t size() const { return thrust_.size(); }
 
   void begin(const Stage& stage) {
     const auto& triangles = stage.start->mesh->triangles;
     const auto& x = stage.start->positions;
+    const Vector3 weight = stage.liquid.density * gravity_; // of a cubic metre [N/m³]
     thrust_.assign(triangles.size(), 0);
     start_area_.assign(triangles.size(), 1);
     for (std::size_t t = 0; t < triangles.size() && (!stage.sites.empty() || bath_level_ != no_bath); ++t) {
       double towards = 0;
       for (const auto v : triangles[t])
         if (const WallSite* site = site_at(stage, v))
-          towards += std::max(0.0, -weight_.dot(site->normal)) / 3 * lying(stage, t, *site);
+          towards += std::max(0.0, -weight.dot(site->normal)) / 3 * lying(stage, t, *site);
         else if (up_.dot(x[v]) < bath_level_)
-          towards += weight_.norm() / 3;
+          towards += weight.norm() / 3;
       const double volume = stage.start->volumes[t];
       thrust_[t] = towards * volume * volume / 2;
       start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
@@ -74,7 +75,7 @@ private:
     return thrust_[i] * (start_area_[i] - area) / (area * start_area_[i]);
   }
 
-  Vector3 weight_; // of a cubic metre [N/m³]
+  Vector3 gravity_; // [m/s²]
   Vector3 up_;
   double bath_level_;                       // [m]
   std::vector<double> thrust_, start_area_; // W A [J m²], [m²]

@@ -6,7 +6,6 @@
 
 #include "libsheet/base/each.h"
 #include "libsheet/energy/stage_setup.h"
-#include "libsheet/energy/wall_drag.h"
 #include "libsheet/geometry/area.h"
 
 namespace sheet {
@@ -199,24 +198,6 @@ void turn_slides(const Stage& stage, Constraints& constraints) {
       slides.push_back(slide);
   }
   constraints.let_slide(std::move(slides), stage.vertices());
-}
-
-std::vector<Vector3> drag_on_walls(const Stage& stage, double viscosity, const Unknowns& u) {
-  std::vector<Vector3> force(stage.vertices(), Vector3::Zero());
-  if (stage.sites.empty())
-    return force;
-  WallDrag drag(viscosity);
-  drag.begin(stage);
-  const auto& triangles = stage.start->mesh->triangles;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    VectorN<9> x, gradient;
-    for (Eigen::Index c = 0; c < 3; ++c)
-      x.segment<3>(3 * c) = stage.position(u, triangles[t][static_cast<std::size_t>(c)]);
-    (void)drag.gradient(t, x, gradient);
-    for (Eigen::Index c = 0; c < 3; ++c)
-      force[triangles[t][static_cast<std::size_t>(c)]] -= gradient.segment<3>(3 * c);
-  }
-  return force;
 }
 
 void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage, double t, State& state) {

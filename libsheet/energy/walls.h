@@ -55,9 +55,6 @@ void place_on_walls(const Stage& stage, std::span<const char> held, Unknowns& u)
 // The same with the sites of another stage, as long as the same vertices touch.
 void turn_slides(const Stage& stage, Constraints& constraints);
 
-// Force of the walls' drag on each vertex [N] (wall_drag.h).
-[[nodiscard]] std::vector<Vector3> drag_on_walls(const Stage& stage, double viscosity, const Unknowns& u);
-
 // Takes away the velocities across the walls, relative to them, at the time t [s].
 void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage, double t, State& state);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/flow/put_fans.h"
 
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/sheet/carried_springs.h"
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/transfer.h"
@@ -13,11 +14,7 @@ namespace {
 
 // For each new vertex the volume of a third of its triangles [m³].
 std::vector<double> carried(const Fans& fans, std::span<const double> volumes) {
-  std::vector<double> carried(fans.old_vertex.size(), 0);
-  for (std::size_t t = 0; t < fans.triangles.size(); ++t)
-    for (const std::uint32_t v : fans.triangles[t])
-      carried[v] += volumes[t] / 3;
-  return carried;
+  return vertex_shares(fans.old_vertex.size(), fans.triangles, [&](std::uint32_t t) { return volumes[t]; });
 }
 
 // Vertices, as they were numbered before and behind a cut, that have a triangle left or never had one; each one's

@@ -102,6 +102,17 @@ Torn tear(Frame& frame, const Scene& scene) {
   return torn;
 }
 
+Torn& Torn::operator+=(const Torn& later) {
+  edges += later.edges;
+  vertices += later.vertices;
+  vetoed += later.vetoed;
+  crossing += later.crossing;
+  dropped += later.dropped;
+  volume += later.volume;
+  momentum += later.momentum;
+  return *this;
+}
+
 void TearStage::tear(Frame& frame) {
   check_magnitudes(frame);
   const Scene& scene = scenes_.of(frame);
@@ -112,9 +123,7 @@ void TearStage::tear(Frame& frame) {
     log::detail("step {}: {} edges cut, {} vertices came apart, {} edges left whole for crumbs, {} as layers would "
                 "cross, {} triangles dropped",
                 frame.step, torn.edges, torn.vertices, torn.vetoed, torn.crossing, torn.dropped);
-  total_.edges += torn.edges;
-  total_.dropped += torn.dropped;
-  total_.volume += torn.volume;
+  total_ += torn;
 }
 
 void TearStage::report() const {

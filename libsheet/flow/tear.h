@@ -23,6 +23,8 @@ struct Torn {
   std::size_t dropped = 0;            // triangles of crumbs
   double volume = 0;                  // dropped [m³]
   Vector3 momentum = Vector3::Zero(); // dropped [kg m/s]
+
+  Torn& operator+=(const Torn& later); // all adds up
 };
 
 // Tears the frame; bit for bit the same frame if there is nothing to tear. What is dropped is added to the frame's

@@ -12,6 +12,7 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/box.h"
 #include "libsheet/geometry/capped_volume.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/remesh/mesh.h"
 #include "libsheet/scene/write.h"
@@ -99,19 +100,14 @@ void mark_touching(const Scene& scene, Frame& frame) {
   constexpr double in_reach = 1 + 1e-3; // of half the thickness
   const solid::Solids solids(scene);
   const auto x = positions(frame);
-  const auto volume = volumes(frame);
-  std::vector<double> half(frame.vertices, 0), area(frame.vertices, 0);
-  for (std::size_t t = 0; t < frame.triangles; ++t) {
-    const Corners& c = triangles(frame)[t];
-    for (const auto v : c) {
-      half[v] += volume[t] / 2;
-      area[v] += TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
-    }
-  }
+  const auto corners = triangles(frame);
+  const std::vector<double> thickness = thickness_around(frame.vertices, corners, volumes(frame), [&](std::uint32_t t) {
+    return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
+  });
   std::vector<std::int32_t> touch(frame.vertices, no_solid);
   for (std::size_t i = 0; i < solids.size(); ++i)
     for (std::size_t v = 0; v < x.size() && solids.scene(i).contact != SolidContact::stick; ++v)
-      if (touch[v] == no_solid && solids.at(i, x[v], frame.time).distance <= in_reach * half[v] / area[v])
+      if (touch[v] == no_solid && solids.at(i, x[v], frame.time).distance <= in_reach * thickness[v] / 2)
         touch[v] = static_cast<std::int32_t>(i);
   if (std::ranges::any_of(touch, [](std::int32_t solid) { return solid != no_solid; }))
     put_touched_solids(frame, touch, solids.size());

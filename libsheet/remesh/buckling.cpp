@@ -55,10 +55,11 @@ struct Wave {
 };
 
 Wave fastest_wave(const Scene& scene, const TriangleRates& r) {
-  const scene::Material& m = scene.material;
-  const double h = r.thickness, modulus = m.viscosity * h * h * h / 3;
+  const Liquid& liquid = scene.material;
+  const double viscosity = viscosity_of(liquid, strain_rate(r.stretching));
+  const double h = r.thickness, modulus = viscosity * h * h * h / 3;
   const double stretching = least_eigenvalue(r.stretching) + r.stretching.trace();
-  const double load = -2 * m.viscosity * h * stretching - 2 * m.surface_tension;
+  const double load = -2 * viscosity * h * stretching - 2 * liquid.surface_tension;
   Wave fastest;
   if (!(load > 0 && modulus > 0 && scene.model.bending))
     return fastest;
@@ -72,7 +73,7 @@ Wave fastest_wave(const Scene& scene, const TriangleRates& r) {
     consider(std::sqrt(2 * weight / load), load * load / (4 * modulus * weight));
   }
   if (scene.model.inertia) {
-    const double k = std::pow(m.density * h * load / (2 * modulus * modulus), 1.0 / 6);
+    const double k = std::pow(liquid.density * h * load / (2 * modulus * modulus), 1.0 / 6);
     consider(k, load / (2 * modulus * k * k));
   }
   return fastest;

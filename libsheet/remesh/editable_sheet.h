@@ -43,6 +43,7 @@ public:
   [[nodiscard]] const Vector3& at(std::uint32_t v) const { return position_[v]; }
   [[nodiscard]] const TriangleShape& shape(std::uint32_t t) const { return shape_[t]; }
   [[nodiscard]] double volume(std::uint32_t t) const { return volume_[t]; }
+  [[nodiscard]] std::span<const double> triangle_volumes() const { return volume_; } // of all slots
   [[nodiscard]] Vector3 velocity(std::uint32_t v) const { return velocity_.empty() ? Vector3::Zero() : velocity_[v]; }
   // Of a third of each triangle around v [m³].
   [[nodiscard]] double carried(std::uint32_t v) const { return carried_[v]; }

@@ -28,6 +28,7 @@ public:
   [[nodiscard]] bool has_vertex(std::uint32_t v) const { return lives_[v]; }
 
   [[nodiscard]] const Corners& corners(std::uint32_t t) const { return corners_[t]; }
+  [[nodiscard]] std::span<const Corners> triangles() const { return corners_; } // of all slots
   [[nodiscard]] static std::uint32_t triangle_of(std::uint32_t side) { return side / 3; }
   [[nodiscard]] static std::uint32_t next(std::uint32_t side) { return side % 3 == 2 ? side - 2 : side + 1; }
   [[nodiscard]] static std::uint32_t previous(std::uint32_t side) { return side % 3 == 0 ? side + 2 : side - 1; }

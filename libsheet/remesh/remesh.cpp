@@ -327,6 +327,17 @@ void check_lengths(const EditableSheet& sheet, const SizeField& size) {
 
 } // namespace
 
+Report& Report::operator+=(const Report& later) {
+  splits += later.splits;
+  collapses += later.collapses;
+  flips += later.flips;
+  smoothed += later.smoothed;
+  absorbed += later.absorbed;
+  sharp = later.sharp;
+  budget_reached = later.budget_reached;
+  return *this;
+}
+
 Report remesh(formats::Frame& frame, const Scene* scene, const Options& options) {
   options.size.check();
   if (frame.triangles == 0)

@@ -17,6 +17,8 @@ struct Report {
   std::uint64_t sharp = 0;     // triangles left with an angle below 20 degrees
   bool budget_reached = false; // more edits were due than one call makes; the next call goes on
   [[nodiscard]] std::uint64_t edits() const { return splits + collapses + flips + smoothed + absorbed; }
+  // With what was done after it: edits add up; what is left is what the later one left.
+  Report& operator+=(const Report& later);
 };
 
 // Works in place; the frame stays as it is, bit for bit, if its mesh needs nothing. Arrays go by their rules

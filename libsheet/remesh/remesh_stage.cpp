@@ -62,11 +62,7 @@ void RemeshStage::remesh(formats::Frame& frame) {
                              frame.step, report.edits()));
   if (report.sharp > 0)
     log::detail("step {}: {} triangles have an angle below 20 degrees", frame.step, report.sharp);
-  total_.splits += report.splits;
-  total_.collapses += report.collapses;
-  total_.flips += report.flips;
-  total_.smoothed += report.smoothed;
-  total_.absorbed += report.absorbed;
+  total_ += report;
   ++frames_;
 }
 

@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/remesh/buckling.h"
 #include "libsheet/remesh/flow_error.h"
 #include "libsheet/remesh/operations.h"
@@ -47,10 +48,10 @@ std::vector<double> curvatures(const EditableSheet& sheet, const std::vector<Tri
   const Mesh& mesh = sheet.mesh();
   const std::size_t count = mesh.vertex_slots();
   std::vector<Matrix3> tensor(count, Matrix3::Zero());
-  std::vector<double> area(count, 0);
+  const std::vector<double> area =
+      vertex_shares(count, mesh.triangles(), [&](std::uint32_t t) { return rates[t].shape.area; });
   for (std::uint32_t side = 0; side < 3 * mesh.triangle_slots(); ++side) {
     const std::uint32_t twin = mesh.twin(side), t = Mesh::triangle_of(side);
-    area[mesh.from(side)] += rates[t].shape.area / 3;
     if (twin == no_index || twin < side)
       continue;
     const Vector3 edge = sheet.at(mesh.to(side)) - sheet.at(mesh.from(side));
@@ -96,13 +97,12 @@ double rim_curvature(const EditableSheet& sheet, std::uint32_t v) {
 // is least at a given Σ A / l² where l⁴ g² is the same everywhere (flow_error.h).
 void share_out(const EditableSheet& sheet, const std::vector<TriangleRates>& rates, const FlowError& error, double even,
                const Bounds& bounds, std::vector<double>& size) {
+  const std::vector<double> around =
+      vertex_shares(size.size(), sheet.mesh().triangles(), [&](std::uint32_t t) { return rates[t].shape.area; });
   double area = 0;
-  std::vector<double> around(size.size(), 0);
-  for (std::uint32_t t = 0; t < rates.size(); ++t)
-    for (const std::uint32_t v : sheet.mesh().corners(t)) {
-      around[v] += rates[t].shape.area / 3;
-      area += rates[t].shape.area / 3;
-    }
+  for (const TriangleRates& r : rates)
+    for (int corner = 0; corner < 3; ++corner)
+      area += r.shape.area / 3;
   const double least = even_enough * error.mean / std::sqrt(area);
   if (!(least > 0)) {
     for (double& length : size)
@@ -160,15 +160,8 @@ void look_ahead(const EditableSheet& sheet, const Scene& scene, const std::vecto
 
 // Of each vertex the mean of its triangles, by their areas [m].
 std::vector<double> thickness_at_vertices(const EditableSheet& sheet) {
-  std::vector<double> thickness(sheet.mesh().vertex_slots(), 0), area(thickness.size(), 0);
-  for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t)
-    for (const std::uint32_t v : sheet.mesh().corners(t)) {
-      thickness[v] += sheet.volume(t);
-      area[v] += sheet.shape(t).area;
-    }
-  for (std::size_t v = 0; v < thickness.size(); ++v)
-    thickness[v] = area[v] > 0 ? thickness[v] / area[v] : 0;
-  return thickness;
+  return thickness_around(sheet.mesh().vertex_slots(), sheet.mesh().triangles(), sheet.triangle_volumes(),
+                          [&](std::uint32_t t) { return sheet.shape(t).area; });
 }
 
 // size[v] <= size[w] + grading |x_v - x_w| along edges, by shortest paths [Dijkstra 1959].

@@ -8,6 +8,7 @@
 
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/dihedral.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/render/display.h"
 
 namespace sheet::render {
@@ -60,11 +61,12 @@ std::vector<double> triangle_thickness(const formats::Frame& frame) {
 std::vector<double> mean_curvature(const formats::Frame& frame) {
   const auto x = positions(frame);
   const Connectivity mesh = connect(frame.vertices, sheet::triangles(frame));
-  std::vector<double> area(x.size(), 0), bend(x.size(), 0);
+  const std::vector<double> area = vertex_shares(x.size(), mesh.triangles, [&](std::uint32_t t) {
+    const Corners& c = mesh.triangles[t];
+    return 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm();
+  });
+  std::vector<double> bend(x.size(), 0);
   std::vector<bool> rim(x.size(), false);
-  for (const Corners& t : mesh.triangles)
-    for (const std::uint32_t v : t)
-      area[v] += (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm() / 6;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     const auto [a, b] = mesh.edges[e];
     if (mesh.on_rim(e)) {

@@ -185,7 +185,7 @@ struct RenderStage::Impl {
     Fixed f{subject, camera,
             surroundings ? Lighting::surroundings(*surroundings, toward, upward) : Lighting::studio(toward, upward),
             options.range ? *options.range : widened(survey->scale(), options.look), std::nullopt};
-    if (const scene::Bath* bath = bath_in_view(); bath != nullptr)
+    if (const BathLiquid* bath = bath_in_view(); bath != nullptr)
       f.ground = bath_surface(bath->level, subject, up);
     else if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
@@ -199,7 +199,7 @@ struct RenderStage::Impl {
       log::detail("scale: {:.9g} to {:.9g}", fixed->scale.low, fixed->scale.high);
   }
 
-  [[nodiscard]] const scene::Bath* bath_in_view() const {
+  [[nodiscard]] const BathLiquid* bath_in_view() const {
     const bool drawn = scene != nullptr && scene->environment.bath && options.look == Look::material;
     return drawn ? &*scene->environment.bath : nullptr;
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "libsheet/geometry/vertex_shares.h"
+
 namespace sheet::render {
 namespace {
 
@@ -102,20 +104,9 @@ void add_bead(std::span<const Vector3> x, std::span<const Corners> triangles, st
 
 std::vector<double> vertex_thickness(const formats::Frame& frame) {
   const auto x = positions(frame);
-  const auto v = volumes(frame);
   const auto corners = sheet::triangles(frame);
-  std::vector<double> area(x.size(), 0), thickness(x.size(), 0);
-  for (std::size_t t = 0; t < corners.size(); ++t) {
-    const double a = 0.5 * normal_of(x, corners[t]).norm();
-    if (a > 0)
-      for (const std::uint32_t i : corners[t]) {
-        area[i] += a;
-        thickness[i] += v[t];
-      }
-  }
-  for (std::size_t i = 0; i < x.size(); ++i)
-    thickness[i] = area[i] > 0 ? thickness[i] / area[i] : 0;
-  return thickness;
+  return thickness_around(x.size(), corners, volumes(frame),
+                          [&](std::uint32_t t) { return 0.5 * normal_of(x, corners[t]).norm(); });
 }
 
 Surface make_surface(const formats::Frame& frame, double thinnest) {

@@ -2,9 +2,9 @@
 #include "libsheet/scene/explain.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,98 +16,6 @@ namespace sheet::scene {
 namespace {
 
 std::string brief(double value) { return fmt::format("{:.3g}", value); }
-
-std::string count(std::size_t n, std::string_view one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
-
-// What liquid does that touches the solids.
-std::string what_touches(const std::vector<Solid>& solids) {
-  constexpr std::array<std::string_view, 3> does{"sticks", "flows along it, dragged", "slips along it without drag"};
-  std::string text;
-  for (std::size_t k = 0; k < does.size(); ++k) {
-    const auto alike = std::ranges::count(solids, static_cast<SolidContact>(k), &Solid::contact);
-    if (alike == static_cast<std::ptrdiff_t>(solids.size()))
-      return fmt::format("liquid that touches {}", does[k]);
-    if (alike > 0)
-      text += fmt::format("{}on {} of them liquid that touches {}", text.empty() ? "" : ", ", alike, does[k]);
-  }
-  return text;
-}
-
-std::string law_of(const Pressure& pressure) {
-  return std::visit(
-      Overloaded{[](const ConstantPressure& p) { return fmt::format("constant, {} Pa", brief(p.value)); },
-                 [](const InverseSquarePressure& p) {
-                   return fmt::format("{} Pa at radius {} m, falling with its square", brief(p.value),
-                                      brief(p.reference_radius));
-                 },
-                 [](const DrainingPressure& p) {
-                   return fmt::format("enclosed gas leaves at {} m³/s per Pa", brief(p.conductance));
-                 },
-                 [](const GasPressure& p) {
-                   const std::string start = p.amount ? fmt::format("that fills {} m³ outside", brief(*p.amount))
-                                                      : fmt::format("of {} Pa at the start", brief(p.value));
-                   return fmt::format("enclosed gas {}, {} Pa outside, p ~ V^-{}{}", start, brief(p.ambient),
-                                      brief(p.exponent),
-                                      p.leak > 0 ? fmt::format(", leaving at {} m³/s per Pa", brief(p.leak)) : "");
-                 }},
-      pressure);
-}
-
-// Pressure acts.
-std::string where(const Scene& scene) {
-  if (!scene.environment.pressure_sheet.empty())
-    return fmt::format(", on the sheet \"{}\" only", scene.environment.pressure_sheet);
-  return depends_on_volume(*scene.environment.pressure) && scene.sheets.size() > 1 ? ", in each sheet by itself" : "";
-}
-
-std::string what_it_does(const Bath& bath) {
-  return fmt::format("liquid of {} kg/m³ below level {} m, which {}{}{}", brief(bath.density), brief(bath.level),
-                     bath.clings ? "clings to the sheet" : "carries what is under its surface",
-                     bath.spreads ? ", and on which it spreads" : "",
-                     bath.drag > 0 ? fmt::format(", dragging it with {} Pa s/m", brief(bath.drag)) : "");
-}
-
-std::string what_comes(const std::vector<Inflow>& inflows) {
-  if (inflows.size() != 1)
-    return fmt::format("new liquid at {} borders", inflows.size());
-  const Inflow& inflow = inflows[0];
-  return fmt::format("new liquid, {} m thick, {}", brief(inflow.thickness),
-                     inflow.until ? fmt::format("until {} s", brief(*inflow.until)) : "without end");
-}
-
-std::vector<Term> terms_of(const Scene& scene) {
-  const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, contact] = scene;
-  std::vector<Term> terms;
-  const auto term = [&](std::string_view name, bool modelled, std::string_view because, std::string_view because_not) {
-    terms.push_back({name, modelled, std::string(modelled ? because : because_not)});
-  };
-  const bool viscous = material.viscosity > 0;
-  term("membrane", viscous, "viscosity resists stretching", "viscosity is 0");
-  term("bending", viscous && model.bending, "viscosity resists bending (bending = false leaves a membrane)",
-       viscous ? "[model] bending = false" : "viscosity is 0");
-  term("surface tension", material.surface_tension > 0,
-       fmt::format("{} N/m on each of the two surfaces", brief(material.surface_tension)),
-       "no surface_tension in [material]");
-  term("inertia", model.inertia, "mass resists acceleration (inertia = false: creeping flow)",
-       "[model] inertia = false");
-  term("gravity", environment.gravity.has_value(),
-       environment.gravity ? fmt::format("{} m/s²", brief(environment.gravity->norm())) : "",
-       "no gravity in [environment]");
-  term("pressure", environment.pressure.has_value(),
-       environment.pressure ? law_of(*environment.pressure) + where(scene) : "", "no pressure in [environment]");
-  term("bath", environment.bath.has_value(), environment.bath ? what_it_does(*environment.bath) : "",
-       "no bath in [environment]");
-  term("holds", !holds.empty(), count(holds.size(), "hold"), "no [[hold]]");
-  term("solids", !solids.empty(), count(solids.size(), "solid") + "; " + what_touches(solids), "no [[solid]]");
-  term("contact", contact && contact->self, "the sheet cannot pass through itself",
-       contact ? "[contact] self = false" : "no [contact]: the sheet may pass through itself");
-  term("inflow", !inflows.empty(), what_comes(inflows), "no [inflow]: the volume stays the same");
-  term("outflow", !outflows.empty(), count(outflows.size(), "plane") + " beyond which the sheet ends",
-       "no [[outflow]]: nothing leaves");
-  term("tear", tear.has_value(), tear ? fmt::format("where thinner than {} m", brief(tear->below)) : "",
-       "no [tear]: the sheet only thins");
-  return terms;
-}
 
 std::vector<Scale> scale_list(const Scene& scene, const Scales& scales) {
   std::vector<Scale> list;
@@ -220,7 +128,7 @@ std::optional<double> longest_edge(const SheetTable& sheet) {
 // longer than half of that give way before the sheet does.
 std::optional<std::string> warning_of_buckling(const Scene& scene, const Scales& scales) {
   const auto edge = longest_edge(scene.sheets.front());
-  const bool viscous = scene.material.viscosity > 0 && scene.material.surface_tension > 0;
+  const bool viscous = scene.material.viscous() && scene.material.surface_tension > 0;
   if (!edge || !scales.thickness || !viscous || !scene.model.bending || scales.curvature <= 0 || scales.pressure > 0)
     return {};
   const double enough = 0.5 * std::sqrt(*scales.thickness / scales.curvature);
@@ -319,10 +227,10 @@ std::vector<std::string> left_out_of(const Scene& scene) {
 
 } // namespace
 
-Explanation explain(const Scene& scene, const Measured& measured) {
+Explanation explain(const Scene& scene, const Measured& measured, std::vector<ModelledPart> parts) {
   const Scales scales = scales_of(scene, measured);
   Explanation result;
-  result.terms = terms_of(scene);
+  result.parts = std::move(parts);
   result.scales = scale_list(scene, scales);
   result.numbers = numbers_of(scene, scales);
   result.warnings = warnings_of(scene, scales, result.numbers);
@@ -332,8 +240,8 @@ Explanation explain(const Scene& scene, const Measured& measured) {
 
 std::string to_text(const Explanation& explanation) {
   std::string modelled = "Modelled\n", not_modelled;
-  for (const Term& term : explanation.terms)
-    (term.modelled ? modelled : not_modelled) += fmt::format("  {:<16}{}\n", term.name, term.why);
+  for (const ModelledPart& part : explanation.parts)
+    (part.modelled ? modelled : not_modelled) += fmt::format("  {:<16}{}\n", part.name, part.why);
   std::string text = modelled;
   if (!not_modelled.empty())
     text += "\nNot modelled, and at no cost\n" + not_modelled;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene will model, what not and why, and the dimensionless numbers that say what matters (sheet-init --check).
+// What a scene will model, what not and why (plan/modelled.h says it), and the dimensionless numbers that say what
+// matters (sheet-init --check).
 #pragma once
 #include <optional>
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace sheet::scene {
 
-struct Term {
+struct ModelledPart {
   std::string_view name;
   bool modelled;
   std::string why; // why it is there or is not
@@ -31,7 +32,7 @@ struct DimensionlessNumber {
 };
 
 struct Explanation {
-  std::vector<Term> terms;
+  std::vector<ModelledPart> parts;
   std::vector<Scale> scales;
   std::vector<DimensionlessNumber> numbers;
   std::vector<std::string> warnings; // a modelling choice that looks wrong
@@ -43,7 +44,8 @@ struct Measured {
   std::optional<double> length, thickness, curvature; // [m], [m], [1/m]
 };
 
-[[nodiscard]] Explanation explain(const Scene& scene, const Measured& measured = {});
+[[nodiscard]] Explanation explain(const Scene& scene, const Measured& measured = {},
+                                  std::vector<ModelledPart> parts = {});
 
 // Plain text for a terminal.
 [[nodiscard]] std::string to_text(const Explanation& explanation);

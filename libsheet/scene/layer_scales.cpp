@@ -22,7 +22,7 @@ std::optional<LayerScales> layer_scales_of(const Scene& scene, const Scales& sca
   if (!scene.environment.gravity || !scales.length || !scales.thickness)
     return {};
   const double L = *scales.length, h = *scales.thickness, g = scene.environment.gravity->norm();
-  const Material& m = scene.material;
+  const Liquid& m = scene.material;
   LayerScales layer;
   for (const Solid& solid : scene.solids)
     if (solid.contact == SolidContact::flow)

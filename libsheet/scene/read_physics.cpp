@@ -61,8 +61,8 @@ std::optional<Pressure> read_pressure(TableReader& parent, std::string& sheet) {
 
 } // namespace
 
-Material read_material(TableReader table) {
-  Material material;
+Liquid read_material(TableReader table) {
+  Liquid material;
   material.viscosity = table.required("viscosity", quantity::viscosity, Bound::not_negative);
   material.density = table.quantity_or("density", quantity::density, 0, Bound::positive);
   material.surface_tension = table.quantity_or("surface_tension", quantity::surface_tension, 0, Bound::not_negative);
@@ -78,9 +78,9 @@ Environment read_environment(TableReader table) {
   environment.pressure = read_pressure(table, environment.pressure_sheet);
   if (auto bath = table.table("bath")) {
     const double density = bath->required("density", quantity::density);
-    environment.bath = Bath{density, bath->quantity_or("level", quantity::length, 0),
-                            bath->boolean("clings").value_or(false), bath->boolean("spreads").value_or(false),
-                            bath->quantity_or("drag", quantity::drag, 0, Bound::not_negative)};
+    environment.bath = BathLiquid{density, bath->quantity_or("level", quantity::length, 0),
+                                  bath->boolean("clings").value_or(false), bath->boolean("spreads").value_or(false),
+                                  bath->quantity_or("drag", quantity::drag, 0, Bound::not_negative)};
     bath->finish();
   }
   table.finish();

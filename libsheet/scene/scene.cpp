@@ -111,4 +111,6 @@ bool layers_flow(const Scene& scene) {
   return flows_on_solids(scene) || (scene.environment.bath && scene.environment.bath->spreads);
 }
 
+bool contacts_adhere(const Scene& scene) { return !scene.contact || scene.contact->adhesion != 0.0; }
+
 } // namespace sheet::scene

@@ -14,6 +14,8 @@
 #include <Eigen/Core>
 
 #include "libsheet/geometry/axes.h"
+#include "libsheet/material/bath_liquid.h"
+#include "libsheet/material/liquid.h"
 #include "libsheet/scene/motion.h"
 
 namespace sheet::scene {
@@ -123,13 +125,6 @@ struct SheetTable {
 // ---- material, environment, model
 // ------------------------------------------------------------------------------------
 
-struct Material {
-  double viscosity = 0;       // dynamic [Pa s]; 0: inviscid, needs inertia
-  double density = 0;         // [kg/m³]; 0: not given, then neither inertia nor gravity nor an inflow's mass matter
-  double surface_tension = 0; // of each of the two surfaces [N/m]; 0: no such term
-  bool operator==(const Material&) const = default;
-};
-
 // Pressure on the sheet's negative side less that on its positive side [Pa]: blows a closed sheet up.
 struct ConstantPressure {
   double value;
@@ -164,22 +159,11 @@ using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingP
   return !std::holds_alternative<ConstantPressure>(pressure);
 }
 
-// Liquid below the height `level`, measured against gravity from the origin. It carries what is under its surface, and
-// pulls down what is above it if it clings. What floats on it spreads under its own weight if the scene says so, and is
-// dragged where it slides.
-struct Bath {
-  double density, level;
-  bool clings = false;
-  bool spreads = false;
-  double drag = 0; // of a square metre that slides on it, over its speed [Pa s/m]
-  bool operator==(const Bath&) const = default;
-};
-
 struct Environment {
   std::optional<Vector3d> gravity; // [m/s²]
   std::optional<Pressure> pressure;
   std::string pressure_sheet; // on which it acts; "": on all, by each closed piece of them where it depends on volume
-  std::optional<Bath> bath;
+  std::optional<BathLiquid> bath;
   bool operator==(const Environment&) const = default;
 };
 
@@ -298,7 +282,7 @@ struct Contact {
 
 struct Scene {
   std::vector<SheetTable> sheets = {SheetTable{}}; // at least one; the first is there from the start
-  Material material;
+  Liquid material;
   Environment environment;
   Model model;
   std::vector<Hold> holds;
@@ -335,6 +319,8 @@ struct PlaneAxes {
 
 // Whether layers that lie on each other flow along each other: where liquid flows on solids or spreads on a bath.
 [[nodiscard]] bool layers_flow(const Scene& scene);
+// Whether what touches sticks: contact springs pull, too. They do unless the scene's adhesion is 0.
+[[nodiscard]] bool contacts_adhere(const Scene& scene);
 
 // Whether liquid enters or leaves: what sheet-emit does.
 [[nodiscard]] bool flows_in_or_out(const Scene& scene);
@@ -345,6 +331,7 @@ struct PlaneAxes {
 } // namespace sheet::scene
 
 namespace sheet {
+using scene::contacts_adhere;
 using scene::flows_in_or_out;
 using scene::flows_on_solids;
 using scene::layers_flow;

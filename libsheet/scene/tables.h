@@ -19,7 +19,7 @@ struct Files {
 };
 
 SheetTable read_sheet(TableReader table, const Environment& environment, const Files& files);
-Material read_material(TableReader table);
+Liquid read_material(TableReader table);
 Environment read_environment(TableReader table);
 Model read_model(TableReader table);
 // `sheets`: those of the scene, at least one.

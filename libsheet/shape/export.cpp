@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/shape/solidify.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -63,18 +64,13 @@ Thickness thickness(const Frame& frame) {
   const auto corners = triangles(frame);
   const auto v = volumes(frame);
   Thickness h;
-  std::vector<double> area_around(x.size(), 0), volume_around(x.size(), 0);
-  for (std::size_t t = 0; t < corners.size(); ++t) {
+  const auto area = [&](std::uint32_t t) {
     const Corners& c = corners[t];
-    const double area = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
-    h.of_triangles.push_back(v[t] / area);
-    for (const std::uint32_t i : c) {
-      area_around[i] += area;
-      volume_around[i] += v[t];
-    }
-  }
-  for (std::size_t i = 0; i < x.size(); ++i)
-    h.of_vertices.push_back(volume_around[i] > 0 ? volume_around[i] / area_around[i] : 0);
+    return (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
+  };
+  for (std::uint32_t t = 0; t < corners.size(); ++t)
+    h.of_triangles.push_back(v[t] / area(t));
+  h.of_vertices = thickness_around(x.size(), corners, v, area);
   return h;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/shape/mesh_measure.h"
 #include "libsheet/shape/regions.h"
 
@@ -14,19 +15,14 @@ std::vector<double> thickness_at_vertices(const TriangleMesh& mesh) {
     return mesh.vertex_thickness;
   if (mesh.triangle_thickness.size() != mesh.triangles.size())
     fail(ExitCode::bad_input, "the mesh has no thickness");
-  std::vector<double> volume(mesh.positions.size(), 0.0), area(mesh.positions.size(), 0.0);
+  std::vector<double> area, volume;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const TriangleIndices& t = mesh.triangles[i];
     const Eigen::Vector3d& a = mesh.positions[t[0]];
-    const double here = 0.5 * (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm();
-    for (const std::uint32_t v : t) {
-      volume[v] += here * mesh.triangle_thickness[i];
-      area[v] += here;
-    }
+    area.push_back(0.5 * (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm());
+    volume.push_back(area[i] * mesh.triangle_thickness[i]);
   }
-  for (std::size_t v = 0; v < volume.size(); ++v)
-    volume[v] = area[v] > 0.0 ? volume[v] / area[v] : 0.0;
-  return volume;
+  return thickness_around(mesh.positions.size(), mesh.triangles, volume, [&](std::uint32_t t) { return area[t]; });
 }
 
 TriangleMesh solidify(const TriangleMesh& mesh, const std::vector<double>& vertex_thickness) {

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "libsheet/sheet/contact_spring.h"
+
 namespace sheet {
 
 using formats::Array;
@@ -17,13 +19,6 @@ constexpr std::array<std::string_view, 6> names = {"contact_vertex", "contact_we
 
 using Four = std::array<std::uint32_t, 4>;
 using Weights = std::array<double, 4>;
-
-Eigen::Vector3d offset(const Four& vertices, const Weights& weights, std::span<const Eigen::Vector3d> x) {
-  Eigen::Vector3d c = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < 4; ++i)
-    c += weights[i] * x[vertices[i]];
-  return c;
-}
 
 } // namespace
 
@@ -39,7 +34,7 @@ CarriedSprings::CarriedSprings(const Frame& frame) {
   const auto weights = arrays_[1].values<Weights>();
   const auto x = positions(frame);
   for (std::uint64_t i = 0; i < corners.size(); ++i)
-    springs_.push_back({i, corners[i], weights[i], offset(corners[i], weights[i], x)});
+    springs_.push_back({i, corners[i], weights[i], contact_offset(corners[i], weights[i], x)});
 }
 
 void CarriedSprings::move(std::span<const std::uint32_t> successor) {
@@ -130,7 +125,7 @@ void CarriedSprings::put(Frame& frame) const {
   for (std::size_t i = 0; i < springs.size(); ++i) {
     corners[i] = springs[i].vertices;
     weights[i] = springs[i].weights;
-    const Eigen::Vector3d change = offset(corners[i], weights[i], x) - springs[i].offset;
+    const Eigen::Vector3d change = contact_offset(corners[i], weights[i], x) - springs[i].offset;
     rest[i] += normals[i].dot(change);
     anchors[i] += change;
   }

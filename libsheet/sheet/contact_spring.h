@@ -13,6 +13,15 @@
 
 namespace sheet {
 
+// Σ weight x position of four vertices whose weights sum to 0 [m].
+[[nodiscard]] inline Vector3 contact_offset(const std::array<std::uint32_t, 4>& vertices,
+                                            const std::array<double, 4>& weights, std::span<const Vector3> positions) {
+  Vector3 c = Vector3::Zero();
+  for (std::size_t i = 1; i < 4; ++i) // from the first vertex, so that far from the origin no digits are lost
+    c += weights[i] * (positions[vertices[i]] - positions[vertices[0]]);
+  return c;
+}
+
 struct ContactSpring {
   std::array<std::uint32_t, 4> vertices{};
   std::array<double, 4> weights{}; // their sum is 0
@@ -23,12 +32,33 @@ struct ContactSpring {
 
   // Between vertices[0] and the triangle of the others; else between the first two and the last two.
   [[nodiscard]] bool of_vertex() const { return weights[0] == 1; }
+  // The corner with which the other feature begins.
+  [[nodiscard]] std::size_t second_feature() const { return of_vertex() ? 1 : 2; }
   // From one feature to the other, Σ weight x position [m].
   [[nodiscard]] Vector3 offset(std::span<const Vector3> positions) const {
-    Vector3 c = Vector3::Zero();
-    for (std::size_t i = 1; i < 4; ++i) // from the first vertex, so that far from the origin no digits are lost
-      c += weights[i] * (positions[vertices[i]] - positions[vertices[0]]);
-    return c;
+    return contact_offset(vertices, weights, positions);
+  }
+  // Σ weight x of(vertex).
+  template <class OfVertex> [[nodiscard]] Vector3 sum(OfVertex of) const {
+    Vector3 result = Vector3::Zero();
+    for (std::size_t i = 0; i < 4; ++i)
+      result += weights[i] * of(vertices[i]);
+    return result;
+  }
+  // How much farther the features are apart than at rest, given their offset [m].
+  [[nodiscard]] double gap(const Vector3& offset) const { return normal.dot(offset) - rest; }
+  // How far they have slid along each other [m].
+  [[nodiscard]] Vector3 slide(const Vector3& offset) const { return along(offset - anchor); }
+  // A vector without its part along the normal.
+  [[nodiscard]] Vector3 along(const Vector3& vector) const { return vector - normal.dot(vector) * normal; }
+  // adheres: it pulls, too; else it only pushes [N/m].
+  [[nodiscard]] double normal_stiffness(double gap, bool adheres) const {
+    return adheres || gap < 0 ? stiffness[0] : 0;
+  }
+  // (libsheet/energy/contact.h) [J].
+  [[nodiscard]] double energy(const Vector3& offset, bool adheres) const {
+    const double g = gap(offset);
+    return 0.5 * normal_stiffness(g, adheres) * g * g + 0.5 * stiffness[1] * slide(offset).squaredNorm();
   }
   // The area that the spring stands for, given those of the vertices (a third of their triangles'): half of its
   // vertex', as the vertices of both layers get springs; of edges half of the mean of their vertices' [m²].
@@ -38,10 +68,15 @@ struct ContactSpring {
   }
   // Mean of a value over both features.
   [[nodiscard]] double mean(std::span<const double> of_vertices) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < 4; ++i)
+    return 0.5 * mean_of_corners(0, 4, of_vertices);
+  }
+  // Mean over one of them, whose corners are first to last - 1.
+  template <class Value>
+  [[nodiscard]] Value mean_of_corners(std::size_t first, std::size_t last, std::span<const Value> of_vertices) const {
+    Value sum = std::abs(weights[first]) * of_vertices[vertices[first]];
+    for (std::size_t i = first + 1; i < last; ++i)
       sum += std::abs(weights[i]) * of_vertices[vertices[i]];
-    return 0.5 * sum;
+    return sum;
   }
 };
 

@@ -5,17 +5,15 @@
 #include <cmath>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
 namespace {
 
 std::vector<double> masses(const Model& model, const State& state) {
-  std::vector<double> mass(state.positions.size(), 0);
-  for (std::size_t t = 0; t < state.volumes.size(); ++t)
-    for (const auto v : state.mesh->triangles[t])
-      mass[v] += model.density * state.volumes[t] / 3;
-  return mass;
+  return vertex_shares(state.positions.size(), state.mesh->triangles,
+                       [&](std::uint32_t t) { return model.liquid.density * state.volumes[t]; });
 }
 
 double area_of(const State& state, const Corners& c) {
@@ -37,7 +35,7 @@ double fastest_prescribed(const Model& model, const State& end) {
 
 // Of gravity on all vertices, as if none had lost what another one gained, and of what the bath carries.
 double work_of_gravity(const Model& model, const State& start, const State& end, const std::vector<double>& mass) {
-  const double lift = model.bath ? 1 + model.bath->density / model.density : 1;
+  const double lift = model.bath ? 1 + model.bath->density / model.liquid.density : 1;
   double work = 0;
   for (std::size_t v = 0; v < mass.size(); ++v)
     work += lift * mass[v] * std::abs(model.gravity.dot(end.positions[v] - start.positions[v]));
@@ -58,20 +56,17 @@ double work_on_area(const Model& model, const State& start, const State& end) {
     double way = 0;
     for (const auto v : c)
       way = std::max(way, (end.positions[v] - start.positions[v]).norm());
-    work += 2 * model.surface_tension * std::max(0.0, before - after) + pressure * std::max(before, after) * way;
+    work += 2 * model.liquid.surface_tension * std::max(0.0, before - after) + pressure * std::max(before, after) * way;
     if (!model.walls.empty() || model.bath)
-      work += model.density * model.gravity.norm() * start.volumes[t] * start.volumes[t] / before;
+      work += model.liquid.density * model.gravity.norm() * start.volumes[t] * start.volumes[t] / before;
   }
   return work;
 }
 
 double energy_of_contacts(const Model& model, const State& start) {
   double energy = 0;
-  for (const ContactSpring& s : model.contacts) {
-    const Vector3 offset = s.offset(start.positions);
-    const double stretch = s.normal.dot(offset) - s.rest;
-    energy += 0.5 * s.stiffness[0] * stretch * stretch + 0.5 * s.stiffness[1] * (offset - s.anchor).squaredNorm();
-  }
+  for (const ContactSpring& s : model.contacts)
+    energy += s.energy(s.offset(start.positions), model.contacts_adhere);
   return energy;
 }
 

@@ -8,8 +8,8 @@
 
 #include "libsheet/base/each.h"
 #include "libsheet/base/stopwatch.h"
-#include "libsheet/solve/conjugate_gradients.h"
-#include "libsheet/solve/elimination_order.h"
+#include "libsheet/linear/conjugate_gradients.h"
+#include "libsheet/linear/elimination_order.h"
 
 namespace sheet {
 

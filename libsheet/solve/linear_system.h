@@ -11,8 +11,8 @@
 
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/walls.h"
-#include "libsheet/solve/supernodal_factor.h"
-#include "libsheet/solve/symmetric_product.h"
+#include "libsheet/linear/supernodal_factor.h"
+#include "libsheet/linear/symmetric_product.h"
 
 namespace sheet {
 

@@ -8,7 +8,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "libsheet/base/stopwatch.h"
-#include "libsheet/solve/conjugate_gradients.h"
+#include "libsheet/linear/conjugate_gradients.h"
 
 namespace sheet {
 
@@ -340,21 +340,23 @@ private:
 
 } // namespace
 
-NewtonReport& NewtonReport::operator+=(const NewtonReport& r) {
-  converged = r.converged;
-  monotone = monotone && r.monotone;
-  iterations += r.iterations;
-  followed += r.followed;
-  products += r.products;
-  factorizations += r.factorizations;
-  positive += r.positive;
-  shifted += r.shifted;
-  halvings += r.halvings;
-  last_step = r.last_step;
-  seconds_assembly += r.seconds_assembly;
-  seconds_factor += r.seconds_factor;
-  seconds_solve += r.seconds_solve;
-  seconds_search += r.seconds_search;
+NewtonReport& NewtonReport::operator+=(const NewtonReport& later) {
+  converged = later.converged;
+  monotone = monotone && later.monotone;
+  iterations += later.iterations;
+  followed += later.followed;
+  products += later.products;
+  factorizations += later.factorizations;
+  positive += later.positive;
+  shifted += later.shifted;
+  halvings += later.halvings;
+  last_step = later.last_step;
+  gained = later.gained;
+  promised = later.promised;
+  seconds_assembly += later.seconds_assembly;
+  seconds_factor += later.seconds_factor;
+  seconds_solve += later.seconds_solve;
+  seconds_search += later.seconds_search;
   return *this;
 }
 

@@ -36,7 +36,8 @@ struct NewtonReport {
   double seconds_assembly = 0, seconds_factor = 0, seconds_solve = 0, seconds_search = 0;
 
   [[nodiscard]] int spent() const { return iterations + followed; } // of what a step may take
-  NewtonReport& operator+=(const NewtonReport& other);
+  // With what was done after it: counts and times add up; how it ended is the later one's.
+  NewtonReport& operator+=(const NewtonReport& later);
 };
 
 // The potential at a start, so that no one evaluates it twice.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/solve/reactions.h"
 
-#include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/stage_setup.h"
 
 namespace sheet {
@@ -18,20 +17,16 @@ Eigen::VectorXd prescribed_part(const Constraints& constraints, const Eigen::Vec
   return forces - free;
 }
 
-// The potential's gradient in the prescribed directions, and the walls' drag.
-std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const Model& model, const Stage& stage,
-                               const Unknowns& u) {
+// The potential's gradient in the prescribed directions, and what walls do along themselves.
+std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const Stage& stage, const Unknowns& u) {
   const Constraints constraints = system.constraints();
   Eigen::VectorXd gradient;
   system.constrain({}, 0);
   (void)system.gradient(terms, u, gradient);
   gradient = prescribed_part(constraints, gradient);
-  std::vector<Vector3> result = drag_on_walls(stage, model.viscosity, u);
-  if (model.contacts_flow && !model.contacts.empty()) {
-    ContactShear shear(model.contacts, model.viscosity);
-    shear.begin(stage);
-    shear.add_wall_forces(stage, u, result);
-  }
+  std::vector<Vector3> result(stage.vertices(), Vector3::Zero());
+  for (const auto& term : terms)
+    term->add_wall_forces(u, result);
   for (std::size_t v = 0; v < result.size(); ++v)
     result[v] += gradient.segment<3>(static_cast<Eigen::Index>(3 * v));
   system.constrain(constraints, system.floor());
@@ -59,8 +54,8 @@ std::vector<Vector3> prescribed_accelerations(const Model& model, const Stage& s
 
 } // namespace
 
-std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, const Model& model, const State& start,
-                                     const State& end, double dt, Stage& stage, const Unknowns& u) {
+std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, const State& start, const State& end,
+                                     double dt, Stage& stage, const Unknowns& u) {
   // What is prescribed does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
   Eigen::VectorXd change = Eigen::VectorXd::Zero(u.size());
   for (std::size_t v = 0; v < stage.vertices(); ++v)
@@ -70,7 +65,7 @@ std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, c
   change = prescribed_part(system.constraints(), change);
   for (std::size_t v = 0; v < stage.vertices(); ++v)
     stage.inertial[v] += change.segment<3>(static_cast<Eigen::Index>(3 * v));
-  return reactions(system, terms, model, stage, u);
+  return reactions(system, terms, stage, u);
 }
 
 std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, const Model& model, const State& start,
@@ -78,7 +73,7 @@ std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, con
   const double duration = instant_part * dt;
   State before = end;
   before.time = end.time - duration; // so that what is prescribed moves as it did until the end
-  instant = first_stage(before, duration, end.time, model.has_angles());
+  instant = first_stage(before, model.liquid, duration, end.time, model.has_angles());
   instant.inertial_time = dt;
   for (std::size_t v = 0; v < end.positions.size(); ++v)
     instant.inertial[v] -= duration * (end.velocities[v] - start.velocities[v]);
@@ -97,7 +92,7 @@ std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, con
   const std::vector<Vector3> prescribed = prescribed_accelerations(model, instant, end, dt);
   for (std::size_t v = 0; v < end.positions.size(); ++v)
     instant.inertial[v] = instant.position(u, static_cast<std::uint32_t>(v)) - duration * dt * prescribed[v];
-  return reactions(system, terms, model, instant, u);
+  return reactions(system, terms, instant, u);
 }
 
 } // namespace sheet

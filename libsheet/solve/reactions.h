@@ -10,9 +10,8 @@ namespace sheet {
 
 // Of a stage that took dt [s] in all, with its result u, from `start` to `end`: the forces that act in its implicit
 // solve, of first order as forces at the end of the step. Changes stage.inertial.
-[[nodiscard]] std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, const Model& model,
-                                                   const State& start, const State& end, double dt, Stage& stage,
-                                                   const Unknowns& u);
+[[nodiscard]] std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, const State& start,
+                                                   const State& end, double dt, Stage& stage, const Unknowns& u);
 
 // At the instant at which a step of dt [s] ends. A stage measures strain from its start, so its velocities are those
 // that belong to the shape of a while ago; and beside a hold that is accelerated they are wrong in a layer as deep as

@@ -86,10 +86,6 @@ std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, c
   return laws;
 }
 
-BathModel bath_model(const scene::Bath& bath) {
-  return {bath.density, bath.level, bath.clings, bath.spreads, bath.drag};
-}
-
 // By a scene's motion, and by that of a belt's surface [m/s].
 void move(Hold& hold, const scene::Motion& motion, const Vector3& surface_velocity = Vector3::Zero()) {
   hold.motion = [=](double from, double to) {
@@ -260,6 +256,21 @@ void put_of_gas(Frame& frame, std::string_view name, std::string_view unit, std:
   frame.put(std::move(array));
 }
 
+// What a model has of a scene in any frame.
+Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
+  Model model;
+  model.liquid = scene.material;
+  model.inertia = scene.model.inertia;
+  model.bending = scene.model.bending ? bending : Bending::none;
+  model.arcs = arcs;
+  if (scene.environment.gravity)
+    model.gravity = *scene.environment.gravity;
+  model.bath = scene.environment.bath;
+  model.contacts_adhere = scene.contact && contacts_adhere(scene);
+  model.contacts_flow = layers_flow(scene);
+  return model;
+}
+
 } // namespace
 
 State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
@@ -341,31 +352,34 @@ void put_reactions(std::span<const Vector3> reactions, bool of_holds, Frame& fra
 
 Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh, Bending bending, bool arcs,
                const std::shared_ptr<const solid::Solids>& solids) {
-  Model model;
-  model.viscosity = scene.material.viscosity;
-  model.density = scene.material.density;
-  model.surface_tension = scene.material.surface_tension;
-  model.inertia = scene.model.inertia;
-  model.bending = scene.model.bending ? bending : Bending::none;
-  model.arcs = arcs;
-  if (scene.environment.gravity)
-    model.gravity = *scene.environment.gravity;
+  Model model = numbers_of(scene, bending, arcs);
   if (scene.environment.pressure)
     model.pressures = pressure_laws(scene, frame, mesh);
-  if (scene.environment.bath)
-    model.bath = bath_model(*scene.environment.bath);
   const bool touching = add_touching(scene, frame, mesh, solids,
                                      model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
   add_inlets(scene, frame, mesh, model);
-  model.contacts = read_springs(frame);                                    // as sheet-collide has set them up
-  model.contacts_adhere = scene.contact && scene.contact->adhesion != 0.0; // absent: they never part
-  model.contacts_flow = layers_flow(scene);
+  model.contacts = read_springs(frame); // as sheet-collide has set them up
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))
     model.reactions = Reactions::at_end;
   else if (scene::has_rolls(scene) || (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene))))
     model.reactions = Reactions::of_stage;
+  return model;
+}
+
+Model model_of(const Scene& scene) {
+  Model model = numbers_of(scene, Bending::mid_edge, true);
+  if (scene.environment.pressure)
+    model.pressures.push_back(pressure_law(*scene.environment.pressure));
+  for (const scene::Solid& solid : scene.solids)
+    if (solid.contact != SolidContact::stick) {
+      Wall wall;
+      wall.slip_length = solid.contact == SolidContact::slip ? free_slip : solid.slip_length;
+      model.walls.push_back(std::move(wall));
+    }
+  if (scene.contact && scene.contact->self)
+    model.contacts.resize(1);
   return model;
 }
 

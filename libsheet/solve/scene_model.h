@@ -35,6 +35,10 @@ void put_reactions(std::span<const Vector3> reactions, bool of_holds, formats::F
 [[nodiscard]] Model model_of(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh, Bending bending,
                              bool arcs, const std::shared_ptr<const solid::Solids>& solids = nullptr);
 
+// The same of a scene alone, as if all touched that can: for what its terms are (term_table.h), not to be stepped. It
+// has one law of pressure, walls and a contact without vertices.
+[[nodiscard]] Model model_of(const Scene& scene);
+
 // The first time after t [s] at which a prescribed motion has a kink, a hold is released or the inflow ends; infinity
 // if there is none. A step that does not pass it keeps its order.
 [[nodiscard]] double next_event(const Scene& scene, double t);

@@ -12,8 +12,10 @@
 #include "libsheet/energy/films.h"
 #include "libsheet/energy/levelling.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/energy/wall_distance.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/solve/reactions.h"
 
 namespace sheet {
@@ -58,10 +60,10 @@ bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const E
 Eigen::VectorXd vertex_weights(const Stage& stage) {
   constexpr double carries_enough = 0.01;
   const auto& triangles = stage.start->mesh->triangles;
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stage.vertices())), weight = area;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (const auto v : triangles[t])
-      area[v] += stage.raised[t].area() / 3;
+  const std::vector<double> shares =
+      vertex_shares(stage.vertices(), triangles, [&](std::uint32_t t) { return stage.raised[t].area(); });
+  const Eigen::Map<const Eigen::VectorXd> area(shares.data(), static_cast<Eigen::Index>(shares.size()));
+  Eigen::VectorXd weight(area.size());
   double volume = 0;
   for (const double v : stage.start->volumes)
     volume += v;
@@ -95,12 +97,11 @@ struct Beginning {
 };
 
 Beginning begin_step(const Model& model, const State& state, double duration) {
-  Beginning result{first_stage(state, duration, state.time + duration, model.has_angles()), {}, {}, {}};
+  Beginning result{first_stage(state, model.liquid, duration, state.time + duration, model.has_angles()), {}, {}, {}};
   Stage& stage = result.stage;
   result.lengths = step_scale(state, stage.begin.size());
   result.scale = measures(stage, result.lengths);
-  stage.stiffened =
-      stiffened_films(stage, model.viscosity, model.has_inertia() ? model.density : 0, model.surface_tension);
+  stage.stiffened = stiffened_films(stage, model.has_inertia());
   set_wall_sites(model.walls, stage);
   result.guess = stage.begin;
   for (std::size_t v = 0; v < state.positions.size(); ++v)
@@ -232,12 +233,11 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   if (!sound(end))
     return Outcome::shrinks_to_nothing;
   if (model_.reactions == Reactions::of_stage)
-    report.reactions = stage_reactions(cache_->system, cache_->terms, model_, state, end, dt, stage, last);
+    report.reactions = stage_reactions(cache_->system, cache_->terms, state, end, dt, stage, last);
   else if (model_.reactions == Reactions::at_end)
     report.reactions =
         end_reactions(cache_->system, cache_->terms, model_, state, end, dt, options_.newton, cache_->instant);
-  if (level_layers(stage, {model_.viscosity, model_.density, model_.surface_tension, model_.gravity}, model_.holds, dt,
-                   end))
+  if (level_layers(stage, model_.gravity, model_.holds, dt, end))
     set_prescribed_velocities(stage, end);
   set_distances_from_walls(model_.walls, model_.holds, model_.contacts, stage, end);
   return Outcome::done;

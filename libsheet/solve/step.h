@@ -16,11 +16,10 @@
 // No step is shorter than the sheet takes to cross 1e-4 of an edge (and a thousandth of what is left).
 #pragma once
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "libsheet/energy/model.h"
 #include "libsheet/solve/stage_solve.h"
+#include "libsheet/solve/step_report.h"
 
 namespace sheet {
 
@@ -37,30 +36,6 @@ struct StepOptions {
   int retries = 12;     // halvings of a step that does not converge
   int iterations = 400; // of Newton, with or without the Hessian, in a step with all its retries, so that a hopeless
                         // one is given up soon
-};
-
-struct TermTime {
-  std::string name;
-  double seconds = 0;
-};
-
-struct StepReport {
-  int substeps = 0;        // 1 unless the step had to be cut
-  int failed = 0;          // attempts that did not converge
-  int rejected = 0;        // that were not accurate enough (step_within)
-  int euler_fallbacks = 0; // substeps that only backward Euler could do
-  int flat_fallbacks = 0;  // steps done with straight edges instead of arcs, as they did not converge with arcs
-  int unfinished = 0;      // substeps taken though Newton's iterations had not converged
-  int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
-  NewtonReport newton; // sums over all stages; last_step of the last one
-  // Filtered difference to the first-order result, in edge lengths, less where next to nothing is carried
-  // (docs/model.md, stopping rule), greatest of the substeps.
-  double error = 0;
-  std::size_t worst = 0;          // the vertex that has it
-  std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex [N]
-  double seconds_analysis = 0;
-  // Assembled terms, their element work summed over threads, and gathering; again for what was done without arcs.
-  std::vector<TermTime> terms;
 };
 
 inline constexpr double default_tolerance = 1e-2;

@@ -130,6 +130,7 @@ private:
     Trial trial{state_, shortest_, 0, 0, false, {}};
     report_.error = 0;
     stepper_.advance(trial.end, shortest_, 0, report_);
+    trial.flat = report_.flat_fallbacks > 0;
     note(trial);
     best_ = std::move(trial);
     --report_.substeps; // find() counts it

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/base/whole_file.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/health/teller.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/rolls.h"
@@ -33,30 +33,13 @@ namespace {
 // What the whole run took.
 struct Totals {
   std::uint64_t steps = 0;
-  int substeps = 0, failed = 0, rejected = 0, fallbacks = 0, flat = 0, unfinished = 0, inaccurate = 0;
-  NewtonReport newton;
-  double seconds = 0, analysis = 0;
-  std::vector<TermTime> terms;
+  StepReport all;
+  double seconds = 0;
 
-  void add(const StepReport& r, double elapsed) {
+  void add(const StepReport& report, double elapsed) {
     ++steps;
-    substeps += r.substeps;
-    failed += r.failed;
-    rejected += r.rejected;
-    fallbacks += r.euler_fallbacks;
-    flat += r.flat_fallbacks;
-    unfinished += r.unfinished;
-    inaccurate += r.inaccurate;
-    newton += r.newton;
-    analysis += r.seconds_analysis;
+    all += report;
     seconds += elapsed;
-    for (const TermTime& t : r.terms) {
-      const auto it = std::find_if(terms.begin(), terms.end(), [&](const TermTime& s) { return s.name == t.name; });
-      if (it == terms.end())
-        terms.push_back(t);
-      else
-        it->seconds += t.seconds;
-    }
   }
 };
 
@@ -275,22 +258,22 @@ void StepStage::step(Frame& frame) {
 }
 
 void StepStage::report() const {
-  const Totals& t = impl_->totals;
+  const auto& [steps, t, seconds] = impl_->totals;
   impl_->teller.report();
-  if (t.steps == 0)
+  if (steps == 0)
     return;
   log::detail("{} steps ({} substeps, {} failed, {} rejected, {} by backward Euler, {} without arcs, {} unfinished, "
               "{} above the tolerance), {} Newton iterations, {:.3g} s",
-              t.steps, t.substeps, t.failed, t.rejected, t.fallbacks, t.flat, t.unfinished, t.inaccurate,
-              t.newton.iterations, t.seconds);
+              steps, t.substeps, t.failed, t.rejected, t.euler_fallbacks, t.flat_fallbacks, t.unfinished, t.inaccurate,
+              t.newton.iterations, seconds);
   log::detail(
       "  analysis {:.1f} %, assembly {:.1f} %, factorisation {:.1f} %, solution {:.1f} %, line search {:.1f} % of it; "
       "{} factorisations, {} products with the Hessian, {} steps by the factor alone",
-      100 * t.analysis / t.seconds, 100 * t.newton.seconds_assembly / t.seconds,
-      100 * t.newton.seconds_factor / t.seconds, 100 * t.newton.seconds_solve / t.seconds,
-      100 * t.newton.seconds_search / t.seconds, t.newton.factorizations, t.newton.products, t.newton.followed);
+      100 * t.seconds_analysis / seconds, 100 * t.newton.seconds_assembly / seconds,
+      100 * t.newton.seconds_factor / seconds, 100 * t.newton.seconds_solve / seconds,
+      100 * t.newton.seconds_search / seconds, t.newton.factorizations, t.newton.products, t.newton.followed);
   for (const TermTime& term : t.terms)
-    log::detail("  term {:<40} {:8.3f} s {:5.1f} %", term.name, term.seconds, 100 * term.seconds / t.seconds);
+    log::detail("  term {:<40} {:8.3f} s {:5.1f} %", term.name, term.seconds, 100 * term.seconds / seconds);
 }
 
 } // namespace sheet

@@ -16,9 +16,11 @@
 #include "libsheet/base/parallel.h"
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/model.h"
-#include "libsheet/solve/cholesky.h"
-#include "libsheet/solve/elimination_order.h"
-#include "libsheet/solve/supernodal_factor.h"
+#include "libsheet/energy/term_table.h"
+#include "libsheet/linear/cholmod_library.h"
+#include "libsheet/linear/elimination_order.h"
+#include "libsheet/linear/supernodal_factor.h"
+#include "tests/support/cholesky.h"
 #include "tests/support/meshes.h"
 
 using namespace sheet;
@@ -66,10 +68,10 @@ Problem problem_of(int wanted, int repeat) {
   const int n = std::max(2, static_cast<int>(std::lround(std::sqrt(wanted))) - 1);
   const State s = test::at_rest(test::rectangle(1, 1, n, n, 0.2), 0.01);
   Model m;
-  m.viscosity = 100;
-  m.density = 1000;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
   m.gravity = Vector3(0, 0, -9.81);
-  m.surface_tension = 0.03;
+  m.liquid.surface_tension = 0.03;
   m.bending = Bending::mid_edge;
   Assembly assembly(s.mesh, make_terms(m, s.mesh), true);
   const std::vector<Edge> graph = assembly.vertex_graph();

@@ -96,8 +96,8 @@ bool arcs = true; // no argument is "flat"
 Model sag(const State& s) {
   Model m;
   m.arcs = arcs;
-  m.viscosity = 100;
-  m.density = 1000;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
   m.gravity = {0, 0, -9.81};
   m.bending = Bending::mid_edge;
   m.holds.push_back(where(s, [](const Vector3& x) { return x.x() == 0 || x.x() == 1; }));
@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     run("sag dt", flat, sag(flat), dt, 3);
   for (const double viscosity : {1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
     Model m = sag(flat);
-    m.viscosity = viscosity;
+    m.liquid.viscosity = viscosity;
     run("sag viscosity " + std::to_string(viscosity), flat, m, 0.01, 3);
   }
   {
@@ -151,7 +151,7 @@ int main(int argc, char** argv) {
     Model m = sag(s);
     m.holds = {where(s, [&](const Vector3& x) { return x.x() == 0 || x.x() > 0.95 - 1e-4; })};
     run("triangles of 0.01 degrees", s, m, 0.01, 3);
-    m.surface_tension = 10;
+    m.liquid.surface_tension = 10;
     run("triangles of 0.01 degrees with surface tension", s, m, 0.01, 3);
   }
   {
@@ -175,9 +175,9 @@ int main(int argc, char** argv) {
   for (const double ratio : {0.1, 0.5, 1.0, 2.0, 5.0}) { // gamma dt/(mu h) at free edges
     const State s = test::at_rest(test::disk(1, 10, 0.2), 0.02);
     Model m;
-    m.viscosity = 100;
+    m.liquid.viscosity = 100;
     m.inertia = false;
-    m.surface_tension = 1;
+    m.liquid.surface_tension = 1;
     run("free disk: gamma dt/(mu h) = " + std::to_string(ratio), s, m, ratio * 100 * 0.02, 5);
     StepOptions options;
     options.scheme = Scheme::backward_euler;

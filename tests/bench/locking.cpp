@@ -7,6 +7,7 @@
 
 #include "libsheet/energy/model.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/term_table.h"
 #include "libsheet/solve/newton.h"
 #include "tests/support/meshes.h"
 
@@ -48,7 +49,7 @@ double power_ratio(double thickness, double k, bool arcs, Bending bending, doubl
     x = on_arc(x.x() - 0.5 * nx, x.y(), k);
   const State s = test::at_rest(mesh, thickness);
   Model m;
-  m.viscosity = 1;
+  m.liquid.viscosity = 1;
   m.inertia = false;
   m.bending = bending;
   m.arcs = arcs;
@@ -83,7 +84,7 @@ double power_ratio(double thickness, double k, bool arcs, Bending bending, doubl
 
   const Terms terms = make_terms(m, s.mesh);
   LinearSystem system(s.mesh, terms, m.has_angles());
-  const Stage stage = first_stage(s, dt, dt, m.has_angles());
+  const Stage stage = first_stage(s, m.liquid, dt, dt, m.has_angles());
   for (const auto& term : terms)
     term->begin(stage);
   Unknowns u = stage.begin;

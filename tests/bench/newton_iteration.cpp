@@ -20,8 +20,10 @@
 #include "libsheet/base/parallel.h"
 #include "libsheet/energy/model.h"
 #include "libsheet/energy/stage_setup.h"
-#include "libsheet/solve/cholesky.h"
+#include "libsheet/energy/term_table.h"
+#include "libsheet/linear/cholmod_library.h"
 #include "libsheet/solve/linear_system.h"
+#include "tests/support/cholesky.h"
 #include "tests/support/meshes.h"
 
 using namespace sheet;
@@ -62,10 +64,10 @@ double peak_kilobytes() {
 
 Model model_of_bench() {
   Model m;
-  m.viscosity = 100;
-  m.density = 1000;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
   m.gravity = {0, 0, -9.81};
-  m.surface_tension = 0.03;
+  m.liquid.surface_tension = 0.03;
   m.bending = Bending::mid_edge;
   m.arcs = true;
   return m;
@@ -113,7 +115,7 @@ void bench(int vertices, int repeat, bool with_cholmod) {
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     Row own{"own", median_of(1, [&] { system.analyze(p.state.mesh, p.terms, true); }), {}, {}, {}};
-    const Stage stage = first_stage(p.state, 0.01, 0.01, true);
+    const Stage stage = first_stage(p.state, p.model.liquid, 0.01, 0.01, true);
     for (const auto& term : p.terms)
       term->begin(stage);
     Unknowns u = stage.begin;

@@ -15,7 +15,8 @@
 #include <unistd.h>
 
 #include "libsheet/base/parallel.h"
-#include "libsheet/solve/cholesky.h"
+#include "libsheet/energy/term_table.h"
+#include "libsheet/linear/cholmod_library.h"
 #include "libsheet/solve/step.h"
 #include "tests/support/meshes.h"
 
@@ -42,10 +43,10 @@ State sheet_of(int vertices) {
 
 Model model_of(const Choice& choice, const State& s) {
   Model m;
-  m.viscosity = 100;
-  m.density = 1000;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
   m.gravity = {0, 0, -9.81};
-  m.surface_tension = choice.tension ? 0.03 : 0;
+  m.liquid.surface_tension = choice.tension ? 0.03 : 0;
   m.bending = choice.bending;
   Hold hold;
   for (std::uint32_t v = 0; v < s.positions.size(); ++v)

@@ -15,7 +15,8 @@
 #include "libsheet/base/parallel.h"
 #include "libsheet/energy/model.h"
 #include "libsheet/energy/stage_setup.h"
-#include "libsheet/solve/cholesky.h"
+#include "libsheet/energy/term_table.h"
+#include "libsheet/linear/cholmod_library.h"
 #include "libsheet/solve/newton.h"
 #include "tests/support/meshes.h"
 
@@ -44,7 +45,7 @@ struct Variant {
 void prepare(Variant& v, const State& s, const Model& m) {
   v.terms = make_terms(m, s.mesh);
   v.system = std::make_unique<LinearSystem>(s.mesh, v.terms, m.has_angles());
-  v.stage = first_stage(s, 0.01, 0.01, m.has_angles());
+  v.stage = first_stage(s, m.liquid, 0.01, 0.01, m.has_angles());
   for (const auto& term : v.terms)
     term->begin(v.stage);
   v.u = v.stage.begin;
@@ -81,12 +82,12 @@ int main(int argc, char** argv) {
   for (std::size_t v = 0; v < s.positions.size(); ++v)
     s.velocities[v] = 0.1 * Vector3(s.positions[v].y(), s.positions[v].z(), std::sin(5 * s.positions[v].x()));
   Model all;
-  all.viscosity = 100;
-  all.density = 1000;
+  all.liquid.viscosity = 100;
+  all.liquid.density = 1000;
   all.gravity = {0, 0, -9.81};
-  all.surface_tension = 0.03;
+  all.liquid.surface_tension = 0.03;
   all.bending = Bending::mid_edge;
-  all.bath = BathModel{1200, 0};
+  all.bath = BathLiquid{1200, 0};
   std::vector<Variant> variants(6);
   const char* names[] = {"nothing", "bending", "surface tension", "inertia", "bath", "gravity and bath"};
   for (std::size_t k = 0; k < variants.size(); ++k) {
@@ -94,7 +95,7 @@ int main(int argc, char** argv) {
     if (k == 1)
       m.bending = Bending::none;
     else if (k == 2)
-      m.surface_tension = 0;
+      m.liquid.surface_tension = 0;
     else if (k == 3)
       m.inertia = false;
     else if (k >= 4)

@@ -35,9 +35,9 @@ int main() {
   // A viscous catenary: 1 m, clamped ends, until it hangs by about 0.4 m.
   const State start = test::at_rest(test::rectangle(1, 1, cells, cells, 0.2), 0.06);
   Model m;
-  m.viscosity = 0.0333;
-  m.density = 0.1;
-  m.surface_tension = 0.002;
+  m.liquid.viscosity = 0.0333;
+  m.liquid.density = 0.1;
+  m.liquid.surface_tension = 0.002;
   m.gravity = {0, 0, -9.81};
   m.bending = Bending::mid_edge;
   m.arcs = true;

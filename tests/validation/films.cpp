@@ -67,7 +67,7 @@ Result v8(const Settings& s) {
   State start = film(make_disk(1, mesh_options(s, 1)), h);
   Model m = viscous(mu, s);
   m.bending = Bending::none;
-  m.surface_tension = tension;
+  m.liquid.surface_tension = tension;
   m.holds.push_back(all(start, axis_bit(2)));
   for (std::size_t v = 0; v < start.positions.size(); ++v)
     start.velocities[v] = -tension / (3 * mu * h) * start.positions[v];
@@ -85,7 +85,7 @@ Result v9(const Settings& s) {
   State start = film(make_annulus(r0, 1, mesh_options(s, 1)), h0);
   Model m = viscous(mu, s);
   m.bending = Bending::none;
-  m.surface_tension = tension;
+  m.liquid.surface_tension = tension;
   m.holds.push_back(all(start, axis_bit(2)));
   m.holds.push_back(hold(
       start, [](const Vector3& x) { return x.norm() > 1 - 1e-9; }, all_axes, false));
@@ -151,8 +151,8 @@ Result v17(const Settings& s) {
   const double omega = pi * std::sqrt(2.0) * std::sqrt(2 * tension / (rho * h));
   State start = film(make_rectangle(1, 1, mesh_options(s, 1)), h);
   Model m;
-  m.density = rho;
-  m.surface_tension = tension;
+  m.liquid.density = rho;
+  m.liquid.surface_tension = tension;
   const auto shape = [](const Vector3& x) { return std::cos(pi * x.x()) * std::cos(pi * x.y()); };
   for (std::size_t v = 0; v < start.positions.size(); ++v)
     start.velocities[v].z() = a * omega * shape(start.positions[v]);
@@ -180,8 +180,8 @@ Result v28(const Settings& s) {
   constexpr double mu = 1000, h = 1e-4, rho = 980, tension = 0.021, radius = 0.01, until = 0.5, noise = 5e-6;
   State start = film(make_disk(radius, mesh_options(s, radius)), h);
   Model m = viscous(mu, s);
-  m.surface_tension = tension;
-  m.density = rho;
+  m.liquid.surface_tension = tension;
+  m.liquid.density = rho;
   m.inertia = true; // nothing holds it
   std::mt19937_64 engine(s.seed);
   std::uniform_real_distribution<double> uniform(-noise, noise);

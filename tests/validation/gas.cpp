@@ -13,8 +13,8 @@ double ball(double r) { return 4 * pi / 3 * r * r * r; }
 
 Model bubble(double exponent, double pressure) {
   Model m;
-  m.density = density;
-  m.surface_tension = tension;
+  m.liquid.density = density;
+  m.liquid.surface_tension = tension;
   m.pressures = {PressureLaw{.kind = PressureLaw::Kind::gas}};
   m.pressures[0].gas = {.ambient = ambient, .exponent = exponent};
   m.pressures[0].gas.amount = amount_of_gas(m.pressures[0].gas, pressure, ball(1));
@@ -27,7 +27,7 @@ Run at_radius_one(const Settings& s, const Model& m) { return {film(make_sphere(
 Result comes_to_rest(const Settings& s) {
   constexpr double mu = 0.01, pressure = 0.12;
   Model m = bubble(1, pressure);
-  m.viscosity = mu;
+  m.liquid.viscosity = mu;
   m.inertia = false;
   m.bending = Bending::none;
   Run run = at_radius_one(s, m);
@@ -69,7 +69,7 @@ Result oscillates(const Settings& s) {
 Result leaks(const Settings& s) {
   constexpr double mu = 0.1, leak = 20, until = 0.3;
   Model m = bubble(1.4, 0.03);
-  m.viscosity = mu;
+  m.liquid.viscosity = mu;
   m.inertia = false;
   m.bending = Bending::none;
   m.pressures[0].gas.leak = leak;

@@ -5,6 +5,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/term_table.h"
 
 namespace sheet::validation {
 
@@ -13,7 +14,7 @@ Instant solve_instant(const State& s, const Model& model, double dt, const Place
   const auto before = std::chrono::steady_clock::now();
   Terms terms = make_terms(model, s.mesh);
   LinearSystem system(s.mesh, terms, model.has_angles());
-  Stage stage = first_stage(s, dt, s.time + dt, model.has_angles());
+  Stage stage = first_stage(s, model.liquid, dt, s.time + dt, model.has_angles());
   raise_as_started(stage);
   if (frames)
     frames(stage);

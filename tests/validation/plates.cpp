@@ -16,7 +16,7 @@ constexpr double wanted_move = 1e-5; // how far the step moves what is measured,
 
 Model plate(const Settings& s) {
   Model m = viscous(mu, s);
-  m.density = rho;
+  m.liquid.density = rho;
   m.gravity = {0, 0, -standard_gravity};
   return m;
 }

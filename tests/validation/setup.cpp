@@ -34,7 +34,7 @@ State film(const TriangleMesh& mesh, double thickness) {
 
 Model viscous(double viscosity, const Settings& s) {
   Model m;
-  m.viscosity = viscosity;
+  m.liquid.viscosity = viscosity;
   m.inertia = false;
   m.arcs = s.bending == Shell::arcs;
   m.bending = s.bending == Shell::none          ? Bending::none

@@ -57,8 +57,8 @@ Result v3(const Settings& s) {
   const double* p = table[s.set - 1];
   const double unit = 0.5 * std::sqrt(p[1] * p[0] / p[2]), until = 1.2;
   Model m;
-  m.density = p[1];
-  m.surface_tension = p[2];
+  m.liquid.density = p[1];
+  m.liquid.surface_tension = p[2];
   Run run(film(make_sphere(1, mesh_options(s, 1)), p[0]), m, s, 1);
   std::vector<std::vector<double>> series;
   run.advance(until * unit, s.steps, [&](const State& at) {
@@ -75,8 +75,8 @@ Result v4(const Settings& s) {
   Model m = viscous(mu, s);
   m.bending = Bending::none;
   m.inertia = true;
-  m.density = density;
-  m.surface_tension = tension;
+  m.liquid.density = density;
+  m.liquid.surface_tension = tension;
   m.pressures = {PressureLaw{PressureLaw::Kind::constant, pressure, 1, 1}};
   using Y = Eigen::Vector2d;
   const Y exact = runge_kutta(Y(1, 0), 0, until, 100000, [&](double, const Y& y) {

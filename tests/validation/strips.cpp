@@ -99,7 +99,7 @@ Result v13(const Settings& s) {
   }
   start.time = when(first);
   Model m = viscous(mu, s);
-  m.density = rho;
+  m.liquid.density = rho;
   m.gravity = {0, 0, -g};
   m.holds.push_back(sides_across(start));
   m.holds.push_back(hold(
@@ -138,9 +138,9 @@ Result v15(const Settings& s) {
     start.velocities[v] = {-rate * flat[v].x(), 0, sigma(k) * shape};
   }
   Model m = viscous(mu, s);
-  m.surface_tension = tension;
+  m.liquid.surface_tension = tension;
   m.gravity = {0, 0, -gravity};
-  m.bath = BathModel{bath, 0, true};
+  m.bath = BathLiquid{bath, 0, true};
   const double half = strip_width * wave / 2;
   Hold side = hold(
       start, [&](const Vector3& x) { return near(std::abs(x.y()), half); }, axis_bit(1), false);

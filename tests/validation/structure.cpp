@@ -96,8 +96,8 @@ Result v20(const Settings& s) {
   }
   Model m = viscous(mu, s);
   m.inertia = true;
-  m.density = rho;
-  m.surface_tension = tension;
+  m.liquid.density = rho;
+  m.liquid.surface_tension = tension;
   const std::vector<double> mass = vertex_masses(start, rho);
 
   struct Sums {

@@ -18,7 +18,7 @@ constexpr double kinematic = 1;                        // viscosity over density
 Model layer(const Settings& s, const Vector3& weight) {
   Model m = viscous(kinematic * density, s);
   m.bending = Bending::none; // on a plane
-  m.density = density;
+  m.liquid.density = density;
   m.gravity = weight;
   return m;
 }
@@ -189,7 +189,7 @@ Result floating(const Settings& s) {
     x.z() = -thin / denser;
   Model m = layer(s, {0, 0, -gravity});
   hold_channel(c, axis_bit(0), m);
-  m.bath = BathModel{.density = denser * density, .spreads = true};
+  m.bath = BathLiquid{.density = denser * density, .spreads = true};
   Run run(std::move(c.state), m, s, radius);
   run.advance(8 * kinematic / (buoyant * thin), s.steps);
   return run.result(thickness_of(run.state()) / (thin / 2));
@@ -247,7 +247,7 @@ Result puddle(const Settings& s) {
   Channel c = channel(s, radius, thin);
   Model m = layer(s, {0, 0, -gravity});
   hold_channel(c, axis_bit(0), m);
-  m.surface_tension = density * gravity * height * height / (2 * (1 - std::cos(angle)));
+  m.liquid.surface_tension = density * gravity * height * height / (2 * (1 - std::cos(angle)));
   m.walls.push_back(floor_under(c.state));
   m.walls.back().wetting = 1 - std::cos(angle);
   Run run(std::move(c.state), m, s, radius);

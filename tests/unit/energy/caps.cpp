@@ -18,8 +18,8 @@ namespace {
 
 // Stiffness of the vertex against moving along z. The mesh is flat.
 double stiffness_by_directors(const State& s, std::uint32_t vertex) {
-  const Stage stage = first_stage(s, 0.1, 0.1, true);
-  MidEdgeShell shell(1, false);
+  const Stage stage = first_stage(s, {.viscosity = 1}, 0.1, 0.1, true);
+  MidEdgeShell shell(false);
   shell.begin(stage);
   const auto edges = static_cast<Eigen::Index>(s.mesh->edges.size());
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(edges + 1, edges + 1); // the edges' angles, then the vertex
@@ -45,8 +45,8 @@ double stiffness_by_directors(const State& s, std::uint32_t vertex) {
 }
 
 double stiffness_by_hinges(const State& s, std::uint32_t vertex) {
-  const Stage stage = first_stage(s, 0.1, 0.1, false);
-  Hinge hinge(1, false, *s.mesh);
+  const Stage stage = first_stage(s, {.viscosity = 1}, 0.1, 0.1, false);
+  Hinge hinge(false, *s.mesh);
   hinge.begin(stage);
   double sum = 0;
   for (std::size_t i = 0; i < hinge.size(); ++i) {
@@ -88,8 +88,8 @@ bool on_rim(const State& s, std::size_t edge) {
 TEST(Folds, HoldTheirDirector) {
   const auto stiffness = [](double degrees) { // of the director of the fold
     const State s = folded(degrees);
-    const Stage stage = first_stage(s, 0.1, 0.1, true);
-    MidEdgeShell shell(1, false);
+    const Stage stage = first_stage(s, {.viscosity = 1}, 0.1, 0.1, true);
+    MidEdgeShell shell(false);
     shell.begin(stage);
     double sum = 0;
     for (std::size_t t = 0; t < 2; ++t) {

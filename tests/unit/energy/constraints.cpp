@@ -30,9 +30,9 @@ Eigen::MatrixXd dense(const SparseLower& matrix, const MatrixPattern& pattern) {
 TEST(Constraints, ProjectTheMatrix) {
   const State s = test::at_rest(test::icosphere(1), 0.3);
   Terms terms;
-  terms.push_back(make_term(MidEdgeShell(2.0, true))); // writes lower triangles only
-  terms.push_back(make_term(SurfaceTension(0.7)));
-  const Stage stage = first_stage(s, 0.05, 0.05, true);
+  terms.push_back(make_term(MidEdgeShell(true))); // writes lower triangles only
+  terms.push_back(make_term(SurfaceTension()));
+  const Stage stage = first_stage(s, {.viscosity = 2, .surface_tension = 0.7}, 0.05, 0.05, true);
   for (const auto& term : terms)
     term->begin(stage);
   Assembly assembly(s.mesh, terms, true);
@@ -69,9 +69,9 @@ TEST(Constraints, ProjectTheMatrix) {
 TEST(MatrixPattern, AddsUpWhatResistsATranslation) {
   const State s = test::at_rest(test::disk(1, 25, 0.1), 0.3); // more nodes than are added up in one piece
   Terms terms;
-  terms.push_back(make_term(SurfaceTension(0.7)));
-  terms.push_back(make_term(MidEdgeShell(2.0, true)));
-  const Stage stage = first_stage(s, 0.05, 0.05, true);
+  terms.push_back(make_term(SurfaceTension()));
+  terms.push_back(make_term(MidEdgeShell(true)));
+  const Stage stage = first_stage(s, {.viscosity = 2, .surface_tension = 0.7}, 0.05, 0.05, true);
   for (const auto& term : terms)
     term->begin(stage);
   Assembly assembly(s.mesh, terms, true);

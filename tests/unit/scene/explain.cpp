@@ -29,14 +29,6 @@ double scale(const Explanation& e, std::string_view symbol) {
       return s.value;
   return 0;
 }
-bool modelled(const Explanation& e, std::string_view name) {
-  for (const auto& t : e.terms)
-    if (t.name == name)
-      return t.modelled;
-  ADD_FAILURE() << name;
-  return false;
-}
-
 Explanation of(const std::string& text) { return explain(parse_scene(text, "s")); }
 
 TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
@@ -59,21 +51,6 @@ TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
   const Scene mesh = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"a.obj\"\nthickness = 0.1\n" + liquid, "s");
   EXPECT_TRUE(warned(explain(mesh, {.length = 50, .thickness = 0.1, .curvature = {}}), "scale = 0.001"));
   EXPECT_FALSE(warned(explain(mesh, {.length = 5, .thickness = 0.1, .curvature = {}}), "scale = 0.001"));
-}
-
-TEST(Explain, TermsFollowTheTables) {
-  const Explanation all = of(everything), little = of(disk + liquid);
-  EXPECT_EQ(all.terms.size(), 13U);
-  for (const Term& term : all.terms) {
-    EXPECT_TRUE(term.modelled) << term.name;
-    EXPECT_EQ(modelled(little, term.name), term.name == "membrane" || term.name == "bending" || term.name == "inertia");
-    EXPECT_FALSE(term.why.empty());
-  }
-  const Explanation inviscid = of(disk + "[material]\nviscosity = 0\ndensity = 1\nsurface_tension = 1\n");
-  EXPECT_FALSE(modelled(inviscid, "membrane"));
-  EXPECT_FALSE(modelled(inviscid, "bending"));
-  EXPECT_TRUE(modelled(inviscid, "surface tension"));
-  EXPECT_FALSE(modelled(of(disk + liquid + "[contact]\nself = false\n"), "contact"));
 }
 
 TEST(Explain, NumbersByTheirFormulas) {
@@ -176,23 +153,14 @@ TEST(Explain, WarnsWhereTheMeshWouldDecideHowItBuckles) {
 }
 
 TEST(Explain, Text) {
-  EXPECT_EQ(to_text(of(disk + liquid + "[environment]\npressure = {law = \"constant\", value = 2}\n")),
-            R"(Modelled
-  membrane        viscosity resists stretching
-  bending         viscosity resists bending (bending = false leaves a membrane)
-  inertia         mass resists acceleration (inertia = false: creeping flow)
+  const Scene scene = parse_scene(disk + liquid + "[environment]\npressure = {law = \"constant\", value = 2}\n", "s");
+  EXPECT_EQ(
+      to_text(explain(scene, {}, {{"pressure", true, "constant, 2 Pa"}, {"tear", false, "the sheet only thins"}})),
+      R"(Modelled
   pressure        constant, 2 Pa
 
 Not modelled, and at no cost
-  surface tension no surface_tension in [material]
-  gravity         no gravity in [environment]
-  bath            no bath in [environment]
-  holds           no [[hold]]
-  solids          no [[solid]]
-  contact         no [contact]: the sheet may pass through itself
-  inflow          no [inflow]: the volume stays the same
-  outflow         no [[outflow]]: nothing leaves
-  tear            no [tear]: the sheet only thins
+  tear            the sheet only thins
 
 Scales
   L               1 m    length: the shape's shortest side, radius or width

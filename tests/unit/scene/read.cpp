@@ -29,10 +29,10 @@ TEST(Read, EveryTable) {
   EXPECT_EQ(std::get<Noise>(s.sheets[0].perturbations[1].form).seed, 7);
   EXPECT_EQ(s.sheets[0].rotation->angle, std::numbers::pi / 4);
   EXPECT_EQ(s.sheets[0].velocity, Vector3d(0, -1, 0));
-  EXPECT_EQ(s.material, (Material{100, 978, 0.0728}));
+  EXPECT_EQ(s.material, (Liquid{100, 978, 0.0728}));
   EXPECT_EQ(*s.environment.gravity, Vector3d(0, -9.81, 0));
   EXPECT_EQ(std::get<ConstantPressure>(*s.environment.pressure).value, 10);
-  EXPECT_EQ(s.environment.bath, (Bath{1200, 0.5}));
+  EXPECT_EQ(s.environment.bath, (BathLiquid{1200, 0.5}));
   ASSERT_EQ(s.holds.size(), 3U);
   EXPECT_TRUE(s.holds[0].clamped);
   const auto& turning = std::get<Rotating>(s.holds[0].motion);

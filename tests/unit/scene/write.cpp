@@ -173,7 +173,7 @@ public:
       s.environment.pressure = gas;
     }
     if (s.environment.gravity && below(2))
-      s.environment.bath = Bath{positive(), number(), below(2) == 1};
+      s.environment.bath = BathLiquid{positive(), number(), below(2) == 1};
     s.model = {below(2) == 1, below(2) == 1, below(2) == 1};
     for (int i = below(4); i > 0; --i)
       s.holds.push_back(hold(s));

@@ -24,14 +24,14 @@ double area(const State& s) {
 TEST(Disk, ContractsUnderSurfaceTension) {
   const State start = test::at_rest(test::disk(1, 6, 0.2), 0.02);
   Model m;
-  m.viscosity = 100;
-  m.surface_tension = 1;
+  m.liquid.viscosity = 100;
+  m.liquid.surface_tension = 1;
   m.inertia = false;
   double volume = 0;
   for (const double v : start.volumes)
     volume += v;
   const double until = 2 * 100 * 0.02; // gamma t/(mu h) = 2
-  const double exact = 1 / (1 / area(start) + 2 * m.surface_tension * until / (3 * m.viscosity * volume));
+  const double exact = 1 / (1 / area(start) + 2 * m.liquid.surface_tension * until / (3 * m.liquid.viscosity * volume));
   for (const auto& [scheme, least] : {std::pair{Scheme::sdirk2, 1.9}, std::pair{Scheme::backward_euler, 0.8}}) {
     StepOptions options;
     options.scheme = scheme;
@@ -59,8 +59,8 @@ TEST(Film, OscillatesWithTheRightFrequency) {
     for (Vector3& x : s.positions)
       x.z() = 1e-3 * std::sin(std::numbers::pi * x.x()) * std::sin(std::numbers::pi * x.y());
     Model m;
-    m.density = 1000;
-    m.surface_tension = 1;
+    m.liquid.density = 1000;
+    m.liquid.surface_tension = 1;
     Hold hold;
     std::size_t middle = 0;
     for (std::uint32_t v = 0; v < s.positions.size(); ++v) {
@@ -72,7 +72,8 @@ TEST(Film, OscillatesWithTheRightFrequency) {
         middle = v;
     }
     m.holds.push_back(hold);
-    const double omega = std::numbers::pi * std::sqrt(2.0) * std::sqrt(2 * m.surface_tension / (m.density * 0.001));
+    const double omega =
+        std::numbers::pi * std::sqrt(2.0) * std::sqrt(2 * m.liquid.surface_tension / (m.liquid.density * 0.001));
     const double quarter = 0.5 * std::numbers::pi / omega;
     Stepper stepper(m, {});
     double before = s.positions[middle].z(), crossing = 0;
@@ -109,8 +110,8 @@ TEST(Strip, SagsInPlaneStrain) {
       const test::Mesh mesh = test::rectangle(1, 0.125, n, n / 8, 0.2);
       State s = test::at_rest(mesh, h);
       Model m;
-      m.viscosity = viscosity;
-      m.density = density;
+      m.liquid.viscosity = viscosity;
+      m.liquid.density = density;
       m.gravity = {0, 0, -g};
       m.inertia = false;
       m.bending = Bending::mid_edge;
@@ -166,9 +167,9 @@ TEST(Sphere, ViscousWithInertia) {
   }
   State s = test::at_rest(test::icosphere(3), h0);
   Model m;
-  m.viscosity = mu;
-  m.density = rho;
-  m.surface_tension = gamma;
+  m.liquid.viscosity = mu;
+  m.liquid.density = rho;
+  m.liquid.surface_tension = gamma;
   Stepper stepper(m, {});
   for (int i = 0; i < 50; ++i)
     stepper.step(s, until / 50);

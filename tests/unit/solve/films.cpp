@@ -18,9 +18,9 @@ namespace {
 Model liquid() {
   Model m;
   m.arcs = true;
-  m.viscosity = 5;
-  m.density = 1300;
-  m.surface_tension = 0.05;
+  m.liquid.viscosity = 5;
+  m.liquid.density = 1300;
+  m.liquid.surface_tension = 0.05;
   m.bending = Bending::mid_edge;
   return m;
 }
@@ -43,7 +43,7 @@ std::vector<double> areas(const State& s) {
 }
 
 std::vector<double> stiffened(const State& s, double dt) {
-  return stiffened_films(first_stage(s, dt, dt, false), liquid().viscosity, liquid().density, liquid().surface_tension);
+  return stiffened_films(first_stage(s, liquid().liquid, dt, dt, false), true);
 }
 
 // μ h/(4 γ) is 0.5 s in the sheet.
@@ -60,7 +60,7 @@ TEST(Films, AreStiffenedWhereStepsDoNotResolveThem) {
       if (h > 1e-3)
         EXPECT_EQ(raised[t], 1);
       else
-        EXPECT_NEAR(raised[t] * liquid().viscosity * h / 4 / 0.01, 2 * liquid().surface_tension, 0.01)
+        EXPECT_NEAR(raised[t] * liquid().liquid.viscosity * h / 4 / 0.01, 2 * liquid().liquid.surface_tension, 0.01)
             << part; // less near the greatest
     }
   }

@@ -12,8 +12,8 @@ constexpr double g = 10, fall_time = 0.1;
 
 Model falling_liquid() {
   Model m;
-  m.viscosity = 3;
-  m.density = 1000;
+  m.liquid.viscosity = 3;
+  m.liquid.density = 1000;
   m.gravity = {0, 0, -g};
   return m;
 }

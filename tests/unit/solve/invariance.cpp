@@ -43,7 +43,7 @@ TEST(RigidMotion, QuarterTurnInOneStepKeepsTheShape) {
         State s = dome(8);
         const State start = s;
         Model m;
-        m.viscosity = 100;
+        m.liquid.viscosity = 100;
         m.inertia = false;
         m.bending = bending;
         m.arcs = arcs;
@@ -64,15 +64,15 @@ TEST(Momentum, IsConstantWithoutOutsideForces) {
   for (std::size_t v = 0; v < s.positions.size(); ++v)
     s.velocities[v] = {std::sin(3 * s.positions[v].y()), s.positions[v].z(), 1};
   Model m;
-  m.viscosity = 10;
-  m.density = 1000;
-  m.surface_tension = 1;
+  m.liquid.viscosity = 10;
+  m.liquid.density = 1000;
+  m.liquid.surface_tension = 1;
   m.bending = Bending::mid_edge;
   const auto momenta = [&] {
     Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
     for (std::size_t t = 0; t < s.volumes.size(); ++t)
       for (const auto v : s.mesh->triangles[t]) {
-        const Vector3 p = m.density * s.volumes[t] / 3 * s.velocities[v];
+        const Vector3 p = m.liquid.density * s.volumes[t] / 3 * s.velocities[v];
         linear += p;
         angular += s.positions[v].cross(p);
       }
@@ -93,9 +93,9 @@ TEST(Momentum, IsConstantWithoutOutsideForces) {
 
 Model sagging() {
   Model m;
-  m.viscosity = 100;
-  m.density = 1000;
-  m.surface_tension = 0.1;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
+  m.liquid.surface_tension = 0.1;
   m.gravity = {0, 0, -9.81};
   m.bending = Bending::mid_edge;
   return m;
@@ -131,9 +131,9 @@ TEST(Units, MicrometresAndKilometres) {
       x *= l;
     for (double& v : s.volumes)
       v *= l * l * l;
-    m.density /= l * l;
+    m.liquid.density /= l * l;
     m.gravity *= l;
-    m.surface_tension *= l;
+    m.liquid.surface_tension *= l;
     Stepper stepper(m, {});
     int count = 0;
     for (int k = 0; k < 5; ++k)

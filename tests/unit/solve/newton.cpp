@@ -24,9 +24,9 @@ State thrown(double speed) {
 
 Model syrup() {
   Model m;
-  m.viscosity = 50;
-  m.density = 1000;
-  m.surface_tension = 0.1;
+  m.liquid.viscosity = 50;
+  m.liquid.density = 1000;
+  m.liquid.surface_tension = 0.1;
   m.gravity = {0, 0, -9.81};
   m.bending = Bending::mid_edge;
   m.arcs = true;

@@ -30,8 +30,8 @@ struct Strip {
       if (x != 0)
         by[v] = overshoot;
     }
-    model.viscosity = 100;
-    model.density = density;
+    model.liquid.viscosity = 100;
+    model.liquid.density = density;
     model.inertia = density > 0;
     model.bending = Bending::mid_edge;
     model.holds.push_back(hold);

@@ -32,8 +32,8 @@ const double flexural = mu * std::pow(plate_thickness, 3) / 3, load = rho * stan
 
 Model plate(Bending bending) {
   Model m;
-  m.viscosity = mu;
-  m.density = rho;
+  m.liquid.viscosity = mu;
+  m.liquid.density = rho;
   m.gravity = {0, 0, -standard_gravity};
   m.inertia = false;
   m.bending = bending;

@@ -23,8 +23,8 @@ Grip pulled_and_twisted(int steps) {
   constexpr double length = 0.1, time = 0.2;
   State s = test::at_rest(test::rectangle(length, 0.02, 20, 4, 0.2), 0.002);
   Model m;
-  m.viscosity = 100;
-  m.density = 1000;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
   m.gravity = {0, 0, -9.81};
   m.bending = Bending::mid_edge;
   m.arcs = true;

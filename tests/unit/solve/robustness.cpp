@@ -37,8 +37,8 @@ State uneven_square() {
 Model sagging(const State& s) {
   Model m;
   m.arcs = true;
-  m.viscosity = 100;
-  m.density = 1000;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
   m.gravity = {0, 0, -9.81};
   m.bending = Bending::mid_edge;
   m.holds.push_back(held(s, [](const Vector3& x) { return x.x() == 0 || x.x() == 1; }));
@@ -71,7 +71,7 @@ TEST(HardCases, Viscosities) {
   const State s = square(0.02);
   for (const double viscosity : {1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
     Model m = sagging(s);
-    m.viscosity = viscosity;
+    m.liquid.viscosity = viscosity;
     EXPECT_LE(expect_done(s, m, 0.01), 16) << viscosity;
   }
 }
@@ -93,7 +93,7 @@ TEST(HardCases, NeedleTriangles) {
   const State s = test::at_rest(mesh, 0.02);
   Model m = sagging(s);
   m.holds = {held(s, [](const Vector3& x) { return x.x() == 0 || x.x() > 0.9 - 1e-4; })};
-  m.surface_tension = 10;
+  m.liquid.surface_tension = 10;
   EXPECT_LE(expect_done(s, m, 0.01), 30);
 }
 
@@ -131,7 +131,7 @@ TEST(HardCases, NothingToDo) {
   for (std::size_t v = 0; v < s.velocities.size(); ++v)
     s.velocities[v] = Vector3(0, -1 + (v % 3 == 0 ? 1e-13 : -2e-13), 0);
   Model m = sagging(s);
-  m.viscosity = m.density = 1;
+  m.liquid.viscosity = m.liquid.density = 1;
   m.gravity.setZero();
   test::move_steadily(m.holds[0], Vector3::Zero(), {0, -1, 0});
   EXPECT_LE(expect_done(s, m, 0.25, 20), 20 * 4);
@@ -254,14 +254,28 @@ TEST(HardCases, TermsOfChosenStepsWithoutArcsAreTold) {
   EXPECT_EQ(parts_told(r), 1);
 }
 
+// The worst vertex of a step that is done without arcs is that of the step, not the first one.
+TEST(HardCases, AStepWithoutArcsTellsItsWorstVertex) {
+  State s = square(0.02), same = s;
+  Model m = sagging(s);
+  Stepper rests(m, {});
+  rests.rest_arcs(true);
+  m.arcs = false;
+  const StepReport r = rests.step(s, 0.01), flat = Stepper(m, {}).step(same, 0.01);
+  EXPECT_EQ(r.flat_fallbacks, 1);
+  ASSERT_GT(flat.worst, 0);
+  EXPECT_EQ(r.worst, flat.worst);
+  EXPECT_EQ(r.error, flat.error);
+}
+
 // Where a triangle would shrink to nothing in the second stage, the step is done in pieces (surface tension on a disk:
 // without that its area fell by a factor of 1e20 in half of this step).
 TEST(HardCases, FreeDiskInStepsOfFiveTimesItsOwnTime) {
   State s = test::at_rest(test::disk(1, 5, 0.2), 0.02);
   Model m;
-  m.viscosity = 100;
+  m.liquid.viscosity = 100;
   m.inertia = false;
-  m.surface_tension = 1;
+  m.liquid.surface_tension = 1;
   const StepReport r = Stepper(m, {}).step(s, 10);
   EXPECT_GT(r.substeps, 1);
   double area = 0;
@@ -294,8 +308,8 @@ TEST(Contact, CarriesTheWeight) {
   }
   State s = test::at_rest(mesh, 0.01);
   Model m;
-  m.viscosity = 100;
-  m.density = 1000;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
   m.gravity = {0, 0, -10};
   m.holds.push_back(held(s, [](const Vector3& x) { return x.z() == 0; }));
   constexpr double stiffness = 1e4;

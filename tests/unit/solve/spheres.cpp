@@ -43,7 +43,7 @@ double order(double coarse, double middle, double fine) {
 
 Model balloon(PressureLaw::Kind kind) {
   Model m;
-  m.viscosity = 0.1;
+  m.liquid.viscosity = 0.1;
   m.inertia = false;
   m.pressures = {PressureLaw{kind, 0.1, 1, 1}};
   return m;
@@ -97,9 +97,9 @@ TEST(Balloon, SpaceOrderAndRadius) {
 TEST(Balloon, DrainsThroughAHole) {
   constexpr double viscosity = 0.1, h = 0.1, gamma = 0.05, until = 0.4;
   Model m;
-  m.viscosity = viscosity;
+  m.liquid.viscosity = viscosity;
   m.inertia = false;
-  m.surface_tension = gamma;
+  m.liquid.surface_tension = gamma;
   m.pressures = {PressureLaw{.kind = PressureLaw::Kind::draining, .conductance = 60}};
   const auto time = [&](double r) {
     return (6 * viscosity * h * (1 / (r * r) - 1) + std::numbers::pi / 60 * (1 - std::pow(r, 4))) / (4 * gamma);
@@ -125,9 +125,9 @@ TEST(Balloon, DrainsThroughAHole) {
 
 TEST(Sphere, ContractsUnderSurfaceTension) {
   Model m;
-  m.density = 1;
-  m.surface_tension = 0.001;
-  const double h = 0.01, period = 0.5 * std::sqrt(m.density * h / m.surface_tension);
+  m.liquid.density = 1;
+  m.liquid.surface_tension = 0.001;
+  const double h = 0.01, period = 0.5 * std::sqrt(m.liquid.density * h / m.liquid.surface_tension);
   double e[2];
   for (int l = 1; l <= 2; ++l)
     e[l - 1] = run(m, Scheme::sdirk2, sphere(l, h), period, 100) / std::cos(1.0) - 1;

@@ -33,8 +33,8 @@ State resting(double thickness) {
 
 Model heavy_layer() {
   Model m;
-  m.viscosity = 3;
-  m.density = 2;
+  m.liquid.viscosity = 3;
+  m.liquid.density = 2;
   m.gravity = {1.5, 0.5, -9};
   m.reactions = Reactions::of_stage;
   return m;
@@ -55,12 +55,12 @@ TEST(Walls, ForcesAndMomentumBalance) {
     Vector3 sum = Vector3::Zero();
     for (std::size_t t = 0; t < at.volumes.size(); ++t)
       for (const auto v : at.mesh->triangles[t])
-        sum += m.density * at.volumes[t] / 3 * at.velocities[v];
+        sum += m.liquid.density * at.volumes[t] / 3 * at.velocities[v];
     return sum;
   };
   double mass = 0;
   for (const double v : s.volumes)
-    mass += m.density * v;
+    mass += m.liquid.density * v;
   const Vector3 before = momentum(s);
   constexpr double dt = 0.01;
   const StepReport report = stepper.step(s, dt);
@@ -79,7 +79,7 @@ TEST(Walls, ForcesAndMomentumBalance) {
 TEST(Walls, RigidTurnCostsNothing) {
   State s = resting(0.1);
   Model m;
-  m.viscosity = 3;
+  m.liquid.viscosity = 3;
   m.inertia = false;
   m.walls.push_back(floor_of(s));
   const Vector3 axis = Vector3(0.2, -0.3, 1).normalized();
@@ -164,9 +164,9 @@ TEST(Walls, StackedLayersShareAParabola) {
     options.newton.tolerance = 1e-12;
     Stepper stepper(s.model, options);
     const StepReport report = stepper.step(s.state, 1e-3);
-    const double force = s.model.density * 1.5, height = lower + upper;
+    const double force = s.model.liquid.density * 1.5, height = lower + upper;
     const auto volume = [&](double z) { // flux below z
-      return force / s.model.viscosity * (slip * height * z + height * z * z / 2 - z * z * z / 6);
+      return force / s.model.liquid.viscosity * (slip * height * z + height * z * z / 2 - z * z * z / 6);
     };
     for (std::size_t v = 0; v < s.upper; ++v) {
       EXPECT_NEAR(s.state.velocities[v].x(), volume(lower) / lower, 1e-9 * force);
@@ -202,7 +202,7 @@ TEST(Walls, LayersFeelTheWeightAbove) {
     (void)stepper.step(s.state, 20 * dt);
   const double lower = area(false), upper = area(true);
   (void)stepper.step(s.state, dt);
-  const double rate = 2 * s.model.density * 9 * (2 * thickness) / (12 * s.model.viscosity);
+  const double rate = 2 * s.model.liquid.density * 9 * (2 * thickness) / (12 * s.model.liquid.viscosity);
   const double lower_rate = (area(false) / lower - 1) / dt, upper_rate = (area(true) / upper - 1) / dt;
   EXPECT_NEAR((lower_rate + upper_rate) / 2, rate, 0.01 * rate);
   EXPECT_GT(lower_rate, upper_rate);
@@ -251,7 +251,7 @@ TEST(Walls, DirectorsOfFlatFoldsAreFree) {
     at_fold.push_back(folded(s.positions[edge[0]]) && folded(s.positions[edge[1]]) ? 1 : 0);
   for (Vector3& x : s.positions)
     x.x() = std::min(x.x(), 1.2 - x.x());
-  Stage stage = first_stage(s, 0.01, 0.01, true);
+  Stage stage = first_stage(s, heavy_layer().liquid, 0.01, 0.01, true);
   set_wall_sites({floor_of(s)}, stage);
   EXPECT_EQ(std::ranges::count(at_fold, 1), 5);
   for (std::uint32_t e = 0; e < at_fold.size(); ++e)

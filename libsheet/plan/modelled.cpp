@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/modelled.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "libsheet/base/overloaded.h"
+#include "libsheet/energy/term_table.h"
+#include "libsheet/solve/scene_model.h"
+
+namespace sheet {
+
+namespace {
+
+std::string brief(double value) { return fmt::format("{:.3g}", value); }
+
+std::string count(std::size_t n, std::string_view one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
+
+// What liquid does that touches the solids.
+std::string what_touches(const std::vector<scene::Solid>& solids) {
+  constexpr std::array<std::string_view, 3> does{"sticks", "flows along it, dragged", "slips along it without drag"};
+  std::string text;
+  for (std::size_t k = 0; k < does.size(); ++k) {
+    const auto alike = std::ranges::count(solids, static_cast<SolidContact>(k), &scene::Solid::contact);
+    if (alike == static_cast<std::ptrdiff_t>(solids.size()))
+      return fmt::format("liquid that touches {}", does[k]);
+    if (alike > 0)
+      text += fmt::format("{}on {} of them liquid that touches {}", text.empty() ? "" : ", ", alike, does[k]);
+  }
+  return text;
+}
+
+std::string law_of(const scene::Pressure& pressure) {
+  return std::visit(
+      Overloaded{[](const scene::ConstantPressure& p) { return fmt::format("constant, {} Pa", brief(p.value)); },
+                 [](const scene::InverseSquarePressure& p) {
+                   return fmt::format("{} Pa at radius {} m, falling with its square", brief(p.value),
+                                      brief(p.reference_radius));
+                 },
+                 [](const scene::DrainingPressure& p) {
+                   return fmt::format("enclosed gas leaves at {} m³/s per Pa", brief(p.conductance));
+                 },
+                 [](const scene::GasPressure& p) {
+                   const std::string start = p.amount ? fmt::format("that fills {} m³ outside", brief(*p.amount))
+                                                      : fmt::format("of {} Pa at the start", brief(p.value));
+                   return fmt::format("enclosed gas {}, {} Pa outside, p ~ V^-{}{}", start, brief(p.ambient),
+                                      brief(p.exponent),
+                                      p.leak > 0 ? fmt::format(", leaving at {} m³/s per Pa", brief(p.leak)) : "");
+                 }},
+      pressure);
+}
+
+// Pressure acts.
+std::string on_what(const Scene& scene) {
+  if (!scene.environment.pressure_sheet.empty())
+    return fmt::format(", on the sheet \"{}\" only", scene.environment.pressure_sheet);
+  return scene::depends_on_volume(*scene.environment.pressure) && scene.sheets.size() > 1 ? ", in each sheet by itself"
+                                                                                          : "";
+}
+
+std::string what_comes(const std::vector<scene::Inflow>& inflows) {
+  if (inflows.size() != 1)
+    return fmt::format("new liquid at {} borders", inflows.size());
+  const scene::Inflow& inflow = inflows[0];
+  return fmt::format("new liquid, {} m thick, {}", brief(inflow.thickness),
+                     inflow.until ? fmt::format("until {} s", brief(*inflow.until)) : "without end");
+}
+
+} // namespace
+
+std::vector<scene::ModelledPart> modelled(const Scene& scene) {
+  std::vector<scene::ModelledPart> parts;
+  const Model model = model_of(scene);
+  for (const TermEntry& term : term_table()) {
+    const bool asked = term.asked(model);
+    parts.push_back({term.name, asked, asked ? term.because(model) : term.because_not(model)});
+    if (asked && term.name == "pressure") // which the scene says best
+      parts.back().why = law_of(*scene.environment.pressure) + on_what(scene);
+  }
+  const auto part = [&](std::string_view name, bool is, std::string_view because, std::string_view because_not) {
+    parts.push_back({name, is, std::string(is ? because : because_not)});
+  };
+  part("holds", !scene.holds.empty(), count(scene.holds.size(), "hold"), "no [[hold]]");
+  part("solids", !scene.solids.empty(), count(scene.solids.size(), "solid") + "; " + what_touches(scene.solids),
+       "no [[solid]]");
+  part("inflow", !scene.inflows.empty(), what_comes(scene.inflows), "no [inflow]: the volume stays the same");
+  part("outflow", !scene.outflows.empty(), count(scene.outflows.size(), "plane") + " beyond which the sheet ends",
+       "no [[outflow]]: nothing leaves");
+  part("tear", scene.tear.has_value(),
+       scene.tear ? fmt::format("where thinner than {} m", brief(scene.tear->below)) : "",
+       "no [tear]: the sheet only thins");
+  return parts;
+}
+
+} // namespace sheet

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one time step took, or several.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "libsheet/geometry/types.h"
+#include "libsheet/solve/newton.h"
+
+namespace sheet {
+
+struct TermTime {
+  std::string name;
+  double seconds = 0;
+};
+
+struct StepReport {
+  int substeps = 0;        // 1 unless the step had to be cut
+  int failed = 0;          // attempts that did not converge
+  int rejected = 0;        // that were not accurate enough (step_within)
+  int euler_fallbacks = 0; // substeps that only backward Euler could do
+  int flat_fallbacks = 0;  // steps done with straight edges instead of arcs, as they did not converge with arcs
+  int unfinished = 0;      // substeps taken though Newton's iterations had not converged
+  int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
+  NewtonReport newton; // sums over all stages; last_step of the last one
+  // Filtered difference to the first-order result, in edge lengths, less where next to nothing is carried
+  // (docs/model.md, stopping rule), greatest of the substeps.
+  double error = 0;
+  std::size_t worst = 0;          // the vertex that has it
+  std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex [N]
+  double seconds_analysis = 0;
+  // Assembled terms, their element work summed over threads, and gathering; again for what was done without arcs.
+  std::vector<TermTime> terms;
+
+  // With what was done after it: counts and times add up, the error is the greater one, the reactions are the later
+  // ones.
+  StepReport& operator+=(const StepReport& later);
+};
+
+} // namespace sheet
