@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -21,8 +22,10 @@
 #include "libsheet/plan/modelled.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/symmetry.h"
+#include "libsheet/scene/document.h"
 #include "libsheet/scene/example.h"
 #include "libsheet/scene/explain.h"
+#include "libsheet/scene/keys.h"
 #include "libsheet/scene/read.h"
 
 namespace {
@@ -37,11 +40,15 @@ struct Source {
 constexpr std::array qualities{std::pair{"draft", sheet::Quality::draft}, std::pair{"normal", sheet::Quality::normal},
                                std::pair{"fine", sheet::Quality::fine}};
 
-sheet::Scene read(const Source& source) {
+std::string read_text(const Source& source) {
   if (source.file.empty())
     sheet::fail(sheet::ExitCode::usage, "no scene: give a scene file, or --example for one to start from");
-  return sheet::at_quality(source.file == "-"
-                               ? sheet::parse_scene(sheet::read_utf8_file("-"), "standard input", source.sets)
+  return sheet::read_utf8_file(source.file);
+}
+
+sheet::Scene read(const Source& source) {
+  return sheet::at_quality(source.file.empty() || source.file == "-"
+                               ? sheet::parse_scene(read_text(source), "standard input", source.sets)
                                : sheet::read_scene(source.file, source.sets),
                            source.quality);
 }
@@ -81,6 +88,27 @@ void check_rows(const Source& source, const std::string& rows) {
     throw sheet::Error(sheet::ExitCode::bad_input, wrong);
 }
 
+// What --list-keys prints.
+std::string key_list() {
+  std::string text;
+  for (const auto& [path, key] : sheet::scene::listed_keys())
+    text += fmt::format("{}\t{}\t{}\t{}\n", path, sheet::scene::kind_of(key), sheet::scene::unit_of(key), key.help);
+  return text;
+}
+
+// What --list-files prints.
+std::string file_list(const Source& source) {
+  const bool piped = source.file == "-";
+  sheet::scene::Node document = sheet::scene::parse_toml(read_text(source), piped ? "standard input" : source.file);
+  for (std::size_t i = 0; i < source.sets.size(); ++i)
+    sheet::scene::apply_set(document, source.sets[i], static_cast<int>(i));
+  const auto folder = piped ? std::filesystem::path() : std::filesystem::path(source.file).parent_path();
+  std::string text;
+  for (const auto& [name, path] : sheet::scene::files_named_in(document))
+    text += fmt::format("{}\t{}\n", (folder / name).lexically_normal().string(), path);
+  return sheet::formats::printable(text);
+}
+
 // What --check prints; of that, what --ring does.
 std::string explained(Source source, bool ring_alone) {
   const sheet::Scene scene = read(source);
@@ -115,11 +143,12 @@ int main(int argc, char** argv) {
       "known key.");
   Source source;
   std::string output = "-", rows;
-  bool example = false, check = false, ring = false, no_provenance = false;
+  bool example = false, check = false, ring = false, no_provenance = false, list_files = false, list_keys = false;
   tool.argument("SCENE", source.file, "scene file; - for standard input");
   tool.option("--set", source.sets, "KEY=VALUE",
               "change or add a key of the scene, as in material.viscosity=50 or "
-              "'hold.0.kind=pinned'; may be given again and again");
+              "'hold.0.kind=pinned'; may be given again and again",
+              sheet::scene::begun_settings());
   tool.flag("--check", check,
             "explain the scene instead: what will be modelled, what not, the dimensionless numbers that say why it "
             "matters, and the ring to run; refuses what any stage would refuse at the first frame",
@@ -140,6 +169,16 @@ int main(int argc, char** argv) {
               sheet::Tool::Provenance::omit);
   tool.flag("--example", example, "print a commented scene that shows every table and key",
             sheet::Tool::Provenance::omit);
+  tool.flag(
+      "--list-keys", list_keys,
+      "print every key that a scene may have, one a line: key, kind of value, SI unit and what it is, separated by "
+      "tabs; N stands for the number of a [[hold]] and its like",
+      sheet::Tool::Provenance::omit);
+  tool.flag(
+      "--list-files", list_files,
+      "print every file that the scene names, one a line: where it is, seen from here, and the key that names it, "
+      "separated by a tab",
+      sheet::Tool::Provenance::omit);
   tool.option("-o,--output", output, "FILE", "stream to write; - for standard output", sheet::Tool::Provenance::omit);
   tool.flag("--no-provenance", no_provenance, "leave out the record of program and options",
             sheet::Tool::Provenance::omit);
@@ -148,6 +187,8 @@ int main(int argc, char** argv) {
   tool.example("sheet-init --check --until 0.5 --fps 100 scene.toml", "the same, with the ring to that time");
   tool.example("sheet-init scene.toml --set material.viscosity='50 Pa*s' > first.sheet",
                "the first frame, with a change");
+  tool.example("sheet-init --list-keys | grep viscosity", "what may a scene say of it?");
+  tool.example("sheet-init --list-files scene.toml", "what else does the scene need?");
   tool.example("printf 'sheet.thickness=2 mm\\nsheet.thickness=3 mm\\n' | sheet-init --check-rows - scene.toml",
                "are all of these scenes well?");
   return tool.run(argc, argv, [&] {
@@ -160,8 +201,11 @@ int main(int argc, char** argv) {
       check_rows(source, rows);
       return;
     }
-    if (example || check || ring) {
-      const std::string text = example ? std::string(sheet::scene::example()) : explained(source, ring);
+    if (example || check || ring || list_keys || list_files) {
+      const std::string text = example      ? std::string(sheet::scene::example())
+                               : list_keys  ? key_list()
+                               : list_files ? file_list(source)
+                                            : explained(source, ring);
       sheet::OutputFile file(output, sheet::OutputFile::Content::text);
       file.write(text);
       file.close();

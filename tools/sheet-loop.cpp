@@ -4,6 +4,7 @@
 
 #include "libsheet/base/tool.h"
 #include "libsheet/loop/loop.h"
+#include "libsheet/scene/keys.h"
 
 int main(int argc, char** argv) {
   sheet::Tool tool(
@@ -34,7 +35,8 @@ int main(int argc, char** argv) {
       "--set", o.sets, "KEY=VALUE",
       "go on with another scene: change a key as sheet-init's --set does, in a run that has begun; may be given "
       "again and again. Frames from here on carry the new scene, and their provenance says what was changed and "
-      "when. What the frames have settled stays: the sheet, which holds and solids there are, where they are now");
+      "when. What the frames have settled stays: the sheet, which holds and solids there are, where they are now",
+      sheet::scene::begun_settings());
   tool.option(
       "--checkpoint", o.checkpoint, "FILE",
       "keep the newest frame in FILE, replaced as a whole, also when the run fails; --resume starts from it if it is "

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 import os
 import pathlib
+import subprocess
 from typing import Any
 
 import bmesh
@@ -52,12 +53,31 @@ LIQUIDS = {
 }
 OPAQUE = 1000  # scattering [1/m] from which a few millimetres hide what is behind
 THICKNESS_LOOK = "thickness"
-HOLD_KINDS = ("pinned", "clamped")
 MOST_HOLDS = 64
 
 
 class SheetError(Exception):
     """What is wrong with a file or an object, for the user."""
+
+
+def _scene_keys() -> dict[str, tuple[str, str, str]]:
+    """What sheet-init --list-keys knows of the keys of scenes, {key: (kind, SI unit, help)}: in the zip file the build has put
+    it beside this file; else the program is asked."""
+    beside = pathlib.Path(__file__).with_name("scene_keys.tsv")
+    text = beside.read_text(encoding="utf-8") if beside.exists() else subprocess.run(
+        ["sheet-init", "--list-keys"], capture_output=True, text=True, check=True).stdout
+    return {key: (kind, unit, help_line) for key, kind, unit, help_line in (line.split("\t") for line in text.splitlines())}
+
+
+SCENE_KEYS = _scene_keys()
+HOLD_KINDS = tuple(SCENE_KEYS["hold.N.kind"][0].split("|"))
+
+
+def _key_property(key: str, **more: Any) -> Any:
+    """A number that the user gives for a key of the scene: its name, unit and help are those of the key."""
+    _, unit, help_line = SCENE_KEYS[key]
+    name = key.split(".")[-1].capitalize()
+    return bpy.props.FloatProperty(name=f"{name} [{unit}]", description=help_line, min=1e-9, **more)
 
 
 # ---- runs
@@ -800,8 +820,8 @@ class SHEET_OT_export(bpy.types.Operator, ExportHelper):
     filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})  # type: ignore[valid-type]
     thickness: bpy.props.FloatProperty(  # type: ignore[valid-type]
         name="Thickness", description='Where the mesh has no attribute "thickness"', default=0.005, min=1e-9, unit="LENGTH")
-    viscosity: bpy.props.FloatProperty(name="Viscosity [Pa s]", default=80.0, min=1e-9)  # type: ignore[valid-type]
-    density: bpy.props.FloatProperty(name="Density [kg/m^3]", default=1300.0, min=1e-9)  # type: ignore[valid-type]
+    viscosity: _key_property("material.viscosity", default=80.0)  # type: ignore[valid-type]
+    density: _key_property("material.density", default=1300.0)  # type: ignore[valid-type]
     solids: bpy.props.BoolProperty(name="Other selected meshes are solids", default=True)  # type: ignore[valid-type]
 
     def execute(self, context: Any) -> set[str]:

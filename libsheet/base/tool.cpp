@@ -133,12 +133,13 @@ void Tool::option(std::string_view names, std::string& value, std::string_view p
 }
 
 void Tool::option(std::string_view names, std::vector<std::string>& values, std::string_view placeholder,
-                  std::string_view text) {
+                  std::string_view text, std::vector<std::string> completions) {
   Option o;
   o.names = names;
   o.placeholder = placeholder;
   o.text = text;
   o.is_list = true;
+  o.words = std::move(completions);
   o.set = [&values](const std::string& s) { values.push_back(s); };
   o.get = [&values] { return values; };
   add(std::move(o));

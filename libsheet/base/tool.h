@@ -35,8 +35,9 @@ public:
               std::string_view text, Provenance provenance = Provenance::record);
   void option(std::string_view names, std::string& value, std::string_view placeholder, std::string_view text,
               Provenance provenance = Provenance::record);
+  // May be given again and again. `completions`: what the shell offers for a value.
   void option(std::string_view names, std::vector<std::string>& values, std::string_view placeholder,
-              std::string_view text);
+              std::string_view text, std::vector<std::string> completions = {});
   void flag(std::string_view names, bool& value, std::string_view text, Provenance provenance = Provenance::record);
   // One of several words, each of which stands for a value.
   template <class T>
@@ -85,7 +86,7 @@ private:
     std::string names, placeholder, text, default_text;
     bool is_flag = false, is_list = false, is_argument = false, is_required = false;
     Provenance provenance = Provenance::record;
-    std::vector<std::string> words;                // of a choice
+    std::vector<std::string> words;                // that the shell offers for a value
     std::function<void(const std::string&)> set;   // called once a value
     std::function<std::vector<std::string>()> get; // the values now; none: absent
   };

@@ -153,9 +153,9 @@ std::string Tool::completion_script() const {
     for (const std::string& word : o.words)
       choices += (choices.empty() ? "" : " ") + word;
     if (!choices.empty())
-      cases +=
-          fmt::format("    {})\n      mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")\n      return\n      ;;\n",
-                      pattern, choices);
+      cases += fmt::format(
+          "    {})\n      mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")\n{}      return\n      ;;\n", pattern,
+          choices, choices.back() == '=' ? "      compopt -o nospace\n" : "");
     else if (!o.is_flag && o.placeholder != "FILE")
       cases += fmt::format("    {})\n      COMPREPLY=()\n      return\n      ;;\n", pattern);
   }

@@ -3,9 +3,11 @@
 
 #include <string>
 
+#include "libsheet/scene/keys.h"
+
 namespace sheet::scene {
 
-// In two pieces: compilers need not take longer literals.
+// A setting that ends in ? gets the help of its key (keys.h). In two pieces: compilers need not take longer literals.
 static constexpr std::string_view sheet_and_physics = R"toml(# A square sheet of caramel falls on a ball.
 #
 # A scene says what is physical; how it is computed is said by each program's options.
@@ -17,7 +19,7 @@ static constexpr std::string_view sheet_and_physics = R"toml(# A square sheet of
 
 # Its shape. Flat shapes lie in `plane`; caps and tubes stand on it.
 shape = "rectangle"
-size = ["1 m", "1 m"]           # along the plane's first and second letter
+size = ["1 m", "1 m"]?
 
 #shape = "disk"
 #radius = "0.5 m"
@@ -29,33 +31,31 @@ size = ["1 m", "1 m"]           # along the plane's first and second letter
 #shape = "sphere"
 #radius = "0.5 m"
 
-# A part of a sphere: all within `angle` of its pole (90 deg: a hemisphere), less a hole of `opening` around the pole.
+# A part of a sphere.
 #shape = "cap"
 #radius = "0.1 m"
-#angle = "90 deg"
-#opening = "18 deg"
+#angle = "90 deg"?
+#opening = "18 deg"?
 
 # Open at both ends, its axis along the plane's normal.
 #shape = "tube"
 #radius = "0.2 m"
 #height = "0.5 m"
 
-# Triangles fine enough to begin with; or counts: along both sides, or around and along. "structured", "equilateral" or
-# "irregular" (different for each seed, and the best for honest results: no direction is preferred).
-edge_length = "25 mm"
-pattern = "irregular"
-seed = 1
+# Triangles fine enough to begin with; or counts. "structured", "equilateral" or "irregular" (different for each seed, and
+# the best for honest results: no direction is preferred).
+edge_length = "25 mm"?
+pattern = "irregular"?
+seed = 1?
 
-#segments = [60, 60]            # a structured pattern
+#segments = [60, 60]?
 
-# The thickness at the start.
-thickness = "10 mm"
+thickness = "10 mm"?
 
-# Or any mesh file (.obj .off .ply .stl .vtu), taken as it is; also its thickness, from an array at each vertex or face.
-# `scale`: metres per unit of the file. File names start in the folder of this file.
+# Or any mesh file (.obj .off .ply .stl .vtu); also its thickness, from an array at each vertex or face.
 #shape = "mesh"
-#file = "leaf.ply"
-#scale = 0.001
+#file = "leaf.ply"?
+#scale = 0.001?
 #thickness = {data = "thickness", place = "vertex", scale = 0.001}
 
 # Small deviations, to let wrinkles begin: a wave of the position (along the normal) or of the thickness, along x, y, z or
@@ -65,26 +65,22 @@ thickness = "10 mm"
 
 #perturbation = {of = "thickness", amplitude = "0.1 mm", seed = 7}
 
-# "xy", "xz" or "yz"; by default horizontal, as gravity says.
-plane = "xz"
-
-# Where its middle is (a cap's: that of its sphere), how it is turned, how fast it moves at the start, and turns about its
-# center: angular_velocity points along the axis.
-center = [0, 0, 0]
+# Where it is, how it is turned, how it moves.
+plane = "xz"?
+center = [0, 0, 0]?
 rotation = {axis = [0, 1, 0], angle = "0 deg"}
-velocity = [0, 0, 0]
-angular_velocity = [0, "0 rpm", 0]
+velocity = [0, 0, 0]?
+angular_velocity = [0, "0 rpm", 0]?
 
 # Several sheets: [[sheet]] in place of [sheet], once for each. name = "lid" lets a [[hold]] and an [inflow] speak of one of
 # them, sheet = "lid"; enters = "2 s" lets it come in at that time (not the first one).
 
 [material] # ------------------------------------------------------------- the liquid
 
-viscosity = "80 Pa*s"           # resists stretching and bending; also "800 P" or "2 cP"
-density = "1300 kg/m^3"         # or "1.3 g/cm^3"; needed for inertia and gravity
+viscosity = "80 Pa*s"?
+density = "1300 kg/m^3"?
 
-# Of each of the two surfaces. Absent or 0: no such term.
-#surface_tension = "40 mN/m"
+#surface_tension = "40 mN/m"?
 
 [environment] # ---------------------------------------------------------- what acts on it from outside; may be absent
 
@@ -136,9 +132,9 @@ gravity = [0, "-9.81 m/s^2", 0]
 
 [model] # ---------------------------------------------------------------- what to leave out; may be absent
 
-inertia = true                  # false: creeping flow, when viscosity stops everything at once
-bending = true                  # false: a membrane
-#forces = true                  # those of holds and solids on the sheet are written, for sheet-info
+inertia = true?
+bending = true?
+#forces = true?
 )toml";
 
 static constexpr std::string_view things = R"toml(
@@ -153,9 +149,9 @@ static constexpr std::string_view things = R"toml(
 # Held in some directions only, until a time when it is let go.
 #[[hold]]
 #region = {box = [[-0.5, -0.1, -0.5], [-0.4, 0.1, 0.5]]}
-#kind = "pinned"
-#axes = "xz"
-#until = "2 s"
+#kind = "pinned"?
+#axes = "xz"?
+#until = "2 s"?
 
 # Turned about an axis through `center` (by default the sheet's), faster and faster for 5 s, then steadily. Rows are
 # [time, rate], straight lines between them.
@@ -173,10 +169,10 @@ static constexpr std::string_view things = R"toml(
 #region = "z_max"
 #motion = {kind = "translating", velocity = [["0 s", 0, 0, 0], ["1 s", 0, 0, 0.1]]}
 
-# A roll, or a clip: its region stays where it is, holds what enters and carries it, and lets go what leaves.
+# A roll, or a clip.
 #[[hold]]
 #region = {box = [[0.9, -1, -1], [1.1, 1, 1]]}
-#roll = true
+#roll = true?
 #motion = {kind = "translating", velocity = ["0.5 m/s", 0, 0]}
 
 # ------------------------------------------------------------------------ solids: any number of [[solid]]
@@ -193,14 +189,14 @@ center = [0, "-0.3 m", 0]
 #center = [0, -0.4, 0]
 #rotation = {axis = [0, 1, 0], angle = "30 deg"}
 
-# Capsules and cylinders stand along y unless they are turned. `length` of a capsule: between the centers of its ends.
+# Capsules and cylinders stand along y unless they are turned.
 #[[solid]]
 #shape = "capsule"
 #radius = "0.05 m"
-#length = "0.4 m"
+#length = "0.4 m"?
 #center = [0, -0.4, 0]
-# Short for a translating motion; angular_velocity = [0, "10 rpm", 0] is for one that rotates about the center.
-#velocity = [0.4, 0, 0]
+# angular_velocity = [0, "10 rpm", 0] is for one that rotates about the center.
+#velocity = [0.4, 0, 0]?
 
 #[[solid]]
 #shape = "cylinder"
@@ -221,74 +217,103 @@ center = [0, "-0.3 m", 0]
 #center = [0, -0.4, 0]
 #motion = {kind = "keyframed", times = [0, "0.5 s", "1 s"], places = [[0, -0.4, 0], [0.1, -0.3, 0], [0.2, -0.4, 0]], interpolation = "smooth"}
 
-# The ground, or a conveyor belt: its surface moves, its shape stays. `normal`: by default upwards.
+# The ground, or a conveyor belt.
 #[[solid]]
 #shape = "plane"
 #center = [0, "-0.8 m", 0]
-#normal = [0, 1, 0]
-#surface_velocity = [0, 0, "25 mm/s"]
+#normal = [0, 1, 0]?
+#surface_velocity = [0, 0, "25 mm/s"]?
 
-# What liquid does that touches. contact: "stick" (it stays where it touched, the default), "flow" (it flows in a layer that the
-# solid drags; slip_length eases that) or "slip" (no drag). contact_angle: of its rim, with surface tension (absent: what
-# touches costs as much as a free face). receding: whether rims may retreat, else they leave a film.
+# What liquid does that touches: "stick" (it stays where it touched, the default), "flow" (it flows in a layer that the solid
+# drags) or "slip" (no drag).
 #[[solid]]
 #shape = "plane"
 #center = [0, "-0.8 m", 0]
 #contact = "flow"
-#slip_length = "10 um"
-#contact_angle = "60 deg"
-#receding = true
+#slip_length = "10 um"?
+#contact_angle = "60 deg"?
+#receding = true?
 
-# A mesh (.obj .off .ply .stl) or a distance field (.vdb). In a frame's scene it has a `checksum` besides, by which stages find
-# the file and tell whether it has changed.
+# A mesh (.obj .off .ply .stl) or a distance field (.vdb). By its checksum stages find the file and tell whether it has changed.
 #[[solid]]
 #shape = "mesh"
-#file = "bunny.off"
-#scale = 2.0
-#voxel_size = "5 mm"
-#checksum = "0123456789abcdef"
+#file = "bunny.off"?
+#scale = 2.0?
+#voxel_size = "5 mm"?
+#checksum = "0123456789abcdef"?
 #center = [0, -0.6, 0]
 
 # ------------------------------------------------------------------------ new liquid that flows in at a border
 
-# A velocity at an angle to the border makes a slanted curtain. Without `thickness`: as thick as the sheet. Without `until`:
-# for ever. A velocity that changes has rows [time, x, y, z].
+# A velocity at an angle to the border makes a slanted curtain.
 #[inflow]
-#region = "z_max"
-#velocity = [0, 0, "-0.1 m/s"]
-#thickness = "2.5 mm"
-#until = "10 s"
+#region = "z_max"?
+#velocity = [0, 0, "-0.1 m/s"]?
+#thickness = "2.5 mm"?
+#until = "10 s"?
 
 # ------------------------------------------------------------------------ where liquid leaves: any number of [[outflow]]
 
-# What is wholly beyond the plane through `point`, on the side to which `normal` points.
+# What is wholly beyond a plane.
 #[[outflow]]
-#point = [0, "-2 m", 0]
-#normal = [0, -1, 0]
+#point = [0, "-2 m", 0]?
+#normal = [0, -1, 0]?
 
 # ------------------------------------------------------------------------ where the sheet tears
 
-# Where it is thinner than `below`. Small pieces that come off: "keep" or "drop".
 #[tear]
-#below = "0.8 mm"
-#crumbs = "keep"
+#below = "0.8 mm"?
+#crumbs = "keep"?
 
 # ------------------------------------------------------------------------ contact of the sheet with itself
 
-# All keys may be absent. stiffness: of the springs that hold touching layers together; adhesion: the tension at which touching
-# surfaces part again (absent: never); distance: between the middles of touching layers (absent: their mean thickness).
+# All keys may be absent.
 [contact]
-self = true
+self = true?
 
 #[contact]
 #self = true
-#stiffness = "1.5 N/m"
-#adhesion = "100 Pa"
-#distance = "5 mm"
+#stiffness = "1.5 N/m"?
+#adhesion = "100 Pa"?
+#distance = "5 mm"?
 )toml";
 
+namespace {
+
+// The table of keys that a line "[tear]" or "#[[hold]]" opens; null if it opens none.
+const KeyTable* opened(std::string_view line) {
+  line.remove_prefix(line.starts_with('#') ? 1 : 0);
+  if (!line.starts_with('['))
+    return nullptr;
+  line.remove_prefix(line.find_first_not_of('['));
+  const Key* key = scene_keys().find(line.substr(0, line.find(']')));
+  return key ? key->below : nullptr;
+}
+
+// Every setting that ends in ? with what its key is behind it.
+std::string with_help(std::string_view text) {
+  std::string result;
+  const KeyTable* table = &scene_keys();
+  while (!text.empty()) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(line.size() + 1);
+    if (const KeyTable* next = opened(line))
+      table = next;
+    if (!line.ends_with('?')) {
+      result.append(line) += '\n';
+      continue;
+    }
+    line.remove_suffix(1);
+    const std::string_view setting = line.substr(line.starts_with('#') ? 1 : 0);
+    result += fmt::format("{:<31} # {}\n", line, table->find(setting.substr(0, setting.find(' ')))->help);
+  }
+  return result;
+}
+
+} // namespace
+
 std::string_view example() {
-  static const std::string text = std::string(sheet_and_physics).append(things);
+  static const std::string text = with_help(std::string(sheet_and_physics).append(things));
   return text;
 }
 

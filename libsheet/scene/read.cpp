@@ -80,7 +80,7 @@ std::vector<TableReader> tables_of(const Node* node, std::string_view key, std::
                  fmt::format("{0}: {1} tables [[{0}]]; a scene may have {2}", key, node->items.size(), most));
   for (const Node& item : node->items) {
     if (item.type == Node::Type::table)
-      tables.emplace_back(item, fmt::format("[[{}]]", key), problems);
+      tables.emplace_back(item, fmt::format("[[{}]]", key), *scene_keys().find(key)->below, problems);
     else
       problems.add(item.place,
                    fmt::format("{0}: expected tables [[{0}]], got {1} in the list", key, describe(item.type)));
@@ -107,7 +107,7 @@ std::vector<SheetTable> read_sheets(std::span<TableReader> tables, const Environ
 
 Scene read_document(const Node& document, Problems& problems, const Files& files) {
   static const Node nothing{};
-  TableReader top(document, "the scene", problems);
+  TableReader top(document, "the scene", scene_keys(), problems);
   const auto required = [&](std::string_view key) {
     const auto table = top.table(key);
     if (!table && top.absent(key))
@@ -115,7 +115,7 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     return table;
   };
   const auto named = [&](std::string_view key, const Node& node) {
-    return TableReader(node, fmt::format("[{}]", key), problems);
+    return TableReader(node, fmt::format("[{}]", key), *scene_keys().find(key)->below, problems);
   };
   const auto optional = [&](std::string_view key) -> std::optional<TableReader> {
     const Node* node = top.table(key) ? document.find(key) : nullptr;

@@ -21,7 +21,6 @@ namespace {
 
 using Eigen::Quaterniond;
 
-constexpr std::array<std::string_view, 1> row_files{".csv"};
 constexpr std::array<std::string_view, 8> column_names{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
 constexpr double norm_tolerance = 1e-3;
 constexpr double widest_turn = 175 * std::numbers::pi / 180; // beyond it, rounding decides which way round
@@ -195,7 +194,7 @@ std::optional<Quaterniond> read_quaternion(TableReader& table, const Node& item)
     return {};
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto value = table.quantity(item.items[i], "rotations", quantity::number, Bound::any);
+    const auto value = table.quantity(item.items[i], "rotations", Bound::any);
     if (!value)
       return {};
     q[i] = *value;
@@ -209,11 +208,11 @@ Rows read_lists(TableReader& table) {
     table.missing("times", "[0, \"0.5 s\", \"1 s\"]");
   if (table.absent("places") && table.absent("rotations"))
     table.missing("places", "[[0, 0, 0], [0, 0.1, 0], [0, 0.1, 0.1]]");
-  rows.times = read_list<double>(
-      table, "times", 0, [&](const Node& item) { return table.quantity(item, "times", quantity::time, Bound::any); });
+  rows.times =
+      read_list<double>(table, "times", 0, [&](const Node& item) { return table.quantity(item, "times", Bound::any); });
   const std::size_t count = rows.times.size();
-  rows.places = read_list<Vector3d>(table, "places", count,
-                                    [&](const Node& item) { return table.vector(item, "places", quantity::length); });
+  rows.places =
+      read_list<Vector3d>(table, "places", count, [&](const Node& item) { return table.vector(item, "places"); });
   rows.rotations =
       read_list<Quaterniond>(table, "rotations", count, [&](const Node& item) { return read_quaternion(table, item); });
   return rows;
@@ -254,12 +253,11 @@ std::optional<std::pair<std::size_t, std::string>> find_fault(Rows& rows) {
 std::shared_ptr<const Keyframes> read_keyframes(TableReader& table, const Vector3d& center, const Files& files) {
   Rows rows;
   std::string path;
-  const auto interpolation =
-      static_cast<Interpolation>(table.choice("interpolation", words::interpolations).value_or(0));
+  const auto interpolation = static_cast<Interpolation>(table.choice("interpolation").value_or(0));
   const bool by_file = !table.absent("file");
   if (by_file) {
     table.has_no_meaning({"times", "places", "rotations"}, "the rows are those of the file");
-    path = read_file(table, files, row_files);
+    path = read_file(table, files);
     if (!files.must_exist) {
       table.wrong("file", "rows by file need a scene that is a file; here they stand in the scene: times, places, "
                           "rotations");
@@ -277,8 +275,7 @@ std::shared_ptr<const Keyframes> read_keyframes(TableReader& table, const Vector
     rows = read_lists(table);
   }
   const bool has_places = !rows.places.empty(), has_rotations = !rows.rotations.empty();
-  const Vector3d turned_about =
-      has_places ? Vector3d(Vector3d::Zero()) : table.vector("center", quantity::length).value_or(center);
+  const Vector3d turned_about = has_places ? Vector3d(Vector3d::Zero()) : table.vector("center").value_or(center);
   if (has_places)
     table.has_no_meaning({"center"}, "it turns about the places");
   if (const auto fault = find_fault(rows)) {

@@ -12,7 +12,7 @@ Motion read_motion(TableReader& parent, const Vector3d& center, const Files& fil
   auto table = parent.table("motion");
   if (!table)
     return Fixed{};
-  const auto kind = table->choice("kind", words::motions);
+  const auto kind = table->choice("kind");
   if (table->absent("kind"))
     table->missing("kind", "\"rotating\"");
   Motion motion = Fixed{};
@@ -25,8 +25,7 @@ Motion read_motion(TableReader& parent, const Vector3d& center, const Files& fil
       table->missing("rate", "\"0.3 rad/s\"");
     if (table->absent("axis"))
       table->missing("axis", "[0, 1, 0]");
-    motion = Rotating{table->direction_or("axis", Vector3d::UnitY()),
-                      table->vector("center", quantity::length).value_or(center),
+    motion = Rotating{table->direction_or("axis", Vector3d::UnitY()), table->vector("center").value_or(center),
                       table->timed_rate("rate").value_or(Timed<double>{})};
   } else if (kind == 3) {
     if (auto frames = read_keyframes(*table, center, files))
@@ -45,7 +44,7 @@ Motion read_motion(TableReader& parent, const Vector3d& center, const Files& fil
 Motion read_motion_or_velocity(TableReader& parent, const Vector3d& center, const Files& files) {
   const Motion motion = read_motion(parent, center, files);
   const auto velocity = parent.timed_velocity("velocity");
-  const auto angular = parent.vector("angular_velocity", quantity::turning_rate);
+  const auto angular = parent.vector("angular_velocity");
   const bool led = !parent.absent("motion"), moves = !parent.absent("velocity");
   if (led && moves)
     parent.wrong("velocity", "it is short for a motion, which is there too: give one of them");
@@ -90,12 +89,13 @@ std::optional<Rotation> read_rotation(TableReader& parent) {
     table->missing("axis", "[0, 1, 0]");
   Rotation rotation;
   rotation.axis = table->direction_or("axis", Vector3d::UnitY());
-  rotation.angle = table->required("angle", quantity::angle, Bound::any);
+  rotation.angle = table->required("angle", Bound::any);
   table->finish();
   return rotation;
 }
 
-std::string read_file(TableReader& table, const Files& files, std::span<const std::string_view> extensions) {
+std::string read_file(TableReader& table, const Files& files) {
+  const std::span<const std::string_view> extensions = table.declared("file").words;
   if (table.absent("file"))
     table.missing("file", fmt::format("\"bunny{}\"", extensions.front()));
   const auto name = table.text("file");
@@ -124,7 +124,7 @@ std::string read_file(TableReader& table, const Files& files, std::span<const st
 }
 
 std::optional<Border> read_border(TableReader& table, std::string_view key, const SheetTable& sheet) {
-  const auto index = table.choice(key, words::borders);
+  const auto index = table.choice(key);
   if (!index)
     return {};
   const auto border = static_cast<Border>(*index);

@@ -10,21 +10,21 @@ constexpr double standard_atmosphere = 101325; // [Pa]
 
 GasPressure read_gas(TableReader& table) {
   GasPressure gas{};
-  gas.amount = table.quantity("amount", quantity::volume, Bound::positive);
-  const auto value = table.quantity("value", quantity::pressure, Bound::any);
+  gas.amount = table.quantity("amount", Bound::positive);
+  const auto value = table.quantity("value", Bound::any);
   if (gas.amount && value)
     table.wrong("value", "either the amount of the gas is given, or its pressure at the start");
   else if (!gas.amount && !value)
     table.missing("value", "\"10 Pa\" (pressure at the start), or amount = \"1 l\"");
   gas.value = value.value_or(0);
-  gas.ambient = table.quantity_or("ambient", quantity::pressure, standard_atmosphere, Bound::positive);
+  gas.ambient = table.quantity_or("ambient", standard_atmosphere, Bound::positive);
   if (gas.value <= -gas.ambient)
     table.wrong("value", "gas cannot have less than no pressure: give more than -ambient");
-  gas.exponent = table.quantity_or("exponent", quantity::number, 1);
+  gas.exponent = table.quantity_or("exponent", 1);
   if (gas.exponent < 1)
     table.wrong("exponent", "a polytropic exponent is at least 1 (constant temperature)");
-  gas.leak = table.quantity_or("leak", quantity::conductance, 0, Bound::not_negative);
-  gas.more_volume = table.quantity_or("more_volume", quantity::volume, 0, Bound::not_negative);
+  gas.leak = table.quantity_or("leak", 0, Bound::not_negative);
+  gas.more_volume = table.quantity_or("more_volume", 0, Bound::not_negative);
   return gas;
 }
 
@@ -35,19 +35,19 @@ std::optional<Pressure> read_pressure(TableReader& parent, std::string& sheet) {
     return {};
   if (table->absent("law"))
     table->missing("law", "\"constant\"");
-  const auto law = table->choice("law", words::pressures);
+  const auto law = table->choice("law");
   sheet = table->text("sheet").value_or("");
   std::optional<Pressure> result;
   std::string because = "the law is not known";
   if (law == 0) {
-    result = ConstantPressure{table->required("value", quantity::pressure, Bound::any)};
+    result = ConstantPressure{table->required("value", Bound::any)};
     because = "law \"constant\" takes value";
   } else if (law == 1) {
-    const double value = table->required("value", quantity::pressure, Bound::any);
-    result = InverseSquarePressure{value, table->required("reference_radius", quantity::length)};
+    const double value = table->required("value", Bound::any);
+    result = InverseSquarePressure{value, table->required("reference_radius")};
     because = "law \"inverse_square\" takes value, reference_radius";
   } else if (law == 2) {
-    result = DrainingPressure{table->required("conductance", quantity::conductance)};
+    result = DrainingPressure{table->required("conductance")};
     because = "law \"draining\" takes conductance";
   } else if (law == 3) {
     result = read_gas(*table);
@@ -63,24 +63,24 @@ std::optional<Pressure> read_pressure(TableReader& parent, std::string& sheet) {
 
 Liquid read_material(TableReader table) {
   Liquid material;
-  material.viscosity = table.required("viscosity", quantity::viscosity, Bound::not_negative);
-  material.density = table.quantity_or("density", quantity::density, 0, Bound::positive);
-  material.surface_tension = table.quantity_or("surface_tension", quantity::surface_tension, 0, Bound::not_negative);
+  material.viscosity = table.required("viscosity", Bound::not_negative);
+  material.density = table.quantity_or("density", 0, Bound::positive);
+  material.surface_tension = table.quantity_or("surface_tension", 0, Bound::not_negative);
   table.finish();
   return material;
 }
 
 Environment read_environment(TableReader table) {
   Environment environment;
-  environment.gravity = table.vector("gravity", quantity::acceleration);
+  environment.gravity = table.vector("gravity");
   if (environment.gravity && environment.gravity->isZero(0))
     environment.gravity.reset(); // no such term
   environment.pressure = read_pressure(table, environment.pressure_sheet);
   if (auto bath = table.table("bath")) {
-    const double density = bath->required("density", quantity::density);
-    environment.bath = BathLiquid{density, bath->quantity_or("level", quantity::length, 0),
-                                  bath->boolean("clings").value_or(false), bath->boolean("spreads").value_or(false),
-                                  bath->quantity_or("drag", quantity::drag, 0, Bound::not_negative)};
+    const double density = bath->required("density");
+    environment.bath =
+        BathLiquid{density, bath->quantity_or("level", 0), bath->boolean("clings").value_or(false),
+                   bath->boolean("spreads").value_or(false), bath->quantity_or("drag", 0, Bound::not_negative)};
     bath->finish();
   }
   table.finish();

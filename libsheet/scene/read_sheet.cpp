@@ -9,7 +9,6 @@
 namespace sheet::scene {
 namespace {
 
-constexpr std::array<std::string_view, 5> sheet_files{".obj", ".off", ".ply", ".stl", ".vtu"};
 constexpr double most_triangles = 1e9;
 
 Rectangle read_rectangle(TableReader& table) {
@@ -24,15 +23,14 @@ Rectangle read_rectangle(TableReader& table) {
     return {NAN, NAN};
   }
   const auto side = [&](std::size_t i) {
-    return table.quantity(size->items[i], "size", quantity::length, Bound::positive).value_or(NAN);
+    return table.quantity(size->items[i], "size", Bound::positive).value_or(NAN);
   };
   const double first = side(0);
   return {first, side(1)};
 }
 
 Annulus read_annulus(TableReader& table) {
-  const Annulus annulus{table.required("inner_radius", quantity::length),
-                        table.required("outer_radius", quantity::length)};
+  const Annulus annulus{table.required("inner_radius"), table.required("outer_radius")};
   if (annulus.inner_radius >= annulus.outer_radius) {
     table.wrong("inner_radius", fmt::format("must be less than outer_radius, but {} m is not less than {} m",
                                             shortest(annulus.inner_radius), shortest(annulus.outer_radius)));
@@ -42,8 +40,8 @@ Annulus read_annulus(TableReader& table) {
 }
 
 Cap read_cap(TableReader& table) {
-  const Cap cap{table.required("radius", quantity::length), table.required("angle", quantity::angle, Bound::any),
-                table.quantity_or("opening", quantity::angle, 0, Bound::not_negative)};
+  const Cap cap{table.required("radius"), table.required("angle", Bound::any),
+                table.quantity_or("opening", 0, Bound::not_negative)};
   const auto degrees = [](double angle) { return shortest(angle * 180 / std::numbers::pi); };
   if (cap.angle <= 0 || cap.angle > std::numbers::pi)
     table.wrong("angle", fmt::format("must be above 0 and at most 180 deg, got {} deg (a number is in radians)",
@@ -62,7 +60,7 @@ SheetShape read_shape(TableReader& table, const Files& files) {
       "radius, height", "file, scale"};
   if (table.absent("shape"))
     table.missing("shape", "\"disk\"");
-  const auto kind = table.choice("shape", words::sheet_shapes);
+  const auto kind = table.choice("shape");
   if (!kind) {
     // What depends on the shape cannot be judged; a mesh is the shape with the fewest rules.
     for (const auto key : {"size", "radius", "inner_radius", "outer_radius", "angle", "opening", "height", "file",
@@ -76,25 +74,25 @@ SheetShape read_shape(TableReader& table, const Files& files) {
     shape = read_rectangle(table);
     break;
   case 1:
-    shape = Disk{table.required("radius", quantity::length)};
+    shape = Disk{table.required("radius")};
     break;
   case 2:
     shape = read_annulus(table);
     break;
   case 3:
-    shape = Sphere{table.required("radius", quantity::length)};
+    shape = Sphere{table.required("radius")};
     break;
   case 4:
     shape = read_cap(table);
     break;
   case 5: {
-    const double radius = table.required("radius", quantity::length);
-    shape = Tube{radius, table.required("height", quantity::length)};
+    const double radius = table.required("radius");
+    shape = Tube{radius, table.required("height")};
     break;
   }
   default: {
-    std::string file = read_file(table, files, sheet_files);
-    shape = SheetMesh{std::move(file), table.quantity_or("scale", quantity::number, 1, Bound::positive)};
+    std::string file = read_file(table, files);
+    shape = SheetMesh{std::move(file), table.quantity_or("scale", 1, Bound::positive)};
     table.has_no_meaning({"edge_length", "segments", "pattern", "seed"}, "a mesh is taken as it is");
   }
   }
@@ -125,9 +123,9 @@ std::optional<std::array<int, 2>> read_segments(TableReader& table, bool round) 
 void read_mesh_size(TableReader& table, SheetTable& sheet) {
   if (std::holds_alternative<SheetMesh>(sheet.shape))
     return;
-  sheet.edge_length = table.quantity("edge_length", quantity::length, Bound::positive);
+  sheet.edge_length = table.quantity("edge_length", Bound::positive);
   sheet.segments = read_segments(table, !std::holds_alternative<Rectangle>(sheet.shape));
-  const auto pattern = table.choice("pattern", words::patterns);
+  const auto pattern = table.choice("pattern");
   const bool counted = !table.absent("segments");
   if (!counted && table.absent("edge_length"))
     table.missing("edge_length", "\"20 mm\"");
@@ -158,7 +156,7 @@ void read_thickness(TableReader& table, SheetTable& sheet) {
   const bool mesh = std::holds_alternative<SheetMesh>(sheet.shape);
   const Node* value = table.take("thickness");
   if (!value || value->type != Node::Type::table) {
-    sheet.thickness = table.required("thickness", quantity::length);
+    sheet.thickness = table.required("thickness");
     return;
   }
   auto source = *table.table("thickness");
@@ -168,22 +166,22 @@ void read_thickness(TableReader& table, SheetTable& sheet) {
   if (source.absent("data"))
     source.missing("data", "\"thickness\"");
   data.data = source.text("data").value_or("");
-  data.per_face = source.choice("place", words::places).value_or(0) == 1;
-  data.scale = source.quantity_or("scale", quantity::number, 1, Bound::positive);
+  data.per_face = source.choice("place").value_or(0) == 1;
+  data.scale = source.quantity_or("scale", 1, Bound::positive);
   source.finish();
   sheet.thickness = std::move(data);
 }
 
 Perturbation read_perturbation(TableReader table, const SheetTable& sheet) {
   Perturbation result{};
-  result.of_thickness = table.choice("of", words::perturbed).value_or(0) == 1;
-  result.amplitude = table.required("amplitude", quantity::length);
+  result.of_thickness = table.choice("of").value_or(0) == 1;
+  result.amplitude = table.required("amplitude");
   const double* uniform = std::get_if<double>(&sheet.thickness);
   if (result.of_thickness && uniform && result.amplitude >= *uniform)
     table.wrong("amplitude", fmt::format("must be less than the sheet's thickness, but {} m is not less than {} m",
                                          shortest(result.amplitude), shortest(*uniform)));
   const auto seed = table.seed("seed");
-  const auto wavelength = table.quantity("wavelength", quantity::length, Bound::positive);
+  const auto wavelength = table.quantity("wavelength", Bound::positive);
   if (table.absent("seed") == table.absent("wavelength"))
     table.problems().add(table.place(),
                          fmt::format("{}: give either a wavelength or a seed (for noise)", table.where()));
@@ -192,11 +190,11 @@ Perturbation read_perturbation(TableReader table, const SheetTable& sheet) {
     table.has_no_meaning({"direction", "phase"}, "noise has none");
   } else {
     const PlaneAxes axes = axes_of(sheet.plane);
-    const auto direction = table.choice("direction", words::directions);
+    const auto direction = table.choice("direction");
     const bool flat = sheet.shape.index() <= 2;
     if (flat && direction == static_cast<std::size_t>(axes.normal))
       table.wrong("direction", "is the normal of the sheet's plane, along which a flat sheet has no extent");
-    result.form = Wave{wavelength.value_or(1), table.quantity_or("phase", quantity::angle, 0),
+    result.form = Wave{wavelength.value_or(1), table.quantity_or("phase", 0),
                        static_cast<WaveDirection>(direction.value_or(static_cast<std::size_t>(axes.first)))};
   }
   table.finish();
@@ -210,7 +208,8 @@ void read_perturbations(TableReader& table, SheetTable& sheet) {
   if (value->type == Node::Type::list) {
     for (const Node& item : value->items) {
       if (item.type == Node::Type::table)
-        sheet.perturbations.push_back(read_perturbation({item, "perturbation", table.problems()}, sheet));
+        sheet.perturbations.push_back(
+            read_perturbation({item, "perturbation", *table.declared("perturbation").below, table.problems()}, sheet));
       else
         table.problems().add(item.place, fmt::format("perturbation: expected tables, got {}", describe(item.type)));
     }
@@ -237,15 +236,15 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
   sheet.name = table.text("name").value_or("");
   sheet.shape = read_shape(table, files);
   read_mesh_size(table, sheet);
-  const auto plane = table.choice("plane", words::planes);
+  const auto plane = table.choice("plane");
   sheet.plane = plane ? static_cast<Plane>(*plane) : horizontal(environment);
   read_thickness(table, sheet);
   read_perturbations(table, sheet);
-  sheet.center = table.vector("center", quantity::length).value_or(Vector3d::Zero());
+  sheet.center = table.vector("center").value_or(Vector3d::Zero());
   sheet.rotation = read_rotation(table);
-  sheet.velocity = table.vector("velocity", quantity::velocity).value_or(Vector3d::Zero());
-  sheet.angular_velocity = table.vector("angular_velocity", quantity::turning_rate).value_or(Vector3d::Zero());
-  sheet.enters = table.quantity("enters", quantity::time, Bound::positive);
+  sheet.velocity = table.vector("velocity").value_or(Vector3d::Zero());
+  sheet.angular_velocity = table.vector("angular_velocity").value_or(Vector3d::Zero());
+  sheet.enters = table.quantity("enters", Bound::positive);
   if (sheet.enters && std::holds_alternative<SheetMesh>(sheet.shape)) // its file would have to travel with the stream
     table.wrong("enters", "a sheet from a mesh file is there from the start; a shape can enter");
   table.finish();

@@ -10,7 +10,6 @@
 namespace sheet::scene {
 namespace {
 
-constexpr std::array<std::string_view, 5> solid_files{".obj", ".off", ".ply", ".stl", ".vdb"};
 constexpr std::string_view region_example =
     "\"rim\", {box = [[0, 0, 0], [1, 1, 1]]} or {sphere = {center = [0, 0, 0], radius = 1}}";
 
@@ -20,8 +19,8 @@ std::optional<Region> read_box_region(TableReader& parent) {
     parent.wrong("box", "expected two corners such as [[0, 0, 0], [1, 1, 1]]");
     return {};
   }
-  const auto low = parent.vector(box->items[0], "box", quantity::length);
-  const auto high = parent.vector(box->items[1], "box", quantity::length);
+  const auto low = parent.vector(box->items[0], "box");
+  const auto high = parent.vector(box->items[1], "box");
   if (!low || !high)
     return {};
   if ((low->array() > high->array()).any())
@@ -54,8 +53,8 @@ std::optional<Region> read_region(TableReader& hold, const SheetTable& sheet) {
   if (auto sphere = table.table("sphere")) {
     if (sphere->absent("center"))
       sphere->missing("center", "[0, 0, 0]");
-    const Vector3d center = sphere->vector("center", quantity::length).value_or(Vector3d::Zero());
-    result = SphereRegion{center, sphere->required("radius", quantity::length)};
+    const Vector3d center = sphere->vector("center").value_or(Vector3d::Zero());
+    result = SphereRegion{center, sphere->required("radius")};
     sphere->finish();
   }
   table.finish();
@@ -97,29 +96,29 @@ std::string read_checksum(TableReader& table, const std::string& file, const Fil
 KnownSolid read_solid_shape(TableReader& table, std::size_t kind, const Environment& environment, const Files& files) {
   switch (kind) {
   case 0:
-    return {Sphere{table.required("radius", quantity::length)}, "radius"};
+    return {Sphere{table.required("radius")}, "radius"};
   case 1: {
     if (table.absent("size"))
       table.missing("size", "[0.2, 0.1, 0.2]");
-    const auto size = table.vector("size", quantity::length);
+    const auto size = table.vector("size");
     if (size && (size->array() <= 0).any())
       table.wrong("size", "every edge must be positive");
     return {SolidBox{size.value_or(Vector3d::Ones())}, "size, rotation"};
   }
   case 2: {
-    const double radius = table.required("radius", quantity::length);
-    return {Capsule{radius, table.required("length", quantity::length)}, "radius, length, rotation"};
+    const double radius = table.required("radius");
+    return {Capsule{radius, table.required("length")}, "radius, length, rotation"};
   }
   case 3: {
-    const double radius = table.required("radius", quantity::length);
-    return {Cylinder{radius, table.required("height", quantity::length)}, "radius, height, rotation"};
+    const double radius = table.required("radius");
+    return {Cylinder{radius, table.required("height")}, "radius, height, rotation"};
   }
   case 4:
     return {HalfSpace{table.direction_or("normal", up(environment).value_or(Vector3d::UnitY()))}, "normal"};
   default: {
-    std::string file = read_file(table, files, solid_files);
-    const double scale = table.quantity_or("scale", quantity::number, 1, Bound::positive);
-    const auto voxel_size = table.quantity("voxel_size", quantity::length, Bound::positive);
+    std::string file = read_file(table, files);
+    const double scale = table.quantity_or("scale", 1, Bound::positive);
+    const auto voxel_size = table.quantity("voxel_size", Bound::positive);
     std::string checksum = read_checksum(table, file, files);
     return {SolidMesh{std::move(file), scale, voxel_size, std::move(checksum)},
             "file, scale, voxel_size, checksum, rotation"};
@@ -129,19 +128,19 @@ KnownSolid read_solid_shape(TableReader& table, std::size_t kind, const Environm
 
 // How liquid that touches the solid meets it.
 void read_contact_with(TableReader& table, Solid& solid) {
-  const std::size_t contact = table.choice("contact", words::solid_contacts).value_or(0);
+  const std::size_t contact = table.choice("contact").value_or(0);
   solid.contact = static_cast<SolidContact>(contact);
   const auto needs = [&](std::string_view what) {
     return fmt::format("contact is \"{}\"; liquid must {} along it", words::solid_contacts[contact], what);
   };
   if (solid.contact == SolidContact::flow) {
-    solid.slip_length = table.quantity_or("slip_length", quantity::length, 0, Bound::not_negative);
+    solid.slip_length = table.quantity_or("slip_length", 0, Bound::not_negative);
     solid.receding = table.boolean("receding").value_or(false);
   } else {
     table.has_no_meaning({"slip_length", "receding"}, needs("\"flow\""));
   }
   if (solid.contact != SolidContact::stick) {
-    solid.contact_angle = table.quantity("contact_angle", quantity::angle, Bound::not_negative);
+    solid.contact_angle = table.quantity("contact_angle", Bound::not_negative);
     if (solid.contact_angle > std::numbers::pi)
       table.wrong("contact_angle", "expected an angle from 0 to 180 deg");
   } else {
@@ -172,10 +171,10 @@ Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Mode
   const auto [name, sheet] = read_which_sheet(table, sheets, in_space);
   hold.sheet = name;
   hold.region = read_region(table, sheet).value_or(Border::rim);
-  hold.clamped = table.choice("kind", words::holds).value_or(0) == 1;
+  hold.clamped = table.choice("kind").value_or(0) == 1;
   hold.axes = read_axes(table);
   hold.motion = read_motion(table, sheet.center, files);
-  hold.until = table.quantity("until", quantity::time, Bound::positive);
+  hold.until = table.quantity("until", Bound::positive);
   hold.roll = table.boolean("roll").value_or(false);
   if (hold.roll && std::holds_alternative<Border>(hold.region))
     table.wrong("roll",
@@ -197,8 +196,8 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
   Solid solid;
   if (table.absent("shape"))
     table.missing("shape", "\"sphere\"");
-  const auto kind = table.choice("shape", words::solid_shapes);
-  solid.center = table.vector("center", quantity::length).value_or(Vector3d::Zero());
+  const auto kind = table.choice("shape");
+  solid.center = table.vector("center").value_or(Vector3d::Zero());
   std::string because = "the shape is not known";
   if (kind) {
     KnownSolid known = read_solid_shape(table, *kind, environment, files);
@@ -215,7 +214,7 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
   }
   solid.motion = read_motion_or_velocity(table, solid.center, files);
   put_at_keyframes(table, solid);
-  solid.surface_velocity = table.vector("surface_velocity", quantity::velocity).value_or(Vector3d::Zero());
+  solid.surface_velocity = table.vector("surface_velocity").value_or(Vector3d::Zero());
   read_contact_with(table, solid);
   table.finish();
   return solid;
@@ -234,12 +233,12 @@ Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets) {
   if (table.absent("velocity"))
     table.missing("velocity", "[0, \"-0.1 m/s\", 0]");
   inflow.velocity = table.timed_velocity("velocity").value_or(Timed<Vector3d>{});
-  const auto thickness = table.quantity("thickness", quantity::length, Bound::positive);
+  const auto thickness = table.quantity("thickness", Bound::positive);
   const double* uniform = std::get_if<double>(&sheet.thickness);
   if (table.absent("thickness") && !uniform)
     table.missing("thickness", "\"2.5 mm\"");
   inflow.thickness = thickness.value_or(uniform ? *uniform : 0);
-  inflow.until = table.quantity("until", quantity::time, Bound::positive);
+  inflow.until = table.quantity("until", Bound::positive);
   if (inflow.velocity.entries.size() == 1 && inflow.velocity.entries[0].value.isZero(0))
     table.wrong("velocity", "with no velocity nothing flows in");
   table.finish();
@@ -251,7 +250,7 @@ Outflow read_outflow(TableReader table) {
   for (const std::string_view key : {"point", "normal"})
     if (table.absent(key))
       table.missing(key, key == "point" ? "[\"1 m\", 0, 0]" : "[1, 0, 0]");
-  outflow.point = table.vector("point", quantity::length).value_or(Vector3d::Zero());
+  outflow.point = table.vector("point").value_or(Vector3d::Zero());
   outflow.normal = table.direction_or("normal", Vector3d::UnitX());
   table.finish();
   return outflow;
@@ -259,14 +258,14 @@ Outflow read_outflow(TableReader table) {
 
 Tear read_tear(TableReader table, std::span<const SheetTable> sheets) {
   Tear tear;
-  tear.below = table.required("below", quantity::length);
+  tear.below = table.required("below");
   for (const SheetTable& sheet : sheets)
     if (const double* uniform = std::get_if<double>(&sheet.thickness); uniform && tear.below >= *uniform) {
       table.wrong("below", fmt::format("the whole sheet would tear at once: {} m is not less than its thickness {} m",
                                        shortest(tear.below), shortest(*uniform)));
       break;
     }
-  tear.drop_crumbs = table.choice("crumbs", words::crumbs).value_or(0) == 1;
+  tear.drop_crumbs = table.choice("crumbs").value_or(0) == 1;
   table.finish();
   return tear;
 }
@@ -274,9 +273,9 @@ Tear read_tear(TableReader table, std::span<const SheetTable> sheets) {
 Contact read_contact(TableReader table) {
   Contact contact;
   contact.self = table.boolean("self").value_or(true);
-  contact.stiffness = table.quantity("stiffness", quantity::stiffness, Bound::positive);
-  contact.adhesion = table.quantity("adhesion", quantity::pressure, Bound::not_negative);
-  contact.distance = table.quantity("distance", quantity::length, Bound::positive);
+  contact.stiffness = table.quantity("stiffness", Bound::positive);
+  contact.adhesion = table.quantity("adhesion", Bound::not_negative);
+  contact.distance = table.quantity("distance", Bound::positive);
   table.finish();
   return contact;
 }

@@ -4,18 +4,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "libsheet/base/edit_distance.h"
 
 namespace sheet::scene {
+
+using Form = Key::Form;
 
 Place TableReader::place_of(std::string_view key) const {
   const Node* value = table_.find(key);
   return value ? value->place : table_.place;
 }
 
+const Key& TableReader::declared(std::string_view key) const {
+  if (const Key* found = keys_.find(key))
+    return *found;
+  throw std::logic_error(fmt::format("{}: {} is none of the scene's keys", where_, key));
+}
+
+const Key& TableReader::declared(std::string_view key, std::initializer_list<Key::Form> forms) const {
+  const Key& found = declared(key);
+  if (std::ranges::find(forms, found.form) == forms.end())
+    throw std::logic_error(fmt::format("{}: {} is declared as {}", where_, key, kind_of(found)));
+  return found;
+}
+
 const Node* TableReader::take(std::string_view key) {
-  known_.push_back(key);
+  known_.push_back(declared(key).name);
   return table_.find(key);
 }
 
@@ -31,8 +47,7 @@ void TableReader::missing(std::string_view key, std::string_view example) {
   problems_.add(table_.place, fmt::format("missing key \"{}\" in {}, such as {} = {}", key, where_, key, example));
 }
 
-std::optional<double> TableReader::quantity(const Node& value, std::string_view key, const Quantity& kind,
-                                            Bound bound) {
+std::optional<double> TableReader::number(const Node& value, std::string_view key, const Quantity& kind, Bound bound) {
   double number = 0;
   if (value.is_number()) {
     number = value.number();
@@ -62,22 +77,28 @@ std::optional<double> TableReader::quantity(const Node& value, std::string_view 
   return {};
 }
 
-std::optional<double> TableReader::quantity(std::string_view key, const Quantity& kind, Bound bound) {
+std::optional<double> TableReader::quantity(const Node& value, std::string_view key, Bound bound) {
+  return number(value, key, *declared(key, {Form::quantity, Form::list, Form::timed}).quantity, bound);
+}
+
+std::optional<double> TableReader::quantity(std::string_view key, Bound bound) {
+  const Quantity& kind = *declared(key, {Form::quantity}).quantity;
   const Node* value = take(key);
-  return value ? quantity(*value, key, kind, bound) : std::nullopt;
+  return value ? number(*value, key, kind, bound) : std::nullopt;
 }
 
-double TableReader::quantity_or(std::string_view key, const Quantity& kind, double fallback, Bound bound) {
-  return quantity(key, kind, bound).value_or(fallback);
+double TableReader::quantity_or(std::string_view key, double fallback, Bound bound) {
+  return quantity(key, bound).value_or(fallback);
 }
 
-double TableReader::required(std::string_view key, const Quantity& kind, Bound bound) {
+double TableReader::required(std::string_view key, Bound bound) {
   if (absent(key))
-    missing(key, fmt::format("\"{}\"", kind.example));
-  return quantity(key, kind, bound).value_or(std::numeric_limits<double>::quiet_NaN());
+    missing(key, fmt::format("\"{}\"", declared(key, {Form::quantity}).quantity->example));
+  return quantity(key, bound).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-std::optional<Eigen::Vector3d> TableReader::vector(const Node& value, std::string_view key, const Quantity& kind) {
+std::optional<Eigen::Vector3d> TableReader::vector(const Node& value, std::string_view key) {
+  const Quantity& kind = *declared(key, {Form::list, Form::timed}).quantity;
   if (value.type != Node::Type::list || value.items.size() != 3) {
     const std::string got = value.type == Node::Type::list ? fmt::format("{} of them", value.items.size())
                                                            : std::string(describe(value.type));
@@ -88,7 +109,7 @@ std::optional<Eigen::Vector3d> TableReader::vector(const Node& value, std::strin
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   bool good = true;
   for (int i = 0; i < 3; ++i) {
-    const auto component = quantity(value.items[static_cast<std::size_t>(i)], key, kind, Bound::any);
+    const auto component = number(value.items[static_cast<std::size_t>(i)], key, kind, Bound::any);
     good = good && component;
     result[i] = component.value_or(0);
   }
@@ -97,13 +118,13 @@ std::optional<Eigen::Vector3d> TableReader::vector(const Node& value, std::strin
   return result;
 }
 
-std::optional<Eigen::Vector3d> TableReader::vector(std::string_view key, const Quantity& kind) {
+std::optional<Eigen::Vector3d> TableReader::vector(std::string_view key) {
   const Node* value = take(key);
-  return value ? vector(*value, key, kind) : std::nullopt;
+  return value ? vector(*value, key) : std::nullopt;
 }
 
 Eigen::Vector3d TableReader::direction_or(std::string_view key, const Eigen::Vector3d& fallback) {
-  const auto direction = vector(key, quantity::number);
+  const auto direction = vector(key);
   if (!direction)
     return fallback;
   if (direction->stableNorm() > 0)
@@ -113,6 +134,7 @@ Eigen::Vector3d TableReader::direction_or(std::string_view key, const Eigen::Vec
 }
 
 std::optional<std::string> TableReader::text(std::string_view key) {
+  (void)declared(key, {Form::text, Form::file});
   const Node* value = take(key);
   if (!value)
     return {};
@@ -129,6 +151,7 @@ std::optional<std::string> TableReader::text(std::string_view key) {
 }
 
 std::optional<bool> TableReader::boolean(std::string_view key) {
+  (void)declared(key, {Form::boolean});
   const Node* value = take(key);
   if (!value)
     return {};
@@ -139,6 +162,7 @@ std::optional<bool> TableReader::boolean(std::string_view key) {
 }
 
 std::optional<std::int64_t> TableReader::seed(std::string_view key) {
+  (void)declared(key, {Form::integer});
   const Node* value = take(key);
   if (!value)
     return {};
@@ -151,7 +175,8 @@ std::optional<std::int64_t> TableReader::seed(std::string_view key) {
   return {};
 }
 
-std::optional<std::size_t> TableReader::choice(std::string_view key, std::span<const std::string_view> words) {
+std::optional<std::size_t> TableReader::choice(std::string_view key) {
+  const std::span<const std::string_view> words = declared(key, {Form::word}).words;
   const Node* value = take(key);
   if (!value)
     return {};
@@ -185,7 +210,7 @@ std::optional<Timed<T>> TableReader::rows(const Node& list, std::string_view key
                     fmt::format("{}: expected rows {}", key, width == 2 ? "[time, rate]" : "[time, x, y, z]"));
       return {};
     }
-    const auto time = quantity(row.items[0], key, quantity::time, Bound::any);
+    const auto time = number(row.items[0], key, quantity::time, Bound::any);
     const std::optional<T> value = read_row(row);
     if (!time || !value)
       return {};
@@ -208,20 +233,20 @@ std::optional<Timed<T>> TableReader::rows(const Node& list, std::string_view key
 }
 
 std::optional<Timed<double>> TableReader::timed_rate(std::string_view key) {
+  (void)declared(key, {Form::timed});
   const Node* value = take(key);
   if (!value)
     return {};
   if (value->type == Node::Type::list && !value->items.empty())
-    return rows<double>(*value, key, 2, [&](const Node& row) {
-      return quantity(row.items[1], key, quantity::turning_rate, Bound::any);
-    });
-  const auto constant = quantity(*value, key, quantity::turning_rate, Bound::any);
+    return rows<double>(*value, key, 2, [&](const Node& row) { return quantity(row.items[1], key, Bound::any); });
+  const auto constant = quantity(*value, key, Bound::any);
   if (!constant)
     return {};
   return Timed<double>{{{0, *constant}}};
 }
 
 std::optional<Timed<Eigen::Vector3d>> TableReader::timed_velocity(std::string_view key) {
+  (void)declared(key, {Form::timed});
   const Node* value = take(key);
   if (!value)
     return {};
@@ -229,9 +254,9 @@ std::optional<Timed<Eigen::Vector3d>> TableReader::timed_velocity(std::string_vi
     return rows<Eigen::Vector3d>(*value, key, 4, [&](const Node& row) -> std::optional<Eigen::Vector3d> {
       Node components = row;
       components.items.erase(components.items.begin());
-      return vector(components, key, quantity::velocity);
+      return vector(components, key);
     });
-  const auto constant = vector(*value, key, quantity::velocity);
+  const auto constant = vector(*value, key);
   if (!constant)
     return {};
   return Timed<Eigen::Vector3d>{{{0, *constant}}};
@@ -242,7 +267,7 @@ std::optional<TableReader> TableReader::table(std::string_view key) {
   if (!value)
     return {};
   if (value->type == Node::Type::table)
-    return TableReader(*value, std::string(key), problems_);
+    return TableReader(*value, std::string(key), *declared(key).below, problems_);
   wrong_type(*value, key, "a table");
   return {};
 }

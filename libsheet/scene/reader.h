@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the keys of one table, each with its kind and bounds, and remembers which it was asked for: what is left is
-// unknown. A value that is wrong is reported once, at its place, and reads as absent.
+// Reads the keys of one table, each as the scene's keys declare it (keys.h), and remembers which it was asked for: what
+// is left is unknown. A value that is wrong is reported once, at its place, and reads as absent. To ask for a key that
+// is not declared, or as what it is not, is a fault of the program: std::logic_error.
 #pragma once
 #include <initializer_list>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "libsheet/base/units.h"
+#include "libsheet/scene/keys.h"
 #include "libsheet/scene/motion.h"
 #include "libsheet/scene/problems.h"
 
@@ -21,9 +23,9 @@ enum class Bound { any, positive, not_negative };
 
 class TableReader {
 public:
-  // `where` names the table in messages: "[material]", "[[hold]]", "pressure".
-  TableReader(const Node& table, std::string where, Problems& problems)
-      : table_(table), where_(std::move(where)), problems_(problems) {}
+  // `where` names the table in messages: "[material]", "[[hold]]", "pressure"; `keys`: those that it may have.
+  TableReader(const Node& table, std::string where, const KeyTable& keys, Problems& problems)
+      : table_(table), where_(std::move(where)), keys_(keys), problems_(problems) {}
 
   [[nodiscard]] const Place& place() const { return table_.place; }
   [[nodiscard]] const std::string& where() const { return where_; }
@@ -36,17 +38,17 @@ public:
   // The value as it was written, for what the functions below do not cover.
   const Node* take(std::string_view key);
 
-  std::optional<double> quantity(std::string_view key, const Quantity& kind, Bound bound = Bound::any);
-  double quantity_or(std::string_view key, const Quantity& kind, double fallback, Bound bound = Bound::any);
+  std::optional<double> quantity(std::string_view key, Bound bound = Bound::any);
+  double quantity_or(std::string_view key, double fallback, Bound bound = Bound::any);
   // Without a good value: NaN, with which every later comparison is false, so that one mistake is one line.
-  double required(std::string_view key, const Quantity& kind, Bound bound = Bound::positive);
-  std::optional<Eigen::Vector3d> vector(std::string_view key, const Quantity& kind);
+  double required(std::string_view key, Bound bound = Bound::positive);
+  std::optional<Eigen::Vector3d> vector(std::string_view key);
   Eigen::Vector3d direction_or(std::string_view key, const Eigen::Vector3d& fallback); // not zero
-  std::optional<std::string> text(std::string_view key);
+  std::optional<std::string> text(std::string_view key);                               // or the name of a file
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::int64_t> seed(std::string_view key);
-  // One of the words, as its index.
-  std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> words);
+  // One of the key's words, as its index.
+  std::optional<std::size_t> choice(std::string_view key);
   // A constant, or a list of rows [time, value] in the order of time.
   std::optional<Timed<double>> timed_rate(std::string_view key);
   // A constant vector, or a list of rows [time, x, y, z] in the order of time.
@@ -64,17 +66,23 @@ public:
   // Reports every key that nobody asked for.
   void finish();
 
-  // The same checks for a single value, `key` naming it.
-  std::optional<double> quantity(const Node& value, std::string_view key, const Quantity& kind, Bound bound);
-  std::optional<Eigen::Vector3d> vector(const Node& value, std::string_view key, const Quantity& kind);
+  // The same for a single value of a key's list.
+  std::optional<double> quantity(const Node& value, std::string_view key, Bound bound);
+  std::optional<Eigen::Vector3d> vector(const Node& value, std::string_view key);
+
+  // How the key is declared.
+  [[nodiscard]] const Key& declared(std::string_view key) const;
 
 private:
+  [[nodiscard]] const Key& declared(std::string_view key, std::initializer_list<Key::Form> forms) const;
+  std::optional<double> number(const Node& value, std::string_view key, const Quantity& kind, Bound bound);
   void wrong_type(const Node& value, std::string_view key, std::string_view expected);
   template <class T, class ReadRow>
   std::optional<Timed<T>> rows(const Node& list, std::string_view key, std::size_t width, ReadRow read_row);
 
   const Node& table_;
   std::string where_;
+  const KeyTable& keys_;
   Problems& problems_;
   std::vector<std::string_view> known_;
 };

@@ -41,7 +41,8 @@ Motion read_motion_or_velocity(TableReader& parent, const Vector3d& center, cons
 // The rows of a motion: `times` with `places`, `rotations` or both, or a CSV `file` of them. Null if they are wrong.
 std::shared_ptr<const Keyframes> read_keyframes(TableReader& motion, const Vector3d& center, const Files& files);
 std::optional<Rotation> read_rotation(TableReader& parent);
-std::string read_file(TableReader& table, const Files& files, std::span<const std::string_view> extensions);
+// The file that the key "file" names, of a kind that the key takes.
+std::string read_file(TableReader& table, const Files& files);
 // The sheet that the key "sheet" names, and its name. Without the key: none, if that is enough (`any`), or the only
 // one.
 struct WhichSheet {

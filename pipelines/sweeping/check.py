@@ -7,39 +7,46 @@ import shlex
 import shutil
 import subprocess
 import tempfile
-import tomllib
 
 from .plan import SCENE, names_in, settings
 from .problem import BAD_INPUT, Problem
 from .table import duplicates
 
-# What sheet-init calls the quantities that a key may be, and the SI units in which it states them (libsheet/base/units.h).
-_UNITS = {
-    "a plain number": "1", "an angle": "rad", "a length": "m", "a time": "s", "a mass": "kg", "a velocity": "m/s",
-    "an acceleration": "m/s^2", "a turning rate": "rad/s", "a viscosity": "Pa*s", "a density": "kg/m^3",
-    "a surface tension": "N/m", "a stiffness": "N/m", "a pressure": "Pa", "a conductance": "m^3/(Pa*s)",
-}  # fmt: skip
 _TOLD = 20  # problems of rows that are printed; how many more there are is said
 
 
-def named_files(scene, table):
-    """What the scene and the table's columns KEY.file name, in order: {key of the scene or "": texts}."""
-    try:
-        document = tomllib.loads(pathlib.Path(scene).read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise Problem(BAD_INPUT, f"{scene}: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise Problem(BAD_INPUT, f"{scene}: {error}") from error
-    named = {}
-    if "file" in document.get("sheet", {}):
-        named["sheet.file"] = [document["sheet"]["file"]]
-    for i, solid in enumerate(document.get("solid", [])):
-        if "file" in solid:
-            named[f"solid.{i}.file"] = [solid["file"]]
-    for j, column in enumerate(table.columns):
-        if column.key.endswith(".file"):
-            named.setdefault("", []).extend(dict.fromkeys(row[j] for row in table.rows))
-    return named
+def scene_keys():
+    """What sheet-init knows of the keys of scenes: {key without numbers of tables: (kind, unit)}."""
+    listed = [line.split("\t") for line in _told(["sheet-init", "--list-keys"]).splitlines()]
+    return {key.replace(".N.", "."): (kind, unit) for key, kind, unit, _ in listed}
+
+
+def declared(keys, key):
+    """(kind, unit) of a key as --set takes it; of an item of a list ("sheet.center.1") those of the item, ("", "") of none."""
+    names = key.split(".")
+    while names[-1].isdecimal() and len(names) > 1:
+        names.pop()
+    kind, unit = keys.get(".".join(name for name in names if not name.isdecimal()), ("", ""))
+    return (kind, unit) if len(key.split(".")) - len(names) == kind.count("[") else ("", "")
+
+
+def is_file(keys, key):
+    return declared(keys, key)[0].startswith("file")
+
+
+def named_files(scene, sets):
+    """The files that the scene names after these settings: {key: path}."""
+    given = [part for text in sets for part in ("--set", text)]
+    lines = _told(["sheet-init", "--list-files", scene, *given]).splitlines()
+    return {key: pathlib.Path(path) for path, key in (line.split("\t") for line in lines)}
+
+
+def _told(command):
+    """What the command prints. Throws Problem if it fails."""
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Problem(BAD_INPUT, re.sub(r"^sheet-init: ", "", done.stderr.strip(), flags=re.MULTILINE))
+    return done.stdout
 
 
 def check_all(sweep, table, path, inputs):
@@ -83,15 +90,10 @@ def _stages(ring):
     return wrong
 
 
-def set_units(sweep, inputs):
-    """Columns that are keys of the scene get the SI unit of their quantity, where they have none; sheet-init knows it."""
-    asked = [c for c in sweep.columns if "." in c.key and not c.unit]
-    for column in asked:
-        command = ["sheet-init", inputs / SCENE, "--set", f"{column.key}=1 nonesuch"]
-        told = subprocess.run(command, capture_output=True, text=True).stderr
-        match = re.search(r"expected (an? [a-z ]+?) such as", told)
-        if match and _UNITS.get(match[1], "1") != "1":
-            column.unit = _UNITS[match[1]]
+def set_units(sweep, keys):
+    """Columns that are keys of the scene get the SI unit of their quantity, where they have none."""
+    for column in sweep.columns:
+        column.unit = column.unit or declared(keys, column.key)[1]
 
 
 def _rows(sweep, table, inputs):

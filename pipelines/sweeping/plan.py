@@ -3,7 +3,7 @@
 
     sweep.json          what holds for all runs; `id` is the checksum of everything that decides results
     plan/012.csv        the rows of the runs 12,000 to 12,999
-    inputs/             the scene, and the meshes that it names: all that a run needs besides the programs
+    inputs/             the scene, and the files that it names: all that a run needs besides the programs
     runs/012/345/       run 12,345: see run.py
     results.csv         see results.py
 No folder has more than 1,000 entries of its kind, and no file grows with the number of runs but results.csv.
@@ -30,12 +30,13 @@ class Sweep:
     """What holds for all runs. Texts may have {NAME}, which stands for the row's value in that column."""
 
     columns: list  # of Column, with the units in which their plain numbers are
-    sets: list  # KEY=VALUE for sheet-init
+    named: list  # KEY=VALUE for sheet-init, of the files that the scene names; a row may name others
+    sets: list  # KEY=VALUE for sheet-init, after those of a row
     loop: list  # options of sheet-loop
     ring: str
     measure: str  # a command that prints names and values, or ""
     command: str  # a command that is all of the run, instead of scene, ring and measures; or ""
-    files: dict  # file as the scene or a row says it: its name in inputs/
+    files: dict  # file as a row says it: its name in inputs/
     hashes: dict  # name in inputs/: SHA-256
     count: int
     id: str = ""
@@ -57,12 +58,12 @@ def filled(text, sweep, row):
 
 def settings(sweep, row):
     """What sheet-init is told for the row, KEY=VALUE each."""
-    told = []
+    told = list(sweep.named)
     for column, value in zip(sweep.columns, row):
         if "." not in column.key:
             continue
-        if column.key.endswith(".file"):
-            value = sweep.files.get(value, value)
+        if column.is_file and value in sweep.files:
+            value = sweep.files[value]
         elif column.unit and number(value) is not None:
             value = f"{value} {column.unit}"
         told.append(f"{column.key}={value}")
@@ -73,13 +74,18 @@ def run_folder(folder, index):
     return folder / "runs" / f"{index // BLOCK:03d}" / f"{index % BLOCK:03d}"
 
 
-def copy_inputs(scene, given, inputs):
-    """Copies the scene and the files that it or `given` (texts, as keys `file` of scenes) names. (files, hashes) of Sweep."""
-    files, hashes = {}, {SCENE: copy_input(scene, inputs, SCENE)[1]}
-    for text in given:
-        files[text], digest = copy_input(scene.parent / text, inputs)
-        hashes[files[text]] = digest
-    return files, hashes
+def copy_inputs(scene, named, given, inputs):
+    """Copies the scene, the files that it names ({key: path}) and those that rows do (texts, seen from the scene).
+    (named, files, hashes) of Sweep."""
+    hashes = {SCENE: copy_input(scene, inputs, SCENE)[1]}
+
+    def copied(path):
+        name, digest = copy_input(path, inputs)
+        hashes[name] = digest
+        return name
+
+    settled = [f"{key}={copied(path)}" for key, path in named.items()]
+    return settled, {text: copied(scene.parent / text) for text in given}, hashes
 
 
 def copy_input(source, inputs, name=""):

@@ -28,6 +28,7 @@ class Column:
 
     key: str
     unit: str = ""
+    is_file: bool = False  # the values name files
 
     def in_scene(self):
         return "." in self.key

@@ -172,6 +172,38 @@ END
   grep -q 'file = "../../../inputs/[0-9a-f]*-bunny00.off"' "$t/elsewhere/moved/runs/000/001/scene.toml"
 }
 
+@test "rows of motions and meshes of sheets go along, too, and a row may name another file" {
+  mkdir "$t/scene" "$t/elsewhere"
+  sheet-init pipelines/catenary/scene.toml | sheet-export - -o "$t/scene/leaf.ply"
+  printf 'time, x, y, z\n0, 0, -1, 0\n1, 0, %s, 0\n' -1 > "$t/scene/still.csv"
+  printf 'time, x, y, z\n0, 0, -1, 0\n1, 0, %s, 0\n' -3 > "$t/scene/moving.csv"
+  cat > "$t/scene/scene.toml" << 'END'
+material = {viscosity = 100, density = 1000}
+[[sheet]]
+shape = "mesh"
+file = "leaf.ply"
+thickness = 0.01
+[[solid]]
+shape = "sphere"
+radius = 0.1
+motion = {kind = "keyframed", file = "still.csv"}
+[[hold]]
+region = "rim"
+motion = {kind = "keyframed", file = "still.csv"}
+END
+  printf 'solid.0.motion.file,environment.bath.drag\nstill.csv,1\nmoving.csv,1\n' > "$t/table.csv"
+  pipelines/sweep "$t/table.csv" --scene "$t/scene/scene.toml" --set 'environment.gravity=[0,-9.8,0]' \
+    --set environment.bath.density=1 --set environment.bath.level=-5 --steps 1 -o "$t/run" --plan -- 'sheet-step --dt 0.01'
+  rm -r "$t/scene"
+  mv "$t/run" "$t/elsewhere/moved"
+  pipelines/sweep work --threads 1 "$t/elsewhere/moved" "0 1"
+  for run in 000 001; do [[ -e $t/elsewhere/moved/runs/000/$run/result.json ]]; done
+  grep -q 'times = .*places = .*-3' "$t/elsewhere/moved/runs/000/001/scene.toml"
+  run -1 grep -q -- '-3' "$t/elsewhere/moved/runs/000/000/scene.toml"
+  pipelines/sweep results "$t/elsewhere/moved"
+  grep -q 'environment.bath.drag \[Pa\*s/m\]' "$t/elsewhere/moved/results.csv"
+}
+
 @test "a folder of another sweep is refused" {
   sweep run --plan
   ring='sheet-step --dt 0.02 --scheme sdirk2 | sheet-pass' run -2 sweep run --plan
