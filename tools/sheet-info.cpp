@@ -5,6 +5,7 @@
 #include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/tool.h"
+#include "libsheet/measure/figures.h"
 #include "libsheet/measure/report.h"
 
 int main(int argc, char** argv) {
@@ -17,7 +18,7 @@ int main(int argc, char** argv) {
       "whole sheet. Where the scene has rolls, or asks for forces ([model] forces = true), those of holds and solids "
       "on the sheet at the end of the step are printed [N].");
   std::vector<std::string> inputs;
-  bool json = false, csv = false, health = false;
+  bool json = false, csv = false, health = false, quantities = false;
   std::optional<double> density;
   std::string output = "-";
   tool.arguments("INPUT", inputs, "streams to read; - for standard input, as is none");
@@ -25,6 +26,10 @@ int main(int argc, char** argv) {
   tool.flag("--json", json, "one JSON document: an array with an object for each frame, a line each");
   tool.flag("--health", health,
             "instead, what went wrong on the way to each stream's last frame, how often, and what to do about it");
+  tool.flag(
+      "--list-quantities", quantities,
+      "instead, what is measured and shown, one a line: name (of a look of sheet-render, a column of --csv), where it "
+      "is (triangle, vertex or frame), SI unit, caption, fitting units with their sizes, colours; separated by tabs");
   tool.option("--density", density, "KG/M3", "density to reckon with, whatever the scene states");
   tool.option("-o,--output", output, "FILE", "file to write; - for standard output");
   tool.example("sheet-info run.sheet | less", "all about every frame");
@@ -36,6 +41,12 @@ int main(int argc, char** argv) {
       sheet::fail(sheet::ExitCode::usage, "--json, --csv and --health exclude each other");
     if (density && !(*density > 0))
       sheet::fail(sheet::ExitCode::usage, "--density: {} is not positive", *density);
+    if (quantities) {
+      sheet::OutputFile file(output, sheet::OutputFile::Content::text);
+      file.write(sheet::list_of_quantities());
+      file.close();
+      return;
+    }
     if (inputs.empty())
       inputs.emplace_back("-");
     for (const std::string& input : inputs)

@@ -395,8 +395,7 @@ def _false_colours(tree: bpy.types.NodeTree) -> Any:
     scale.name = scale.label = "Scale"
     scale.inputs["From Min"].default_value, scale.inputs["From Max"].default_value = 0.0, 0.01
     ramp = tree.nodes.new("ShaderNodeValToRGB")
-    stops = ((0.0, 0.12, 0.05, 0.28), (0.17, 0.19, 0.19, 0.52), (0.34, 0.11, 0.37, 0.60), (0.5, 0.07, 0.53, 0.56),
-             (0.67, 0.24, 0.69, 0.42), (0.84, 0.65, 0.82, 0.22), (1.0, 0.99, 0.92, 0.33))
+    stops = sheetstream.QUANTITIES["thickness"].stops
     elements = ramp.color_ramp.elements
     while len(elements) < len(stops):
         elements.new(0.5)

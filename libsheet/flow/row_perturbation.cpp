@@ -35,7 +35,7 @@ double RowPerturbation::at(const Eigen::Vector3d& origin, const Eigen::Vector3d&
   // What stands at the inlet now would have been `come_` behind it at the start. The inlet itself stays as it was then.
   const auto at_start = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return to_plane_ * (x - center_); };
   double way = 0;
-  for (const Field& wave : waves_)
+  for (const HeightField& wave : waves_)
     way += wave(at_start(origin + part * (lowest - origin) - come_)) - (1 - part) * wave(at_start(origin)) -
            part * wave(at_start(lowest - come_));
   for (const NoiseOf& noise : noises_)

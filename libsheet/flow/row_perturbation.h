@@ -30,7 +30,7 @@ private:
     double amplitude;
     std::uint64_t seed; // of the noise, the inlet and the step
   };
-  std::vector<Field> waves_;
+  std::vector<HeightField> waves_;
   std::vector<NoiseOf> noises_;
   Eigen::Vector3d center_, come_; // of the sheet; what has come since the start [m]
   Eigen::Matrix3d to_plane_;      // undoes the sheet's rotation

@@ -47,7 +47,9 @@ void widen(double& least, double& greatest, double x) {
   greatest = std::fmax(greatest, x);
 }
 
-void measure_triangles(const formats::Frame& frame, Measurements& m) {
+// Returns the range of the thickness, of the areas and volumes that are summed here.
+Range measure_triangles(const formats::Frame& frame, Measurements& m) {
+  Range thickness;
   const auto x = positions(frame);
   const auto corners = triangles(frame);
   const auto v = volumes(frame);
@@ -58,7 +60,7 @@ void measure_triangles(const formats::Frame& frame, Measurements& m) {
     const double twice_area = side[0].cross(side[1]).norm();
     area.add(twice_area / 2);
     volume.add(v[t]);
-    widen(m.thickness.least, m.thickness.greatest, v[t] / (twice_area / 2));
+    widen(thickness.least, thickness.greatest, v[t] / (twice_area / 2));
     double longest = 0; // squared
     for (std::size_t i = 0; i < 3; ++i) {
       // tan = |a × b| / (a·b) is accurate for every angle
@@ -70,7 +72,39 @@ void measure_triangles(const formats::Frame& frame, Measurements& m) {
   m.area = area.value();
   m.volume = volume.value();
   if (!corners.empty())
-    m.thickness.mean = m.volume / m.area;
+    thickness.mean = m.volume / m.area;
+  return thickness;
+}
+
+// Mean of values, one a triangle or vertex, by area.
+double mean_by_area(const formats::Frame& frame, const Field& field, const std::vector<double>& values) {
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  Sum area, sum;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const Corners& c = corners[t];
+    const double size = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
+    area.add(size);
+    sum.add(size *
+            (field.where == formats::Place::triangle ? values[t] : (values[c[0]] + values[c[1]] + values[c[2]]) / 3));
+  }
+  return sum.value() / area.value();
+}
+
+void measure_fields(const formats::Frame& frame, const Range& thickness, Measurements& m) {
+  for (const Field& field : fields()) {
+    if (!field.in_figures)
+      continue;
+    Range& range = m.fields.emplace_back(&field).range;
+    if (field.name == "thickness")
+      range = thickness;
+    if (field.name == "thickness" || frame.triangles == 0 || !has(frame, field))
+      continue;
+    const std::vector<double> values = values_of(frame, field);
+    for (const double value : values)
+      widen(range.least, range.greatest, value);
+    range.mean = mean_by_area(frame, field, values);
+  }
 }
 
 void measure_edges(const formats::Frame& frame, std::span<const Side> sides, Measurements& m) {
@@ -116,13 +150,31 @@ Measurements measure(const formats::Frame& frame, std::optional<double> density)
   for (const Vector3d& x : positions(frame))
     for (int i = 0; i < 3; ++i)
       widen(m.low[i], m.high[i], x[i]);
-  measure_triangles(frame, m);
+  measure_fields(frame, measure_triangles(frame, m), m);
   const std::vector<Side> sides = sorted_sides(triangles(frame), frame.vertices);
   measure_edges(frame, sides, m);
   if (density)
     measure_motion(frame, *density, m);
   m.topology = find_topology(triangles(frame), frame.vertices, sides);
   return m;
+}
+
+const Range& Measurements::range_of(std::string_view field) const {
+  return std::ranges::find(fields, field, [](const FieldRange& f) { return f.field->name; })->range;
+}
+
+void measure_energies(const formats::Frame& frame, const Scene& scene, Measurements& measured) {
+  if (scene.environment.gravity && scene.material.density > 0) {
+    const auto x = positions(frame);
+    const auto corners = triangles(frame);
+    const auto v = volumes(frame);
+    Vector3d moment = Vector3d::Zero(); // of volume [m⁴]
+    for (std::size_t t = 0; t < corners.size(); ++t)
+      moment += v[t] / 3 * (x[corners[t][0]] + x[corners[t][1]] + x[corners[t][2]]);
+    measured.gravity_energy = -scene.material.density * scene.environment.gravity->dot(moment);
+  }
+  if (scene.material.surface_tension > 0)
+    measured.surface_energy = 2 * scene.material.surface_tension * measured.area;
 }
 
 std::optional<double> SceneDensity::of(const formats::Frame& frame) {

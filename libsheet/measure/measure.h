@@ -5,11 +5,15 @@
 #pragma once
 #include <limits>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "libsheet/measure/forces.h"
 #include "libsheet/measure/topology.h"
+#include "libsheet/quantities/fields.h"
+#include "libsheet/scene/scene.h"
 
 namespace sheet {
 
@@ -19,12 +23,21 @@ struct Range {
   double least = absent, mean = absent, greatest = absent;
 };
 
+// Of a field's values. mean: by area, a third of each triangle's at its corners; of the thickness all volume over all
+// area.
+struct FieldRange {
+  const Field* field = nullptr;
+  Range range;
+};
+
 struct Measurements {
-  double area = 0;   // [m²]
-  double volume = 0; // [m³]
-  Range thickness;   // volume / area [m], a triangle; mean: of all volume over all area
+  double area = 0;                // [m²]
+  double volume = 0;              // [m³]
+  std::vector<FieldRange> fields; // those in_figures, in their order; NaN of what the frame does not have
   // Mass ρ V / 3 at each corner of a triangle, as the time step has it.
-  double kinetic_energy = absent;                                       // Σ m v² / 2 [J]
+  double kinetic_energy = absent; // Σ m v² / 2 [J]
+  double gravity_energy = absent; // measure_energies
+  double surface_energy = absent;
   Eigen::Vector3d momentum = Eigen::Vector3d::Constant(absent);         // Σ m v [kg m/s]
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Constant(absent); // Σ m x × v, about the origin [kg m²/s]
   Eigen::Vector3d low = Eigen::Vector3d::Constant(absent);              // bounding box of all vertices [m]
@@ -35,10 +48,17 @@ struct Measurements {
   double aspect_max = absent; // longest side over the altitude on it, 1 for an equilateral triangle; inf: degenerate
   Topology topology;
   std::vector<NamedForce> forces; // in scenes that ask for them
+
+  // Precondition: the field is among them.
+  [[nodiscard]] const Range& range_of(std::string_view field) const;
 };
 
 // Precondition: the frame obeys the format's rules (StreamReader::Values::check). `density` [kg/m³].
 [[nodiscard]] Measurements measure(const formats::Frame& frame, std::optional<double> density);
+
+// Adds energies that need a scene [J]: of gravity, -Σ m g·x, x from the origin to the triangles' centres; of surface,
+// 2 γ A, of both sides wherever they lie. NaN without density, gravity, tension.
+void measure_energies(const formats::Frame& frame, const Scene& scene, Measurements& measured);
 
 // The density that the frame's scene states [kg/m³]. Remembers the last scene, which rarely changes within a stream.
 class SceneDensity {

@@ -3,13 +3,14 @@
 #include "libsheet/measure/report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "libsheet/health/report.h"
+#include "libsheet/measure/figures.h"
 
 namespace sheet {
 
@@ -17,8 +18,6 @@ namespace {
 
 using formats::Array;
 using formats::Frame;
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 std::string_view text_of(const Frame& frame, std::string_view name) {
   const Array* array = frame.find(name);
@@ -35,13 +34,31 @@ std::string table_of(const Frame& frame) {
   return out;
 }
 
-std::string bounded(const Range& range, std::string_view unit) {
-  if (std::isnan(range.least))
-    return "none";
-  return fmt::format("{:.6g} to {:.6g} {}, mean {:.6g} {}", range.least, range.greatest, unit, range.mean, unit);
-}
+std::string vector_text(double x, double y, double z) { return fmt::format("{:.6g} {:.6g} {:.6g}", x, y, z); }
 
-std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v[0], v[1], v[2]); }
+// What text says of a figure; "" if there is nothing to say.
+std::string told_of(const Figure& figure, const Measurements& m) {
+  if (figure.needs_density && std::isnan(m.kinetic_energy))
+    return figure.name == "kinetic_energy" ? "unknown without a density (no scene states one; see --density)" : "";
+  const std::vector<double> v = figure.values(m);
+  const std::string& unit = figure.unit;
+  switch (figure.form) {
+  case Figure::Form::scalar:
+    return fmt::format("{:.9g} {}", v[0], unit);
+  case Figure::Form::vector:
+    return fmt::format("{} {}", vector_text(v[0], v[1], v[2]), unit);
+  case Figure::Form::range:
+    return std::isnan(v[0]) ? "none" : fmt::format("{:.6g} to {:.6g} {}, mean {:.6g} {}", v[0], v[2], unit, v[1], unit);
+  case Figure::Form::ends:
+    return std::isnan(v[0]) ? "none"
+                            : fmt::format("{:.4g} to {:.4g} {}, worst aspect {:.4g}", v[0], v[1], unit, m.aspect_max);
+  case Figure::Form::box:
+    return std::isnan(v[0])
+               ? "none"
+               : fmt::format("{} to {} {}", vector_text(v[0], v[1], v[2]), vector_text(v[3], v[4], v[5]), unit);
+  }
+  return "";
+}
 
 class TextReport : public Report {
 public:
@@ -75,27 +92,15 @@ public:
     const auto line = [&](std::string_view name, const std::string& text) {
       out += fmt::format("  {:<18} {}\n", name, text);
     };
-    line("area", fmt::format("{:.9g} m^2", m.area));
-    line("volume", fmt::format("{:.9g} m^3", m.volume));
-    line("thickness", bounded(m.thickness, "m"));
-    if (std::isnan(m.kinetic_energy)) {
-      line("kinetic energy", "unknown without a density (no scene states one; see --density)");
-    } else {
-      line("kinetic energy", fmt::format("{:.9g} J", m.kinetic_energy));
-      line("momentum", vector_text(m.momentum) + " kg m/s");
-      line("angular momentum", vector_text(m.angular_momentum) + " kg m^2/s");
-    }
-    line("bounding box", frame.vertices == 0 ? std::string("none")
-                                             : fmt::format("{} to {} m", vector_text(m.low), vector_text(m.high)));
-    line("edges", bounded(m.edge, "m"));
-    line("angles", frame.triangles == 0 ? std::string("none")
-                                        : fmt::format("{:.4g} to {:.4g} degrees, worst aspect {:.4g}",
-                                                      m.angle_min * degrees, m.angle_max * degrees, m.aspect_max));
+    for (const Figure& figure : figures())
+      if (figure.printed && figure.name != "aspect_max") // that stands behind the angles
+        if (const std::string told = told_of(figure, m); !told.empty())
+          line(figure.caption, told);
     line("topology", fmt::format("{}, pieces {}, boundary loops {}, Euler characteristic {}",
                                  t.closed ? "closed" : "open", t.components, t.boundary_loops, t.euler_characteristic));
     for (const NamedForce& f : m.forces)
-      line("force of " + f.name,
-           std::isnan(f.force[0]) ? std::string("not known before a step") : vector_text(f.force) + " N");
+      line("force of " + f.name, std::isnan(f.force[0]) ? std::string("not known before a step")
+                                                        : vector_text(f.force[0], f.force[1], f.force[2]) + " N");
     if (t.unused_vertices + t.pinched_vertices + t.non_manifold_edges > 0)
       line("", fmt::format("unused vertices {}, pinched vertices {}, non-manifold edges {}", t.unused_vertices,
                            t.pinched_vertices, t.non_manifold_edges));
@@ -121,49 +126,109 @@ std::string csv_quoted(const std::string& text) {
 // "nan" whatever the NaN's sign.
 std::string number(double x) { return std::isnan(x) ? "nan" : fmt::format("{}", x); }
 
+struct Cell {
+  std::string column, text;
+};
+
+// These columns stand first, in this order: who reads them by their place finds them there. New ones follow.
+constexpr std::array<std::string_view, 32> first_columns = {"frame",
+                                                            "time",
+                                                            "vertices",
+                                                            "triangles",
+                                                            "area",
+                                                            "volume",
+                                                            "thickness_min",
+                                                            "thickness_mean",
+                                                            "thickness_max",
+                                                            "kinetic_energy",
+                                                            "momentum_x",
+                                                            "momentum_y",
+                                                            "momentum_z",
+                                                            "x_min",
+                                                            "x_max",
+                                                            "y_min",
+                                                            "y_max",
+                                                            "z_min",
+                                                            "z_max",
+                                                            "angle_min_degrees",
+                                                            "edge_min",
+                                                            "edge_max",
+                                                            "step",
+                                                            "angular_momentum_x",
+                                                            "angular_momentum_y",
+                                                            "angular_momentum_z",
+                                                            "angle_max_degrees",
+                                                            "edge_mean",
+                                                            "aspect_max",
+                                                            "components",
+                                                            "boundary_loops",
+                                                            "euler_characteristic"};
+
+// A row's cells, in the order of the columns; forces stand last.
+std::vector<Cell> cells_of(const ReportEntry& e) {
+  const Frame& f = *e.frame;
+  const Topology& t = e.measurements.topology;
+  std::vector<Cell> cells = {{"frame", fmt::format("{}", e.index)},
+                             {"time", fmt::format("{}", f.time)},
+                             {"vertices", fmt::format("{}", f.vertices)},
+                             {"triangles", fmt::format("{}", f.triangles)},
+                             {"step", fmt::format("{}", f.step)},
+                             {"components", fmt::format("{}", t.components)},
+                             {"boundary_loops", fmt::format("{}", t.boundary_loops)},
+                             {"euler_characteristic", fmt::format("{}", t.euler_characteristic)},
+                             {"closed", t.closed ? "1" : "0"}};
+  for (const Figure& figure : figures()) {
+    if (!figure.printed)
+      continue;
+    const std::vector<std::string> columns = figure.columns();
+    const std::vector<double> values = figure.values(e.measurements);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      cells.push_back({columns[i], number(values[i])});
+  }
+  std::ranges::stable_sort(cells, {}, [](const Cell& cell) { return std::ranges::find(first_columns, cell.column); });
+  return cells;
+}
+
 class CsvReport : public Report {
 public:
   std::string add(const ReportEntry& e) override {
-    const Frame& f = *e.frame;
     const Measurements& m = e.measurements;
-    const Topology& t = m.topology;
     std::string out;
     if (first_) {
       for (const NamedForce& force : m.forces)
         forces_.push_back(force.name);
-      out = header(e.many_files, forces_);
+      out = header(e, forces_);
       first_ = false;
     }
-    out += fmt::format("{},{},{},{}", e.index, f.time, f.vertices, f.triangles);
-    for (const double x : {m.area, m.volume, m.thickness.least, m.thickness.mean, m.thickness.greatest,
-                           m.kinetic_energy, m.momentum[0], m.momentum[1], m.momentum[2], m.low[0], m.high[0], m.low[1],
-                           m.high[1], m.low[2], m.high[2], m.angle_min * degrees, m.edge.least, m.edge.greatest})
-      out += "," + number(x);
-    out += fmt::format(",{}", f.step);
-    for (const double x : {m.angular_momentum[0], m.angular_momentum[1], m.angular_momentum[2], m.angle_max * degrees,
-                           m.edge.mean, m.aspect_max})
-      out += "," + number(x);
-    out += fmt::format(",{},{},{},{}", t.components, t.boundary_loops, t.euler_characteristic, t.closed ? 1 : 0);
+    for (const Cell& cell : cells_of(e))
+      out += (cell.column == first_columns[0] ? "" : ",") + cell.text;
     for (std::size_t i = 0; i < forces_.size(); ++i)
       for (int axis = 0; axis < 3; ++axis)
         out += "," + number(i < m.forces.size() ? m.forces[i].force[axis] : absent);
     return out + (e.many_files ? "," + csv_quoted(e.file) : "") + "\n";
   }
-  std::string end() override { return first_ ? header(false, {}) : ""; }
+  std::string end() override {
+    if (!first_)
+      return "";
+    const Frame frame;
+    ReportEntry nothing;
+    nothing.frame = &frame;
+    for (const Field& field : fields())
+      if (field.in_figures)
+        nothing.measurements.fields.emplace_back(&field);
+    return header(nothing, {});
+  }
 
 private:
-  static std::string header(bool many_files, const std::vector<std::string>& forces) {
-    std::string more;
+  static std::string header(const ReportEntry& entry, const std::vector<std::string>& forces) {
+    std::string line;
+    for (const Cell& cell : cells_of(entry))
+      line += (line.empty() ? "" : ",") + cell.column;
     for (const std::string& name : forces)
       for (const char axis : {'x', 'y', 'z'})
-        more += fmt::format(",force_of_{}_{}", name, axis);
-    std::ranges::replace(more, ' ', '_');
-    return std::string("frame,time,vertices,triangles,area,volume,thickness_min,thickness_mean,thickness_max,"
-                       "kinetic_energy,momentum_x,momentum_y,momentum_z,x_min,x_max,y_min,y_max,z_min,z_max,"
-                       "angle_min_degrees,edge_min,edge_max,step,angular_momentum_x,angular_momentum_y,"
-                       "angular_momentum_z,angle_max_degrees,edge_mean,aspect_max,components,boundary_loops,"
-                       "euler_characteristic,closed") +
-           more + (many_files ? ",file\n" : "\n");
+        line += fmt::format(",force_of_{}_{}", name, axis);
+    std::ranges::replace(line, ' ', '_');
+    return line + (entry.many_files ? ",file\n" : "\n");
   }
   bool first_ = true;
   std::vector<std::string> forces_; // of the first frame's scene

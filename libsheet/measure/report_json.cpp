@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
+#include "libsheet/measure/figures.h"
 #include "libsheet/measure/report.h"
 
 namespace sheet {
@@ -11,9 +11,6 @@ namespace sheet {
 namespace {
 
 using Json = nlohmann::ordered_json; // writes what is not finite as null
-
-Json vector_json(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-Json range_json(const Range& r) { return {{"min", r.least}, {"mean", r.mean}, {"max", r.greatest}}; }
 
 Json arrays_json(const formats::Frame& frame) {
   Json out = Json::array();
@@ -42,31 +39,39 @@ Json provenance_json(const formats::Frame& frame) {
   return out;
 }
 
+Json figure_json(const Figure& figure, const std::vector<double>& v) {
+  switch (figure.form) {
+  case Figure::Form::scalar:
+    break;
+  case Figure::Form::vector:
+    return v;
+  case Figure::Form::range:
+    return {{"min", v[0]}, {"mean", v[1]}, {"max", v[2]}};
+  case Figure::Form::ends:
+    return {{"min", v[0]}, {"max", v[1]}};
+  case Figure::Form::box:
+    return {{"min", {v[0], v[1], v[2]}}, {"max", {v[3], v[4], v[5]}}};
+  }
+  return v[0];
+}
+
 Json measurements_json(const Measurements& m) {
-  constexpr double to_degrees = 180 / std::numbers::pi;
+  Json json = Json::object();
+  for (const Figure& figure : figures())
+    if (figure.printed)
+      json[figure.name] = figure_json(figure, figure.values(m));
   const Topology& t = m.topology;
-  Json json = {{"area", m.area},
-               {"volume", m.volume},
-               {"thickness", range_json(m.thickness)},
-               {"kinetic_energy", m.kinetic_energy},
-               {"momentum", vector_json(m.momentum)},
-               {"angular_momentum", vector_json(m.angular_momentum)},
-               {"box", {{"min", vector_json(m.low)}, {"max", vector_json(m.high)}}},
-               {"edge", range_json(m.edge)},
-               {"angle_degrees", {{"min", m.angle_min * to_degrees}, {"max", m.angle_max * to_degrees}}},
-               {"aspect_max", m.aspect_max},
-               {"topology",
-                {{"components", t.components},
-                 {"edges", t.edges},
-                 {"boundary_edges", t.boundary_edges},
-                 {"boundary_loops", t.boundary_loops},
-                 {"euler_characteristic", t.euler_characteristic},
-                 {"closed", t.closed},
-                 {"unused_vertices", t.unused_vertices},
-                 {"pinched_vertices", t.pinched_vertices},
-                 {"non_manifold_edges", t.non_manifold_edges}}}};
+  json["topology"] = {{"components", t.components},
+                      {"edges", t.edges},
+                      {"boundary_edges", t.boundary_edges},
+                      {"boundary_loops", t.boundary_loops},
+                      {"euler_characteristic", t.euler_characteristic},
+                      {"closed", t.closed},
+                      {"unused_vertices", t.unused_vertices},
+                      {"pinched_vertices", t.pinched_vertices},
+                      {"non_manifold_edges", t.non_manifold_edges}};
   for (const NamedForce& f : m.forces)
-    json["forces"][f.name] = vector_json(f.force);
+    json["forces"][f.name] = {f.force[0], f.force[1], f.force[2]};
   return json;
 }
 

@@ -31,8 +31,8 @@ void Survey::add(const formats::Frame& frame, const Scene* scene, const std::vec
     for (const Vector3& p : mesh.positions)
       solids_.add(motion * p, 0);
   }
-  if (has_scale(look))
-    scale_.add(values_of(frame, look));
+  if (look.has_scale())
+    scale_.add(values_of(frame, *look.field));
 }
 
 Extent Survey::subject() const {

@@ -68,18 +68,6 @@ void size_option(Tool& tool, DrawOptions& draw) {
       [&draw] { return fmt::format("{}x{}", draw.width, draw.height); });
 }
 
-// On or off by two words.
-void choice_option(Tool& tool, const char* name, bool& value, const char* on, const char* off, const char* text) {
-  tool.custom(
-      name, fmt::format("{}|{}", on, off), text,
-      [=, &value](const std::string& s) {
-        if (s != on && s != off)
-          fail(ExitCode::usage, "\"{}\" is not one of {}|{}", s, on, off);
-        value = s == on;
-      },
-      [=, &value] { return value ? on : off; });
-}
-
 void range_option(Tool& tool, std::optional<Scale>& range) {
   tool.custom(
       "--range", "LOW:HIGH",
@@ -104,23 +92,12 @@ void range_option(Tool& tool, std::optional<Scale>& range) {
       [&range] { return range ? fmt::format("{}:{}", range->low, range->high) : std::string(); });
 }
 
-// An option whose value is an enumeration of the words' order.
-template <class T>
-void word_option(Tool& tool, const char* name, T& value, const std::vector<std::string>& words, const char* text) {
-  std::string placeholder;
+// Each word with its number, from 0.
+std::vector<std::pair<std::string, std::size_t>> numbered(const std::vector<std::string>& words) {
+  std::vector<std::pair<std::string, std::size_t>> result;
   for (const std::string& word : words)
-    placeholder += (placeholder.empty() ? "" : "|") + word;
-  tool.custom(
-      name, placeholder, text,
-      [&value, words, placeholder](const std::string& s) {
-        for (std::size_t i = 0; i < words.size(); ++i)
-          if (words[i] == s) {
-            value = static_cast<T>(i);
-            return;
-          }
-        fail(ExitCode::usage, "\"{}\" is not one of {}", s, placeholder);
-      },
-      [&value, words] { return words[static_cast<std::size_t>(value)]; });
+    result.emplace_back(word, result.size());
+  return result;
 }
 
 } // namespace
@@ -155,8 +132,8 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.flag("--denoise", o.denoise,
             "smooth what is random about the light over places that see the same surface, and draw edges with rays of "
             "their own: looks clean with --samples 4. Of materials; false colours have no noise");
-  word_option(tool, "--look", o.look, look_names(), "the material itself, or a quantity in false colours, or the mesh");
-  word_option(tool, "--material", o.liquid, liquid_names(), "what the sheet is made of");
+  tool.choice("--look", o.look, looks(), "the material itself, or a quantity in false colours, or the mesh");
+  tool.choice("--material", o.liquid, numbered(liquid_names()), "what the sheet is made of");
   tool.option("--index", o.index, "N", "index of refraction, instead of the material's");
   colour_option(tool, "--absorption", o.absorption, "absorption coefficients [1/m], instead of the material's");
   colour_option(tool, "--scattering", o.scattering, "reduced scattering coefficients [1/m], instead of the material's");
@@ -172,8 +149,10 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
       "--environment", o.environment, "FILE",
       "image of the surroundings to light the scene with instead of the studio, .exr or .png, longitude across");
   tool.option("--exposure", o.exposure, "STOPS", "brighter by so many factors of two");
-  choice_option(tool, "--ground", o.ground, "auto", "none", "the ground below a scene that has no plane of its own");
-  choice_option(tool, "--solids", o.solids, "all", "none", "the scene's solids; none, to see what is within a mould");
+  tool.choice("--ground", o.ground, {{"auto", true}, {"none", false}},
+              "the ground below a scene that has no plane of its own");
+  tool.choice("--solids", o.solids, {{"all", true}, {"none", false}},
+              "the scene's solids; none, to see what is within a mould");
   range_option(tool, o.range);
 }
 

@@ -138,11 +138,18 @@ struct RenderStage::Impl {
   [[nodiscard]] Margins margins() const {
     const int width = options.draw.width, height = options.draw.height;
     Margins m{margin, margin, margin, margin};
-    if (has_scale(options.look) && has_room_for_scale(width, height))
+    if (options.look.has_scale() && has_room_for_scale(width, height))
       m.right = std::max(margin, scale_width(width, height));
-    if (options.look != Look::material)
+    if (!options.look.is_material())
       m.bottom = std::max(margin, clock_height(width, height));
     return m;
+  }
+
+  // Of false colours.
+  [[nodiscard]] Scale scale() const {
+    if (options.range || !options.look.has_scale())
+      return options.range.value_or(Scale{0, 1});
+    return widened(survey->scale(), *options.look.field);
   }
 
   void look_at(const formats::Frame& frame) {
@@ -184,10 +191,10 @@ struct RenderStage::Impl {
     const Vec toward = -camera.axis(), upward = up.cast<float>();
     Fixed f{subject, camera,
             surroundings ? Lighting::surroundings(*surroundings, toward, upward) : Lighting::studio(toward, upward),
-            options.range ? *options.range : widened(survey->scale(), options.look), std::nullopt};
+            scale(), std::nullopt};
     if (const BathLiquid* bath = bath_in_view(); bath != nullptr)
       f.ground = bath_surface(bath->level, subject, up);
-    else if (options.ground && options.look == Look::material && (!scene || make_planes(*scene, frame.time).empty()))
+    else if (options.ground && options.look.is_material() && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
     f.dark = is_clear(liquid_of(options), frame);
     fixed.emplace(std::move(f));
@@ -195,12 +202,12 @@ struct RenderStage::Impl {
                   target = options.camera.target.value_or(eye + (middle - eye).dot(axis) * axis);
     log::detail("camera: --eye {:.6g},{:.6g},{:.6g} --target {:.6g},{:.6g},{:.6g}", eye.x(), eye.y(), eye.z(),
                 target.x(), target.y(), target.z());
-    if (has_scale(options.look))
+    if (options.look.has_scale())
       log::detail("scale: {:.9g} to {:.9g}", fixed->scale.low, fixed->scale.high);
   }
 
   [[nodiscard]] const BathLiquid* bath_in_view() const {
-    const bool drawn = scene != nullptr && scene->environment.bath && options.look == Look::material;
+    const bool drawn = scene != nullptr && scene->environment.bath && options.look.is_material();
     return drawn ? &*scene->environment.bath : nullptr;
   }
 
@@ -225,10 +232,11 @@ struct RenderStage::Impl {
 
   [[nodiscard]] Picture picture_of(const formats::Frame& frame, const World& world, const Progress& progress) const {
     const int height = options.draw.height;
-    if (options.look != Look::material)
-      return render::draw(world, fixed->camera,
-                          look_shader(world, options.look, values_of(frame, options.look), fixed->scale,
-                                      fixed->camera.pixel_angle(height)),
+    if (const Field* field = options.look.field)
+      return render::draw(world, fixed->camera, field_shader(world, *field, values_of(frame, *field), fixed->scale),
+                          options.draw, progress);
+    if (options.look.kind == Look::Kind::wireframe)
+      return render::draw(world, fixed->camera, wireframe_shader(world, fixed->camera.pixel_angle(height)),
                           options.draw, progress);
     Surroundings around;
     if (fixed->dark)
@@ -255,7 +263,7 @@ struct RenderStage::Impl {
       write_whole(file, encode_exr(picture));
       return;
     }
-    const bool photo = options.look == Look::material;
+    const bool photo = options.look.is_material();
     Bitmap bitmap = to_bitmap(picture.light, photo ? Tone::photographic : Tone::plain);
     if (!photo)
       draw_scale(bitmap, fixed->scale, options.look, frame.time);

@@ -20,7 +20,7 @@ struct RenderOptions {
   DrawOptions draw;              // exposure is not used; see below
   bool denoise = false;          // draw_denoised; of materials only
   CameraOptions camera;
-  Look look = Look::material;
+  Look look;
   std::size_t liquid = 0; // number of the preset
   std::optional<double> index;
   std::optional<Colour> absorption, scattering; // [1/m]

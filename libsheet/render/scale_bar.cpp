@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "libsheet/quantities/scaled_unit.h"
 #include "libsheet/render/font.h"
 
 namespace sheet::render {
@@ -24,32 +25,25 @@ constexpr int least_height = 11 * line;
 
 int font_size(int width, int height) { return std::max(1, std::min(width, height) / 320); }
 
-struct Unit {
-  const char* name; // Latin-1
-  double size;      // in SI
-};
-
-// From large to small.
-std::vector<Unit> units_of(Look look) {
-  switch (look) {
-  case Look::thickness:
-    return {{"m", 1}, {"mm", 1e-3}, {"\xb5m", 1e-6}, {"nm", 1e-9}};
-  case Look::speed:
-    return {{"m/s", 1}, {"mm/s", 1e-3}, {"\xb5m/s", 1e-6}, {"nm/s", 1e-9}};
-  default:
-    return {{"1/mm", 1e3}, {"1/m", 1}, {"1/km", 1e-3}};
+// As fonts have it, from UTF-8: all signs of units are in Latin-1.
+std::string latin1(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    out += c < 0x80 ? text[i] : static_cast<char>((c & 0x03) << 6 | (static_cast<unsigned char>(text[++i]) & 0x3f));
   }
+  return out;
 }
 
 std::uint8_t byte_of(float x) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0F, 1.0F))); }
 Ink ink_of(const Colour& displayed) { return {byte_of(displayed[0]), byte_of(displayed[1]), byte_of(displayed[2])}; }
 
-void draw_key(Bitmap& bitmap, int text, int x) {
-  const char* names[] = {"free", "on solid", "on sheet"};
+void draw_key(Bitmap& bitmap, int text, int x, const Palette& palette) {
   int y = edge * text;
-  for (int i = 0; i < 3; ++i, y += 14 * text) {
-    fill(bitmap, x, y, 7 * text, 7 * text, ink_of(false_colour((static_cast<float>(i) + 0.5F) / 3, Look::contacts)));
-    write_text(bitmap, x + 12 * text, y, names[i], text, dark);
+  for (const PaletteKind& kind : palette.kinds) {
+    fill(bitmap, x, y, 7 * text, 7 * text, ink_of({kind.colour[0], kind.colour[1], kind.colour[2]}));
+    write_text(bitmap, x + 12 * text, y, std::string(kind.name), text, dark);
+    y += 14 * text;
   }
 }
 
@@ -61,24 +55,15 @@ std::string label_of(double value, int decimals) {
 
 } // namespace
 
-Ruler make_ruler(const Scale& scale, Look look, int most) {
-  const double largest = std::max(std::abs(scale.low), std::abs(scale.high));
-  const std::vector<Unit> units = units_of(look);
-  Unit unit = units.back();
-  for (const Unit& u : units)
-    if (largest >= u.size) {
-      unit = u;
-      break;
-    }
+Ruler make_ruler(const Scale& scale, const Field& field, int most) {
+  const ScaledUnit unit = fitting_unit(field.unit, std::max(std::abs(scale.low), std::abs(scale.high)));
   const double low = scale.low / unit.size, high = scale.high / unit.size, raw = (high - low) / most;
   const double decade = std::pow(10, std::floor(std::log10(raw)));
   double step = 10 * decade;
   for (const double round : {5.0, 2.0, 1.0})
     if (round * decade >= raw)
       step = round * decade;
-  Ruler ruler{fmt::format("{} [{}]",
-                          look == Look::curvature ? "mean curvature" : look_names()[static_cast<std::size_t>(look)],
-                          unit.name),
+  Ruler ruler{unit.name.empty() ? std::string(field.caption) : fmt::format("{} [{}]", field.caption, latin1(unit.name)),
               {}};
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
@@ -107,13 +92,16 @@ void draw_scale(Bitmap& bitmap, const Scale& scale, Look look, double time) {
             x0 = bitmap.width - margin - widest * text;
   const std::string clock = fmt::format("t = {:.4g} s", time);
   write_text(bitmap, margin, bitmap.height - margin - 7 * text, clock, text, dark);
-  if (look == Look::contacts)
-    draw_key(bitmap, text, x0);
-  if (look != Look::thickness && look != Look::curvature && look != Look::speed)
+  if (!look.has_scale())
     return;
+  const Palette& palette = look.field->palette;
+  if (palette.has_kinds()) {
+    draw_key(bitmap, text, x0, palette);
+    return;
+  }
   const int bar = 10 * text, most_lines = 3, y0 = margin + most_lines * line * text,
             height = bitmap.height - y0 - margin;
-  const Ruler ruler = make_ruler(scale, look, std::max(2, height / (24 * text)));
+  const Ruler ruler = make_ruler(scale, *look.field, std::max(2, height / (24 * text)));
   int y = margin;
   std::istringstream words(ruler.title); // one below the other
   for (std::string word; words >> word; y += line * text)
@@ -121,7 +109,7 @@ void draw_scale(Bitmap& bitmap, const Scale& scale, Look look, double time) {
   fill(bitmap, x0 - 1, y0 - 1, bar + 2, height + 2, dark);
   for (int row = 0; row < height; ++row)
     fill(bitmap, x0, y0 + row, bar, 1,
-         ink_of(false_colour(1 - (static_cast<float>(row) + 0.5F) / static_cast<float>(height), look)));
+         ink_of(false_colour(1 - (static_cast<float>(row) + 0.5F) / static_cast<float>(height), palette)));
   for (const Tick& tick : ruler.ticks) {
     const int row = y0 + static_cast<int>(std::lround((1 - tick.place) * (height - 1)));
     fill(bitmap, x0 + bar, row, 3 * text, 1, dark);

@@ -18,7 +18,7 @@ struct Ruler {
 };
 
 // Round values between the ends of the scale, at most about `most` of them, in the unit of the SI that suits.
-[[nodiscard]] Ruler make_ruler(const Scale& scale, Look look, int most);
+[[nodiscard]] Ruler make_ruler(const Scale& scale, const Field& field, int most);
 
 // Whether a picture of that size has room for scale and time: a scale without numbers says nothing.
 [[nodiscard]] bool has_room_for_scale(int width, int height);

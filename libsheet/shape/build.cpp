@@ -106,7 +106,7 @@ std::vector<double> thicknesses(const TriangleMesh& mesh, const scene::SheetTabl
     if (!p.of_thickness)
       continue;
     if (const auto* wave = std::get_if<scene::Wave>(&p.form)) {
-      const Field field = wave_field(p, *wave, table);
+      const HeightField field = wave_field(p, *wave, table);
       for (std::size_t t = 0; t < h.size(); ++t) {
         const auto& c = mesh.triangles[t];
         h[t] += field((mesh.positions[c[0]] + mesh.positions[c[1]] + mesh.positions[c[2]]) / 3);

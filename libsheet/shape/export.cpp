@@ -9,6 +9,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/quantities/fields.h"
 #include "libsheet/shape/solidify.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -63,14 +64,11 @@ Thickness thickness(const Frame& frame) {
   const auto x = positions(frame);
   const auto corners = triangles(frame);
   const auto v = volumes(frame);
-  Thickness h;
   const auto area = [&](std::uint32_t t) {
     const Corners& c = corners[t];
     return (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
   };
-  for (std::uint32_t t = 0; t < corners.size(); ++t)
-    h.of_triangles.push_back(v[t] / area(t));
-  h.of_vertices = thickness_around(x.size(), corners, v, area);
+  Thickness h{values_of(frame, field_named("thickness")), thickness_around(x.size(), corners, v, area)};
   return h;
 }
 

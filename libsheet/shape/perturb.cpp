@@ -30,23 +30,24 @@ Eigen::Vector3d unit(const Eigen::Vector3d& v) {
 
 } // namespace
 
-Field plane_wave(double amplitude, double wavelength, const Eigen::Vector3d& direction, const Eigen::Vector3d& origin) {
+HeightField plane_wave(double amplitude, double wavelength, const Eigen::Vector3d& direction,
+                       const Eigen::Vector3d& origin) {
   check(amplitude, wavelength);
   return [=, along = unit(direction)](const Eigen::Vector3d& x) {
     return amplitude * std::sin(two_pi * (x - origin).dot(along) / wavelength);
   };
 }
 
-Field radial_wave(double amplitude, double wavelength, const Eigen::Vector3d& axis, const Eigen::Vector3d& center,
-                  double start) {
+HeightField radial_wave(double amplitude, double wavelength, const Eigen::Vector3d& axis, const Eigen::Vector3d& center,
+                        double start) {
   check(amplitude, wavelength);
   return [=, along = unit(axis)](const Eigen::Vector3d& x) {
     return amplitude * std::sin(two_pi * ((x - center).cross(along).norm() - start) / wavelength);
   };
 }
 
-Field band_noise(double amplitude, double wavelength, std::uint64_t seed,
-                 const std::optional<Eigen::Vector3d>& normal) {
+HeightField band_noise(double amplitude, double wavelength, std::uint64_t seed,
+                       const std::optional<Eigen::Vector3d>& normal) {
   check(amplitude, wavelength);
   constexpr int waves = 48;
   constexpr double width = 1.25;
@@ -73,13 +74,13 @@ Field band_noise(double amplitude, double wavelength, std::uint64_t seed,
   };
 }
 
-void displace_along_normals(TriangleMesh& mesh, const Field& field) {
+void displace_along_normals(TriangleMesh& mesh, const HeightField& field) {
   const std::vector<Eigen::Vector3d> normals = vertex_normals(mesh);
   for (std::size_t i = 0; i < normals.size(); ++i)
     mesh.positions[i] += field(mesh.positions[i]) * normals[i];
 }
 
-void set_thickness(TriangleMesh& mesh, double mean, const Field& field) {
+void set_thickness(TriangleMesh& mesh, double mean, const HeightField& field) {
   std::vector<double> thickness;
   thickness.reserve(mesh.positions.size());
   for (const Eigen::Vector3d& x : mesh.positions) {

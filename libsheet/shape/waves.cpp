@@ -7,7 +7,8 @@ namespace sheet {
 
 using Eigen::Vector3d;
 
-Field wave_field(const scene::Perturbation& perturbation, const scene::Wave& wave, const scene::SheetTable& table) {
+HeightField wave_field(const scene::Perturbation& perturbation, const scene::Wave& wave,
+                       const scene::SheetTable& table) {
   const double shift = -wave.phase / two_pi * wave.wavelength;
   if (wave.direction == scene::WaveDirection::radial) {
     const auto* annulus = std::get_if<scene::Annulus>(&table.shape);

@@ -7,7 +7,7 @@
 namespace sheet {
 
 // At places [m] of the sheet that stands in its plane around the origin, not yet rotated.
-[[nodiscard]] Field wave_field(const scene::Perturbation& perturbation, const scene::Wave& wave,
-                               const scene::SheetTable& table);
+[[nodiscard]] HeightField wave_field(const scene::Perturbation& perturbation, const scene::Wave& wave,
+                                     const scene::SheetTable& table);
 
 } // namespace sheet

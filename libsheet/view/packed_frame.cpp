@@ -7,7 +7,6 @@
 
 #include <Eigen/Geometry>
 
-#include "libsheet/render/looks.h"
 #include "libsheet/view/packed_numbers.h"
 
 namespace sheet::view {
@@ -102,13 +101,6 @@ std::vector<double> logarithms(const std::vector<double>& thickness) {
   return logs;
 }
 
-std::vector<std::uint8_t> contacts(const formats::Frame& frame) {
-  std::vector<std::uint8_t> kinds;
-  for (const double kind : render::values_of(frame, render::Look::contacts).values)
-    kinds.push_back(static_cast<std::uint8_t>(kind));
-  return kinds;
-}
-
 } // namespace
 
 bool FramePacker::replace(Numbers& kept, Numbers next, bool same_mesh, PackedNumbers& packed) {
@@ -121,22 +113,41 @@ bool FramePacker::replace(Numbers& kept, Numbers next, bool same_mesh, PackedNum
   return follows;
 }
 
+bool is_packed(const Field& field) { return field.name != "thickness" && field.name != "speed"; }
+
+FieldDescription FramePacker::pack_field(const formats::Frame& frame, const Field& field, Numbers& kept, bool same_mesh,
+                                         PackedNumbers& packed) {
+  FieldDescription d{.there = has(frame, field)};
+  if (!d.there) {
+    kept = {};
+    return d;
+  }
+  const std::vector<double> values = values_of(frame, field);
+  d.range = most_of(values);
+  if (!is_packed(field))
+    return d;
+  if (field.palette.has_kinds()) {
+    packed.add_bytes(std::vector<std::uint8_t>(values.begin(), values.end()));
+    return d;
+  }
+  double most = 0;
+  for (const double value : values)
+    most = std::max(most, std::abs(value));
+  d.step = choose_step(most / 4096, most, kept.step);
+  d.follows = replace(kept, {d.step, in_steps(values, d.step)}, same_mesh, packed);
+  return d;
+}
+
 PackedFrame FramePacker::pack(const formats::Frame& frame) {
   const auto corners = sheet::triangles(frame);
   const Vectors x = positions(frame), v = velocities(frame);
-  const std::vector<double> h = render::values_of(frame, render::Look::thickness).values,
-                            speed = render::values_of(frame, render::Look::speed).values,
-                            curvature = render::values_of(frame, render::Look::curvature).values;
   PackedNumbers packed;
   FrameDescription d{.time = frame.time,
                      .step = frame.step,
                      .vertices = frame.vertices,
                      .triangles = frame.triangles,
                      .same_mesh = !first_ && vertices_ == frame.vertices && std::ranges::equal(corners_, corners),
-                     .moves = !v.empty(),
-                     .thickness = most_of(h),
-                     .speed = most_of(speed),
-                     .curvature = most_of(curvature)};
+                     .moves = !v.empty()};
   for (const double volume : volumes(frame))
     d.volume += volume;
   set_box(x, d);
@@ -148,21 +159,20 @@ PackedFrame FramePacker::pack(const formats::Frame& frame) {
   }
   d.position_step = choose_step(short_edge(frame) / 512, largest(x), positions_.step);
   d.position_follows = replace(positions_, {d.position_step, in_steps(x, d.position_step)}, d.same_mesh, packed);
+  const std::vector<double> h = values_of(frame, field_named("thickness"));
   replace(thickness_, {thickness_step, in_steps(logarithms(h), thickness_step)}, d.same_mesh, packed);
   if (!d.moves) {
     velocities_ = {};
   } else {
-    const double most = speed.empty() ? 0 : *std::ranges::max_element(speed);
+    double most = 0;
+    for (const Eigen::Vector3d& velocity : v)
+      most = std::max(most, velocity.norm());
     d.velocity_step = choose_step(most / 16384, most, velocities_.step);
     d.velocity_follows = replace(velocities_, {d.velocity_step, in_steps(v, d.velocity_step)}, d.same_mesh, packed);
   }
-  double bend = 0;
-  for (const double k : curvature)
-    bend = std::max(bend, std::abs(k));
-  d.curvature_step = choose_step(bend / 4096, bend, curvature_.step);
-  d.curvature_follows =
-      replace(curvature_, {d.curvature_step, in_steps(curvature, d.curvature_step)}, d.same_mesh, packed);
-  packed.add_bytes(contacts(frame));
+  fields_.resize(fields().size());
+  for (std::size_t i = 0; i < fields().size(); ++i)
+    d.fields.push_back(pack_field(frame, fields()[i], fields_[i], d.same_mesh, packed));
   return {d, packed.text()};
 }
 

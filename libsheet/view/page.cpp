@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/view/page.h"
 
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/whole_file.h"
+#include "libsheet/quantities/scaled_unit.h"
 #include "libsheet/render/framing.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/view/packed_frame.h"
@@ -66,6 +68,13 @@ std::string data_element(const std::string& id, std::string_view text) {
 
 Json to_json(const Range& range) { return {range.low, range.high}; }
 
+Json to_json(const std::vector<FieldDescription>& fields) {
+  Json all = Json::array();
+  for (const FieldDescription& d : fields)
+    all.push_back(d.there ? Json{{"range", to_json(d.range)}, {"step", d.step}, {"follows", d.follows}} : Json());
+  return all;
+}
+
 Json to_json(const FrameDescription& d) {
   return {{"time", d.time},
           {"step", d.step},
@@ -77,14 +86,41 @@ Json to_json(const FrameDescription& d) {
           {"moves", d.moves},
           {"velocityStep", d.velocity_step},
           {"velocityFollows", d.velocity_follows},
-          {"curvatureStep", d.curvature_step},
-          {"curvatureFollows", d.curvature_follows},
           {"low", d.low},
           {"high", d.high},
-          {"thickness", to_json(d.thickness)},
-          {"speed", to_json(d.speed)},
-          {"curvature", to_json(d.curvature)},
+          {"fields", to_json(d.fields)},
           {"volume", d.volume}};
+}
+
+Json to_json(const DisplayedColour& colour) {
+  Json bytes = Json::array();
+  for (const float part : colour)
+    bytes.push_back(std::lround(255 * part));
+  return bytes;
+}
+
+// What the page shows, with units from large to small and what makes them of SI units, and palettes.
+Json quantities_json() {
+  Json all = Json::array();
+  for (const Field& field : sheet::fields()) {
+    Json json = {{"name", field.name},
+                 {"caption", field.caption},
+                 {"unit", field.unit == "1" ? "" : field.unit},
+                 {"where", name_of(field.where)},
+                 {"packed", is_packed(field)},
+                 {"symmetric", field.palette.symmetric},
+                 {"stops", Json::array()},
+                 {"kinds", Json::array()},
+                 {"units", Json::array()}};
+    for (const PaletteStop& stop : field.palette.stops)
+      json["stops"].push_back({stop.place, to_json(stop.colour)});
+    for (const PaletteKind& kind : field.palette.kinds)
+      json["kinds"].push_back({kind.name, to_json(kind.colour)});
+    for (const ScaledUnit& unit : scaled_units(field.unit))
+      json["units"].push_back({unit.name, 1 / unit.size});
+    all.push_back(json);
+  }
+  return all;
 }
 
 Json to_json(const Placement& placement) {
@@ -179,7 +215,11 @@ void write_head(const Sink& write, const std::string& title) {
 }
 
 void write_scripts(const Sink& write, const Json& streams) {
-  write("<script type=\"application/json\" id=\"streams\">" + script_json(streams) + "</script>\n");
+  const auto write_data = [&](std::string_view id, const Json& json) {
+    write(fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, script_json(json)));
+  };
+  write_data("streams", streams);
+  write_data("quantities", quantities_json());
   write("<script>\n\"use strict\";\n(() => {\n");
   const std::vector<PagePart>& parts = page_parts();
   for (std::size_t i = 2; i < parts.size(); ++i)

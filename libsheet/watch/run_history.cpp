@@ -2,42 +2,38 @@
 #include "libsheet/watch/run_history.h"
 
 #include <algorithm>
-
-#include "libsheet/sheet/sheet.h"
+#include <array>
 
 namespace sheet::watch {
 
-namespace {
-
-double energy_of_gravity(const formats::Frame& frame, const Scene& scene) {
-  if (!scene.environment.gravity || scene.material.density <= 0)
-    return absent;
-  const auto x = positions(frame);
-  const auto corners = triangles(frame);
-  const auto v = volumes(frame);
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero(); // of volume [m⁴]
-  for (std::size_t t = 0; t < corners.size(); ++t)
-    moment += v[t] / 3 * (x[corners[t][0]] + x[corners[t][1]] + x[corners[t][2]]);
-  return -scene.material.density * scene.environment.gravity->dot(moment);
+const std::vector<Curve>& curves() {
+  static const std::vector<Curve> all = [] {
+    std::vector<Curve> made;
+    for (const Figure& figure : figures()) {
+      if (figure.panel.empty())
+        continue;
+      const std::vector<std::string> columns = figure.columns();
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        made.push_back({columns[i],
+                        figure.form == Figure::Form::range ? std::array{"least", "mean", "greatest"}[i]
+                        : figure.caption == figure.panel   ? ""
+                                                           : figure.caption,
+                        &figure});
+    }
+    return made;
+  }();
+  return all;
 }
 
-} // namespace
-
-StepFigures figures_of(const formats::Frame& frame, const Measurements& measured, const Scene* scene) {
-  return {.time = frame.time,
-          .step = frame.step,
-          .vertices = frame.vertices,
-          .triangles = frame.triangles,
-          .volume = measured.volume,
-          .area = measured.area,
-          .thickness_min = measured.thickness.least,
-          .thickness_mean = measured.thickness.mean,
-          .thickness_max = measured.thickness.greatest,
-          .kinetic_energy = measured.kinetic_energy,
-          .gravity_energy = scene != nullptr ? energy_of_gravity(frame, *scene) : absent,
-          .surface_energy = scene != nullptr && scene->material.surface_tension > 0
-                                ? 2 * scene->material.surface_tension * measured.area
-                                : absent};
+StepFigures figures_of(const formats::Frame& frame, Measurements measured, const Scene* scene) {
+  if (scene != nullptr)
+    measure_energies(frame, *scene, measured);
+  StepFigures step{frame.time, frame.step, frame.vertices, frame.triangles};
+  for (const Figure& figure : figures())
+    if (!figure.panel.empty())
+      for (const double value : figure.values(measured))
+        step.values.push_back(value);
+  return step;
 }
 
 void RunHistory::add(const StepFigures& figures, Clock::time_point now) {

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "formats/cpp/stream_frame.h"
+#include "libsheet/measure/figures.h"
 #include "libsheet/measure/measure.h"
 #include "libsheet/scene/scene.h"
 
@@ -16,18 +18,21 @@ namespace sheet::watch {
 
 using Clock = std::chrono::steady_clock;
 
-// NaN where there is none: energies without density, gravity, tension; thickness without triangles.
 struct StepFigures {
   double time = 0; // [s]
   std::uint64_t step = 0, vertices = 0, triangles = 0;
-  double volume = 0, area = 0;                                       // [m³], [m²]
-  double thickness_min = 0, thickness_mean = 0, thickness_max = 0;   // [m]
-  double kinetic_energy = 0, gravity_energy = 0, surface_energy = 0; // [J]
+  std::vector<double> values = {}; // of curves(), in their order; NaN where there is none
 };
 
-// Energy of gravity: -Σ m g·x, x from the origin to the triangles' centres; of surface: 2 γ A, of both sides wherever
-// they lie. `scene` may be absent.
-[[nodiscard]] StepFigures figures_of(const formats::Frame& frame, const Measurements& measured, const Scene* scene);
+// A curve over the run: a figure that the page draws, or one of its values.
+struct Curve {
+  std::string column, label; // label: what tells it from the others of its panel
+  const Figure* figure;
+};
+[[nodiscard]] const std::vector<Curve>& curves();
+
+// `scene` may be absent.
+[[nodiscard]] StepFigures figures_of(const formats::Frame& frame, Measurements measured, const Scene* scene);
 
 class RunHistory {
 public:

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/watch/watch_stage.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "libsheet/base/error.h"
+#include "libsheet/quantities/scaled_unit.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/view/page.h"
 #include "libsheet/watch/live_page.h"
@@ -51,11 +53,30 @@ const Scene* scene_of(const formats::Frame& frame, FrameScene& scenes) {
 
 Json to_json(std::optional<double> x) { return x && std::isfinite(*x) ? Json(*x) : Json(nullptr); }
 
-Json curve(const std::vector<StepFigures>& steps, double StepFigures::*figure) {
-  Json values = Json::array();
-  for (const StepFigures& step : steps)
-    values.push_back(to_json(step.*figure));
-  return values;
+// The panels in which curves are drawn: title, units from large to small with what makes them of SI units, and curves
+// with their labels.
+Json panels() {
+  Json all = Json::array();
+  for (const Curve& curve : curves()) {
+    const auto same =
+        std::find_if(all.begin(), all.end(), [&](const Json& panel) { return panel["title"] == curve.figure->panel; });
+    Json& panel = same != all.end() ? *same : all.emplace_back(Json{{"title", curve.figure->panel}});
+    if (!panel.contains("units"))
+      for (const ScaledUnit& unit : scaled_units(curve.figure->unit))
+        panel["units"].push_back({unit.name, 1 / unit.size});
+    panel["curves"].push_back({curve.column, curve.label});
+  }
+  return all;
+}
+
+Json history_of_curves(const std::vector<StepFigures>& steps) {
+  Json all = {{"time", Json::array()}};
+  for (const StepFigures& step : steps) {
+    all["time"].push_back(step.time);
+    for (std::size_t i = 0; i < curves().size(); ++i)
+      all[curves()[i].column].push_back(to_json(step.values[i]));
+  }
+  return all;
 }
 
 } // namespace
@@ -137,15 +158,8 @@ std::string WatchStage::state() {
     json["vertices"] = last.vertices;
     json["triangles"] = last.triangles;
   }
-  json["curves"] = {{"time", curve(steps, &StepFigures::time)},
-                    {"volume", curve(steps, &StepFigures::volume)},
-                    {"area", curve(steps, &StepFigures::area)},
-                    {"thickness_min", curve(steps, &StepFigures::thickness_min)},
-                    {"thickness_mean", curve(steps, &StepFigures::thickness_mean)},
-                    {"thickness_max", curve(steps, &StepFigures::thickness_max)},
-                    {"kinetic_energy", curve(steps, &StepFigures::kinetic_energy)},
-                    {"gravity_energy", curve(steps, &StepFigures::gravity_energy)},
-                    {"surface_energy", curve(steps, &StepFigures::surface_energy)}};
+  json["panels"] = panels();
+  json["curves"] = history_of_curves(steps);
   return json.dump();
 }
 

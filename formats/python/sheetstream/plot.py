@@ -19,23 +19,24 @@ import numpy.typing as npt
 from matplotlib import cm, colors
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+from .quantities import QUANTITIES, Quantity
 from .run import Run
 from .stream import Floats, Frame
 
-# What can be coloured or drawn: caption, unit, and by what SI units are multiplied.
-QUANTITIES = {
-    "thickness": ("thickness", "mm", 1e3),
-    "speed": ("speed", "m/s", 1.0),
-    "area": ("area", "m²", 1.0),
-    "volume": ("volume", "mL", 1e6),
-    "thickness_min": ("least thickness", "mm", 1e3),
-    "thickness_mean": ("mean thickness", "mm", 1e3),
-    "thickness_max": ("greatest thickness", "mm", 1e3),
-    "speed_max": ("greatest speed", "m/s", 1.0),
-    "kinetic_energy": ("kinetic energy", "J", 1.0),
-    "triangles": ("triangles", "", 1.0),
-    "vertices": ("vertices", "", 1.0),
+# What only this package draws.
+_OTHERS = {
+    "speed_max": Quantity("frame", "m/s", "greatest speed", QUANTITIES["speed"].units),
+    "triangles": Quantity("frame", "1", "triangles", (("1", 1.0),)),
+    "vertices": Quantity("frame", "1", "vertices", (("1", 1.0),)),
 }
+
+
+def _told(name: str, values: Floats) -> tuple[str, float]:
+    """Caption with the unit that suits the values, and by what SI values are multiplied to be in it."""
+    quantity = (QUANTITIES | _OTHERS).get(name, Quantity("", "", name, (("1", 1.0),)))
+    largest = np.nanmax(np.abs(values), initial=0)
+    unit, size = next((unit for unit in quantity.units if largest >= unit[1]), quantity.units[-1])
+    return f"{quantity.caption} [{unit}]" if unit != "1" else quantity.caption, 1 / size
 
 
 def triangle_values(frame: Frame, quantity: str) -> Floats:
@@ -58,10 +59,11 @@ def sheet(frame: Frame, quantity: str = "thickness", ax: Any = None, limits: tup
     limits: of the colours, in SI units; by default all but the lowest and the highest hundredth. up: the axis "x", "y"
     or "z" that is drawn upwards.
     """
-    caption, unit, factor = QUANTITIES.get(quantity, (quantity, "", 1.0))
     if ax is None:
         ax = plt.figure(figsize=(6, 5), layout="constrained").add_subplot(projection="3d")
-    values = factor * triangle_values(frame, quantity)
+    values = triangle_values(frame, quantity)
+    caption, factor = _told(quantity, values)
+    values = factor * values
     low, high = (factor * np.array(limits)) if limits else np.percentile(values, (1, 99))
     norm = colors.Normalize(low, high if high > low else low + max(abs(low) * 1e-3, 1e-12))
     order = np.roll(np.arange(3), 2 - "xyz".index(up))  # the axes of the drawing
@@ -79,7 +81,7 @@ def sheet(frame: Frame, quantity: str = "thickness", ax: Any = None, limits: tup
     ax.set_box_aspect((1, 1, 1))
     ax.set_title(f"t = {frame.time:.4g} s")
     ax.figure.colorbar(cm.ScalarMappable(norm, cmap), ax=ax, shrink=0.7, pad=0.16,
-                       label=f"{caption} [{unit}]" if unit else caption)
+                       label=caption)
     return ax
 
 
@@ -98,11 +100,12 @@ def curves(run: Run, quantities: Sequence[str] = ("volume", "thickness_min", "ki
                             layout="constrained")[1][:, 0]
     data = run.curves()
     for ax, quantity in zip(axes, quantities):
-        if quantity not in QUANTITIES or quantity not in data:
-            raise ValueError(f'"{quantity}" is no curve; there are {", ".join(name for name in data if name in QUANTITIES)}')
-        caption, unit, factor = QUANTITIES[quantity]
+        if quantity not in data or quantity in ("time", "step"):
+            there = ", ".join(name for name in data if name not in ("time", "step"))
+            raise ValueError(f'"{quantity}" is no curve; there are {there}')
+        caption, factor = _told(quantity, data[quantity])
         ax.plot(data["time"], factor * data[quantity])
-        ax.set_ylabel(f"{caption}\n[{unit}]" if unit else caption)
+        ax.set_ylabel(caption.replace(" [", "\n["))
         ax.grid(alpha=0.3)
     axes[-1].set_xlabel("time [s]")
     return axes

@@ -9,11 +9,16 @@ from typing import overload
 import numpy as np
 import numpy.typing as npt
 
+from .quantities import QUANTITIES
 from .stream import Array, Floats, Frame, Header, Reader, StreamError, Writer, find_value_error, BAD_INPUT
+
+# Quantities that frames may have as an array, one number a triangle or vertex, and that sheet-info --csv sums up.
+_ARRAYS = tuple(name for name, quantity in QUANTITIES.items()
+                if quantity.where != "frame" and f"{name}_mean" in QUANTITIES and name != "thickness")
 
 # Columns of Run.curves(), as sheet-info --csv calls them.
 CURVES = ("time", "step", "vertices", "triangles", "area", "volume", "thickness_min", "thickness_mean", "thickness_max",
-          "speed_max", "kinetic_energy")
+          "speed_max", "kinetic_energy", *(f"{name}_{kind}" for name in _ARRAYS for kind in ("min", "mean", "max")))
 
 
 class Run(Sequence[Frame]):
@@ -96,7 +101,16 @@ def _measure(frame: Frame, density: float | None) -> tuple[float, ...]:
     total, surface = float(volume.sum()), float(area.sum())
     return (frame.time, frame.step, frame.vertices, frame.triangles, surface, total, thickness.min(),
             total / surface if surface > 0 else np.nan, thickness.max(), speed.max(initial=0),
-            frame.kinetic_energy(density))
+            frame.kinetic_energy(density), *(x for name in _ARRAYS for x in _range(frame, name, area)))
+
+
+def _range(frame: Frame, name: str, area: Floats) -> tuple[float, float, float]:
+    """Least value, mean by area, greatest value of an array; nan if the frame does not have it."""
+    if name not in frame or not frame.triangles:
+        return (np.nan, np.nan, np.nan)
+    values = np.asarray(frame[name], float)
+    by_triangle = values if QUANTITIES[name].where == "triangle" else values[frame["triangle"]].mean(axis=1)
+    return (values.min(), float((area * by_triangle).sum() / area.sum()), values.max())
 
 
 def make_frame(position: npt.ArrayLike, triangle: npt.ArrayLike, thickness: npt.ArrayLike, time: float = 0.0,

@@ -1,35 +1,57 @@
-// False colours: dark to light for amounts, two-sided for curvature, three for contact; as sheet-render has them.
+// False colours, as sheet-render has them: the page brings quantities and palettes along.
 
-const amounts = [[31, 13, 71], [48, 48, 133], [28, 94, 153], [18, 135, 143], [61, 176, 107], [166, 209, 56], [252, 235, 84]];
-const twoSided = [[23, 64, 140], [115, 168, 214], [242, 242, 240], [230, 145, 107], [158, 26, 38]];
-const contactColours = [[204, 207, 212], [41, 115, 191], [219, 84, 41]];
-const contactNames = ["none", "touches a solid", "touches the sheet"];
+const quantities = JSON.parse(document.getElementById("quantities").textContent);
 const plainColour = [176, 120, 78];
 
+// The colour at a place of the scale, 0 to 1; stops are [place, colour].
 function between(stops, place) {
-  const x = Math.max(0, Math.min(1, place || 0)) * (stops.length - 1), i = Math.min(stops.length - 2, Math.floor(x));
-  return stops[i].map((c, k) => c + (x - i) * (stops[i + 1][k] - c));
+  const x = Math.max(0, Math.min(1, place || 0)), i = Math.max(1, stops.findIndex(stop => x <= stop[0]));
+  const [[low, from], [high, to]] = [stops[i - 1], stops[i]];
+  return from.map((c, k) => c + (x - low) / (high - low) * (to[k] - c));
 }
 
-const quantities = {
-  thickness: {unit: "m", stops: amounts, at: (frame, shape, v) => shape.thickness[v]},
-  speed: {unit: "m/s", stops: amounts, at: (frame, shape, v) => length(frame.velocity(v))},
-  curvature: {unit: "1/m", stops: twoSided, at: (frame, shape, v) => frame.curvatureAt(v)},
+const quantityOf = name => quantities.find(quantity => quantity.name === name);
+
+// Whether any frame of the streams has it.
+const isThere = (streams, {name}) => {
+  const i = quantities.indexOf(quantityOf(name));
+  return streams.some(stream => stream.descriptions.some(frame => frame.fields[i]));
 };
+
+// Its values at the vertices: those of triangles by their area.
+function vertexValues(frame, shape, {name, where}) {
+  if (name === "thickness")
+    return shape.thickness;
+  if (name === "speed")
+    return Float64Array.from({length: frame.vertices}, (_, v) => length(frame.velocity(v)));
+  if (where === "vertex")
+    return Float64Array.from({length: frame.vertices}, (_, v) => frame.valueOf(name, v));
+  const sum = new Float64Array(frame.vertices), area = new Float64Array(frame.vertices);
+  for (let t = 0; t < frame.triangles; ++t) {
+    const corners = frame.cornersOf(t), [a, b, c] = Array.from(corners, v => shape.place.subarray(3 * v, 3 * v + 3));
+    const size = length(cross(subtract(b, a), subtract(c, a)));
+    for (const v of corners) {
+      sum[v] += size * frame.valueOf(name, t);
+      area[v] += size;
+    }
+  }
+  return sum.map((x, v) => area[v] > 0 ? x / area[v] : 0);
+}
 
 // The range of a quantity in all frames of all streams, without the extreme hundredths of each frame.
 function rangeOf(streams, quantity) {
+  const i = quantities.indexOf(quantity);
   let low = Infinity, high = -Infinity;
   for (const stream of streams)
     for (const frame of stream.descriptions) {
-      if (frame.triangles === 0)
+      if (frame.triangles === 0 || !frame.fields[i])
         continue;
-      low = Math.min(low, frame[quantity][0]);
-      high = Math.max(high, frame[quantity][1]);
+      low = Math.min(low, frame.fields[i].range[0]);
+      high = Math.max(high, frame.fields[i].range[1]);
     }
   if (!(low <= high))
     return [0, 1];
-  if (quantity === "curvature") {
+  if (quantity.symmetric) {
     const most = Math.max(Math.abs(low), Math.abs(high), 1e-9);
     return [-most, most];
   }
@@ -38,13 +60,14 @@ function rangeOf(streams, quantity) {
   return high > 0 ? [0.9 * low, 1.1 * high] : [0, 1];
 }
 
-// Red, green, blue, 255 for each vertex.
-function coloursOf(frame, shape, name, range) {
-  const colours = new Uint8Array(4 * frame.vertices).fill(255), quantity = quantities[name];
+// Red, green, blue, 255 for each vertex; plain where there is no quantity, or the frame does not have it.
+function coloursOf(frame, shape, quantity, range) {
+  const colours = new Uint8Array(4 * frame.vertices).fill(255);
+  const values = quantity && frame.fields[quantities.indexOf(quantity)] && vertexValues(frame, shape, quantity);
   for (let v = 0; v < frame.vertices; ++v) {
-    const colour = name === "contact" ? contactColours[frame.contacts[v]]
-      : quantity ? between(quantity.stops, (quantity.at(frame, shape, v) - range[0]) / (range[1] - range[0]))
-      : plainColour;
+    const colour = !values ? plainColour
+      : quantity.kinds.length ? quantity.kinds[values[v]][1]
+      : between(quantity.stops, (values[v] - range[0]) / (range[1] - range[0]));
     colours.set(colour, 4 * v);
   }
   return colours;

@@ -34,11 +34,21 @@ const mean = (frame, triangle, weights, value) => {
   return sum;
 };
 
+// Of the quantities that are packed, [quantity, value] each; of kinds that at the nearest corner.
+function packedValues(frame, triangle, weights) {
+  const nearest = weights.indexOf(Math.max(...weights));
+  const at = ({name, where, kinds}) => where === "triangle" ? frame.valueOf(name, triangle)
+    : kinds.length ? frame.valueOf(name, frame.cornersOf(triangle)[nearest])
+    : mean(frame, triangle, weights, v => [frame.valueOf(name, v), 0, 0])[0];
+  return quantities.filter(({name}) => name in frame.values).map(quantity => [quantity, at(quantity)]);
+}
+
 function stateOf(frame, triangle, weights) {
   const velocity = mean(frame, triangle, weights, v => frame.velocity(v));
   return {
     frame, triangle, weights, velocity, time: frame.time, thickness: frame.thicknessOf(triangle),
     place: mean(frame, triangle, weights, v => frame.place(v)), speed: length(velocity),
+    values: packedValues(frame, triangle, weights),
   };
 }
 

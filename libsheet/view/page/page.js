@@ -49,7 +49,9 @@ function loweredBath(stream, surface) {
 
 const now = () => times[state.moment];
 const frames = () => streams.map(s => s.frameAt(now()));
-const range = () => quantities[state.colour] ? rangeOf(streams, state.colour) : [0, 1];
+const shownQuantities = quantities.filter(quantity => isThere(streams, quantity));
+const quantity = () => quantityOf(state.colour);
+const range = () => quantity() ? rangeOf(streams, quantity()) : [0, 1];
 const plane = () => state.cut && {normal: state.cut.normal, at: state.cut.at - dot(state.cut.normal, origin)};
 
 // Makes what has changed since the last picture anew.
@@ -58,7 +60,7 @@ function refresh(i) {
   if (kept.frame !== frame || kept.colour !== state.colour) {
     if (kept.frame !== frame)
       kept.shape = shapeOf(frame, origin);
-    const colours = coloursOf(frame, kept.shape, state.colour, range()), wall = wallOf(frame.mesh, kept.shape);
+    const colours = coloursOf(frame, kept.shape, quantity(), range()), wall = wallOf(frame.mesh, kept.shape);
     [kept.sheet, kept.wall, kept.lines].forEach(u => canvas.free(u));
     kept.lines = null;
     kept.sheet = canvas.upload({...kept.shape, colour: colours, corners: frame.mesh.corners});
@@ -223,7 +225,7 @@ function tell() {
   $("measure").setAttribute("aria-pressed", state.measuring);
   $("legend").hidden = state.colour === "plain";
   if (state.colour !== "plain")
-    drawLegend($("legend").firstElementChild, state.colour, range());
+    drawLegend($("legend").firstElementChild, quantity(), range());
   $("cut").value = state.cut ? state.cut.name : "";
   $("cutter").hidden = !state.cut;
   if (state.cut) {
@@ -295,7 +297,7 @@ function readAddress() {
     state.moment = Math.max(0, times.findLastIndex(t => t <= time[0] + 1e-12));
   if (eye && eye[2] > 0)
     [camera.azimuth, camera.elevation, camera.distance, ...camera.target] = eye;
-  if (words.get("colour") in quantities || words.get("colour") === "contact")
+  if (shownQuantities.some(({name}) => name === words.get("colour")))
     state.colour = words.get("colour");
   state.mesh = words.get("mesh") === "1";
   state.solids = words.get("solids") !== "0";
@@ -485,7 +487,14 @@ const keys = {
     setCut(names[(names.indexOf(state.cut ? state.cut.name : "") + 1) % names.length]);
   },
 };
-["plain", "thickness", "speed", "curvature", "contact"].forEach((name, i) => { keys[i + 1] = () => setColour(name); });
+["plain", ...shownQuantities.map(({name}) => name)].slice(0, 9).forEach((name, i) => { keys[i + 1] = () => setColour(name); });
+
+function offerQuantities() {
+  for (const {name} of shownQuantities)
+    $("colour").append(new Option(name));
+  $("colourkeys").textContent = shownQuantities.slice(0, 8).map((_, i) => i + 2).join(" ");
+  $("colournames").textContent = shownQuantities.slice(0, 8).map(({name}) => name).join(", ");
+}
 
 function listen() {
   listenToPointers();
@@ -532,6 +541,7 @@ async function start() {
   for (const id of ["play", "time", "clock"])
     $(id).hidden = times.length === 1;
   document.querySelector("footer").classList.toggle("still", times.length === 1);
+  offerQuantities();
   listen();
   document.body.dataset.state = "unpacking";
   show(true);

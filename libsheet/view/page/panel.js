@@ -40,6 +40,8 @@ function triangleSection(stream, states, now) {
     ["thickness", withUnit(state.thickness, "m"), state.thickness],
     ["position", place.map(x => withUnit(x, "m")).join(", "), place.join(" ")],
     ["speed", withUnit(state.speed, "m/s"), state.speed],
+    ...state.values.map(([{name, kinds, unit}, value]) => [
+      name, kinds.length ? kinds[value][0] : withUnit(value, unit), value]),
   ]));
   if (states.length < 2)
     return section;

@@ -12,14 +12,12 @@ function sharp(canvas) {
   return {pen, width, height};
 }
 
-// A factor and the prefixed unit that suit numbers up to `most`.
-function fitting(most, unit) {
-  if (unit === "m" || unit === "m/s")
-    for (const [factor, prefix] of [[1, ""], [1e3, "m"], [1e6, "µ"]])
-      if (most * factor >= 0.9995)
-        return [factor, prefix + unit];
-  return [1, unit];
+// A factor and the unit that suit numbers up to `most`; units: [name, factor] from large to small.
+function fitting(most, units) {
+  const [name, factor] = units.find(([, f]) => most * f >= 0.9995) ?? units.at(-1);
+  return [factor, name];
 }
+const metres = [["m", 1], ["mm", 1e3], ["µm", 1e6]], plainly = unit => unit === "m" ? metres : [[unit, 1]];
 
 function ticks(low, high, count) {
   const rough = (high - low) / count, size = 10 ** Math.floor(Math.log10(rough));
@@ -43,8 +41,8 @@ function plot(canvas, lines, units, cursor, dashes = []) {
     low = 0;
   const spare = Math.max((high - low) * 0.08, Math.abs(high) * 1e-3, 1e-12);
   [low, high] = [low === 0 ? 0 : low - spare, high + spare];
-  const [fx, ux] = fitting(Math.max(Math.abs(left), Math.abs(right)), units[0]);
-  const [fy, uy] = fitting(Math.max(Math.abs(low), Math.abs(high)), units[1]);
+  const [fx, ux] = fitting(Math.max(Math.abs(left), Math.abs(right)), plainly(units[0]));
+  const [fy, uy] = fitting(Math.max(Math.abs(low), Math.abs(high)), plainly(units[1]));
   const box = {x: 46, y: 16, w: width - 56, h: height - 36};
   const px = x => box.x + box.w * (x - left) / (right - left), py = y => box.y + box.h * (1 - (y - low) / (high - low));
   pen.fillStyle = pen.strokeStyle = themed("--line");
@@ -79,21 +77,20 @@ function plot(canvas, lines, units, cursor, dashes = []) {
   }
 }
 
-function drawLegend(canvas, name, range) {
+function drawLegend(canvas, quantity, range) {
   const {pen, width} = sharp(canvas), ink = themed("--ink");
   pen.textAlign = "left";
-  if (name === "contact") {
-    contactNames.forEach((text, i) => {
-      pen.fillStyle = `rgb(${contactColours[i]})`;
-      pen.fillRect(4, 3 + 18 * i, 24, 12);
-      pen.fillStyle = ink;
-      pen.fillText(text, 36, 13 + 18 * i);
-    });
+  quantity.kinds.forEach(([text, colour], i) => {
+    pen.fillStyle = `rgb(${colour})`;
+    pen.fillRect(4, 3 + 18 * i, 24, 12);
+    pen.fillStyle = ink;
+    pen.fillText(text, 36, 13 + 18 * i);
+  });
+  if (quantity.kinds.length)
     return;
-  }
-  const {stops, unit} = quantities[name], [factor, prefixed] = fitting(Math.max(...range.map(Math.abs)), unit);
+  const {stops, units} = quantity, [factor, unit] = fitting(Math.max(...range.map(Math.abs)), units);
   pen.fillStyle = ink;
-  pen.fillText(`${name} [${prefixed}]`, 4, 12);
+  pen.fillText(unit ? `${quantity.caption} [${unit}]` : quantity.caption, 4, 12);
   const bar = {x: 14, w: width - 28};
   for (let i = 0; i < bar.w; ++i) {
     pen.fillStyle = `rgb(${between(stops, i / (bar.w - 1))})`;

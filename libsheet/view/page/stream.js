@@ -14,7 +14,8 @@ class Frame {
     return p ? [p[v] * s, p[n + v] * s, p[2 * n + v] * s] : [0, 0, 0];
   }
   thicknessOf(triangle) { return Math.exp(this.logs[triangle] * this.thicknessStep); }
-  curvatureAt(v) { return this.bends[v] * this.curvatureStep; }
+  // Of a quantity that is packed, at a triangle or vertex.
+  valueOf(name, row) { return this.values[name][row] * (this.steps[name] || 1); }
   cornersOf(triangle) { return this.mesh.corners.subarray(3 * triangle, 3 * triangle + 3); }
 }
 
@@ -38,8 +39,15 @@ class Stream {
     frame.logs = data.numbers(triangles, frame.sameMesh ? before.logs : null);
     if (frame.moves)
       frame.velocities = data.numbers(3 * vertices, frame.velocityFollows ? before.velocities : null);
-    frame.bends = data.numbers(vertices, frame.curvatureFollows ? before.bends : null);
-    frame.contacts = data.rawBytes(vertices);
+    frame.values = {};
+    frame.steps = {};
+    for (const [i, {name, where, packed, kinds}] of quantities.entries()) {
+      const field = frame.fields[i], rows = where === "triangle" ? triangles : vertices;
+      if (!packed || !field)
+        continue;
+      frame.values[name] = kinds.length ? data.rawBytes(rows) : data.numbers(rows, field.follows ? before.values[name] : null);
+      frame.steps[name] = field.step;
+    }
     this.frames.push(frame);
   }
 

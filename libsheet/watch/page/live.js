@@ -2,15 +2,7 @@
 // the place of the one before when it is ready, with the same view.
 
 const pause = 1000, framePause = 2000; // [ms]
-const litres = [["m³", 1], ["l", 1e3], ["ml", 1e6]], squares = [["m²", 1], ["cm²", 1e4], ["mm²", 1e6]];
-const joules = [["J", 1], ["mJ", 1e3], ["µJ", 1e6]], metres = [["m", 1], ["mm", 1e3], ["µm", 1e6]];
-const panels = [
-  {title: "volume", curves: {volume: ""}, units: litres},
-  {title: "thickness", curves: {thickness_min: "least", thickness_mean: "mean", thickness_max: "greatest"}, units: metres},
-  {title: "area", curves: {area: ""}, units: squares},
-  {title: "energy", curves: {kinetic_energy: "of motion", gravity_energy: "of height", surface_energy: "of surface"},
-   units: joules},
-];
+const canvases = new Map(); // of panels, by title
 const dashes = [[], [7, 3], [2, 2]], signs = ["\u2014", "\u2013 \u2013", "\u00b7\u00b7\u00b7"];
 let shownStep = null, coming = false;
 let turned = false; // the view is the user's; until then every frame is fitted into the picture
@@ -45,28 +37,30 @@ function showFigures(state) {
   }
 }
 
-function canvasOf(panel) {
-  if (!panel.canvas) {
-    const figure = document.createElement("figure");
-    panel.caption = document.createElement("figcaption");
-    panel.canvas = document.createElement("canvas");
-    figure.append(panel.caption, panel.canvas);
+function canvasOf(title) {
+  if (!canvases.has(title)) {
+    const figure = document.createElement("figure"), caption = document.createElement("figcaption");
+    const canvas = document.createElement("canvas");
+    figure.append(caption, canvas);
     document.getElementById("curves").append(figure);
+    canvases.set(title, {caption, canvas});
   }
-  return panel.canvas;
+  return canvases.get(title);
 }
 
-function showCurves(curves) {
+// panels: [{title, units: [[name, factor], ...], curves: [[name, label], ...]}, ...]
+function showCurves(panels, curves) {
   for (const panel of panels) {
-    const names = Object.keys(panel.curves).filter(name => curves[name].some(Number.isFinite));
-    if (names.length === 0)
+    const drawn = panel.curves.filter(([name]) => curves[name]?.some(Number.isFinite));
+    if (drawn.length === 0)
       continue;
-    const most = Math.max(...names.flatMap(name => curves[name]).filter(Number.isFinite).map(Math.abs));
+    const most = Math.max(...drawn.flatMap(([name]) => curves[name]).filter(Number.isFinite).map(Math.abs));
     const [unit, factor] = panel.units.find(([, f]) => most * f >= 1) ?? panel.units.at(-1);
-    const lines = names.map(name => curves.time.map((t, i) => [t, (curves[name][i] ?? NaN) * factor]));
-    plot(canvasOf(panel), lines, ["s", ""], undefined, dashes);
-    const legend = names.map((name, i) => `${signs[i]} ${panel.curves[name]}`.replaceAll(" ", "\u00a0")).join(", ");
-    panel.caption.textContent = `${panel.title} [${unit}]` + (names.length > 1 ? `: ${legend}` : ` ${panel.curves[names[0]]}`);
+    const lines = drawn.map(([name]) => curves.time.map((t, i) => [t, (curves[name][i] ?? NaN) * factor]));
+    const {caption, canvas} = canvasOf(panel.title);
+    plot(canvas, lines, ["s", ""], undefined, dashes);
+    const legend = drawn.map(([, label], i) => `${signs[i]} ${label}`.replaceAll(" ", "\u00a0")).join(", ");
+    caption.textContent = panel.title + (unit ? ` [${unit}]` : "") + (drawn.length > 1 ? `: ${legend}` : ` ${drawn[0][1]}`);
   }
 }
 
@@ -124,7 +118,7 @@ async function ask() {
     else {
       message.textContent = "";
       showFigures(state);
-      showCurves(state.curves);
+      showCurves(state.panels, state.curves);
       showFrame(state.step);
     }
   } catch {

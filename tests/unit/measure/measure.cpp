@@ -25,9 +25,9 @@ TEST(Measure, Square) {
   const Measurements m = measure(frame, 1000);
   EXPECT_DOUBLE_EQ(m.area, 1);
   EXPECT_DOUBLE_EQ(m.volume, 0.015);
-  EXPECT_DOUBLE_EQ(m.thickness.least, 0.01);
-  EXPECT_DOUBLE_EQ(m.thickness.mean, 0.015);
-  EXPECT_DOUBLE_EQ(m.thickness.greatest, 0.02);
+  EXPECT_DOUBLE_EQ(m.range_of("thickness").least, 0.01);
+  EXPECT_DOUBLE_EQ(m.range_of("thickness").mean, 0.015);
+  EXPECT_DOUBLE_EQ(m.range_of("thickness").greatest, 0.02);
   EXPECT_DOUBLE_EQ(m.kinetic_energy, 15 * 4 / 2.0);
   EXPECT_NEAR((m.momentum - Vector3d(0, 0, 30)).norm(), 0, 1e-12);
   // m x × v with the centers of mass (2/3, 1/3) and (1/3, 2/3) of 5 and 10 kg
@@ -55,7 +55,7 @@ TEST(Measure, EmptyFrame) {
   EXPECT_EQ(m.area, 0);
   EXPECT_EQ(m.volume, 0);
   EXPECT_EQ(m.kinetic_energy, 0);
-  EXPECT_TRUE(std::isnan(m.thickness.mean));
+  EXPECT_TRUE(std::isnan(m.range_of("thickness").mean));
   EXPECT_TRUE(std::isnan(m.low[0]));
   EXPECT_TRUE(std::isnan(m.edge.mean));
   EXPECT_FALSE(m.topology.closed);

@@ -111,11 +111,11 @@ TEST(Survey, SolidsCountUnlessTheyAreLarge) {
   for (const double radius : {0.2, 20.0}) {
     scene.solids[0].shape = scene::Sphere{radius};
     Survey survey(any_view);
-    survey.add(frame, &scene, make_solids(scene), Look::material);
+    survey.add(frame, &scene, make_solids(scene), {});
     EXPECT_NEAR(survey.subject().box.low.y(), radius < 1 ? -1.2 : -0.005, 1e-3);
   }
   Survey empty(any_view);
-  empty.add(make_frame({}, {}, {}), nullptr, {}, Look::thickness);
+  empty.add(make_frame({}, {}, {}), nullptr, {}, looks()[1].second);
   EXPECT_TRUE(empty.subject().box.empty());
   EXPECT_TRUE(empty.scale().empty());
 }
@@ -130,7 +130,7 @@ TEST(Survey, MovingSolidsAreSeenWhereTheyAre) {
   moving.velocity.entries = {{0, Vector3(0, 0.5, 0)}};
   scene.solids[0].motion = moving;
   Survey survey(any_view);
-  survey.add(frame, &scene, make_solids(scene), Look::material);
+  survey.add(frame, &scene, make_solids(scene), {});
   EXPECT_NEAR(survey.subject().box.high.y(), 1.1, 1e-4);
 }
 

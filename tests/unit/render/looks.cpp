@@ -16,7 +16,7 @@ namespace {
 TEST(FalseColours, GrowLighterAndStayApart) {
   float before = -1;
   for (int i = 0; i <= 100; ++i) {
-    const Colour c = false_colour(static_cast<float>(i) / 100, Look::thickness);
+    const Colour c = false_colour(static_cast<float>(i) / 100, amounts);
     const float light = luminance({decode_srgb(c[0]), decode_srgb(c[1]), decode_srgb(c[2])});
     EXPECT_GT(light, before);
     before = light;
@@ -30,13 +30,14 @@ TEST(FalseColours, APictureTellsTheThicknessOfEachTriangle) {
     volumes(frame)[t] *= 1 + static_cast<double>(t) / 31;
   const Box box = test::box_of(frame);
   const World world(make_surface(frame, 1e-4), {}, {}, {}, box);
-  const Values values = values_of(frame, Look::thickness);
+  const Field& field = field_named("thickness");
+  const std::vector<double> values = values_of(frame, field);
   Scale scale = Scale::nothing();
   scale.add(values);
   EXPECT_NEAR(scale.low, 0.01, 1e-12);
   EXPECT_NEAR(scale.high, 0.02, 1e-12);
   const Camera camera(Vector3(0, 3, 0), Vector3::Zero(), Vector3::UnitY(), 20, 1);
-  const Shader shader = look_shader(world, Look::thickness, values, scale, camera.pixel_angle(100));
+  const Shader shader = field_shader(world, field, values, scale);
   const auto x = positions(frame);
   for (std::size_t t = 0; t < frame.triangles; ++t) {
     const Corners& c = triangles(frame)[t];
@@ -47,43 +48,33 @@ TEST(FalseColours, APictureTellsTheThicknessOfEachTriangle) {
     const Vec toward = (world.to_world(middle) - eye).normalized();
     const Colour seen = shader({eye, toward}, sampler, rays);
     const double h = volumes(frame)[t] / (0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm());
-    const Colour full = false_colour(static_cast<float>((h - 0.01) / 0.01), Look::thickness);
+    const Colour full = false_colour(static_cast<float>((h - 0.01) / 0.01), field.palette);
     const float shade = 0.72F + 0.28F * std::abs(toward.y());
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(seen[k], decode_srgb(shade * full[k]), 2e-3) << "triangle " << t;
   }
 }
 
-TEST(Curvature, OfABallAndATrough) {
-  const auto middle_of = [](const formats::Frame& frame) {
-    const Values v = values_of(frame, Look::curvature);
-    return v.values[v.values.size() / 2];
-  };
-  EXPECT_NEAR(middle_of(test::ball(40, 0.01)), 2, 0.04);    // 1/R, positive outwards
-  EXPECT_NEAR(middle_of(test::trough(40, 0.01)), -1, 0.02); // 1/(2R), its positive side is the inner one
-  EXPECT_NEAR(middle_of(test::flat(4, 0.01)), 0, 1e-12);
-}
-
 TEST(Ruler, RoundValuesInFittingUnits) {
-  const Ruler thickness = make_ruler({0.00133, 0.00271}, Look::thickness, 5);
+  const Ruler thickness = make_ruler({0.00133, 0.00271}, field_named("thickness"), 5);
   EXPECT_EQ(thickness.title, "thickness [mm]");
   ASSERT_EQ(thickness.ticks.size(), 3U);
   EXPECT_EQ(thickness.ticks[0].label, "1.5");
   EXPECT_EQ(thickness.ticks[1].label, "2.0");
   EXPECT_NEAR(thickness.ticks[0].place, 0.17 / 1.38, 1e-9);
-  const Ruler curvature = make_ruler({-12, 12}, Look::curvature, 5);
+  const Ruler curvature = make_ruler({-12, 12}, field_named("curvature"), 5);
   EXPECT_EQ(curvature.title, "mean curvature [1/m]");
   ASSERT_EQ(curvature.ticks.size(), 5U);
   EXPECT_EQ(curvature.ticks[2].label, "0");
-  EXPECT_EQ(make_ruler({0, 3e-6}, Look::speed, 4).title, "speed [\xb5m/s]");
+  EXPECT_EQ(make_ruler({0, 3e-6}, field_named("speed"), 4).title, "speed [\xb5m/s]");
 }
 
 TEST(Scale, IsNeverWithoutWidth) {
-  for (const Look look : {Look::thickness, Look::curvature, Look::speed, Look::contacts})
+  for (const Field& field : fields())
     for (const Scale& scale : {Scale{0, 0}, Scale{0.02, 0.02 * (1 + 1e-12)}, Scale::nothing()}) {
-      const Scale wide = widened(scale, look);
+      const Scale wide = widened(scale, field);
       EXPECT_LT(wide.low, wide.high);
-      EXPECT_FALSE(make_ruler(wide, look, 5).ticks.empty());
+      EXPECT_FALSE(make_ruler(wide, field, 5).ticks.empty());
     }
 }
 
@@ -93,7 +84,7 @@ TEST(ScaleBar, StandsBesideTheSubject) {
     ASSERT_TRUE(has_room_for_scale(w, h));
     for (const Scale& scale :
          {Scale{0.001, 0.002}, Scale{-1.23e-3, 1e-3}, Scale{999, 1000}, Scale{-1.7e-9, 1.7e-9}, Scale{-3e7, 3e7}})
-      for (const Look look : {Look::thickness, Look::curvature, Look::speed, Look::contacts})
+      for (const auto& [name, look] : looks())
         draw_scale(bitmap, scale, look, 1.234e-5);
     const std::vector<std::uint8_t> before = Bitmap(w, h).bytes;
     for (int y = 0; y < h; ++y)
@@ -111,7 +102,7 @@ TEST(ScaleBar, StandsBesideTheSubject) {
 TEST(ScaleBar, IsDrawnIntoSmallPicturesWithoutHarm) {
   for (const auto& [w, h] : {std::pair{1, 1}, {30, 20}, {640, 360}}) {
     Bitmap bitmap(w, h);
-    draw_scale(bitmap, {0.001, 0.002}, Look::thickness, 0.25);
+    draw_scale(bitmap, {0.001, 0.002}, looks()[1].second, 0.25);
     EXPECT_EQ(bitmap.bytes.size(), static_cast<std::size_t>(3 * w * h));
   }
 }

@@ -40,7 +40,7 @@ TEST(Perturb, WaveAlongAnAxisAndFromTheCentre) {
     const double s = (flat[i].norm() - inner) / (outer - inner);
     EXPECT_NEAR(mesh.positions[i].z(), amplitude * std::sin(4 * std::numbers::pi * s), 1e-15);
   }
-  const Field wave = plane_wave(2.0, 4.0, {0, 3, 0});
+  const HeightField wave = plane_wave(2.0, 4.0, {0, 3, 0});
   EXPECT_NEAR(wave({5, 1, 7}), 2.0, 1e-15);
   EXPECT_THROW((void)plane_wave(1.0, 0.0, {1, 0, 0}), Error);
   EXPECT_THROW((void)plane_wave(1.0, 1.0, {0, 0, 0}), Error);
@@ -48,7 +48,7 @@ TEST(Perturb, WaveAlongAnAxisAndFromTheCentre) {
 
 TEST(Perturb, NoiseHasItsStrengthAndItsSeed) {
   const double amplitude = 3.0;
-  const Field noise = band_noise(amplitude, 0.1, 5, Eigen::Vector3d::UnitZ());
+  const HeightField noise = band_noise(amplitude, 0.1, 5, Eigen::Vector3d::UnitZ());
   double mean = 0.0, square = 0.0;
   constexpr int n = 200;
   for (int i = 0; i < n; ++i)

@@ -80,8 +80,11 @@ TEST(FramePacker, TellsThicknessSpeedAndVolume) {
   const FrameDescription d = packer.pack(frame).description;
   EXPECT_TRUE(d.moves);
   EXPECT_FALSE(d.velocity_follows);
-  EXPECT_DOUBLE_EQ(d.speed.low, 5);
-  EXPECT_DOUBLE_EQ(d.thickness.high, 0.02);
+  const auto range = [&](std::string_view name) {
+    return d.fields[static_cast<std::size_t>(&field_named(name) - fields().data())].range;
+  };
+  EXPECT_DOUBLE_EQ(range("speed").low, 5);
+  EXPECT_DOUBLE_EQ(range("thickness").high, 0.02);
   EXPECT_DOUBLE_EQ(d.volume, 0.08);
   EXPECT_LE(d.velocity_step, 5.0 / 16384);
 }

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/quantities/fields.h"
+
+#include <algorithm>
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include "libsheet/base/error.h"
+#include "libsheet/geometry/connectivity.h"
+#include "libsheet/geometry/dihedral.h"
+#include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+namespace {
+
+using formats::Frame;
+using formats::Place;
+
+std::vector<double> thickness(const Frame& frame) {
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  std::vector<double> h;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const Corners& c = corners[t];
+    h.push_back(volumes(frame)[t] / (0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm()));
+  }
+  return h;
+}
+
+std::vector<double> mean_curvature(const Frame& frame) {
+  const auto x = positions(frame);
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  const std::vector<double> area = vertex_shares(x.size(), mesh.triangles, [&](std::uint32_t t) {
+    const Corners& c = mesh.triangles[t];
+    return 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm();
+  });
+  std::vector<double> bend(x.size(), 0);
+  std::vector<bool> rim(x.size(), false);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [a, b] = mesh.edges[e];
+    if (mesh.on_rim(e)) {
+      rim[a] = rim[b] = true;
+      continue;
+    }
+    std::array<std::uint32_t, 2> apex{};
+    for (std::size_t side = 0; side < 2; ++side)
+      for (const std::uint32_t v : mesh.triangles[mesh.edge_triangles[e][side]])
+        if (v != a && v != b)
+          apex[side] = v;
+    const double lb = (x[b] - x[a]).norm() * dihedral_angle(x[a], x[b], x[apex[0]], x[apex[1]]);
+    bend[a] += lb;
+    bend[b] += lb;
+  }
+  for (std::size_t v = 0; v < x.size(); ++v)
+    bend[v] = rim[v] || !(area[v] > 0) ? 0 : bend[v] / (4 * area[v]);
+  return bend;
+}
+
+std::vector<double> speed(const Frame& frame) {
+  std::vector<double> result(frame.vertices, 0);
+  const auto v = velocities(frame);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    result[i] = v[i].norm();
+  return result;
+}
+
+std::vector<double> contacts(const Frame& frame) {
+  std::vector<double> result(frame.vertices, 0);
+  const auto touched = touched_solids(frame);
+  for (std::size_t v = 0; v < touched.size(); ++v)
+    result[v] = touched[v] != no_solid ? 1 : 0;
+  if (const formats::Array* springs = frame.find("contact_vertex"))
+    for (const std::uint32_t v : springs->values<std::uint32_t>())
+      result[v] = 2;
+  return result;
+}
+
+const std::array<Field, 4> all_fields = {{
+    {"thickness", "thickness", "m", Place::triangle, thickness, amounts, true},
+    {"curvature", "mean curvature", "1/m", Place::vertex, mean_curvature, two_sided, false},
+    {"speed", "speed", "m/s", Place::vertex, speed, amounts, false},
+    {"contacts", "contacts", "1", Place::vertex, contacts, contact_kinds, false},
+}};
+
+// The frame's array of one number a row; null if it has none.
+const formats::Array* array_of(const Frame& frame, const Field& field) {
+  const formats::Array* array = frame.find(field.name);
+  const bool fits = array != nullptr && array->place == field.where && array->type == formats::Type::float64 &&
+                    array->components == 1;
+  return fits ? array : nullptr;
+}
+
+} // namespace
+
+std::span<const Field> fields() { return all_fields; }
+
+const Field& field_named(std::string_view name) { return *std::ranges::find(all_fields, name, &Field::name); }
+
+bool has(const Frame& frame, const Field& field) { return field.get != nullptr || array_of(frame, field) != nullptr; }
+
+std::vector<double> values_of(const Frame& frame, const Field& field) {
+  if (field.get != nullptr)
+    return field.get(frame);
+  const formats::Array* array = array_of(frame, field);
+  if (array == nullptr)
+    fail(ExitCode::bad_input, "the frame has no array \"{}\" of one number a {}", field.name, name_of(field.where));
+  const auto values = array->values<double>();
+  return {values.begin(), values.end()};
+}
+
+} // namespace sheet

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The quantities that a sheet has at each triangle or vertex: one table, from which pictures, pages, sheet-info and the
+// Python package take what they show.
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/quantities/palette.h"
+
+namespace sheet {
+
+struct Field {
+  std::string_view name;    // of sheet-render's look and of columns of CSV
+  std::string_view caption; // beside a scale
+  std::string_view unit;    // SI; "1": none
+  formats::Place where;     // at triangles or vertices
+  // The values, one a row. Null: they are the frame's array of this name, which not every frame has.
+  std::vector<double> (*get)(const formats::Frame&);
+  const Palette& palette;
+  bool in_figures; // least, mean and greatest value are among the figures of a frame (libsheet/measure/figures.h)
+};
+
+//   thickness  volume / area of each triangle [m]
+//   curvature  mean curvature at vertices [1/m], positive where the sheet bends away from its positive side:
+//              H = Σ l β / (4 A), over the edges that meet there, l their lengths, β the angles between the normals at
+//              them, A a third of the area around the vertex [Cohen-Steiner and Morvan 2003]; at the rim 0
+//   speed      |velocity| at vertices [m/s]
+//   contacts   at vertices: 0 none, 1 touches a solid, 2 has a contact spring
+[[nodiscard]] std::span<const Field> fields();
+
+// Precondition: there is one of this name.
+[[nodiscard]] const Field& field_named(std::string_view name);
+
+[[nodiscard]] bool has(const formats::Frame& frame, const Field& field);
+
+// Throws Error (bad_input) where the frame does not have it.
+[[nodiscard]] std::vector<double> values_of(const formats::Frame& frame, const Field& field);
+
+} // namespace sheet
