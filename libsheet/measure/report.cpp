@@ -41,21 +41,21 @@ std::string told_of(const Figure& figure, const Measurements& m) {
   if (figure.needs_density && std::isnan(m.kinetic_energy))
     return figure.name == "kinetic_energy" ? "unknown without a density (no scene states one; see --density)" : "";
   const std::vector<double> v = figure.values(m);
-  const std::string& unit = figure.unit;
+  const std::string unit = figure.unit == "1" ? "" : " " + figure.unit;
   switch (figure.form) {
   case Figure::Form::scalar:
-    return fmt::format("{:.9g} {}", v[0], unit);
+    return fmt::format("{:.9g}{}", v[0], unit);
   case Figure::Form::vector:
-    return fmt::format("{} {}", vector_text(v[0], v[1], v[2]), unit);
+    return fmt::format("{}{}", vector_text(v[0], v[1], v[2]), unit);
   case Figure::Form::range:
-    return std::isnan(v[0]) ? "none" : fmt::format("{:.6g} to {:.6g} {}, mean {:.6g} {}", v[0], v[2], unit, v[1], unit);
+    return std::isnan(v[0]) ? "none" : fmt::format("{:.6g} to {:.6g}{}, mean {:.6g}{}", v[0], v[2], unit, v[1], unit);
   case Figure::Form::ends:
     return std::isnan(v[0]) ? "none"
-                            : fmt::format("{:.4g} to {:.4g} {}, worst aspect {:.4g}", v[0], v[1], unit, m.aspect_max);
+                            : fmt::format("{:.4g} to {:.4g}{}, worst aspect {:.4g}", v[0], v[1], unit, m.aspect_max);
   case Figure::Form::box:
     return std::isnan(v[0])
                ? "none"
-               : fmt::format("{} to {} {}", vector_text(v[0], v[1], v[2]), vector_text(v[3], v[4], v[5]), unit);
+               : fmt::format("{} to {}{}", vector_text(v[0], v[1], v[2]), vector_text(v[3], v[4], v[5]), unit);
   }
   return "";
 }
