@@ -15,6 +15,7 @@ fi
 [[ -z ${SHEET_BIN:-} ]] || SHEET_BIN=$(realpath -m "$SHEET_BIN")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export PATH=${SHEET_BIN:+$SHEET_BIN:}$PWD/build/bin:$PATH
+export PYTHONPATH=$PWD/pipelines${PYTHONPATH:+:$PYTHONPATH} # columns.py
 name=$(dirname "${BASH_SOURCE[1]}") # the folder of the script that sources this
 out=${OUT:-out/${name##*/}}
 mkdir -p "$out"
@@ -70,14 +71,15 @@ plot() {
   {
     echo "set terminal pngcairo size 900, 600 font 'sans,12'; set output '$out/$1.png'"
     echo "set datafile separator ','; set grid linecolor rgb '#cccccc'"
-    echo "set linetype 1 linecolor rgb '#0060ad'; set linetype 2 linecolor rgb '#dd181f'; set linetype 3 linecolor rgb '#00a050'"
-    echo "set linetype 4 linecolor rgb '#c08000'; set linetype 5 linecolor rgb '#7030a0'; set key Left reverse"
+    echo "set linetype 1 linecolor rgb '#0060ad'; set linetype 2 linecolor rgb '#dd181f'"
+    echo "set linetype 3 linecolor rgb '#00a050'; set linetype 4 linecolor rgb '#c08000'; set linetype 5 linecolor \
+rgb '#7030a0'; set key Left reverse"
     cat
   } | gnuplot
 }
 
-# panels hstack|vstack NAME PERCENT,PERCENT,... PICTURE.png [OPTION...]: the frames at these parts of a run that was measured
-# (100: the last) beside or below each other, in 256 colours.
+# panels hstack|vstack NAME PERCENT,PERCENT,... PICTURE.png [OPTION...]: the frames at these parts of a run that was
+# measured (100: the last) beside or below each other, in 256 colours.
 panels() {
   [[ $FILM != no ]] || return 0
   local folder percents=() shown=() inputs=() percent frame last

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What mkdocs does besides: formulas become HTML by Debian's KaTeX, and the search's index a script, so that the site works
-from a folder, too."""
+"""What mkdocs does besides: formulas become HTML by Debian's KaTeX, and the search's index a script, so that the site
+works from a folder, too."""
 import html
 import json
 import pathlib
@@ -56,7 +56,8 @@ def on_post_build(config, **_):
     index = json.loads((site / "search/search_index.json").read_text())
     for entry in index["docs"]:
         for field in ("title", "text"):
-            entry[field] = html.unescape(re.sub(r"SHEETFORMULA(\d+)Z", lambda m: _formulas[int(m[1])]["tex"], entry[field]))
+            entry[field] = html.unescape(re.sub(r"SHEETFORMULA(\d+)Z", lambda m: _formulas[int(m[1])]["tex"],
+                                                entry[field]))
     entries = [[entry["location"], entry["title"], " ".join(entry["text"].split())] for entry in index["docs"]]
     (site / "index.js").write_text("window.sheetIndex = " + json.dumps(entries, ensure_ascii=False) + ";\n")
     shutil.rmtree(site / "search")

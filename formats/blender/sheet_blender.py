@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sheet in Blender (3.4 and later): runs as meshes that change with time, and scenes made of meshes.
 
-File > Import > Sheet run (.sheet) and File > Export > Sheet scene (.toml); docs/blender.md is the page. It reads streams
-by the package sheetstream, which lies beside it in the zip file that the build makes. In scripts:
+File > Import > Sheet run (.sheet) and File > Export > Sheet scene (.toml); docs/blender.md is the page. It reads
+streams by the package sheetstream, which lies beside it in the zip file that the build makes. In scripts:
 
     import sheet_blender
     thing = sheet_blender.import_run("run.sheet", material="honey")
@@ -29,7 +29,8 @@ except ImportError:
     try:
         import sheetstream  # type: ignore[no-redef]
     except ImportError as error:
-        raise ImportError("Sheet's add-on needs the package sheetstream: install sheet-blender.zip, which has it, or put "
+        raise ImportError("Sheet's add-on needs the package sheetstream: install sheet-blender.zip, which has it, or"
+                          " put "
                           "the folder formats/python on PYTHONPATH") from error
 
 bl_info = {
@@ -61,12 +62,13 @@ class SheetError(Exception):
 
 
 def _scene_keys() -> dict[str, tuple[str, str, str]]:
-    """What sheet-init --list-keys knows of the keys of scenes, {key: (kind, SI unit, help)}: in the zip file the build has put
-    it beside this file; else the program is asked."""
+    """What sheet-init --list-keys knows of the keys of scenes, {key: (kind, SI unit, help)}: in the zip file the build
+    has put it beside this file; else the program is asked."""
     beside = pathlib.Path(__file__).with_name("scene_keys.tsv")
     text = beside.read_text(encoding="utf-8") if beside.exists() else subprocess.run(
         ["sheet-init", "--list-keys"], capture_output=True, text=True, check=True).stdout
-    return {key: (kind, unit, help_line) for key, kind, unit, help_line in (line.split("\t") for line in text.splitlines())}
+    return {key: (kind, unit, help_line) for key, kind, unit,
+            help_line in (line.split("\t") for line in text.splitlines())}
 
 
 SCENE_KEYS = _scene_keys()
@@ -86,7 +88,8 @@ _runs: dict[str, tuple[tuple[int, float], sheetstream.Run]] = {}
 
 
 def open_run(path: str) -> sheetstream.Run:
-    """The run of a file, indexed once as long as the file stays the same; a run that goes on is taken as far as it is."""
+    """The run of a file, indexed once as long as the file stays the same; a run that goes on is taken as far as it
+    is."""
     full = bpy.path.abspath(path)
     try:
         state = os.stat(full)
@@ -104,8 +107,8 @@ def open_run(path: str) -> sheetstream.Run:
 
 
 def frame_at(run: sheetstream.Run, time: float, between: bool) -> tuple[sheetstream.Frame, Any]:
-    """The run's last frame that is not later, and where its vertices are at that time [m]: where they were in the frame,
-    or (between frames) on a straight line to the next frame, with their velocity where the mesh changes."""
+    """The run's last frame that is not later, and where its vertices are at that time [m]: where they were in the
+    frame, or (between frames) on a straight line to the next frame, with their velocity where the mesh changes."""
     i = max(0, int(np.searchsorted(run.times, time + 1e-9, "right")) - 1)
     try:
         frame = run[i]
@@ -424,8 +427,9 @@ def set_material(thing: bpy.types.Object, kind: str, scene: bpy.types.Scene) -> 
 
 
 def add_solids(described: dict[str, Any], parent: bpy.types.Object, scene: bpy.types.Scene) -> None:
-    """Adds the scene's balls, boxes, cylinders, capsules, planes and meshes (OFF) in their places at time 0, as the parent's
-    children; motion at a constant velocity or by rows is keyed. Others are passed over, with a word on the terminal."""
+    """Adds the scene's balls, boxes, cylinders, capsules, planes and meshes (OFF) in their places at time 0, as the
+    parent's children; motion at a constant velocity or by rows is keyed. Others are passed over, with a word on the
+    terminal."""
     solids = described.get("solid", [])
     for number, solid in enumerate(solids if isinstance(solids, list) else []):
         try:
@@ -597,8 +601,8 @@ def export_scene(path: str, thing: bpy.types.Object, thickness: float = 0.005, v
 
 
 def motion_of(thing: bpy.types.Object, scene: bpy.types.Scene) -> Any:
-    """How an object moves from the scene's frame to its last: rows of time [s], place [m] and rotation (a unit quaternion
-    w, x, y, z), one a frame. Raises SheetError if its size changes."""
+    """How an object moves from the scene's frame to its last: rows of time [s], place [m] and rotation (a unit
+    quaternion w, x, y, z), one a frame. Raises SheetError if its size changes."""
     now, rate, length = scene.frame_current, scene.render.fps / scene.render.fps_base, scene.unit_settings.scale_length
     rows = []
     try:
@@ -701,7 +705,8 @@ def _hold_tables(x: Any, corners: Any, groups: dict[str, Any]) -> list[str]:
         for region in regions:
             lines += ["", f"[[hold]] # {_quoted(name)}", f"region = {region}", f'kind = "{kind}"']
     if total > MOST_HOLDS:
-        raise SheetError(f"what is painted takes {total} boxes, a scene has {MOST_HOLDS} holds at most: paint areas whose "
+        raise SheetError(f"what is painted takes {total} boxes, a scene has {MOST_HOLDS} holds at most: paint areas"
+                         f" whose "
                          "borders follow the axes, or the whole rim")
     return lines
 
@@ -748,7 +753,8 @@ def painted_boxes(x: Any, painted: Any) -> list[tuple[Any, Any]]:
         assert best is not None
         waiting += [points[best[1]], points[~best[1]]]
         if len(result) + len(waiting) > 4 * MOST_HOLDS:
-            raise SheetError(f"what is painted takes more than {MOST_HOLDS} boxes: paint areas whose borders follow the "
+            raise SheetError(f"what is painted takes more than {MOST_HOLDS} boxes: paint areas whose borders follow"
+                             f" the "
                              "axes, or the whole rim")
     return result
 
@@ -769,7 +775,8 @@ class SheetSettings(bpy.types.PropertyGroup):
     speed: bpy.props.FloatProperty(  # type: ignore[valid-type]
         name="Speed", description="Seconds of the run that pass in a second", default=1.0, min=1e-6, update=_refresh)
     between: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Move between frames", description="Vertices go on between the run's frames", default=True, update=_refresh)
+        name="Move between frames", description="Vertices go on between the run's frames", default=True,
+        update=_refresh)
     first_time: bpy.props.FloatProperty(name="Time of the first frame", unit="TIME")  # type: ignore[valid-type]
     message: bpy.props.StringProperty()  # type: ignore[valid-type]
 
@@ -786,7 +793,8 @@ class SHEET_OT_import(bpy.types.Operator, ImportHelper):
     bl_options = {"REGISTER", "UNDO"}
     filename_ext = ".sheet"
     filter_glob: bpy.props.StringProperty(default="*.sheet", options={"HIDDEN"})  # type: ignore[valid-type]
-    material: bpy.props.EnumProperty(name="Material", items=_material_items(), default="caramel")  # type: ignore[valid-type]
+    material: bpy.props.EnumProperty(name="Material", items=_material_items(),
+                                     default="caramel")  # type: ignore[valid-type]
     up: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Up", items=[("AUTO", "As gravity says", ""), *((a, a, "") for a in "XYZ")], default="AUTO")
     start: bpy.props.IntProperty(name="First frame", default=1)  # type: ignore[valid-type]
@@ -795,7 +803,8 @@ class SHEET_OT_import(bpy.types.Operator, ImportHelper):
     slab: bpy.props.BoolProperty(name="Slab of true thickness", default=True)  # type: ignore[valid-type]
     solids: bpy.props.BoolProperty(name="Solids", default=True)  # type: ignore[valid-type]
     adapt_scene: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Adapt the scene", description="Its last frame, metric units, a locked interface while rendering", default=True)
+        name="Adapt the scene", description="Its last frame, metric units, a locked interface while rendering",
+        default=True)
 
     def execute(self, context: Any) -> set[str]:
         try:
@@ -818,14 +827,16 @@ class SHEET_OT_export(bpy.types.Operator, ExportHelper):
     filename_ext = ".toml"
     filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})  # type: ignore[valid-type]
     thickness: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Thickness", description='Where the mesh has no attribute "thickness"', default=0.005, min=1e-9, unit="LENGTH")
+        name="Thickness", description='Where the mesh has no attribute "thickness"', default=0.005, min=1e-9,
+        unit="LENGTH")
     viscosity: _key_property("material.viscosity", default=80.0)  # type: ignore[valid-type]
     density: _key_property("material.density", default=1300.0)  # type: ignore[valid-type]
     solids: bpy.props.BoolProperty(name="Other selected meshes are solids", default=True)  # type: ignore[valid-type]
 
     def execute(self, context: Any) -> set[str]:
         active = context.view_layer.objects.active
-        others = tuple(o for o in context.selected_objects if o is not active and o.type == "MESH") if self.solids else ()
+        others = tuple(o for o in context.selected_objects if o is not active
+                       and o.type == "MESH") if self.solids else ()
         try:
             files = export_scene(self.filepath, active, self.thickness, self.viscosity, self.density, others)
         except (SheetError, OSError) as error:

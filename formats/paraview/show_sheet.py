@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shows a run that sheet-export has written: thickness, and beside it what touches solids, with one camera and one clock.
+"""Shows a run that sheet-export has written: thickness, and beside it what touches solids, with one camera and one
+clock.
 
 In ParaView: Macros > Import new macro, choose this file; then it works on the file that is open and chosen. Or at once:
 
@@ -89,12 +90,14 @@ def main(arguments):
     parser = argparse.ArgumentParser(prog="show_sheet.py", description="shows a run that sheet-export has written")
     parser.add_argument("collection", help=".pvd or .vtu file of sheet-export")
     parser.add_argument("--up", choices=LOOK_FROM, default="y", help="the axis that points upwards (default: y)")
-    parser.add_argument("--time", type=float, help="moment to show [s]: the last frame that is not later (default: the end)")
+    parser.add_argument("--time", type=float,
+                        help="moment to show [s]: the last frame that is not later (default: the end)")
     parser.add_argument("--state", help="write a state file (.pvsm) for ParaView's File > Load State")
     parser.add_argument("--picture", help="write a picture (.png)")
     options = parser.parse_args(arguments)
     if not os.path.isfile(options.collection):
-        parser.error(f"{options.collection}: no such file; sheet-export run.sheet -o out/frame_%04d.vtu writes out/frame.pvd")
+        parser.error(f"{options.collection}: no such file; sheet-export run.sheet -o out/frame_%04d.vtu writes"
+                     f" out/frame.pvd")
     try:
         layout = show_run(pv.OpenDataFile(os.path.abspath(options.collection)), options.up, options.time)
     except ValueError as error:

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """A stage of one's own: frames in on standard input, frames out on standard output, one for one.
 
-    sheet-init --example | sheet-init - | sheet-loop --steps 10 -- 'sheet-step --dt 0.01 | ./example_stage.py --wind 0.5' > windy.sheet
+    sheet-init --example | sheet-init - | sheet-loop --steps 10 -- 'sheet-step --dt 0.01 | ./example_stage.py --wind
+    0.5' > windy.sheet
 """
 import argparse
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The laws of pipelines/fold-diagram/run: reads FOLDER/sweep/results.csv, leaves law.csv, law.png and period.png there.
 
-Gravity folds: l ~ l_g = (nu h^2 U / g)^(1/4); the height folds: l ~ H [Skorobogatiy, Mahadevan 2000; Ribe 2003]. l = U T / 2;
-h and U are those above the folds, U that at which the slot's flow goes through thickness and width there.
+Gravity folds: l ~ l_g = (nu h^2 U / g)^(1/4); the height folds: l ~ H [Skorobogatiy, Mahadevan 2000; Ribe 2003]. l = U
+T / 2; h and U are those above the folds, U that at which the slot's flow goes through thickness and width there.
 """
 import csv
 import math
@@ -36,8 +36,8 @@ def rows_of(folder):
 
 
 def exponent(rows, what, law):
-    """The exponent b of l/l_g ~ (H/l_g)^b: median of the slopes of all pairs of runs in logarithms [Theil 1950; Sen 1968], which
-    single runs cannot spoil, with its standard error from 200 samples with replacement."""
+    """The exponent b of l/l_g ~ (H/l_g)^b: median of the slopes of all pairs of runs in logarithms [Theil 1950; Sen
+    1968], which single runs cannot spoil, with its standard error from 200 samples with replacement."""
     if len(rows) < 5:
         print(f"{what}: {len(rows)} runs: too few for an exponent")
         return
@@ -57,9 +57,12 @@ def exponent(rows, what, law):
 def draw(folder, rows):
     curves = ", ".join(f"'{folder}/law.csv' using ($1 == {mu:.6g} ? $2 / $5 : NaN):($4 / $5) with points pointtype 7 "
                        f"linecolor palette cb {math.log10(mu)} notitle" for mu in sorted(set(rows[:, 0])))  # fmt: skip
-    script = f"""set terminal pngcairo size 900, 600 font 'sans,12'; set output '{folder}/law.png'; set datafile separator ','
-set grid linecolor rgb '#cccccc'; set logscale xy; set key top left; set xlabel 'height over l_g'; set ylabel 'length of a fold over l_g'
-set palette defined (0 '#30123b', 1 '#2f6ea5', 2 '#3fa89a', 3 '#a8cf5e', 4 '#d8b030'); set cblabel 'log_{{10}} of viscosity [Pa s]'
+    script = f"""set terminal pngcairo size 900, 600 font 'sans,12'; set output '{folder}/law.png'; set datafile \
+separator ','
+set grid linecolor rgb '#cccccc'; set logscale xy; set key top left; set xlabel 'height over l_g'; set ylabel 'length \
+of a fold over l_g'
+set palette defined (0 '#30123b', 1 '#2f6ea5', 2 '#3fa89a', 3 '#a8cf5e', 4 '#d8b030'); set cblabel 'log_{{10}} of \
+viscosity [Pa s]'
 set cbrange [{math.log10(min(rows[:, 0])) - 0.01}:{math.log10(max(rows[:, 0])) + 0.01}]
 set xtics (1, 1.5, 2, 3, 4, 6, 8, 12); set ytics (0.7, 1, 1.5, 2, 3, 4, 6); set xrange [1:12]; set yrange [0.7:6]
 plot {curves}, x linecolor rgb 'black' dashtype 2 title 'l = H', 3.6 linecolor rgb 'black' dashtype 3 title '3.6 l_g'
@@ -78,7 +81,8 @@ def main():
     exponent(rows[(high >= 3) & (high < 5.5)], "between", "")
     exponent(rows[high >= 5.5], "high slots (H > 5.5 l_g)", ", 0 if gravity does")
     draw(folder, rows)
-    subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "sweep", "plot", folder / "sweep", "-o", folder / "period.png", "--log", "xy",
+    subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "sweep", "plot", folder / "sweep", "-o",
+                    folder / "period.png", "--log", "xy",
                     "--x", "height", "--y", "material.viscosity", "--map", "period"], check=True)  # fmt: skip
 
 

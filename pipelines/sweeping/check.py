@@ -22,7 +22,8 @@ def scene_keys():
 
 
 def declared(keys, key):
-    """(kind, unit) of a key as --set takes it; of an item of a list ("sheet.center.1") those of the item, ("", "") of none."""
+    """(kind, unit) of a key as --set takes it; of an item of a list ("sheet.center.1") those of the item, ("", "") of
+    none."""
     names = key.split(".")
     while names[-1].isdecimal() and len(names) > 1:
         names.pop()

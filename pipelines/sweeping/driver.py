@@ -24,9 +24,12 @@ def find_programs():
 
 def add_options(parser):
     """Those that say how runs are run."""
-    parser.add_argument("--engine", choices=("parallel", "slurm", "plain"), default="parallel", help="default: parallel")
-    parser.add_argument("--hosts", metavar="HOST,...", help="for --engine parallel: hosts that ssh reaches without a password")
-    parser.add_argument("--there", metavar="FOLDER", default=str(ROOT), help="where Sheet is built on the hosts (default: as here)")
+    parser.add_argument("--engine", choices=("parallel", "slurm", "plain"), default="parallel",
+                        help="default: parallel")
+    parser.add_argument("--hosts", metavar="HOST,...",
+                        help="for --engine parallel: hosts that ssh reaches without a password")
+    parser.add_argument("--there", metavar="FOLDER", default=str(ROOT),
+                        help="where Sheet is built on the hosts (default: as here)")
     parser.add_argument("--jobs", type=int, default=0, metavar="N", help="runs at a time (default: one for each core)")
     parser.add_argument("--threads", type=int, default=1, metavar="N", help="threads of each run (default 1)")
     parser.add_argument("--retry", action="store_true", help="try again what has failed")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Who runs the runs: this process (plain), GNU parallel on this machine, Slurm. (GNU parallel on other hosts: hosts.py.)
+"""Who runs the runs: this process (plain), GNU parallel on this machine, Slurm. (GNU parallel on other hosts:
+hosts.py.)
 
 Every engine gets indices of runs and ends when nothing is left that it could do; what has come of each run lies in its
 folder. Several short runs make one job, a chunk, so that starting jobs costs little.
@@ -40,11 +41,12 @@ class Work:
         return (max(a["seconds"] for a in tried), max(a["memory"] for a in tried)) if tried else None
 
     def chunks(self, indices, most=1_000_000):
-        """Texts "3 4 5": as many runs each as take some seconds, but enough chunks for every worker to have several, and at
-        most so many."""
+        """Texts "3 4 5": as many runs each as take some seconds, but enough chunks for every worker to have several,
+        and at most so many."""
         tried = accounts(self.folder, states(self.folder, self.sweep.count))
         seconds = statistics.mean(a["seconds"] for a in tried) if tried else _CHUNK_SECONDS
-        size = max(1, min(int(_CHUNK_SECONDS / max(seconds, 1e-3)), len(indices) // (4 * self.jobs)), -(-len(indices) // most))
+        size = max(1, min(int(_CHUNK_SECONDS / max(seconds, 1e-3)), len(indices) // (4 * self.jobs)),
+                   -(-len(indices) // most))
         return [" ".join(map(str, indices[i : i + size])) for i in range(0, len(indices), size)]
 
     def say(self):
@@ -125,7 +127,8 @@ def _submit(work, name, chunks, options):
     logs = work.folder / "slurm" / f"{time.time_ns():x}"
     logs.mkdir(parents=True)
     (logs / "chunks").write_text("\n".join(chunks) + "\n", encoding="utf-8")
-    script = f"#!/bin/sh\nexec {work.command()} $(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {shlex.quote(str(logs / 'chunks'))})\n"
+    chunk = f"$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {shlex.quote(str(logs / 'chunks'))})"
+    script = f"#!/bin/sh\nexec {work.command()} {chunk}\n"
     command = ["sbatch", "--parsable", f"--job-name={name}", f"--array=0-{len(chunks) - 1}", "--requeue", "--ntasks=1",
                f"--cpus-per-task={work.threads}", f"--output={logs}/%a.log", *options]  # fmt: skip
     told = subprocess.run(command, input=script, text=True, capture_output=True)
@@ -153,4 +156,5 @@ def _array_size():
 
 def _require(program, package):
     if not shutil.which(program):
-        raise Problem(USAGE, f"there is no program {program}: install Debian's package {package}, or take --engine plain")
+        raise Problem(USAGE, f"there is no program {program}: install Debian's package {package}, or take --engine"
+                             f" plain")

@@ -5,7 +5,8 @@
     settle     what an earlier driver has left there is ended and brought home, done or begun
     push       the plan, the inputs and the runs that were begun go to every host
     serve      does some runs there and prints their folders as a tar file, which parallel keeps in incoming/
-    receive    unpacks such a file beside, and renames each run into its place: a file that was cut short changes nothing
+    receive    unpacks such a file beside, and renames each run into its place: a file that was cut short changes
+    nothing
 The ssh program is that of GNU parallel: PARALLEL_SSH, or ssh.
 """
 import hashlib
@@ -64,8 +65,10 @@ class _Hosts:
         done = subprocess.run([*ssh, "-o", "BatchMode=yes", host, self.command(*words)], capture_output=True, **options)
         if done.returncode != 0:
             told = done.stderr.decode(errors="replace").strip()
-            raise Problem(IO, f"host {host}: {' '.join(words[:1])} ended with {done.returncode}: {told or 'no message'}\n"
-                          f"see that `{shlex.join(ssh)} {host}` works without a password, and that Sheet is in {self.there} there")  # fmt: skip
+            raise Problem(IO, f"host {host}: {' '.join(words[:1])} ended with {done.returncode}:"
+                              f" {told or 'no message'}\n"
+                          f"see that `{shlex.join(ssh)} {host}` works without a password, and that Sheet is in"
+                          f" {self.there} there")  # fmt: skip
         return done.stdout
 
     def compare_versions(self):
@@ -74,7 +77,8 @@ class _Hosts:
         for host in self.hosts:
             number, *lines = self.call(host, "versions", *words).decode().splitlines()
             self.jobs[host] = self.work.told_jobs or max(1, int(number) // self.work.threads)
-            wrong += [f"host {host}: {word} is {b}, here {a}: build the same version there" for word, a, b in zip(words, here, lines) if a != b]
+            wrong += [f"host {host}: {word} is {b}, here {a}: build the same version there" for word, a,
+                      b in zip(words, here, lines) if a != b]
         if wrong:
             raise Problem(USAGE, "\n".join(wrong))
 
@@ -100,7 +104,8 @@ class _Hosts:
         incoming.mkdir()
         logins = [part for host in self.hosts for part in ("--sshlogin", f"{self.jobs[host]}/{host}")]
         self.work.jobs = sum(self.jobs.values())
-        command = ["setpriv", "--pdeathsig", "TERM", "parallel", "--will-cite", "--halt", "never", "--files", "--tmpdir", str(incoming),
+        command = ["setpriv", "--pdeathsig", "TERM", "parallel", "--will-cite", "--halt", "never", "--files",
+                   "--tmpdir", str(incoming),
                    *logins, self.command("serve", str(self.work.threads), self.place)]  # fmt: skip
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         process.stdin.write("\n".join(self.work.chunks(indices)) + "\n")
@@ -114,7 +119,8 @@ class _Hosts:
 
 def programs_of(ring):
     """What decides the bits of a run: the programs that are started, by the first word of each stage."""
-    return list(dict.fromkeys(["sheet-init", "sheet-print", "sheet-info", "sheet-loop", *(shlex.split(s)[0] for s in ring.split("|"))]))
+    return list(dict.fromkeys(["sheet-init", "sheet-print", "sheet-info", "sheet-loop",
+                               *(shlex.split(s)[0] for s in ring.split("|"))]))
 
 
 def versions(words):
@@ -125,7 +131,8 @@ def versions(words):
         if not path:
             found.append("not there")
             continue
-        told = subprocess.run([path, "--version"], capture_output=True, text=True).stdout.split("\n")[0] if word.startswith("sheet-") else word
+        told = subprocess.run([path, "--version"], capture_output=True,
+                              text=True).stdout.split("\n")[0] if word.startswith("sheet-") else word
         with open(path, "rb") as file:
             found.append(f"{told}, SHA-256 {hashlib.file_digest(file, 'sha256').hexdigest()[:12]}")
     return found
@@ -133,11 +140,13 @@ def versions(words):
 
 def _pack(tar, folder, index):
     path = run_folder(folder, index)
-    tar.add(path, path.relative_to(folder), filter=lambda member: None if os.path.basename(member.name) in _NOT_SENT else member)
+    tar.add(path, path.relative_to(folder), filter=lambda member: None if os.path.basename(member.name) in _NOT_SENT
+            else member)
 
 
 def receive(folder, file):
-    """Takes the runs of a tar file over, if it is whole. What is complete here stays; what came is renamed into place."""
+    """Takes the runs of a tar file over, if it is whole. What is complete here stays; what came is renamed into
+    place."""
     beside = folder / "incoming" / f"unpacked.{os.getpid()}"
     shutil.rmtree(beside, ignore_errors=True)
     try:
@@ -148,7 +157,8 @@ def receive(folder, file):
     if (beside / _ENDMARK).exists():
         for came in sorted((beside / "runs").glob("*/*")):
             place = folder / came.relative_to(beside)
-            if state(place) in ("done", "failed") or (state(place) == "begun" and _size(place) >= _size(came) and state(came) == "begun"):
+            if state(place) in ("done", "failed") or (state(place) == "begun" and _size(place) >= _size(came)
+                                                      and state(came) == "begun"):
                 continue
             place.parent.mkdir(parents=True, exist_ok=True)
             if place.exists():

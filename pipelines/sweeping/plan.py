@@ -156,7 +156,9 @@ def read_sweep(folder):
         content["columns"] = [Column(**column) for column in content["columns"]]
         return Sweep(**content)
     except (KeyError, TypeError) as error:
-        raise Problem(BAD_INPUT, f"{folder}/sweep.json is of another version of pipelines/sweep ({error}): remove the folder") from error
+        raise Problem(BAD_INPUT,
+                      f"{folder}/sweep.json is of another version of pipelines/sweep ({error}): remove the"
+                      f" folder") from error
 
 
 def read_rows(folder, block):

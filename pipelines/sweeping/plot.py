@@ -18,7 +18,8 @@ def column(rows, name):
     headers = list(rows[0]) if rows else []
     found = [h for h in headers if name in (h, h.split(" [")[0])]
     if not found:
-        raise Problem(BAD_INPUT, f"the results have no column {name}; they have {', '.join(headers) or 'no run that is done'}")
+        raise Problem(BAD_INPUT,
+                      f"the results have no column {name}; they have {', '.join(headers) or 'no run that is done'}")
     return found[0]
 
 
@@ -45,7 +46,8 @@ def curves(rows, x, y, by, log, lines, picture):
     for i, (title, points) in enumerate(groups.items()):
         data.append(f"$data{i} << END\n" + "".join(f"{a!r} {b!r}\n" for a, b in sorted(points)) + "END\n")
         style = "linespoints linewidth 2" if lines else "points"
-        parts.append(f"$data{i} with {style} pointtype 7 linetype {i + 1} " + (f"title \"{_plain(title)}\"" if title else "notitle"))
+        parts.append(f"$data{i} with {style} pointtype 7 linetype {i + 1} " + (f"title \"{_plain(title)}\"" if title
+            else "notitle"))
     _draw(picture, [*data, _axes(x, y, log), "plot " + ", ".join(parts)])
 
 
@@ -55,20 +57,26 @@ def phase_map(rows, x, y, value, boundary, log, picture):
     xs, ys = sorted({p[0] for p, _ in points}), sorted({p[1] for p, _ in points})
     squares = [(*_around(xs, a, "x" in log), *_around(ys, b, "y" in log), v) for (a, b), v in points]
     low, high = min(v for _, v in points), max(v for _, v in points)
-    script = ["set format cb '%.3g'\n$data << END\n" + "".join(f"{a!r} {b!r} {v!r}\n" for (a, b), v in points) + "END\n", _axes(x, y, log),
-              f"set cblabel \"{_plain(value)}\"", "set palette defined (0 '#30123b', 1 '#2f6ea5', 2 '#3fa89a', 3 '#a8cf5e', 4 '#fbe56a')", f"set cbrange [{low!r}:{high!r}]" if low < high else "",
-              f"set xrange [{squares[0][0]!r}:{squares[-1][1]!r}]", f"set yrange [{_around(ys, ys[0], 'y' in log)[0]!r}:"
+    script = ["set format cb '%.3g'\n$data << END\n" + "".join(f"{a!r} {b!r} {v!r}\n" for (a, b),
+                                                               v in points) + "END\n", _axes(x, y, log),
+              f"set cblabel \"{_plain(value)}\"",
+              "set palette defined (0 '#30123b', 1 '#2f6ea5', 2 '#3fa89a', 3 '#a8cf5e', 4 '#fbe56a')",
+              f"set cbrange [{low!r}:{high!r}]" if low < high else "",
+              f"set xrange [{squares[0][0]!r}:{squares[-1][1]!r}]",
+              f"set yrange [{_around(ys, ys[0], 'y' in log)[0]!r}:"
               f"{_around(ys, ys[-1], 'y' in log)[1]!r}]"]  # fmt: skip
     for axis, places in (("x", xs), ("y", ys)):
         if len(places) <= 12:
             script.append(f"set {axis}tics (" + ", ".join(f"{at:.3g}" for at in places) + ")")
     for i, (left, right, bottom, top, v) in enumerate(squares):
-        script.append(f"set object {i + 1} rectangle from {left!r},{bottom!r} to {right!r},{top!r} behind fillcolor palette cb {v!r} "
+        script.append(f"set object {i + 1} rectangle from {left!r},{bottom!r} to {right!r},{top!r} behind fillcolor"
+                      f" palette cb {v!r} "
                       "fillstyle solid noborder")  # fmt: skip
     lines = ["$data using 1:2:3 with points pointtype 7 pointsize 0.6 linecolor rgb \"white\" notitle"]
     if boundary is not None:
         segments = contour(dict(points), xs, ys, boundary, log)
-        script.append("$line << END\n" + "".join(f"{a!r} {b!r}\n{c!r} {d!r}\n\n" for (a, b), (c, d) in segments) + "END\n")
+        script.append("$line << END\n" + "".join(f"{a!r} {b!r}\n{c!r} {d!r}\n\n" for (a, b),
+                                                 (c, d) in segments) + "END\n")
         if segments:
             lines.append(f"$line with lines linewidth 3 linecolor rgb \"red\" title \"{_plain(value)} = {boundary:g}\"")
     script.append("set key above; set colorbox; plot " + ", ".join(lines) + ", NaN with points palette notitle")
@@ -78,7 +86,8 @@ def phase_map(rows, x, y, value, boundary, log, picture):
 def contour(values, xs, ys, level, log=""):
     """Pieces of the line where a function on a grid, linear along its edges, is `level`: pairs of points.
 
-    values: {(x, y): value}; where a corner is missing there is no line. On logarithmic axes edges are cut in logarithms."""
+    values: {(x, y): value}; where a corner is missing there is no line. On logarithmic axes edges are cut in
+    logarithms."""
     def cut(p, q):
         share = (level - values[p]) / (values[q] - values[p])
         return tuple(math.exp(math.log(a) + share * math.log(b / a)) if axis in log and a > 0 else a + share * (b - a)
@@ -89,7 +98,8 @@ def contour(values, xs, ys, level, log=""):
         for low, high in zip(ys, ys[1:]):
             for corners in (((left, low), (right, low), (right, high)), ((left, low), (right, high), (left, high))):
                 if all(c in values for c in corners):
-                    crossed = [(p, q) for p, q in zip(corners, corners[1:] + corners[:1]) if (values[p] < level) != (values[q] < level)]
+                    crossed = [(p, q) for p, q in zip(corners, corners[1:] + corners[:1])
+                               if (values[p] < level) != (values[q] < level)]
                     if len(crossed) == 2:
                         pieces.append(tuple(cut(p, q) for p, q in crossed))
     return pieces
@@ -117,7 +127,8 @@ def _plain(text):
 
 
 def _draw(picture, script):
-    head = f"set terminal pngcairo size 900, 600 font 'sans,12'; set output '{picture}'; set grid linecolor rgb '#cccccc'\n"
+    head = f"set terminal pngcairo size 900, 600 font 'sans,12'; set output '{picture}'\n"
+    head += "set grid linecolor rgb '#cccccc'\n"
     told = subprocess.run(["gnuplot"], input=head + "\n".join(script) + "\n", text=True, capture_output=True)
     if told.returncode != 0:
         raise Problem(INTERNAL, f"gnuplot: {told.stderr.strip()}")

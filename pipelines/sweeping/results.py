@@ -31,7 +31,8 @@ def write_results(folder, sweep):
         for block in range((sweep.count + BLOCK - 1) // BLOCK):
             for i, row in enumerate(read_rows(folder, block)):
                 index = block * BLOCK + i
-                out.writerow([index, *_parameters(folder, sweep, index, row), found[index], *_line(folder, index, measures)])
+                out.writerow([index, *_parameters(folder, sweep, index, row), found[index],
+                              *_line(folder, index, measures)])
     os.replace(temporary, folder / "results.csv")
     return folder / "results.csv"
 
@@ -58,7 +59,8 @@ def _parameters(folder, sweep, index, row):
             scene = tomllib.load(file)
     except (OSError, tomllib.TOMLDecodeError):
         return row
-    return [value if number(value) is not None else _stated(scene, column.key, value) for column, value in zip(sweep.columns, row)]
+    return [value if number(value) is not None else _stated(scene, column.key, value) for column,
+            value in zip(sweep.columns, row)]
 
 
 def _stated(scene, key, otherwise):

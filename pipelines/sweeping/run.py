@@ -129,10 +129,12 @@ class _Attempt:
         if not self.sweep.measure:
             return {}
         measures = {}
-        for line in self._program(["bash", "-c", filled(self.sweep.measure, self.sweep, self.row)], keep=True).splitlines():
+        for line in self._program(["bash", "-c", filled(self.sweep.measure, self.sweep, self.row)],
+                                  keep=True).splitlines():
             match = re.fullmatch(r"\s*([\w.]+(?:\s+\[[^\]]+\])?)\s+(\S+)\s*", line)
             if not match:
-                raise Failed(3, f"the command that measures printed \"{line}\"; expected NAME VALUE or NAME [UNIT] VALUE")
+                raise Failed(3,
+                             f"the command that measures printed \"{line}\"; expected NAME VALUE or NAME [UNIT] VALUE")
             measures[re.sub(r"\s+", " ", match[1])] = match[2]
         return measures
 
@@ -141,7 +143,8 @@ class _Attempt:
         self.log.flush()
         begin = self.log.tell()
         process = subprocess.Popen(command, cwd=self.path, stdin=subprocess.DEVNULL, stderr=self.log, text=True,
-                                   stdout=subprocess.PIPE if keep else self.log, pass_fds=(self.lock.fileno(),))  # fmt: skip
+                                   stdout=subprocess.PIPE if keep else self.log, pass_fds=(self.lock.fileno(),
+                                       ))  # fmt: skip
         try:
             printed = process.communicate()[0] if keep else self._watched(process)
         except BaseException:
@@ -156,7 +159,8 @@ class _Attempt:
         by_signal = re.findall(r"was ended by signal (\d+)", told)
         if -code in _ENDING or code - 128 in _ENDING or (by_signal and int(by_signal[-1]) in _ENDING):
             raise Interrupted(f"run {self.index}: {told.splitlines()[-1] if told else f'ended by signal {-code}'}")
-        raise Failed(code if code > 0 else 1, told.splitlines()[-1] if told else f"{command[0]} ended by signal {-code}")
+        raise Failed(code if code > 0 else 1, told.splitlines()[-1] if told
+                     else f"{command[0]} ended by signal {-code}")
 
     def _watched(self, process):
         """Waits; meanwhile looks at its memory and that of its children, often at first."""

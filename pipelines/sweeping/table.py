@@ -3,8 +3,8 @@
 
 CSV: the first line names the columns, `KEY` or `KEY [UNIT]`; a number in a column with a unit has that unit.
 TOML: [grid] every combination, [zip] lists that go together, [random] and [latin_hypercube] `count` points by `seed`;
-values are lists, or {from, to, count, scale = "linear" or "log"} (in the last two without count). Tables that stand side
-by side are combined, every row of one with every row of the others.
+values are lists, or {from, to, count, scale = "linear" or "log"} (in the last two without count). Tables that stand
+side by side are combined, every row of one with every row of the others.
 """
 import csv
 import dataclasses
@@ -64,7 +64,8 @@ def read_table(path):
     if not table.rows:
         raise Problem(BAD_INPUT, f"{path}: no rows: at least one run is needed")
     if len(table.rows) > _MOST_ROWS:
-        raise Problem(BAD_INPUT, f"{path}: {len(table.rows)} rows; at most {_MOST_ROWS} fit one sweep: cut the table in parts")
+        raise Problem(BAD_INPUT,
+                      f"{path}: {len(table.rows)} rows; at most {_MOST_ROWS} fit one sweep: cut the table in parts")
     return table
 
 
@@ -129,7 +130,8 @@ def _from_toml(path, document):
     if math.prod(len(rows) for _, rows in blocks) > _MOST_ROWS:
         raise Problem(BAD_INPUT, f"{path}: more than {_MOST_ROWS} rows do not fit one sweep: cut the table in parts")
     rows = [list(itertools.chain(*parts)) for parts in itertools.product(*(rows for _, rows in blocks))]
-    places = [f"{path}: row {i + 1} ({', '.join(f'{c.key} = {v}' for c, v in zip(columns, row))})" for i, row in enumerate(rows)]
+    places = [f"{path}: row {i + 1} ({', '.join(f'{c.key} = {v}' for c, v in zip(columns, row))})" for i,
+              row in enumerate(rows)]
     return Table(columns, rows, places)
 
 
@@ -186,7 +188,8 @@ class _Block:
             return [_text(v) for v in value]
         count = value.get("count") if isinstance(value, dict) else None
         if not isinstance(count, int) or count < 2:
-            self._wrong(key, "expected a list, or {from = ..., to = ..., count = 2 or more, scale = \"linear\" or \"log\"}")
+            self._wrong(key, "expected a list, or {from = ..., to = ..., count = 2 or more, scale = \"linear\" or"
+                             " \"log\"}")
             return [""]
         at = self._range(key, {k: v for k, v in value.items() if k != "count"})
         return [at(i / (count - 1)) for i in range(count)]

@@ -9,6 +9,20 @@ setup() {
   t=$BATS_TEST_TMPDIR
 }
 
+@test "arithmetic of scripts: numbers by name, rows of CSV with columns by name" {
+  [[ $(pipelines/reckon 'e * 0.7' 'u / 4' e=0.005 u=1) == '0.0035 0.25' ]]
+  [[ $(pipelines/reckon -f '[%d,%d]' '0.4 / e + 0.5' 'sqrt(4)' e=0.03) == '[13,2]' ]]
+  run -1 pipelines/reckon 'e * 0.7' f=1
+  printf 'a [m],kind,b\n1,x,\n2,y,3\n' > "$BATS_TEST_TMPDIR/rows.csv"
+  PYTHONPATH=pipelines /usr/bin/python3 - "$BATS_TEST_TMPDIR/rows.csv" << 'END'
+import math, sys, columns
+rows = columns.read(sys.argv[1])
+assert [row["a"] for row in rows] == [1, 2] and [row["kind"] for row in rows] == ["x", "y"], rows
+assert math.isnan(rows[0]["b"]) and rows[1]["b"] == 3, rows
+assert columns.slope([(0, 1), (1, 3), (2, 5)]) == 2 and math.isnan(columns.slope([(0, 1)]))
+END
+}
+
 @test "convergence: a balloon's area, extrapolated, against the closed form; orders are two" {
   run -0 pipelines/convergence/run pipelines/balloon/scene.toml --measure end.area --edges 0.3,0.2,0.14 --steps 0.04,0.02,0.01 \
     --set 'sheet.edge_length={edge}' --until 0.32 --fps 25 -o "$t/study" -- 'sheet-step --dt {step}'

@@ -25,6 +25,8 @@ from .run import Run, make_frame, write
 from .stream import (BAD_INPUT, CORRUPT, IO, PLACES, TRANSFERS, TYPES, USAGE, Array, Frame, Header, Reader, StreamError,
                      Writer, encode, find_form_error, find_value_error, read, stage, text)
 
-__all__ = ["BAD_INPUT", "CORRUPT", "IO", "PLACES", "QUANTITIES", "TRANSFERS", "TYPES", "USAGE", "Array", "Frame", "Header",
-           "Quantity", "Reader", "Run", "StreamError", "Writer", "encode", "find_form_error", "find_value_error", "make_frame", "read",
+__all__ = ["BAD_INPUT", "CORRUPT", "IO", "PLACES", "QUANTITIES", "TRANSFERS", "TYPES", "USAGE", "Array", "Frame",
+           "Header",
+           "Quantity", "Reader", "Run", "StreamError", "Writer", "encode", "find_form_error", "find_value_error",
+           "make_frame", "read",
            "stage", "text", "write"]

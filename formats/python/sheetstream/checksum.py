@@ -2,8 +2,8 @@
 """XXH3 with 64 bits and without a seed, which every part of a stream is checked with (formats/sheet.md).
 
 By the module xxhash where there is one, else by numpy, at 0.1 GB a second. Source: the algorithm's
-specification, github.com/Cyan4973/xxHash/blob/dev/doc/xxhash_spec.md. Inputs of 1 to 16 bytes, which a stream never has,
-are left out.
+specification, github.com/Cyan4973/xxHash/blob/dev/doc/xxhash_spec.md. Inputs of 1 to 16 bytes, which a stream never
+has, are left out.
 
 >>> hex(checksum(b"")), hex(checksum(bytes(64)))
 ('0x2d06800538d394c2', '0x2ffb6918c12c256e')

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Lets meshio read and write streams (.sheet): importing this module registers the format.
 
-meshio knows one mesh a file: reading takes the last frame, or that of a number (read(file, frame=0)); vectors and numbers
-at vertices and triangles come along, thickness [m] with them; time and step are field data. Writing takes triangles and
-their thickness or volume.
+meshio knows one mesh a file: reading takes the last frame, or that of a number (read(file, frame=0)); vectors and
+numbers at vertices and triangles come along, thickness [m] with them; time and step are field data. Writing takes
+triangles and their thickness or volume.
 
 >>> import meshio, sheetstream.meshio
 >>> points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
@@ -50,7 +50,8 @@ def from_mesh(mesh: Any) -> Frame:
         raise StreamError(3, 'the mesh needs cell data "thickness" [m] or "volume" [m^3]')
     points = np.zeros((len(mesh.points), 3))
     points[:, :np.shape(mesh.points)[1]] = mesh.points
-    frame = make_frame(points, corners, data.get("thickness", 1.0), float(np.ravel(mesh.field_data.get("time", 0.0))[0]),
+    frame = make_frame(points, corners, data.get("thickness", 1.0),
+                       float(np.ravel(mesh.field_data.get("time", 0.0))[0]),
                        int(np.ravel(mesh.field_data.get("step", 0))[0]))
     if "volume" in data:
         frame["volume"] = data["volume"].astype(float)

@@ -45,8 +45,10 @@ def triangle_values(frame: Frame, quantity: str) -> Floats:
         return frame.thickness()
     if quantity == "speed":
         return np.linalg.norm(frame.velocity()[frame["triangle"]].mean(axis=1), axis=1)
-    if quantity not in frame or np.ndim(frame[quantity]) != 1 or frame.arrays[quantity].place not in ("vertex", "triangle"):
-        raise ValueError(f'"{quantity}" is neither thickness nor speed nor an array of the frame with a number a vertex or '
+    if quantity not in frame or np.ndim(frame[quantity]) != 1 or frame.arrays[quantity].place not in ("vertex",
+        "triangle"):
+        raise ValueError(f'"{quantity}" is neither thickness nor speed nor an array of the frame with a number a'
+                         f' vertex or '
                          f"triangle; it has {', '.join(frame.arrays)}")
     values = np.asarray(frame[quantity], float)
     return values if frame.arrays[quantity].place == "triangle" else values[frame["triangle"]].mean(axis=1)
@@ -71,7 +73,8 @@ def sheet(frame: Frame, quantity: str = "thickness", ax: Any = None, limits: tup
     shade = _shade(points[frame["triangle"]])
     colour = plt.get_cmap(cmap)(norm(values))
     colour[:, :3] *= shade[:, None]
-    ax.add_collection3d(Poly3DCollection(points[frame["triangle"]], facecolors=colour, linewidths=0.2, edgecolors=colour))
+    ax.add_collection3d(Poly3DCollection(points[frame["triangle"]], facecolors=colour, linewidths=0.2,
+                                         edgecolors=colour))
     low_corner, high_corner = points.min(axis=0), points.max(axis=0)
     middle, half = (low_corner + high_corner) / 2, max((high_corner - low_corner).max(), 1e-12) / 2
     for axis, name, centre in zip("xyz", (f"{'xyz'[i]} [m]" for i in order), middle):
@@ -93,7 +96,8 @@ def _shade(corners: npt.NDArray[Any]) -> Floats:
     return 0.6 + 0.4 * np.abs(normal @ light) / np.where(length > 0, length, 1)
 
 
-def curves(run: Run, quantities: Sequence[str] = ("volume", "thickness_min", "kinetic_energy"), axes: Any = None) -> Any:
+def curves(run: Run, quantities: Sequence[str] = ("volume", "thickness_min", "kinetic_energy"),
+           axes: Any = None) -> Any:
     """Draws curves over time below each other, named as in sheetstream.run.CURVES, and returns the axes."""
     if axes is None:
         axes = plt.subplots(len(quantities), sharex=True, squeeze=False, figsize=(6, 1 + 1.6 * len(quantities)),

@@ -22,8 +22,8 @@ CURVES = ("time", "step", "vertices", "triangles", "area", "volume", "thickness_
 
 
 class Run(Sequence[Frame]):
-    """The frames of a file, in order of time. Only headers are read at first; run[i], run[-1] and iteration read frames,
-    run[2:5] is a list of them. Raises StreamError where the file is not what it should be.
+    """The frames of a file, in order of time. Only headers are read at first; run[i], run[-1] and iteration read
+    frames, run[2:5] is a list of them. Raises StreamError where the file is not what it should be.
 
     partial: take a stream that was cut short, or that is being written, as far as its frames are whole.
     """
@@ -86,8 +86,9 @@ class Run(Sequence[Frame]):
         return self[max(0, int(np.searchsorted(self.times, time, "right")) - 1)]
 
     def curves(self, density: float | None = None) -> dict[str, Floats]:
-        """What CURVES names, over the frames, in SI units: arrays with an entry for each frame. The mean thickness is the
-        whole sheet's, volume by area. Kinetic energy needs the density [kg/m^3], by default the scene's; else it is nan.
+        """What CURVES names, over the frames, in SI units: arrays with an entry for each frame. The mean thickness is
+        the whole sheet's, volume by area. Kinetic energy needs the density [kg/m^3], by default the scene's; else it is
+        nan.
         """
         rows = [_measure(frame, density) for frame in self]
         return {name: np.array([row[i] for row in rows], float) for i, name in enumerate(CURVES)}
@@ -142,7 +143,8 @@ def make_frame(position: npt.ArrayLike, triangle: npt.ArrayLike, thickness: npt.
 
 
 def write(path: str | os.PathLike[str], frames: Iterable[Frame]) -> None:
-    """Writes frames to a file, with an end mark; if something fails, without one. Raises StreamError for a bad frame."""
+    """Writes frames to a file, with an end mark; if something fails, without one. Raises StreamError for a bad
+    frame."""
     with open(path, "wb") as file:
         writer = Writer(file)
         for number, frame in enumerate(frames):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The sheet stream as formats/sheet.md specifies it: frames and their arrays, a reader that trusts nothing, a writer, and
-stages of one's own."""
+"""The sheet stream as formats/sheet.md specifies it: frames and their arrays, a reader that trusts nothing, a writer,
+and stages of one's own."""
 from __future__ import annotations
 
 import contextlib
@@ -160,7 +160,8 @@ class Frame:
         return np.divide(volume, area, out=np.zeros(self.vertices), where=area > 0)
 
     def vertex_normals(self) -> Floats:
-        """Unit normal at each vertex, towards the positive side: the mean of the triangles' around, by area; 0 without."""
+        """Unit normal at each vertex, towards the positive side: the mean of the triangles' around, by area; 0
+        without."""
         vectors = self._area_vectors()
         total = np.stack([self._to_vertices(vectors[:, i]) for i in range(3)], axis=1)
         length = np.linalg.norm(total, axis=1, keepdims=True)
@@ -397,7 +398,8 @@ class Reader:
         self._file.seek(self._consumed)
         while (header := self._read_header()) is not None:
             if self._position + header.size > length:
-                self._corrupt(length, f"the frame is cut short, {length - self._position} of {header.size} bytes are there")
+                self._corrupt(length,
+                              f"the frame is cut short, {length - self._position} of {header.size} bytes are there")
             yield self._position, header
             self._consumed = self._file.seek(self._position + header.size)
             self.frames += 1
@@ -462,7 +464,8 @@ class Reader:
         block = self._find_frame()
         if block is None:
             return None
-        _, major, minor, flags, size, *counts, when, step, arrays, a, table_checksum, b, checksum = _HEADER.unpack(block)
+        _, major, minor, flags, size, *counts, when, step, arrays, a, table_checksum, b, checksum = \
+            _HEADER.unpack(block)
         if _checksum(block[:120]) != checksum:
             self._corrupt(self._position, "frame header: checksum mismatch")
         self._check_version(major, flags)
@@ -495,8 +498,10 @@ class Reader:
                 self._corrupt(self._consumed, "the stream was cut short: a frame or end mark has just begun")
             if not block.startswith(b"SHEETFRM"):
                 self._corrupt(self._position,
-                              "this is zstd-compressed: read it through zstd -dc" if block.startswith(b"\x28\xb5\x2f\xfd")
-                              else "this is the text form: read it through sheet-parse" if block.startswith(b"sheet-text")
+                              "this is zstd-compressed: read it through zstd -dc"
+                              if block.startswith(b"\x28\xb5\x2f\xfd")
+                              else "this is the text form: read it through sheet-parse"
+                              if block.startswith(b"sheet-text")
                               else "not a sheet stream: a frame starts with SHEETFRM")
             if len(block) == 64:
                 block += self._take(64)
@@ -608,7 +613,8 @@ class Reader:
         array.values = np.frombuffer(block, dtype, rows * components).reshape(shape) if rows else np.zeros(shape, dtype)
 
 
-def read(file: BinaryIO | str | os.PathLike[str], name: str | None = None, check_values: bool = True) -> Iterator[Frame]:
+def read(file: BinaryIO | str | os.PathLike[str], name: str | None = None,
+         check_values: bool = True) -> Iterator[Frame]:
     """Iterates over the frames of a binary file object, or of the file of that name."""
     if isinstance(file, (str, os.PathLike)):
         with open(file, "rb") as opened:
