@@ -37,15 +37,23 @@ double own_edge_length(formats::Frame& frame) {
   return mean;
 }
 
+// The shortest length of edges that a sheet of the scene states: none becomes coarser than it says.
+std::optional<double> shortest_stated(const Scene& scene) {
+  std::optional<double> shortest;
+  for (const auto& sheet : scene.sheets)
+    if (sheet.edge_length && (!shortest || *sheet.edge_length < *shortest))
+      shortest = sheet.edge_length;
+  return shortest;
+}
+
 } // namespace
 
 void RemeshStage::remesh(formats::Frame& frame) {
   check_magnitudes(frame);
   const Scene* scene = frame.find("scene") == nullptr ? nullptr : &scenes_.of(frame);
   if (!options_.edge_length) {
-    options_.remeshing.size.edge_length = scene != nullptr && scene->sheets.front().edge_length
-                                              ? *scene->sheets.front().edge_length
-                                              : own_edge_length(frame);
+    const auto stated = scene != nullptr ? shortest_stated(*scene) : std::nullopt;
+    options_.remeshing.size.edge_length = stated ? *stated : own_edge_length(frame);
   }
   if (scene != nullptr)
     cut_threads(frame, *scene);

@@ -44,8 +44,8 @@ struct Margins {
   double right = 0, left = 0, top = 0, bottom = 0;
 };
 
-// Finds the place of a camera of given direction from which all of some points are in the picture. A point p is in it
-// if
+// Finds the place of a camera of given direction from which all of some points are in the picture. A point p is in
+// it if
 //   (p - eye).right <= tangent (eye - p).toward,   likewise to the left, upwards and downwards, each with its tangent,
 // which bounds four linear functions of p: their greatest values over the points are all that need be kept.
 class ViewFit {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scene files (TOML). Every key is checked; all that is wrong is reported together in one Error (bad_input), a line
+// Scene files (TOML). Every key is checked; all that is wrong is reported together in one Error (bad_input), a line for
 // each:
 //   scene.toml:12:5: unknown key "viscocity" in [material]; did you mean "viscosity"?
 // `sets` are the texts of --set options, "material.viscosity=50"; what is wrong with a value of theirs names them

@@ -31,7 +31,6 @@ struct Rotation {
 [[nodiscard]] Eigen::Matrix3d matrix(const std::optional<Rotation>& rotation);
 
 // ---- the sheet
-// --------------------------------------------------------------------------------------------------------
 
 // Flat shapes lie in the sheet's plane; caps and tubes stand on it, their axis along its normal.
 struct Rectangle {
@@ -84,7 +83,7 @@ struct ThicknessData {
 //          radial: distance from the sheet's axis (through its center along the plane's normal), less an annulus' inner
 //          radius
 //   noise  d uniform in [-amplitude, amplitude], independent at each vertex (position) or triangle (thickness), from
-//   `seed`
+//          `seed`
 // Those of the position go on in what enters at the sheet's inlets (libsheet/flow/row_perturbation.h).
 enum class WaveDirection { x, y, z, radial };
 struct Wave {
@@ -107,8 +106,8 @@ struct SheetTable {
   std::string name; // by which holds and inflows speak of it; "": none
   SheetShape shape = Rectangle{1, 1};
   std::optional<double> edge_length; // [m]; generated shapes have either this or segments, meshes neither
-  std::optional<std::array<int, 2>>
-      segments; // rectangle: first, second letter; else: around, then along (radius, height)
+  // rectangle: first, second letter; else: around, then along (radius, height)
+  std::optional<std::array<int, 2>> segments;
   Pattern pattern = Pattern::irregular;
   std::int64_t seed = 0;                         // of the irregular pattern
   std::variant<double, ThicknessData> thickness; // [m]
@@ -123,7 +122,6 @@ struct SheetTable {
 };
 
 // ---- material, environment, model
-// ------------------------------------------------------------------------------------
 
 // Pressure on the sheet's negative side less that on its positive side [Pa]: blows a closed sheet up.
 struct ConstantPressure {
@@ -175,7 +173,6 @@ struct Model {
 };
 
 // ---- holds, solids, inflow, tearing, contact
-// -------------------------------------------------------------------------
 
 // Parts of the sheet's border as it lies at the start. *_min, *_max: the side where that coordinate is least or
 // greatest, before `rotation`. inner_rim: around the hole; outer_rim: the other one; rim: all of the border.

@@ -2,9 +2,8 @@
 // One implicit time step. Schemes:
 //   backward Euler  one stage over dt [Batty et al. 2012, section 3.7]
 //   SDIRK2          γ = 1 - 1/√2, two stages over γ dt each, second order, L-stable [Alexander 1977], in metric form:
-//   the
-//                   second stage measures strain from a0 + ((1-γ)/γ)(a1 - a0), curvature likewise, so that each stage
-//                   is the minimum of a potential and a rigid motion costs nothing
+//                   the second stage measures strain from a0 + ((1-γ)/γ)(a1 - a0), curvature likewise, so that each
+//                   stage is the minimum of a potential and a rigid motion costs nothing
 // A step that does not converge forgets what was overshot before it (energy/overshoot.h); then it is done without arcs,
 // then in halves, halves by backward Euler where SDIRK2 fails. When the Newton iterations allowed to a step are spent,
 // what is left of it is done by backward Euler, and taken where the last iteration promised to lower the potential by

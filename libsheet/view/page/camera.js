@@ -1,6 +1,8 @@
 // Looks at a target from a direction given by two angles about the scene's upward direction.
 
-class Camera {
+import {add, cross, dot, length, subtract, unit} from "./vectors.js";
+
+export class Camera {
   constructor(up) {
     this.up = unit(up);
     const side = Math.abs(this.up[2]) > 0.9 ? [0, -1, 0] : [0, 0, 1];

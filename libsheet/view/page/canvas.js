@@ -28,7 +28,7 @@ void main() {
   result = vec4(mix(tint.rgb, shaded, lit), tint.a * fade);
 }`;
 
-class Canvas {
+export class Canvas {
   constructor(element) {
     this.element = element;
     const gl = this.gl = element.getContext("webgl2", {alpha: false, antialias: true});

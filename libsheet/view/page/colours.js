@@ -1,19 +1,21 @@
 // False colours, as sheet-render has them: the page brings quantities and palettes along.
 
-const quantities = JSON.parse(document.getElementById("quantities").textContent);
+import {cross, length, subtract} from "./vectors.js";
+
+export const quantities = JSON.parse(document.getElementById("quantities").textContent);
 const plainColour = [176, 120, 78];
 
 // The colour at a place of the scale, 0 to 1; stops are [place, colour].
-function between(stops, place) {
+export function between(stops, place) {
   const x = Math.max(0, Math.min(1, place || 0)), i = Math.max(1, stops.findIndex(stop => x <= stop[0]));
   const [[low, from], [high, to]] = [stops[i - 1], stops[i]];
   return from.map((c, k) => c + (x - low) / (high - low) * (to[k] - c));
 }
 
-const quantityOf = name => quantities.find(quantity => quantity.name === name);
+export const quantityOf = name => quantities.find(quantity => quantity.name === name);
 
 // Whether any frame of the streams has it.
-const isThere = (streams, {name}) => {
+export const isThere = (streams, {name}) => {
   const i = quantities.indexOf(quantityOf(name));
   return streams.some(stream => stream.descriptions.some(frame => frame.fields[i]));
 };
@@ -39,7 +41,7 @@ function vertexValues(frame, shape, {name, where}) {
 }
 
 // The range of a quantity in all frames of all streams, without the extreme hundredths of each frame.
-function rangeOf(streams, quantity) {
+export function rangeOf(streams, quantity) {
   const i = quantities.indexOf(quantity);
   let low = Infinity, high = -Infinity;
   for (const stream of streams)
@@ -61,7 +63,7 @@ function rangeOf(streams, quantity) {
 }
 
 // Red, green, blue, 255 for each vertex; plain where there is no quantity, or the frame does not have it.
-function coloursOf(frame, shape, quantity, range) {
+export function coloursOf(frame, shape, quantity, range) {
   const colours = new Uint8Array(4 * frame.vertices).fill(255);
   const values = quantity && frame.fields[quantities.indexOf(quantity)] && vertexValues(frame, shape, quantity);
   for (let v = 0; v < frame.vertices; ++v) {

@@ -1,8 +1,11 @@
 // Asking the sheet: what a ray meets, what becomes of a point, what a plane cuts.
 
+import {add, cross, dot, length, subtract, unit} from "./vectors.js";
+import {quantities} from "./colours.js";
+
 // Where the ray first meets a side of the slab: {triangle, weights, distance}, or null. Start relative to the shape's
 // origin; `hidden(point)` tells what is cut away.
-function meet(frame, shape, start, direction, hidden) {
+export function meet(frame, shape, start, direction, hidden) {
   let nearest = null;
   for (const side of [0.5, -0.5])
     for (let t = 0; t < frame.triangles; ++t) {
@@ -43,7 +46,7 @@ function packedValues(frame, triangle, weights) {
   return quantities.filter(({name}) => name in frame.values).map(quantity => [quantity, at(quantity)]);
 }
 
-function stateOf(frame, triangle, weights) {
+export function stateOf(frame, triangle, weights) {
   const velocity = mean(frame, triangle, weights, v => frame.velocity(v));
   return {
     frame, triangle, weights, velocity, time: frame.time, thickness: frame.thicknessOf(triangle),
@@ -85,7 +88,7 @@ function nearestWeights(a, b, c, p) {
 
 // The states of a piece of liquid in all frames: where the mesh stays, it stays in its triangle; elsewhere it goes
 // with its velocity and on to the nearest point of the next mesh.
-function follow(stream, start) {
+export function follow(stream, start) {
   const states = [];
   states[start.frame.number] = start;
   for (const sense of [1, -1])
@@ -105,7 +108,7 @@ function follow(stream, start) {
 }
 
 // What the plane {normal, at} cuts, relative to the shape's origin: lines, each a list of {place, normal, thickness}.
-function cutBy(frame, shape, {normal, at}) {
+export function cutBy(frame, shape, {normal, at}) {
   const {mesh: {corners}, vertices} = frame, away = new Float64Array(vertices);
   for (let v = 0; v < vertices; ++v)
     away[v] = dot(normal, shape.place.subarray(3 * v, 3 * v + 3)) - at;

@@ -1,6 +1,8 @@
 // Who meets whom in a mesh, and what follows from places: normals, thickness at vertices, the rim's wall.
 
-class Mesh {
+import {cross, unit} from "./vectors.js";
+
+export class Mesh {
   constructor(vertices, corners) {
     this.vertices = vertices;
     this.corners = corners;
@@ -36,7 +38,7 @@ class Mesh {
 }
 
 // Places relative to `origin`, normals of length 1 weighted by area, thickness: all volume over all area around.
-function shapeOf(frame, origin) {
+export function shapeOf(frame, origin) {
   const {vertices, triangles, positions: p, positionStep: s, mesh: {corners}} = frame;
   const place = new Float32Array(3 * vertices), normal = new Float32Array(3 * vertices);
   const area = new Float64Array(vertices), volume = new Float64Array(vertices);
@@ -68,7 +70,7 @@ function shapeOf(frame, origin) {
 }
 
 // The wall along the rim: two triangles for each of its edges, from one side to the other.
-function wallOf(mesh, {place, normal, thickness}) {
+export function wallOf(mesh, {place, normal, thickness}) {
   const count = mesh.rim.length / 2, at = new Float32Array(12 * count), out = new Float32Array(12 * count);
   const source = new Uint32Array(4 * count), corners = new Uint32Array(6 * count);
   for (let e = 0; e < count; ++e) {
@@ -87,13 +89,3 @@ function wallOf(mesh, {place, normal, thickness}) {
   }
   return {at, out, source, corners};
 }
-
-const add = (a, b, factor = 1) => [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
-const subtract = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const length = a => Math.hypot(a[0], a[1], a[2]);
-const unit = a => {
-  const size = length(a) || 1;
-  return [a[0] / size, a[1] / size, a[2] / size];
-};

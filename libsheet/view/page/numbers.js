@@ -1,6 +1,6 @@
 // Packed numbers, as libsheet/view/packed_numbers.h describes them.
 
-async function unpack(id) {
+export async function unpack(id) {
   const element = document.getElementById(id), text = atob(element.textContent);
   element.remove();
   const bytes = new Uint8Array(text.length);
@@ -37,7 +37,7 @@ class Unpacked {
 }
 
 // A number with four digits and the unit's fitting prefix: 0.00123, "m" becomes "1.230 mm".
-function withUnit(value, unit) {
+export function withUnit(value, unit) {
   if (!Number.isFinite(value) || Math.abs(value) > 1e15)
     return "without bound";
   if (value === 0)

@@ -1,6 +1,10 @@
 // What was asked: a triangle, a distance, the thickness along a cut. Text goes into the page as text only.
 
-function element(name, text = "", children = []) {
+import {length, subtract} from "./vectors.js";
+import {withUnit} from "./numbers.js";
+import {plot} from "./plots.js";
+
+export function element(name, text = "", children = []) {
   const made = document.createElement(name);
   made.textContent = text;
   made.append(...children);
@@ -26,7 +30,7 @@ function withPlot(section, note, draw) {
   return section;
 }
 
-function triangleSection(stream, states, now) {
+export function triangleSection(stream, states, now) {
   const state = states[now.number];
   const section = element("section", "", [element("h2", `Triangle of ${stream.name}`)]);
   section.id = "asked";
@@ -51,7 +55,7 @@ function triangleSection(stream, states, now) {
                   canvas => plot(canvas, [curve], ["s", "m"], frame.time));
 }
 
-function distanceSection(ends) {
+export function distanceSection(ends) {
   const section = element("section", "", [element("h2", "Distance")]);
   section.id = "distance";
   if (ends.length < 2) {
@@ -64,7 +68,7 @@ function distanceSection(ends) {
   return section;
 }
 
-function cutSection(stream, lines) {
+export function cutSection(stream, lines) {
   const section = element("section", "", [element("h2", `Cut of ${stream.name}`)]);
   section.className = "cut";
   let along = 0;
@@ -83,7 +87,7 @@ function cutSection(stream, lines) {
                   canvas => plot(canvas, curves, ["m", "m"]));
 }
 
-function showPanel(sections) {
+export function showPanel(sections) {
   const panel = document.getElementById("panel");
   panel.replaceChildren(...sections);
   panel.hidden = sections.length === 0;

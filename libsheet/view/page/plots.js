@@ -1,6 +1,6 @@
 // Curves and the scale of false colours, drawn on small canvases.
 
-const themed = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+export const themed = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 function sharp(canvas) {
   const ratio = window.devicePixelRatio || 1, {clientWidth: width, clientHeight: height} = canvas;
@@ -29,7 +29,7 @@ function ticks(low, high, count) {
 
 // lines: lists of [x, y]; cursor: an x; dashes: a pattern for each line, solid without. The y axis begins at 0 unless the
 // values are close together.
-function plot(canvas, lines, units, cursor, dashes = []) {
+export function plot(canvas, lines, units, cursor, dashes = []) {
   const {pen, width, height} = sharp(canvas), all = lines.flat().filter(p => Number.isFinite(p[1]) && p[1] < 1e15);
   if (all.length === 0)
     return;
@@ -77,7 +77,7 @@ function plot(canvas, lines, units, cursor, dashes = []) {
   }
 }
 
-function drawLegend(canvas, quantity, range) {
+export function drawLegend(canvas, quantity, range, colourAt) {
   const {pen, width} = sharp(canvas), ink = themed("--ink");
   pen.textAlign = "left";
   quantity.kinds.forEach(([text, colour], i) => {
@@ -88,12 +88,12 @@ function drawLegend(canvas, quantity, range) {
   });
   if (quantity.kinds.length)
     return;
-  const {stops, units} = quantity, [factor, unit] = fitting(Math.max(...range.map(Math.abs)), units);
+  const {units} = quantity, [factor, unit] = fitting(Math.max(...range.map(Math.abs)), units);
   pen.fillStyle = ink;
   pen.fillText(unit ? `${quantity.caption} [${unit}]` : quantity.caption, 4, 12);
   const bar = {x: 14, w: width - 28};
   for (let i = 0; i < bar.w; ++i) {
-    pen.fillStyle = `rgb(${between(stops, i / (bar.w - 1))})`;
+    pen.fillStyle = `rgb(${colourAt(i / (bar.w - 1))})`;
     pen.fillRect(bar.x + i, 18, 1.5, 14);
   }
   pen.fillStyle = ink;

@@ -1,7 +1,9 @@
 // What there is to draw of a stream at a frame, as lists of triangles and lines relative to an origin.
 
+import {add, cross, dot, length, subtract, unit} from "./vectors.js";
+
 // A solid's places at time 0 and their normals; vertices at sharp edges stand there once a face.
-function solidShape(solid) {
+export function solidShape(solid) {
   const {vertices: n, positions: p, corners, step} = solid, place = new Float32Array(3 * n);
   for (let v = 0; v < n; ++v)
     for (let i = 0; i < 3; ++i)
@@ -19,7 +21,7 @@ function solidShape(solid) {
   return {place, normal};
 }
 
-function moved(shape, motion, origin) {
+export function moved(shape, motion, origin) {
   const place = new Float32Array(shape.place.length), normal = new Float32Array(place.length);
   for (let v = 0; v < place.length; v += 3)
     for (let i = 0; i < 3; ++i) {
@@ -31,7 +33,7 @@ function moved(shape, motion, origin) {
 }
 
 // A square around the foot of the origin's perpendicular.
-function surfaceShape(surface, origin, radius) {
+export function surfaceShape(surface, origin, radius) {
   const n = surface.normal, u = unit(cross(Math.abs(n[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0], n)), w = cross(n, u);
   const height = dot(n, subtract(surface.point, origin)), foot = n.map(x => x * height);
   const place = [];
@@ -42,7 +44,7 @@ function surfaceShape(surface, origin, radius) {
 }
 
 // The slab where the plane cuts it: a strip along each line, in the plane.
-function capOf(lines, plane) {
+export function capOf(lines, plane) {
   const place = [], normal = [], corners = [];
   for (const line of lines)
     line.forEach((point, k) => {

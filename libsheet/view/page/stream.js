@@ -1,5 +1,9 @@
 // Frames of a stream, unpacked one after the other (libsheet/view/packed_frame.h). Quantities are SI.
 
+import {unpack} from "./numbers.js";
+import {Mesh} from "./mesh.js";
+import {quantities} from "./colours.js";
+
 class Frame {
   constructor(description) {
     Object.assign(this, description); // time, step, vertices, triangles, ..., as FrameDescription
@@ -19,7 +23,7 @@ class Frame {
   cornersOf(triangle) { return this.mesh.corners.subarray(3 * triangle, 3 * triangle + 3); }
 }
 
-class Stream {
+export class Stream {
   constructor(number, description) {
     Object.assign(this, description); // name, scene, up, solids, placements
     this.number = number;

@@ -1,6 +1,8 @@
 // Asks for the run's state every second and shows it; the newest frame comes as sheet-view's page, in a frame that takes
 // the place of the one before when it is ready, with the same view.
 
+import {plot} from "./plots.js";
+
 const pause = 1000, framePause = 2000; // [ms]
 const canvases = new Map(); // of panels, by title
 const dashes = [[], [7, 3], [2, 2]], signs = ["\u2014", "\u2013 \u2013", "\u00b7\u00b7\u00b7"];
