@@ -68,8 +68,7 @@ Thickness thickness(const Frame& frame) {
     const Corners& c = corners[t];
     return (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
   };
-  Thickness h{values_of(frame, field_named("thickness")), thickness_around(x.size(), corners, v, area)};
-  return h;
+  return {values_of(frame, field_named("thickness")), thickness_around(x.size(), corners, v, area)};
 }
 
 // Integers of 64 bits that no double can tell from their neighbours.
