@@ -168,8 +168,8 @@ void Stepper::set_model(Model model) {
   }
 }
 
-Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end,
-                                  StepReport& report) {
+Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate,
+                                  State& end, StepReport& report) {
   const bool two = scheme == Scheme::sdirk2;
   const double gamma = two ? sdirk_gamma : 1;
   Beginning beginning;
@@ -202,7 +202,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   } else {
     last = first;
   }
-  const Outcome outcome = finish_step(state, dt, stage, first, last, scale, end, report);
+  const Outcome outcome = finish_step(state, dt, stage, first, last, scale, estimate, end, report);
   if (outcome == Outcome::done && slides_too_far(stage, last, dt, beginning.lengths))
     return Outcome::slides_too_far;
   return outcome;
@@ -210,7 +210,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
 
 // first: the first stage's result; last: that of the last stage, which is the end of the step.
 Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stage, const Unknowns& first,
-                                      const Unknowns& last, const Eigen::VectorXd& scale, State& end,
+                                      const Unknowns& last, const Eigen::VectorXd& scale, Estimate estimate, State& end,
                                       StepReport& report) {
   const bool two = stage.previous != nullptr;
   const std::size_t n = state.positions.size();
@@ -225,7 +225,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     end.positions[v] = x;
     end.velocities[v] = (x - reference) / stage.duration;
   }
-  estimate_error(state, dt, stage, first, last, end, scale, report);
+  estimate_error(state, dt, stage, first, last, end, scale, estimate, report);
   end.director_angles = director_angles(stage, last);
   set_prescribed_velocities(stage, end);
   for (const auto& term : cache_->terms)
@@ -254,7 +254,7 @@ void Stepper::set_prescribed_velocities(const Stage& stage, State& end) const {
 // velocities. On a wall it is taken in the wall's frame, as the wall's own motion is exact. [Shampine and Baca 1984;
 // Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8].
 void Stepper::estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first,
-                             const Unknowns& last, const State& end, const Eigen::VectorXd& scale,
+                             const Unknowns& last, const State& end, const Eigen::VectorXd& scale, Estimate estimate,
                              StepReport& report) const {
   const bool two = stage.previous != nullptr;
   const double tau = stage.duration, gamma = tau / dt;
@@ -270,7 +270,7 @@ void Stepper::estimate_error(const State& state, double dt, const Stage& stage, 
     speeds.segment<3>(at) = end.velocities[v] - (v0 + ((x1 - x0) / tau - v0) / gamma);
   }
   LinearSystem& system = cache_->system;
-  const bool filtered = filters_errors_ && two && system.has_factor();
+  const bool filtered = estimate == Estimate::filtered && two && system.has_factor();
   if (filtered && !state.overshoot.empty())
     take_away_overshoot(stage, gamma, last, e, speeds);
   if (filtered)
@@ -335,15 +335,14 @@ void Stepper::tell_times(StepReport& report) const {
 Stepper::Outcome Stepper::attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report) {
   flat = arcs_rest_ && has_arcs();
   if (!flat) {
-    const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
+    const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, Estimate::filtered, end, report);
     if (outcome != Outcome::not_converged || !has_arcs())
       return outcome;
     ++report.failed;
   }
   flat = true;
   report.error = 0;
-  without_arcs().filters_errors_ = filters_errors_;
-  return without_arcs().attempt(state, dt, options_.scheme, Demand::converged, end, report);
+  return without_arcs().attempt(state, dt, options_.scheme, Demand::converged, Estimate::filtered, end, report);
 }
 
 } // namespace sheet

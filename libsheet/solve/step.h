@@ -67,16 +67,19 @@ private:
   struct Cache;
   class ChosenStep;
   enum class Outcome { done, not_converged, shrinks_to_nothing, slides_too_far };
-  Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, State& end, StepReport& report);
+  // How the error is estimated: plainly where it is only told, filtered where steps are chosen by it.
+  enum class Estimate { plain, filtered };
+  Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate, State& end,
+                  StepReport& report);
   Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
-                      const Eigen::VectorXd& scale, State& end, StepReport& report);
+                      const Eigen::VectorXd& scale, Estimate estimate, State& end, StepReport& report);
   void set_prescribed_velocities(const Stage& stage, State& end) const;
   void estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first, const Unknowns& last,
-                      const State& end, const Eigen::VectorXd& scale, StepReport& report) const;
+                      const State& end, const Eigen::VectorXd& scale, Estimate estimate, StepReport& report) const;
   void take_away_overshoot(const Stage& stage, double gamma, const Unknowns& last, Eigen::VectorXd& e,
                            Eigen::VectorXd& speeds) const;
   Outcome attempt_either(const State& state, double dt, State& end, bool& flat, StepReport& report);
-  void advance(State& state, double dt, int depth, StepReport& report);
+  void advance(State& state, double dt, int depth, Estimate estimate, StepReport& report);
   void prepare_cache(const State& state, StepReport& report);
   // With those of unfinished substeps.
   [[nodiscard]] int hopeless_iterations() const { return 8 * options_.iterations; }
@@ -90,7 +93,6 @@ private:
   StepOptions options_;
   std::unique_ptr<Cache> cache_;
   bool arcs_rest_ = false;
-  bool filters_errors_ = false;   // where steps are chosen by them
   std::unique_ptr<Stepper> flat_; // the same without arcs, for steps that do not converge with them
 };
 

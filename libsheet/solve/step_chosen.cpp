@@ -129,7 +129,7 @@ private:
   void take_shortest() {
     Trial trial{state_, shortest_, 0, 0, false, {}};
     report_.error = 0;
-    stepper_.advance(trial.end, shortest_, 0, report_);
+    stepper_.advance(trial.end, shortest_, 0, Estimate::filtered, report_);
     trial.flat = report_.flat_fallbacks > 0;
     note(trial);
     best_ = std::move(trial);
@@ -140,8 +140,8 @@ private:
     Stepper& last = stepper_.has_arcs() ? stepper_.without_arcs() : stepper_;
     Trial trial{{}, first_, 0, 0, stepper_.has_arcs(), {}};
     report_.error = 0;
-    while (last.attempt(state_, trial.dt, Scheme::backward_euler, Demand::lower_potential, trial.end, report_) !=
-           Outcome::done) {
+    while (last.attempt(state_, trial.dt, Scheme::backward_euler, Demand::lower_potential, Estimate::filtered,
+                        trial.end, report_) != Outcome::done) {
       ++report_.failed;
       trial.dt *= least_factor;
       report_.error = 0;
@@ -189,7 +189,6 @@ StepReport Stepper::step_within(State& state, double until, StepControl& control
     fail(ExitCode::usage, "--tolerance: {} is not above 0", control.tolerance);
   limit_leaning(state, model_.holds);
   StepReport report;
-  filters_errors_ = true;
   clear_times();
   ChosenStep chosen(*this, state, remaining, control, report);
   chosen.find();

@@ -21,7 +21,6 @@ StepReport Stepper::step(State& state, double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     fail(ExitCode::usage, "a time step of {} s is not possible", dt);
   StepReport report;
-  filters_errors_ = false; // it is only told
   clear_times();
   State next = state;
   limit_leaning(next, model_.holds);
@@ -30,7 +29,7 @@ StepReport Stepper::step(State& state, double dt) {
   for (double left = dt; left > 0; left = until - next.time) {
     const double longest = longest_step_on_walls(model_.walls, next);
     const double count = std::ceil(std::max(1.0, left / longest * (1 - 1e-9)));
-    advance(next, left / count, 0, report);
+    advance(next, left / count, 0, Estimate::plain, report);
     if (count == 1)
       break;
   }
@@ -40,13 +39,13 @@ StepReport Stepper::step(State& state, double dt) {
   return report;
 }
 
-void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
+void Stepper::advance(State& state, double dt, int depth, Estimate estimate, StepReport& report) {
   if (depth == 0 && arcs_rest_ && has_arcs()) {
     advance_flat(state, dt, report);
     return;
   }
   State end;
-  const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, end, report);
+  const Outcome outcome = attempt(state, dt, options_.scheme, Demand::converged, estimate, end, report);
   if (outcome == Outcome::done) {
     ++report.substeps;
     state = std::move(end);
@@ -55,7 +54,7 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
   ++report.failed;
   if (!state.overshoot.empty()) {
     forget_overshoot(state);
-    advance(state, dt, depth, report);
+    advance(state, dt, depth, estimate, report);
     return;
   }
   if (depth == 0 && outcome == Outcome::not_converged && has_arcs()) {
@@ -65,7 +64,7 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
   const bool too_far = outcome == Outcome::slides_too_far;
   const bool exhausted = report.newton.spent() >= options_.iterations;
   if (!exhausted && !too_far && options_.scheme != Scheme::backward_euler && depth >= halvings_before_euler &&
-      attempt(state, dt, Scheme::backward_euler, Demand::converged, end, report) == Outcome::done) {
+      attempt(state, dt, Scheme::backward_euler, Demand::converged, estimate, end, report) == Outcome::done) {
     ++report.substeps;
     ++report.euler_fallbacks;
     state = std::move(end);
@@ -73,7 +72,7 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
   }
   const bool divisible = depth < options_.retries;
   if (((exhausted && !too_far) || !divisible) &&
-      attempt(state, dt, Scheme::backward_euler, Demand::lower_potential, end, report) == Outcome::done) {
+      attempt(state, dt, Scheme::backward_euler, Demand::lower_potential, estimate, end, report) == Outcome::done) {
     ++report.substeps;
     ++report.unfinished;
     state = std::move(end);
@@ -81,8 +80,8 @@ void Stepper::advance(State& state, double dt, int depth, StepReport& report) {
   }
   if (divisible && report.newton.spent() < hopeless_iterations()) {
     const double middle = state.time + 0.5 * dt, until = state.time + dt;
-    advance(state, middle - state.time, depth + 1, report);
-    advance(state, until - state.time, depth + 1, report);
+    advance(state, middle - state.time, depth + 1, estimate, report);
+    advance(state, until - state.time, depth + 1, estimate, report);
     return;
   }
   fail(ExitCode::not_converged,
