@@ -102,7 +102,7 @@ prepare_files() {
 }
 
 @test "23: the example's own command runs" {
-  command=$(grep -m1 '^    sheet-init' formats/python/example_stage.py | sed 's#./example_stage.py#formats/python/example_stage.py#')
+  command=$(sed -n '/^    sheet-init/,/> windy.sheet$/p' formats/python/example_stage.py | tr -s ' \n' ' ' | sed 's#./example_stage.py#formats/python/example_stage.py#')
   bash -o pipefail -c "$command"
   sheet-check --no-intersections windy.sheet
 }
