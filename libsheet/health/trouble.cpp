@@ -108,11 +108,13 @@ constexpr std::array table{
          .name = "crumbs",
          .least = false,
          .told = Told::in_percent,
-         .what = "{} of the volume has been dropped as crumbs",
+         .what = "{} of the volume has been dropped as crumbs and threads",
          .counted = "",
          .noted = {.worst = 0.01, .share = 0, .times = 1},
          .serious = {.worst = 0.1, .share = 0, .times = 1},
-         .remedy = "leave drop_crumbs in [tear] out, or take shorter edges: crumbs are pieces of a triangle or two"},
+         .remedy =
+             "take shorter edges, or leave drop_crumbs in [tear] out: crumbs are pieces of a triangle or two, threads "
+             "strands narrower than a thirty-second of an edge"},
     Kind{.trouble = Trouble::volume,
          .name = "volume",
          .least = false,

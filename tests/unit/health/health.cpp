@@ -185,7 +185,7 @@ TEST(Health, FindsCrumbs) {
   const Observation seen = only(look(frame, nullptr));
   EXPECT_EQ(seen.trouble, Trouble::crumbs);
   EXPECT_NEAR(seen.value, 0.025 / 1.025, 1e-12);
-  EXPECT_THAT(told(seen, 1), HasSubstr("crumbs: 2.4 % of the volume has been dropped as crumbs"));
+  EXPECT_THAT(told(seen, 1), HasSubstr("crumbs: 2.4 % of the volume has been dropped as crumbs and threads"));
   EXPECT_THAT(told({.trouble = Trouble::crumbs, .value = 0.2}, 1), HasSubstr("serious"));
 }
 
