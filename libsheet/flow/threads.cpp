@@ -48,23 +48,24 @@ std::vector<bool> prescribed(const Frame& frame, const Scene& scene) {
   return result;
 }
 
-// Of the small ones, those with two free corners or more on a rim, or where others have left.
-std::vector<bool> at_rims(const Connectivity& mesh, const std::vector<bool>& small, const std::vector<bool>& fixed) {
-  std::vector<bool> on_rim(mesh.vertices, false), leaves(small.size(), false);
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+// Of the small ones, those that hang together across edges with others of which each has a corner on a rim: strands of
+// two triangles' width. What is fine within, too, is no strand.
+std::vector<bool> in_strands(const Connectivity& mesh, const std::vector<bool>& small, const std::vector<bool>& fixed) {
+  std::vector<bool> on_rim(mesh.vertices, false), leaves(small.size(), false), wide(small.size(), false);
+  DisjointSets strands(small.size());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [one, other] = mesh.edge_triangles[e];
     if (mesh.on_rim(e))
       on_rim[mesh.edges[e][0]] = on_rim[mesh.edges[e][1]] = true;
-  for (bool found = true; found;) {
-    found = false;
-    for (std::size_t t = 0; t < small.size(); ++t) {
-      const Corners& c = mesh.triangles[t];
-      if (!small[t] || leaves[t] || on_rim[c[0]] + on_rim[c[1]] + on_rim[c[2]] < 2 || fixed[c[0]] || fixed[c[1]] ||
-          fixed[c[2]])
-        continue;
-      leaves[t] = found = true;
-      on_rim[c[0]] = on_rim[c[1]] = on_rim[c[2]] = true;
-    }
+    else if (small[one] && small[other])
+      strands.join(one, other);
   }
+  const auto any = [](const Corners& c, const std::vector<bool>& of) { return of[c[0]] || of[c[1]] || of[c[2]]; };
+  for (std::uint32_t t = 0; t < small.size(); ++t)
+    if (small[t] && !any(mesh.triangles[t], on_rim))
+      wide[strands.find(t)] = true;
+  for (std::uint32_t t = 0; t < small.size(); ++t)
+    leaves[t] = small[t] && !wide[strands.find(t)] && !any(mesh.triangles[t], fixed);
   return leaves;
 }
 
@@ -101,7 +102,7 @@ Dropped cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
     return {};
   const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const Frame&>(frame)));
   const std::vector<bool> fixed = prescribed(frame, scene);
-  std::vector<bool> leaves = at_rims(mesh, small, fixed);
+  std::vector<bool> leaves = in_strands(mesh, small, fixed);
   if (std::ranges::count(leaves, true) == 0)
     return {};
   add_crumbs(mesh, fixed, leaves);

@@ -10,11 +10,10 @@
 namespace sheet::flow {
 
 // Takes away the triangles of threads, and what hangs by them alone in pieces smaller than a crumb (tear_cuts.h); those
-// in an inlet or held stay. A triangle is of a thread if it has two corners or more on a rim, or
-// on others of it, no side above twice the shortest edge [m], a height below half of it, a section (that height times
-// its thickness) below that squared, and less than a thousandth of the mean volume. What has left is added to the
-// frame's arrays `tear.volume` [m³] and `tear.momentum` [kg m/s] (account.h). Bit for bit the same frame if there is no
-// thread.
+// in an inlet or held stay. A triangle is of a thread if it has no side above twice the shortest edge [m], a height
+// below half of it, a section (that height times its thickness) below that squared, less than a thousandth of the mean
+// volume, and if each of those that it hangs together with has a corner on a rim. What has left is added to the frame's
+// arrays `tear.volume` [m³] and `tear.momentum` [kg m/s] (account.h). Bit for bit the same frame if there is no thread.
 Dropped cut_threads(formats::Frame& frame, const Scene& scene, double shortest_edge);
 
 } // namespace sheet::flow

@@ -55,11 +55,11 @@ void RemeshStage::remesh(formats::Frame& frame) {
     const auto stated = scene != nullptr ? shortest_stated(*scene) : std::nullopt;
     options_.remeshing.size.edge_length = stated ? *stated : own_edge_length(frame);
   }
-  if (scene != nullptr)
-    cut_threads(frame, *scene);
   const std::uint64_t vertices = frame.vertices;
   Stopwatch watch;
   const Report report = remesh::remesh(frame, scene, options_.remeshing);
+  if (scene != nullptr && !report.budget_reached) // what is only fine has been made coarser by then
+    cut_threads(frame, *scene);
   const double seconds = watch.lap();
   log::detail("step {}: {} splits, {} collapses, {} flips, {} moved, {} absorbed; {} to {} vertices, {:.1f} ms",
               frame.step, report.splits, report.collapses, report.flips, report.smoothed, report.absorbed, vertices,

@@ -78,6 +78,24 @@ TEST(Threads, WhatIsNoneStays) {
   }
 }
 
+// A coarse sheet, and beside it a fine one whose triangles are as small as a thread's.
+TEST(Threads, FineSheetsAreNone) {
+  const Frame coarse = test::grid(8, 8, 1, 0.2), fine = test::grid(8, 8, 0.02, 0.01);
+  std::vector<Vector3> x(positions(coarse).begin(), positions(coarse).end());
+  std::vector<Corners> t(triangles(coarse).begin(), triangles(coarse).end());
+  std::vector<double> v(volumes(coarse).begin(), volumes(coarse).end());
+  const auto first = static_cast<std::uint32_t>(x.size());
+  for (const Vector3& at : positions(fine))
+    x.push_back(at + Vector3(0, 0, 5));
+  for (const Corners& c : triangles(fine))
+    t.push_back({c[0] + first, c[1] + first, c[2] + first});
+  v.insert(v.end(), volumes(fine).begin(), volumes(fine).end());
+  Frame frame = make_frame(x, t, v);
+  const Frame before = frame;
+  EXPECT_EQ(cut_threads(frame, scene(), shortest).triangles, 0U);
+  EXPECT_EQ(frame, before);
+}
+
 TEST(Threads, WhatIsHeldStays) {
   Frame frame = dumbbell(0.02);
   formats::Array hold = formats::make_standard_array("hold", frame.vertices);
