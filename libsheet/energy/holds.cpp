@@ -43,6 +43,16 @@ std::vector<char> held_unknowns(const std::vector<Hold>& holds, const Stage& sta
   return held;
 }
 
+void set_clamped(const std::vector<Hold>& holds, Stage& stage) {
+  stage.clamped.clear();
+  if (stage.frames.empty() || std::ranges::all_of(holds, [](const Hold& hold) { return hold.clamped_edges.empty(); }))
+    return;
+  stage.clamped.assign(stage.frames.size(), 0);
+  for (const Hold& hold : holds)
+    for (const std::uint32_t e : hold.clamped_edges)
+      stage.clamped[e] = 1;
+}
+
 void place_held(const std::vector<Hold>& holds, const Stage& stage, double to, Unknowns& u) {
   const double from = stage.start->time;
   for (const Hold& hold : holds) {

@@ -36,6 +36,9 @@ struct Hold {
 // One flag for each unknown.
 [[nodiscard]] std::vector<char> held_unknowns(const std::vector<Hold>& holds, const Stage& stage);
 
+// Tells the stage whose directors are held.
+void set_clamped(const std::vector<Hold>& holds, Stage& stage);
+
 // Puts held unknowns where they are at the time `to`.
 void place_held(const std::vector<Hold>& holds, const Stage& stage, double to, Unknowns& u);
 

@@ -18,8 +18,10 @@ struct alignas(64) MidEdgeReference {
   LaneNumbers curvature[3], lengths[3]; // references [m], [m²]
   LaneNumbers weight, membrane;         // V μ ĥ²/(6 τ) and V μ/(2 τ) [J]
   LaneNumbers stiffness[3], height[3];  // of caps, at their longest edge, else 0 [J/m²], [m]
-  LaneNumbers folding[3], side[3];      // of directors that lean far, else 0 [J/m²], [m]
-  bool folded;                          // whether any lane has such a one
+  // Of directors that lean far: half a hinge by their angle, else 0 [J]; that angle; the part of the height that
+  // counts.
+  LaneNumbers folding[3], lean_cosine[3], lean_sine[3], upright[3];
+  bool folded; // whether any lane has such a one
 };
 
 struct alignas(64) MidEdgeState {
@@ -33,6 +35,7 @@ struct alignas(64) MidEdgeStart {
   LaneNumbers metric[3], volume; // squared lengths of the raised metric [m²], [m³]
   LaneNumbers rate;              // μ/(2 τ) [Pa]
   LaneNumbers sign[3];           // 1 where edge k runs from its lower to its higher vertex, else -1
+  LaneNumbers held[3];           // 1 where edge k's director is held, else 0
   double ratio;                  // of the stage, see stage.h
 };
 

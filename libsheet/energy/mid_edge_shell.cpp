@@ -79,6 +79,7 @@ void MidEdgeShell::refer(std::size_t batch) {
       const EdgeFrame& frame = stage_->frames[edge];
       const double sign = v[(at + 1) % 3] < v[(at + 2) % 3] ? 1 : -1;
       start.sign[k][lane] = sign;
+      start.held[k][lane] = stage_->director_held(edge);
       start.metric[k][lane] = stage_->raised[t].lengths[k];
       for (int a = 0; a < 3; ++a) {
         to.tangent[k][a][lane] = sign * frame.tangent[a];

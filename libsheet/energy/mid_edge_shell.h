@@ -14,11 +14,13 @@
 // the edge only, so compressed caps fold over. The term is half a hinge at the longest edge, which holds face and
 // director together (docs/hard-cases.md).
 //
-// Where a director leans by α > 45 degrees from a triangle's normal, as it must at folds above 90 degrees, the triangle
-// also has
-//   k (c - c̄)²/2,   k = (1 - √2 cos ᾱ) (V μ ĥ²/(6 τ)) 4/H⁴,
-// c the side of the director's height (geometry/director.h), H the triangle's height over the edge. There g = |w| sin α
-// hardly changes any more when the director turns: at 90 degrees nothing would hold it.
+// Where a director leans by α > 45 degrees from a triangle's normal at the start of the step, as it must at folds above
+// 90 degrees, its height g = H sin α, H the triangle's over the edge, counts the less: p g takes its place, and the
+// triangle also has
+//   k (α - ᾱ)²/2,   k = (1 - p²) (V μ ĥ²/(6 τ)) 4/H²,   p = (cos α₀ - cos 75°)/(cos 45° - cos 75°), from 1 to 0.
+// At 90 degrees nothing else would hold it, as g hardly changes any more when it turns; and arcs are longest there, so
+// that tension would be at the top of a hill, where Newton's iterations go round with the director. One that is held
+// has p = 1, and 1 - √2 cos α₀ in place of 1 - p².
 #pragma once
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/element.h"

@@ -40,6 +40,7 @@ struct Stage {
   Unknowns begin;                     // the unknowns at the start of the step
   const Unknowns* previous = nullptr; // the first stage's result, null in a first stage
   std::vector<EdgeFrame> frames;      // of the directors, at the start of the step; empty without directors
+  std::vector<char> clamped;          // of each edge: whether its director is held; empty where none is
   std::vector<RaisedMetric> raised;   // for each triangle: the metric that raises indices and weighs by area
   Liquid liquid;
   std::vector<double> viscosity;         // of each triangle, strained as the stage predicts [Pa s]
@@ -54,6 +55,7 @@ struct Stage {
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] double stiffening(std::size_t triangle) const { return stiffened.empty() ? 1 : stiffened[triangle]; }
+  [[nodiscard]] bool director_held(std::uint32_t edge) const { return !clamped.empty() && clamped[edge] != 0; }
   [[nodiscard]] Vector3 position(const Unknowns& u, std::uint32_t v) const { return u.segment<3>(3 * v); }
 };
 

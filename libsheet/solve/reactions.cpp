@@ -77,6 +77,7 @@ std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, con
   instant.inertial_time = dt;
   for (std::size_t v = 0; v < end.positions.size(); ++v)
     instant.inertial[v] -= duration * (end.velocities[v] - start.velocities[v]);
+  set_clamped(model.holds, instant);
   set_wall_sites(model.walls, instant);
   system.constrain(constraints_of(model.holds, instant), system.floor());
   Unknowns guess = instant.begin;

@@ -102,6 +102,7 @@ Beginning begin_step(const Model& model, const State& state, double duration) {
   result.lengths = step_scale(state, stage.begin.size());
   result.scale = measures(stage, result.lengths);
   stage.stiffened = stiffened_films(stage, model.has_inertia());
+  set_clamped(model.holds, stage);
   set_wall_sites(model.walls, stage);
   result.guess = stage.begin;
   for (std::size_t v = 0; v < state.positions.size(); ++v)

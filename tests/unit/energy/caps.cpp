@@ -85,30 +85,40 @@ bool on_rim(const State& s, std::size_t edge) {
   return sides[0] == no_index || sides[1] == no_index;
 }
 
-TEST(Folds, HoldTheirDirector) {
-  const auto stiffness = [](double degrees) { // of the director of the fold
-    const State s = folded(degrees);
-    const Stage stage = first_stage(s, {.viscosity = 1}, 0.1, 0.1, true);
-    MidEdgeShell shell(false);
-    shell.begin(stage);
-    double sum = 0;
-    for (std::size_t t = 0; t < 2; ++t) {
-      VectorN<12> u = VectorN<12>::Zero(), g;
-      MatrixN<12> h;
-      Eigen::Index own = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        u.segment<3>(static_cast<Eigen::Index>(3 * k)) = s.positions[s.mesh->triangles[t][k]];
-        if (!on_rim(s, s.mesh->triangle_edges[t][k]))
-          own = static_cast<Eigen::Index>(9 + k);
-      }
-      shell.derivatives(t, u, g, h, false);
-      sum += h(own, own);
+// Of the director of the fold, turned by `theta`, in the sheet that is `scale` times as large as at the start.
+double stiffness_of_fold(const State& s, bool arcs, double scale, double theta) {
+  const Stage stage = first_stage(s, {.viscosity = 1}, 0.1, 0.1, true);
+  MidEdgeShell shell(arcs);
+  shell.begin(stage);
+  double sum = 0;
+  for (std::size_t t = 0; t < 2; ++t) {
+    VectorN<12> u = VectorN<12>::Zero(), g;
+    MatrixN<12> h;
+    Eigen::Index own = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      u.segment<3>(static_cast<Eigen::Index>(3 * k)) = scale * s.positions[s.mesh->triangles[t][k]];
+      if (!on_rim(s, s.mesh->triangle_edges[t][k]))
+        own = static_cast<Eigen::Index>(9 + k);
     }
-    return sum;
-  };
+    u[own] = theta;
+    shell.derivatives(t, u, g, h, false);
+    sum += h(own, own);
+  }
+  return sum;
+}
+
+TEST(Folds, HoldTheirDirector) {
+  const auto stiffness = [](double degrees) { return stiffness_of_fold(folded(degrees), false, 1, 0); };
   // By heights alone: 3e-10 of it at 179.998 degrees.
   for (const double degrees : {30.0, 90.0, 150.0, 179.0, 179.998})
     EXPECT_GT(stiffness(degrees), 0.3 * stiffness(0)) << degrees;
+}
+
+// Arcs get longer as directors lean, up to 90 degrees: there tension would be at the top of a hill.
+TEST(Folds, HoldTheirDirectorUnderTension) {
+  for (const double degrees : {150.0, 170.0, 180.0})
+    for (const double theta : {-0.4, 0.0, 0.4})
+      EXPECT_GT(stiffness_of_fold(folded(degrees), true, 1.1, theta), 0) << degrees << ", " << theta;
 }
 
 TEST(Directors, DoNotTurnOver) {
