@@ -125,14 +125,17 @@ struct CollideStage::Impl {
   health::Teller teller;
 
   void tell_of_two_solids(Frame& frame, const SolidReport& report) {
-    teller.tell(frame,
-                {.trouble = health::Trouble::two_solids,
-                 .value = static_cast<double>(report.between) / static_cast<double>(frame.vertices),
-                 .amount = static_cast<double>(report.between),
-                 .place = report.between_at},
-                fmt::format("step {}: {} vertices lie between two solids that move past each other; the one that they "
-                            "touched first drags them, the other one only stops them",
-                            frame.step, report.between));
+    const BetweenSolids& at = report.narrowest;
+    teller.tell(
+        frame,
+        {.trouble = health::Trouble::two_solids,
+         .value = static_cast<double>(report.between) / static_cast<double>(frame.vertices),
+         .amount = static_cast<double>(report.between),
+         .place = at.place},
+        fmt::format("step {}: {} vertices lie between {} and {}, which move past each other, at the narrowest {:.2g} "
+                    "m apart where the sheet is {:.2g} m thick; the one that they touched first drags them, the "
+                    "other one only stops them",
+                    frame.step, report.between, solids->name(at.first), solids->name(at.second), at.gap, at.thickness));
   }
 
   void read_scene_of(const Frame& frame) {
