@@ -157,7 +157,16 @@ std::string name_of_sheet(const Scene& scene, std::size_t number) {
                                   : fmt::format("sheet \"{}\"", name);
 }
 
-bool is_carried(const Scene& scene) { return !scene.holds.empty() || scene.environment.bath || !scene.inflows.empty(); }
+bool is_carried(const Scene& scene, const SheetTable& sheet) {
+  const auto on_it = [&](const auto& thing) { return thing.sheet.empty() || thing.sheet == sheet.name; };
+  return scene.environment.bath || std::ranges::any_of(scene.holds, on_it) || std::ranges::any_of(scene.inflows, on_it);
+}
+
+// Whether solids may, or other sheets that are carried.
+bool may_be_caught(const Scene& scene) {
+  const auto carried = [&](const SheetTable& sheet) { return is_carried(scene, sheet); };
+  return !scene.solids.empty() || (scene.contact && scene.contact->self && std::ranges::any_of(scene.sheets, carried));
+}
 
 std::vector<std::string> warnings_of_edges(const Scene& scene, const SheetTable& sheet, const Scales& scales) {
   std::vector<std::string> warnings;
@@ -179,10 +188,11 @@ std::vector<std::string> warnings_of_edges(const Scene& scene, const SheetTable&
 std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable& sheet, const Scales& scales) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
+  const bool carried = is_carried(scene, sheet);
   for (const auto& number : numbers_of(scene, scales)) {
     if (number.name != "Reynolds")
       continue;
-    if (scene.model.inertia && number.value < 1e-4 && (is_carried(scene) || !scene.environment.gravity))
+    if (scene.model.inertia && number.value < 1e-4 && (carried || !scene.environment.gravity))
       warn(fmt::format("inertia is on, but the Reynolds number is {}: inertia = false gives the same motion",
                        brief(number.value)));
     if (!scene.model.inertia && number.value > 1)
@@ -202,6 +212,10 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
                      std::holds_alternative<SheetMesh>(sheet.shape)
                          ? "if its mesh is in millimetres, give [sheet] scale = 0.001"
                          : "numbers without unit are metres; write \"50 mm\" if you mean that"));
+  if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
+    warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
+  else if (scene.environment.gravity && !carried && !may_be_caught(scene))
+    warn("nothing holds or catches the sheet: it falls for ever");
   return warnings;
 }
 
@@ -213,11 +227,6 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
     for (const std::string& warning : warnings_of_sheet(scene, scene.sheets[i], scales[i]))
       warn(name.empty() ? warning : name + ": " + warning);
   }
-  const bool carried = is_carried(scene);
-  if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
-    warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
-  else if (scene.environment.gravity && !carried && scene.solids.empty())
-    warn("nothing holds or catches the sheet: it falls for ever");
   for (std::size_t i = 0; i < scene.holds.size(); ++i)
     if (const auto jumps = warning_of_jumps(scene.holds[i].motion, fmt::format("hold {}", i)))
       warn(*jumps);

@@ -66,12 +66,15 @@ TEST(Explain, WarnsOfEverySheetByItsName) {
          "[environment]\ngravity = [0, 0, -9.81]\n" + "[[hold]]\nregion = \"rim\"\nsheet = \"upper\"\n");
   EXPECT_EQ(e.judged, "sheet 0");
   EXPECT_THAT(to_text(e), testing::HasSubstr("\nScales of sheet 0\n"));
-  EXPECT_THAT(e.warnings, ElementsAre("sheet \"upper\": edge_length 0.01 m is below the thickness 0.02 m: a sheet has "
+  const std::string falls = "nothing holds or catches the sheet: it falls for ever";
+  EXPECT_THAT(e.warnings, ElementsAre("sheet 0: " + falls,
+                                      "sheet \"upper\": edge_length 0.01 m is below the thickness 0.02 m: a sheet has "
                                       "no detail that fine",
                                       "sheet 2: edge_length 0.1 m is below the thickness 0.5 m: a sheet has no detail "
                                       "that fine",
                                       "sheet 2: the sheet is thicker than a fifth of its length: the equations of thin "
-                                      "sheets are doubtful"));
+                                      "sheets are doubtful",
+                                      "sheet 2: " + falls));
 }
 
 TEST(Explain, NumbersByTheirFormulas) {
