@@ -113,13 +113,13 @@ std::string file_list(const Source& source) {
 std::string explained(Source source, bool ring_alone) {
   const sheet::Scene scene = read(source);
   const sheet::formats::Frame frame = sheet::checked_first_frame(scene);
-  const sheet::scene::Measured measured = sheet::measured(frame);
+  const std::vector<sheet::scene::Measured> measured = sheet::measured_sheets(scene, frame);
   sheet::scene::Explanation explanation = sheet::scene::explain(scene, measured, sheet::modelled(scene));
   const double thickness = sheet::landing_thickness(scene, frame);
   if (sheet::stays_in_its_plane(scene, frame, thickness)) {
     explanation.warnings.emplace_back("all is symmetric about the sheet's plane: it would grow thicker where it should "
                                       "fold. [[sheet]] perturbation lets it begin, as in the ring below");
-    for (const std::string& set : sheet::small_noise(scene, *measured.thickness))
+    for (const std::string& set : sheet::small_noise(scene, measured))
       source.sets.push_back(set);
   }
   std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));

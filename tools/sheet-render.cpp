@@ -2,9 +2,11 @@
 // sheet-render: path-traced pictures of a stream.
 #include <fmt/format.h>
 
+#include "libsheet/base/files.h"
 #include "libsheet/loop/film.h"
 #include "libsheet/loop/select.h"
 #include "libsheet/render/render_stage.h"
+#include "libsheet/render/slab.h"
 
 int main(int argc, char** argv) {
   sheet::Tool tool(
@@ -17,6 +19,7 @@ int main(int argc, char** argv) {
       "the first is known, and gets a margin of a quarter of its size to all sides. So do scales and the ground.");
   sheet::render::RenderOptions o;
   sheet::FilmOptions film;
+  bool list_liquids = false;
   tool.argument("INPUT", film.input, "stream to read; - for standard input");
   sheet::render::declare_render_options(tool, o);
   tool.option("--frames", film.frames, "LIST",
@@ -24,12 +27,22 @@ int main(int argc, char** argv) {
   tool.option("--view-of", film.view, "LIST",
               "place camera, scale and ground as for these frames of a file; without it, as for those to draw. With 0- "
               "parts of a film that are drawn by themselves fit together");
+  tool.flag("--list-liquids", list_liquids,
+            "instead, the presets of --material, one a line: name, index of refraction, absorption and reduced "
+            "scattering of red, green and blue [1/m]; separated by tabs",
+            sheet::Tool::Provenance::omit);
   tool.example("sheet-render run.sheet -o frames/%04d.png --material honey", "a picture of each frame");
   tool.example("sheet-render run.sheet --denoise --samples 4 --y4m | ffmpeg -i - bunny.mp4", "a film");
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look thickness", "where the sheet is thin at the end");
   tool.example("sheet-render run.sheet --frames -1 -o end.exr --noise 1 --samples 4096",
                "light, depth, normals, thickness for other programs");
   return tool.run(argc, argv, [&] {
+    if (list_liquids) {
+      sheet::OutputFile file("-", sheet::OutputFile::Content::text);
+      file.write(sheet::render::list_of_liquids());
+      file.close();
+      return;
+    }
     sheet::render::RenderStage stage(o);
     sheet::run_film(
         film, [&](const sheet::formats::Frame& frame) { stage.survey(frame); },

@@ -43,15 +43,6 @@ bl_info = {
     "category": "Import-Export",
 }
 
-# sheet-render's presets: index of refraction, absorption and reduced scattering for red, green, blue [1/m].
-LIQUIDS = {
-    "chocolate": (1.46, (2400, 6600, 12500), (5200, 5200, 5200)),
-    "caramel": (1.48, (40, 190, 900), (260, 260, 260)),
-    "honey": (1.49, (14, 75, 420), (6, 6, 6)),
-    "batter": (1.40, (12, 50, 240), (2600, 2600, 2600)),
-    "glass": (1.52, (55, 14, 30), (0, 0, 0)),
-    "film": (1.50, (14, 8, 4), (35, 35, 35)),
-}
 OPAQUE = 1000  # scattering [1/m] from which a few millimetres hide what is behind
 THICKNESS_LOOK = "thickness"
 MOST_HOLDS = 64
@@ -61,17 +52,21 @@ class SheetError(Exception):
     """What is wrong with a file or an object, for the user."""
 
 
-def _scene_keys() -> dict[str, tuple[str, str, str]]:
-    """What sheet-init --list-keys knows of the keys of scenes, {key: (kind, SI unit, help)}: in the zip file the build
-    has put it beside this file; else the program is asked."""
-    beside = pathlib.Path(__file__).with_name("scene_keys.tsv")
+def _listed(name: str, *command: str) -> list[list[str]]:
+    """The rows that a program lists, by their columns: in the zip file the build has put them beside this file; else
+    the program is asked."""
+    beside = pathlib.Path(__file__).with_name(name)
     text = beside.read_text(encoding="utf-8") if beside.exists() else subprocess.run(
-        ["sheet-init", "--list-keys"], capture_output=True, text=True, check=True).stdout
-    return {key: (kind, unit, help_line) for key, kind, unit,
-            help_line in (line.split("\t") for line in text.splitlines())}
+        command, capture_output=True, text=True, check=True).stdout
+    return [line.split("\t") for line in text.splitlines()]
 
 
-SCENE_KEYS = _scene_keys()
+# {key of a scene: (kind, SI unit, help)}.
+SCENE_KEYS = {key: (kind, unit, help_line)
+              for key, kind, unit, help_line in _listed("scene_keys.tsv", "sheet-init", "--list-keys")}
+# sheet-render's presets: index of refraction, absorption and reduced scattering for red, green, blue [1/m].
+LIQUIDS = {name: (float(index), tuple(map(float, absorption.split())), tuple(map(float, scattering.split())))
+           for name, index, absorption, scattering in _listed("liquids.tsv", "sheet-render", "--list-liquids")}
 HOLD_KINDS = tuple(SCENE_KEYS["hold.N.kind"][0].split("|"))
 
 

@@ -126,7 +126,7 @@ private:
       }
       if (take("/"))
         divide = divided = true;
-      else if (take("*") || take("·"))
+      else if (take("*") || take("·") || take("."))
         divide = false;
       else if (blank && !rest_.empty() && rest_.front() != ')') {
         if (divided) {

@@ -125,14 +125,17 @@ struct CollideStage::Impl {
   health::Teller teller;
 
   void tell_of_two_solids(Frame& frame, const SolidReport& report) {
-    teller.tell(frame,
-                {.trouble = health::Trouble::two_solids,
-                 .value = static_cast<double>(report.between) / static_cast<double>(frame.vertices),
-                 .amount = static_cast<double>(report.between),
-                 .place = report.between_at},
-                fmt::format("step {}: {} vertices lie between two solids that move past each other; the one that they "
-                            "touched first drags them, the other one only stops them",
-                            frame.step, report.between));
+    const BetweenSolids& at = report.narrowest;
+    teller.tell(
+        frame,
+        {.trouble = health::Trouble::two_solids,
+         .value = static_cast<double>(report.between) / static_cast<double>(frame.vertices),
+         .amount = static_cast<double>(report.between),
+         .place = at.place},
+        fmt::format("step {}: {} vertices lie between {} and {}, which move past each other, at the narrowest {:.2g} "
+                    "m apart where the sheet is {:.2g} m thick; the one that they touched first drags them, the "
+                    "other one only stops them",
+                    frame.step, report.between, solids->name(at.first), solids->name(at.second), at.gap, at.thickness));
   }
 
   void read_scene_of(const Frame& frame) {
@@ -251,7 +254,7 @@ struct CollideStage::Impl {
       check_start(path);
       totals.check += watch.lap();
       const std::vector<Axes> fixed = path.fixed;
-      double taken = taken_by_solids(path, velocities(frame));
+      double taken = solids ? taken_by_solids(path, velocities(frame)) : 0;
       taken = std::max(0.0, taken + resolve_self_beside_solids(path, reach, frame));
       totals.response += watch.lap();
       set_springs(frame, path, fixed, reach, taken);
@@ -314,12 +317,28 @@ struct CollideStage::Impl {
     return moving ? steps : std::vector<RigidStep>{};
   }
 
-  // The kinetic energy that solids took [J], seen from them: an impulse without bounce that changes velocities by w
-  // takes m w²/2 at least.
-  static double taken_by_solids(const StepPath& path, std::span<const Vector3> before) {
+  // The one that holds the vertex, or else is nearest to it.
+  [[nodiscard]] std::size_t solid_at(const StepPath& path, std::size_t v) const {
+    if (path.touch[v] != no_solid)
+      return static_cast<std::size_t>(path.touch[v]);
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < solids->size(); ++i)
+      if (const double distance = solids->at(i, path.end[v], path.end_time).distance; distance < least) {
+        least = distance;
+        nearest = i;
+      }
+    return nearest;
+  }
+
+  // The kinetic energy that solids took of each vertex [J], seen from the solid there, where its impulses do no work.
+  [[nodiscard]] double taken_by_solids(const StepPath& path, std::span<const Vector3> before) const {
     double taken = 0;
     for (std::size_t v = 0; v < before.size(); ++v)
-      taken += path.mass[v] * (path.velocity[v] - before[v]).squaredNorm() / 2;
+      if (const Vector3& was = before[v], &is = path.velocity[v]; was != is) {
+        const Vector3 seen = (was + is) / 2 - solids->at(solid_at(path, v), path.end[v], path.end_time).velocity;
+        taken += path.mass[v] * (was - is).dot(seen);
+      }
     return taken;
   }
 
@@ -363,11 +382,13 @@ struct CollideStage::Impl {
                             at_end.area, fixed,    path.length(), path.end_thickness};
     std::vector<ContactSpring> springs = read_springs(frame);
     drop_within_layers(springs, search->layers(), sheet);
-    const std::vector<ContactSpring> loose = take_loose(springs, *mesh.mesh(), path.start);
-    follow(springs, *scene, sheet, {positions(frame), taken});
+    const LooseSprings loose = take_loose(springs, *mesh.mesh(), path.start);
+    const std::vector<double> had = follow(springs, *scene, sheet, positions(frame));
     const std::size_t old = springs.size();
     add_springs(springs, search->near(path.end, reach), search->layers(), *scene, sheet);
-    hand_over(loose, path.end, springs);
+    hand_over(loose.aside, path.end, springs);
+    ease_strained(springs, had, taken + energy_of(loose.aside, *scene, positions(frame)), *scene, path.end);
+    hand_over(loose.without_features, path.end, springs); // as they were before the mesh changed
     level_velocities(std::span(springs).subspan(old), *scene, path.mass, fixed, path.velocity);
     totals.most_springs = std::max(totals.most_springs, springs.size());
     write_springs(frame, springs);

@@ -72,21 +72,6 @@ void ease(ContactSpring& s, double part, std::span<const Vector3> x) {
   s.anchor = c + part * (s.anchor - c);
 }
 
-// springs: each with what corrections have made its energy grow by [J], less than 0 where it fell.
-void ease_strained(std::vector<std::pair<ContactSpring, double>>& springs, const Scene& scene, const SpringSheet& sheet,
-                   double taken) {
-  double grown = 0, given = taken;
-  for (const auto& [s, change] : springs)
-    (change > 0 ? grown : given) += std::abs(change);
-  if (grown <= given)
-    return;
-  for (auto& [s, change] : springs)
-    if (change > 0) {
-      const double energy = energy_of(s, scene, sheet.end);
-      ease(s, std::sqrt(std::max(0.0, 1 - (1 - given / grown) * change / energy)), sheet.end);
-    }
-}
-
 } // namespace
 
 void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet) {
@@ -95,22 +80,52 @@ void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& 
   });
 }
 
-void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet,
-            const Corrections& corrections) {
+std::vector<double> follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet,
+                           std::span<const Vector3> uncorrected) {
   SpringSheet free = sheet;
-  free.end = corrections.end;
-  std::vector<std::pair<ContactSpring, double>> followed;
+  free.end = uncorrected;
+  std::vector<ContactSpring> followed;
+  std::vector<double> had;
   for (ContactSpring s : springs) {
+    const double as_it_was = energy_of(s, scene, free.end);
     ContactSpring without = s;
     if (!follows(s, scene, sheet))
       continue;
     follows(without, scene, free); // its energy is sought, whether it parts or not
-    followed.emplace_back(s, energy_of(s, scene, sheet.end) - energy_of(without, scene, free.end));
+    const double turned = energy_of(without, scene, free.end);
+    const bool corrected =
+        std::ranges::any_of(s.vertices, [&](std::uint32_t v) { return sheet.end[v] != free.end[v]; });
+    followed.push_back(s);
+    had.push_back(corrected ? std::min(as_it_was, turned) : turned);
   }
-  ease_strained(followed, scene, sheet, corrections.taken);
-  springs.clear();
-  for (const auto& [s, change] : followed)
-    springs.push_back(s);
+  springs = std::move(followed);
+  return had;
+}
+
+double energy_of(std::span<const ContactSpring> springs, const Scene& scene, std::span<const Vector3> positions) {
+  double energy = 0;
+  for (const ContactSpring& s : springs)
+    energy += energy_of(s, scene, positions);
+  return energy;
+}
+
+void ease_strained(std::vector<ContactSpring>& springs, std::span<const double> had, double given, const Scene& scene,
+                   std::span<const Vector3> positions) {
+  const auto change_of = [&](std::size_t i) {
+    return energy_of(springs[i], scene, positions) - (i < had.size() ? had[i] : 0);
+  };
+  double grown = 0;
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const double change = change_of(i);
+    (change > 0 ? grown : given) += std::abs(change);
+  }
+  if (grown <= given)
+    return;
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    if (const double change = change_of(i); change > 0) {
+      const double energy = energy_of(springs[i], scene, positions);
+      ease(springs[i], std::sqrt(std::max(0.0, 1 - (1 - given / grown) * change / energy)), positions);
+    }
 }
 
 void level_velocities(std::span<const ContactSpring> springs, const Scene& scene, std::span<const double> mass,

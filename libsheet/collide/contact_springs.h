@@ -40,24 +40,27 @@ struct SpringSheet {
   std::span<const double> end_thickness = {}; // where layers flow; their springs rest at what they thin to [m]
 };
 
-// What contacts did in the step besides what springs do.
-struct Corrections {
-  std::span<const Vector3> end; // where the sheet would be without [m]
-  double taken = 0;             // the kinetic energy that they took, as far as springs may have got it [J]
-};
-
 // Takes away the springs within one layer, by the positions and contact distances at the start: those of a layer that
 // has become thicker than the loop between them is long, and those of streams from before layers were told apart.
 void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet);
 
 // Turns the springs with their features and takes away those that parted: whose features passed each other or became
 // parallel edges, and whose tension [Pa] exceeds the scene's adhesion. Without `adhesion` in the scene none parts.
-//
-// Where impulses and what carries or pulls back vertices have moved them, that is no work: all springs that it has
+// Returns of each that is left the energy that it had at the step's end before impulses and what carries or pulls back
+// vertices corrected that, `uncorrected`: turned, and, if they moved its features, no more than as it was [J].
+[[nodiscard]] std::vector<double> follow(std::vector<ContactSpring>& springs, const Scene& scene,
+                                         const SpringSheet& sheet, std::span<const Vector3> uncorrected);
+
+// [J].
+[[nodiscard]] double energy_of(std::span<const ContactSpring> springs, const Scene& scene,
+                               std::span<const Vector3> positions);
+
+// What has moved vertices, or has put the force of one spring on another, has done no work: all springs that it has
 // strained give up the same part of that strain's energy, so that springs get no more of it than other springs gave and
-// `taken`. Their rest and anchor follow, so that they push and pull less from where they are.
-void follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet,
-            const Corrections& corrections);
+// `given` [J]. Their rest and anchor follow, so that they push and pull less from where they are. `had`: the energy
+// of the first springs before; those behind are new.
+void ease_strained(std::vector<ContactSpring>& springs, std::span<const double> had, double given, const Scene& scene,
+                   std::span<const Vector3> positions);
 
 // Adds springs for near pairs of two layers that have none.
 void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,

@@ -28,12 +28,15 @@ bool has_triangle(const Connectivity& mesh, std::uint32_t a, std::uint32_t b, st
   });
 }
 
-bool is_loose(const ContactSpring& s, const Connectivity& mesh, std::span<const Vector3> x) {
+bool has_features(const Connectivity& mesh, const ContactSpring& s) {
   const auto& v = s.vertices;
-  const bool there = s.of_vertex() ? has_triangle(mesh, v[1], v[2], v[3])
-                                   : edge_of(mesh, v[0], v[1]) != no_index && edge_of(mesh, v[2], v[3]) != no_index;
+  return s.of_vertex() ? has_triangle(mesh, v[1], v[2], v[3])
+                       : edge_of(mesh, v[0], v[1]) != no_index && edge_of(mesh, v[2], v[3]) != no_index;
+}
+
+bool is_aside(const ContactSpring& s, std::span<const Vector3> x) {
   const Vector3 c = s.offset(x);
-  return !there || !(s.normal.dot(c) > kept_facing * c.norm());
+  return !(s.normal.dot(c) > kept_facing * c.norm());
 }
 
 struct Force {
@@ -48,14 +51,15 @@ Force force_of(const ContactSpring& s, std::span<const Vector3> x) {
 
 } // namespace
 
-std::vector<ContactSpring> take_loose(std::vector<ContactSpring>& springs, const Connectivity& mesh,
-                                      std::span<const Vector3> positions) {
-  std::vector<ContactSpring> loose;
+LooseSprings take_loose(std::vector<ContactSpring>& springs, const Connectivity& mesh,
+                        std::span<const Vector3> positions) {
+  LooseSprings loose;
   std::erase_if(springs, [&](const ContactSpring& s) {
-    const bool goes = is_loose(s, mesh, positions);
-    if (goes)
-      loose.push_back(s);
-    return goes;
+    const bool there = has_features(mesh, s);
+    if (there && !is_aside(s, positions))
+      return false;
+    (there ? loose.aside : loose.without_features).push_back(s);
+    return true;
   });
   return loose;
 }

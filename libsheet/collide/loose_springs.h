@@ -5,10 +5,14 @@
 
 namespace sheet::collide {
 
-// Takes out the springs whose triangle or edges the mesh does not have, or whose features are no longer over each
-// other: more than 60 degrees off the normal, at these positions.
-[[nodiscard]] std::vector<ContactSpring> take_loose(std::vector<ContactSpring>& springs, const Connectivity& mesh,
-                                                    std::span<const Vector3> positions);
+struct LooseSprings {
+  std::vector<ContactSpring> without_features; // whose triangle or edges the mesh does not have
+  std::vector<ContactSpring> aside; // whose features are no longer over each other: more than 60 degrees off the normal
+};
+
+// Takes them out, at these positions.
+[[nodiscard]] LooseSprings take_loose(std::vector<ContactSpring>& springs, const Connectivity& mesh,
+                                      std::span<const Vector3> positions);
 
 // Gives the force of each loose spring, as it is at these positions, to the springs that share most of its vertices and
 // lie within 60 degrees of its normal, by their stiffness: their rest distances and anchors change. So a pile keeps

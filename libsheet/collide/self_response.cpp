@@ -244,7 +244,7 @@ private:
             with_fixed(prescribed_[v], before[v], before[v] + (path_.end[v] - asked[v]) / path_.length());
     for (const auto& island : islands_.all()) {
       restore_momentum(island, asked, before);
-      take_gained_energy(island, before);
+      take_gained_energy(island, asked, before);
     }
   }
 
@@ -269,23 +269,26 @@ private:
         path_.velocity[v] += free_part(fixed).cwiseProduct(lost.linear) / mass;
   }
 
-  // How the vertices of an island move whose velocity is prescribed, as one rigid body; at rest without any.
+  // How the vertices of an island move whose velocity is prescribed, as one rigid body, where that led them; at rest
+  // without any.
   [[nodiscard]] RigidVelocity velocity_of_fixed(const std::vector<std::uint32_t>& island,
+                                                const std::vector<Vector3>& asked,
                                                 const std::vector<Vector3>& before) const {
     std::vector<std::uint32_t> fixed;
     std::ranges::copy_if(island, std::back_inserter(fixed), [&](std::uint32_t v) { return prescribed_[v] != 0; });
     if (fixed.empty())
       return {};
-    const Vector3& center = path_.end[fixed.front()];
-    return rigid_velocity(fixed, path_.mass, path_.end, momentum(fixed, path_.mass, path_.end, before, center), center);
+    const Vector3& center = asked[fixed.front()];
+    return rigid_velocity(fixed, path_.mass, asked, momentum(fixed, path_.mass, asked, before, center), center);
   }
 
   // Contacts take energy: where features are brought apart that were too near, in a short step at a high speed, or
   // moved by much to get round each other, the way is not a velocity. Of all changes in an island that part is kept
   // that gives it no more energy than it had, seen by an observer who moves with what is prescribed in it (impulses of
   // what rests do no work), and than it may have from what moves against him.
-  void take_gained_energy(const std::vector<std::uint32_t>& island, const std::vector<Vector3>& before) {
-    const RigidVelocity frame = velocity_of_fixed(island, before);
+  void take_gained_energy(const std::vector<std::uint32_t>& island, const std::vector<Vector3>& asked,
+                          const std::vector<Vector3>& before) {
+    const RigidVelocity frame = velocity_of_fixed(island, asked, before);
     double mass = 0, along = 0, square = 0, fastest = 0;
     for (const std::uint32_t v : island) {
       const Vector3 change = path_.velocity[v] - before[v], seen = before[v] - frame(path_.end[v]);
@@ -293,7 +296,7 @@ private:
       along += path_.mass[v] * change.dot(seen);
       square += path_.mass[v] * change.squaredNorm() / 2;
       if (prescribed_[v] != 0)
-        fastest = std::max(fastest, seen.norm());
+        fastest = std::max(fastest, (before[v] - frame(asked[v])).norm());
     }
     const double allowed = mass * fastest * fastest / 2;
     report_.taken -= std::min(along + square, allowed);

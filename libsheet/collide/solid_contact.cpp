@@ -464,17 +464,25 @@ private:
   void count_between(std::uint32_t v) {
     const SolidView& own = own_view(v);
     const double half = path_.half_thickness(v);
-    const bool between = std::ranges::any_of(views_, [&](const SolidView& other) {
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      const SolidView& other = views_[i];
       if (&other == &own || !moves_past(own, other, path_.start[v]))
-        return false;
+        continue;
       const double reach = catching_distance(path_, other, v, other.own(0, path_.start[v]), 2 * half);
-      const double most = (1 + as_near) * reach;
-      return other.shape().distance(other.own(other.pieces(), path_.end[v]), most) < most;
-    });
-    if (!between)
+      const double most = (1 + as_near) * reach, there = distance_at_end(other, v, most);
+      if (!(there < most))
+        continue;
+      const auto touched = static_cast<std::size_t>(rides_[v]);
+      const double gap = there + distance_at_end(own, v, most);
+      if (report_.between == 0 || gap < report_.narrowest.gap)
+        report_.narrowest = {path_.end[v], std::min(i, touched), std::max(i, touched), gap, path_.thickness[v]};
+      ++report_.between;
       return;
-    ++report_.between;
-    report_.between_at = path_.end[v];
+    }
+  }
+
+  [[nodiscard]] double distance_at_end(const SolidView& view, std::uint32_t v, double enough) const {
+    return view.shape().distance(view.own(view.pieces(), path_.end[v]), enough);
   }
 
   // Whether two solids' surfaces move with respect to each other at a point, by more than round-off.
@@ -506,7 +514,7 @@ SolidReport& SolidReport::operator+=(const SolidReport& later) {
   brought_out += later.brought_out;
   between += later.between;
   if (later.between > 0)
-    between_at = later.between_at;
+    narrowest = later.narrowest;
   unresolved += later.unresolved;
   if (later.unresolved > 0)
     unresolved_at = later.unresolved_at;

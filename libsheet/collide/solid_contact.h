@@ -31,6 +31,13 @@
 
 namespace sheet::collide {
 
+// Where a vertex that one solid holds meets another one, which moves past it.
+struct BetweenSolids {
+  Vector3 place = Vector3::Zero(); // of the vertex [m]
+  std::size_t first = 0, second = 0;
+  double gap = 0, thickness = 0; // between the two; of the sheet [m]
+};
+
 struct SolidReport {
   std::size_t touching = 0;                // vertices held by solids at the end
   std::size_t caught = 0;                  // those that were not at the start
@@ -39,12 +46,12 @@ struct SolidReport {
   std::size_t started_across = 0;          // triangles that start across a solid's surface
   std::size_t brought_out = 0;             // vertices that started inside a solid, by at most half an edge
   std::size_t between = 0;                 // vertices held by one solid that another one stops which moves past it
-  Vector3 between_at = Vector3::Zero();    // the last of those, where between > 0
+  BetweenSolids narrowest;                 // of those, where between > 0
   std::size_t unresolved = 0;              // triangles that still come too close (see above)
   Vector3 unresolved_at = Vector3::Zero(); // a corner of the last of those, where unresolved > 0
 
-  // With what was done after it: of `touching` and `started_across` the most, all else adds up; places are the later
-  // ones'.
+  // With what was done after it: of `touching` and `started_across` the most, all else adds up; places and the
+  // narrowest are the later ones'.
   SolidReport& operator+=(const SolidReport& later);
 };
 

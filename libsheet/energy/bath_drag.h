@@ -16,8 +16,17 @@ public:
   BathDrag(double drag, const Vector3& gravity, double level)
       : drag_(drag), up_(-gravity.normalized()), level_(level) {}
   [[nodiscard]] const char* name() const { return "drag of a bath"; }
-  [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }
-  void begin(const Stage& stage) { stage_ = &stage; }
+  [[nodiscard]] std::size_t size() const { return stiffness_.size(); }
+  void begin(const Stage& stage) {
+    mesh_ = stage.start->mesh;
+    start_ = stage.start->positions;
+    stiffness_.resize(mesh_->triangles.size());
+    for (std::size_t t = 0; t < stiffness_.size(); ++t)
+      stiffness_[t] = stage.raised[t].area() / 3 * drag_ / stage.duration;
+    led_.resize(stage.previous != nullptr ? start_.size() : 0);
+    for (std::uint32_t v = 0; v < led_.size(); ++v)
+      led_[v] = stage.ratio * (Stage::position(*stage.previous, v) - start_[v]);
+  }
 
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     double sum = 0;
@@ -37,27 +46,26 @@ public:
 
 private:
   [[nodiscard]] std::uint32_t vertex(std::size_t i, int c) const {
-    return stage_->start->mesh->triangles[i][static_cast<std::size_t>(c)];
+    return mesh_->triangles[i][static_cast<std::size_t>(c)];
   }
   // 0 above the surface [N/m].
   [[nodiscard]] double stiffness(std::size_t i, int c) const {
-    return up_.dot(stage_->start->positions[vertex(i, c)]) < level_
-               ? stage_->raised[i].area() / 3 * drag_ / stage_->duration
-               : 0;
+    return up_.dot(start_[vertex(i, c)]) < level_ ? stiffness_[i] : 0;
   }
   // P (x - x̄) [m].
   [[nodiscard]] Vector3 slid(std::size_t i, int c, const VectorN<9>& u) const {
-    const Vector3& start = stage_->start->positions[vertex(i, c)];
-    Vector3 moved = u.segment<3>(3 * c) - start;
-    if (stage_->previous != nullptr)
-      moved -= stage_->ratio * (stage_->position(*stage_->previous, vertex(i, c)) - start);
+    Vector3 moved = u.segment<3>(3 * c) - start_[vertex(i, c)];
+    if (!led_.empty())
+      moved -= led_[vertex(i, c)];
     return moved - up_.dot(moved) * up_;
   }
 
   double drag_; // [Pa s/m]
   Vector3 up_;
   double level_; // [m]
-  const Stage* stage_ = nullptr;
+  std::shared_ptr<const Connectivity> mesh_;
+  std::vector<Vector3> start_, led_; // of the vertices: where the step starts, x̄ less that; none in a first stage [m]
+  std::vector<double> stiffness_;    // (Â/3) k/τ of each triangle [N/m]
 };
 
 } // namespace sheet

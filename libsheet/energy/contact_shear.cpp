@@ -26,7 +26,6 @@ Feature feature(const ContactSpring& s, std::size_t first, std::size_t end, cons
 } // namespace
 
 void ContactShear::begin(const Stage& stage) {
-  stage_ = &stage;
   const LayerShares shares = layer_shares(stage);
   const std::vector<double> viscosities = vertex_viscosities(stage);
   links_.assign(springs_.size(), {});
@@ -65,7 +64,7 @@ void ContactShear::add_wall_forces(const Unknowns& u, std::span<Vector3> force) 
     const ContactSpring& s = springs_[i];
     VectorN<12> x;
     for (int c = 0; c < 4; ++c)
-      x.segment<3>(3 * c) = stage_->position(u, s.vertices[static_cast<std::size_t>(c)]);
+      x.segment<3>(3 * c) = Stage::position(u, s.vertices[static_cast<std::size_t>(c)]);
     for (std::size_t c = 0; c < 4; ++c)
       force[s.vertices[c]] -= (links_[i].weights[c] - s.weights[c]) * links_[i].shear * way(i, x);
   }

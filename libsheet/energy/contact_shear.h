@@ -65,7 +65,6 @@ private:
   }
 
   std::span<const ContactSpring> springs_;
-  const Stage* stage_ = nullptr;
   std::vector<Link> links_;
 };
 

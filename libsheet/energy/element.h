@@ -7,7 +7,8 @@
 //   static constexpr Kind kind = Kind::...;                   optional: inertial or elastic; else dissipative or a load
 //   bool has(Kind) const;  void hessians_of(Kind, ...) const; optional: of a term of several kinds, see term.h
 //   static constexpr bool linear = true;                      optional: the Hessian is zero and need not be added
-//   void begin(const Stage&);                                 start-of-stage quantities; called before each solve
+//   void begin(const Stage&);                                 before each solve, and where the stage has changed: the
+//     term keeps what it needs of it, and no reference
 //   void prepare(const Unknowns&);                            optional: what is global (an enclosed volume)
 //   void add_wall_forces(const Unknowns&, span<Vector3>) const;   optional: what walls do along themselves, see term.h
 //   void finish(const Unknowns&, State&);                     optional: what a step leaves in the state, see term.h

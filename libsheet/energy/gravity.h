@@ -12,18 +12,19 @@ public:
   static constexpr bool linear = true;
   explicit Gravity(const Vector3& gravity) : gravity_(gravity) {}
   [[nodiscard]] const char* name() const { return "gravity"; }
-  [[nodiscard]] std::size_t size() const { return stage_ ? stage_->vertices() : 0; }
+  [[nodiscard]] std::size_t size() const { return volumes_.size(); }
   void begin(const Stage& stage) {
-    stage_ = &stage;
+    volumes_ = stage.vertex_volumes;
+    start_ = stage.start->positions;
     weight_ = stage.liquid.density * gravity_;
   }
 
   [[nodiscard]] double value(std::size_t i, const Vector3& u) const {
-    return -stage_->vertex_volumes[i] * weight_.dot(u - stage_->start->positions[i]);
+    return -volumes_[i] * weight_.dot(u - start_[i]);
   }
 
   double gradient(std::size_t i, const Vector3& u, Vector3& gradient) const {
-    gradient = -stage_->vertex_volumes[i] * weight_;
+    gradient = -volumes_[i] * weight_;
     return value(i, u);
   }
 
@@ -35,7 +36,8 @@ public:
 private:
   Vector3 gravity_;                  // [m/s²]
   Vector3 weight_ = Vector3::Zero(); // of a cubic metre [N/m³]
-  const Stage* stage_ = nullptr;
+  std::vector<double> volumes_;      // of the vertices [m³]
+  std::vector<Vector3> start_;       // x0 [m]
 };
 
 } // namespace sheet

@@ -12,29 +12,31 @@ public:
   static constexpr Stencil stencil = Stencil::vertex;
   static constexpr Kind kind = Kind::inertial;
   [[nodiscard]] const char* name() const { return "inertia"; }
-  [[nodiscard]] std::size_t size() const { return stage_ ? stage_->vertices() : 0; }
-  void begin(const Stage& stage) { stage_ = &stage; }
+  [[nodiscard]] std::size_t size() const { return weight_.size(); }
+  void begin(const Stage& stage) {
+    free_ = stage.inertial;
+    weight_.resize(stage.vertices());
+    for (std::size_t v = 0; v < weight_.size(); ++v)
+      weight_[v] = stage.liquid.density * stage.vertex_volumes[v] / (stage.duration * stage.inertial_time);
+  }
 
   [[nodiscard]] double value(std::size_t i, const Vector3& u) const {
-    return 0.5 * weight(i) * (u - stage_->inertial[i]).squaredNorm();
+    return 0.5 * weight_[i] * (u - free_[i]).squaredNorm();
   }
 
   double gradient(std::size_t i, const Vector3& u, Vector3& gradient) const {
-    gradient = weight(i) * (u - stage_->inertial[i]);
+    gradient = weight_[i] * (u - free_[i]);
     return value(i, u);
   }
 
   double derivatives(std::size_t i, const Vector3& u, Vector3& g, Matrix3& hessian, bool) const {
-    hessian = weight(i) * Matrix3::Identity();
+    hessian = weight_[i] * Matrix3::Identity();
     return gradient(i, u, g);
   }
 
 private:
-  [[nodiscard]] double weight(std::size_t i) const {
-    return stage_->liquid.density * stage_->vertex_volumes[i] / (stage_->duration * stage_->inertial_time);
-  }
-
-  const Stage* stage_ = nullptr;
+  std::vector<Vector3> free_;  // x̂ [m]
+  std::vector<double> weight_; // m/τ² [N/m]
 };
 
 } // namespace sheet

@@ -7,7 +7,7 @@
 namespace sheet {
 
 void Membrane::begin(const Stage& stage) {
-  stage_ = &stage;
+  raised_ = stage.raised;
   const auto& triangles = stage.start->mesh->triangles;
   reference_.resize(triangles.size());
   weight_.resize(triangles.size());
@@ -25,7 +25,7 @@ void Membrane::begin(const Stage& stage) {
 
 double Membrane::value(std::size_t i, const VectorN<9>& u) const {
   const Vector3 m = squared_lengths(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)) - reference_[i];
-  const RaisedMetric& a = stage_->raised[i];
+  const RaisedMetric& a = raised_[i];
   const double trace = a.trace.dot(m);
   return weight_[i] * (trace * trace - form_determinant(m) / a.determinant);
 }
@@ -33,7 +33,7 @@ double Membrane::value(std::size_t i, const VectorN<9>& u) const {
 double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];
-  const Vector3 s = weight_[i] * stage_->raised[i].dissipated(m);
+  const Vector3 s = weight_[i] * raised_[i].dissipated(m);
   springs.gradient(s, gradient);
   return 0.5 * m.dot(s);
 }
@@ -42,7 +42,7 @@ double Membrane::derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gra
                              bool definite) const {
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];
-  const RaisedMetric& a = stage_->raised[i];
+  const RaisedMetric& a = raised_[i];
   const Matrix3 c = weight_[i] * a.dissipation();
   const Vector3 s = c * m; // ∂W/∂q [N/m]
   springs.gradient(s, gradient);

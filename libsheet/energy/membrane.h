@@ -21,9 +21,9 @@ public:
                      bool definite) const;
 
 private:
-  const Stage* stage_ = nullptr;   // raised metrics
-  std::vector<Vector3> reference_; // squared edge lengths ā [m²]
-  std::vector<double> weight_;     // V μ/(2τ) [J]
+  std::vector<RaisedMetric> raised_; // â
+  std::vector<Vector3> reference_;   // squared edge lengths ā [m²]
+  std::vector<double> weight_;       // V μ/(2τ) [J]
 };
 
 } // namespace sheet

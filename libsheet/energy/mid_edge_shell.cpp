@@ -44,8 +44,7 @@ MidEdgeReference inviscid(const MidEdgeReference& of) {
 } // namespace
 
 void MidEdgeShell::begin(const Stage& stage) {
-  stage_ = &stage;
-  mesh_ = stage.start->mesh.get();
+  mesh_ = stage.start->mesh;
   triangles_ = mesh_->triangles.size();
   references_.resize((triangles_ + lane_count - 1) / lane_count);
   if (stage.previous)
@@ -55,53 +54,53 @@ void MidEdgeShell::begin(const Stage& stage) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count),
                     [&](const auto& range) {
                       for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
-                        refer(batch);
+                        refer(stage, batch);
                         if (!loads_.empty())
-                          load(batch);
+                          load(stage, batch);
                       }
                     });
 }
 
 // What stays during the stage, of lane_count triangles; lanes beyond the last triangle are like it.
-void MidEdgeShell::refer(std::size_t batch) {
+void MidEdgeShell::refer(const Stage& stage, std::size_t batch) {
   MidEdgeReference& to = references_[batch];
   MidEdgeStart start;
   MidEdgeState previous;
-  start.ratio = stage_->previous ? stage_->ratio : 0;
+  start.ratio = stage.previous ? stage.ratio : 0;
   for (int lane = 0; lane < lane_count; ++lane) {
     const std::size_t t = std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1);
     const Corners& v = mesh_->triangles[t];
-    start.volume[lane] = stage_->start->volumes[t];
-    start.rate[lane] = stage_->viscosity[t] / (2 * stage_->duration) * stage_->stiffening(t);
+    start.volume[lane] = stage.start->volumes[t];
+    start.rate[lane] = stage.viscosity[t] / (2 * stage.duration) * stage.stiffening(t);
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const std::uint32_t edge = mesh_->triangle_edges[t][at];
-      const EdgeFrame& frame = stage_->frames[edge];
+      const EdgeFrame& frame = stage.frames[edge];
       const double sign = v[(at + 1) % 3] < v[(at + 2) % 3] ? 1 : -1;
       start.sign[k][lane] = sign;
-      start.held[k][lane] = stage_->director_held(edge);
-      start.metric[k][lane] = stage_->raised[t].lengths[k];
+      start.held[k][lane] = stage.director_held(edge);
+      start.metric[k][lane] = stage.raised[t].lengths[k];
       for (int a = 0; a < 3; ++a) {
         to.tangent[k][a][lane] = sign * frame.tangent[a];
         to.director[k][a][lane] = frame.director[a];
         to.binormal[k][a][lane] = frame.binormal[a];
-        start.x[3 * k + a][lane] = stage_->begin[3 * v[at] + a];
+        start.x[3 * k + a][lane] = stage.begin[3 * v[at] + a];
       }
-      if (stage_->previous == nullptr)
+      if (stage.previous == nullptr)
         continue;
       previous.cosine[k][lane] = cosine_[edge];
       previous.sine[k][lane] = sine_[edge];
       for (int a = 0; a < 3; ++a)
-        previous.x[3 * k + a][lane] = (*stage_->previous)[3 * v[at] + a];
+        previous.x[3 * k + a][lane] = (*stage.previous)[3 * v[at] + a];
     }
   }
   mid_edge_kernels().reference(start, previous, to);
 }
 
 // What works on the area of lane_count triangles; lanes beyond the last triangle are like it.
-void MidEdgeShell::load(std::size_t batch) {
+void MidEdgeShell::load(const Stage& stage, std::size_t batch) {
   MidEdgeLoads& to = loads_[batch];
-  const auto& x = stage_->start->positions;
+  const auto& x = stage.start->positions;
   to.worked = false;
   for (int lane = 0; lane < lane_count; ++lane) {
     const std::size_t t = std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1);
@@ -118,7 +117,7 @@ void MidEdgeShell::prepare(const Unknowns& u) {
   const std::size_t edges = mesh_->edges.size();
   cosine_.resize(edges);
   sine_.resize(edges);
-  sines_and_cosines({u.data() + 3 * stage_->vertices(), edges}, sine_, cosine_);
+  sines_and_cosines({u.data() + 3 * mesh_->vertices, edges}, sine_, cosine_);
 }
 
 // Of the elements first to first + used - 1; lanes beyond the last one repeat it.

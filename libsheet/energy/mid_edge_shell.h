@@ -60,8 +60,8 @@ public:
                      bool definite) const;
 
 private:
-  void refer(std::size_t batch);
-  void load(std::size_t batch);
+  void refer(const Stage& stage, std::size_t batch);
+  void load(const Stage& stage, std::size_t batch);
   [[nodiscard]] const MidEdgeLoads* loads_of(std::size_t i) const {
     return loads_.empty() ? nullptr : &loads_[i / lane_count];
   }
@@ -70,8 +70,7 @@ private:
 
   bool arcs_;
   AreaLoads area_loads_;
-  const Stage* stage_ = nullptr;
-  const Connectivity* mesh_ = nullptr;
+  std::shared_ptr<const Connectivity> mesh_;
   std::size_t triangles_ = 0;
   std::vector<MidEdgeReference> references_; // of lane_count triangles each
   std::vector<MidEdgeLoads> loads_;          // likewise; empty: none

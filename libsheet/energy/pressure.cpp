@@ -20,9 +20,9 @@ double Pressure::signed_volume(const VectorN<9>& u) const {
 }
 
 VectorN<9> Pressure::corners(const Unknowns& u, std::size_t i) const {
-  const Corners& v = stage_->start->mesh->triangles[i];
+  const Corners& v = mesh_->triangles[i];
   VectorN<9> x;
-  x << stage_->position(u, v[0]), stage_->position(u, v[1]), stage_->position(u, v[2]);
+  x << Stage::position(u, v[0]), Stage::position(u, v[1]), Stage::position(u, v[2]);
   return x;
 }
 
@@ -31,9 +31,9 @@ double Pressure::change(std::size_t i, const VectorN<9>& u) const {
     return 0;
   double sum = signed_volume(u) - start_[i];
   if (!lagged_.empty()) {
-    const Corners& v = stage_->start->mesh->triangles[i];
+    const Corners& v = mesh_->triangles[i];
     for (int a = 0; a < 3; ++a)
-      sum += lagged_[i].segment<3>(3 * a).dot(u.segment<3>(3 * a) - stage_->start->positions[v[a]]);
+      sum += lagged_[i].segment<3>(3 * a).dot(u.segment<3>(3 * a) - start_positions_[v[a]]);
   }
   return sum;
 }
@@ -51,9 +51,11 @@ VectorN<9> Pressure::volume_gradient(std::size_t i, const VectorN<9>& u) const {
 }
 
 void Pressure::begin(const Stage& stage) {
-  stage_ = &stage;
   const State& state = *stage.start;
-  const Connectivity& mesh = *state.mesh;
+  mesh_ = state.mesh;
+  start_positions_ = state.positions;
+  duration_ = stage.duration;
+  const Connectivity& mesh = *mesh_;
   origin_.setZero();
   for (const Vector3& x : state.positions)
     origin_ += x / static_cast<double>(state.positions.size());
@@ -143,7 +145,7 @@ void Pressure::prepare(const Unknowns& u) {
     stiffness_ = 0;
     break;
   case PressureLaw::Kind::draining:
-    stiffness_ = 1 / (law_.conductance * stage_->duration);
+    stiffness_ = 1 / (law_.conductance * duration_);
     pressure_ = -stiffness_ * (sum - reference_change_);
     scale_ = -stiffness_ * (0.5 * sum - reference_change_); // W up to the constant of Ω̄
     break;
@@ -157,10 +159,10 @@ void Pressure::prepare(const Unknowns& u) {
     break;
   }
   case PressureLaw::Kind::gas:
-    gas_ = gas_in(law_.gas, enclosed_, gas_reference_, stage_->duration);
+    gas_ = gas_in(law_.gas, enclosed_, gas_reference_, duration_);
     pressure_ = gas_.pressure;
     stiffness_ = gas_.stiffness;
-    scale_ = mean_pressure(law_.gas, start_enclosed_, enclosed_, gas_reference_, stage_->duration);
+    scale_ = mean_pressure(law_.gas, start_enclosed_, enclosed_, gas_reference_, duration_);
     break;
   }
 }
@@ -172,7 +174,7 @@ double Pressure::rank_one(const Unknowns& u, Eigen::VectorXd& g) const {
   for (std::size_t t = 0; t < start_.size(); ++t) {
     const VectorN<9> part = volume_gradient(t, corners(u, t));
     for (int a = 0; a < 3; ++a)
-      g.segment<3>(3 * stage_->start->mesh->triangles[t][a]) += part.segment<3>(3 * a);
+      g.segment<3>(3 * mesh_->triangles[t][a]) += part.segment<3>(3 * a);
   }
   return stiffness_;
 }

@@ -56,7 +56,9 @@ private:
   void begin_gas(const Stage& stage);
 
   PressureLaw law_;
-  const Stage* stage_ = nullptr;
+  std::shared_ptr<const Connectivity> mesh_;
+  std::vector<Vector3> start_positions_; // [m]
+  double duration_ = 0;                  // τ [s]
   Vector3 origin_ = Vector3::Zero();
   std::vector<double> start_;      // each triangle's signed volume at the start of the step [m³]
   std::vector<VectorN<9>> lagged_; // the cap's part of the gradient of Ω at the predicted rim [m²]; empty without rim

@@ -56,7 +56,7 @@ struct Stage {
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] double stiffening(std::size_t triangle) const { return stiffened.empty() ? 1 : stiffened[triangle]; }
   [[nodiscard]] bool director_held(std::uint32_t edge) const { return !clamped.empty() && clamped[edge] != 0; }
-  [[nodiscard]] Vector3 position(const Unknowns& u, std::uint32_t v) const { return u.segment<3>(3 * v); }
+  [[nodiscard]] static Vector3 position(const Unknowns& u, std::uint32_t v) { return u.segment<3>(3 * v); }
 };
 
 // Where strain is measured from: the start of the step, in a second stage extrapolated from the first [m].

@@ -17,18 +17,23 @@ class WallDrag {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   [[nodiscard]] const char* name() const { return "drag of walls"; }
-  [[nodiscard]] std::size_t size() const { return stage_ ? stage_->start->volumes.size() : 0; }
+  [[nodiscard]] std::size_t size() const { return triangles_; }
   void begin(const Stage& stage) {
-    stage_ = &stage;
-    stiffness_.assign(stage.sites.empty() ? 0 : size(), {});
-    each_in_parallel(stiffness_.size(), [&](std::size_t i) {
-      const Corners& corners = stage.start->mesh->triangles[i];
+    mesh_ = stage.start->mesh;
+    triangles_ = mesh_->triangles.size();
+    walls_.clear();
+    for (const WallSite& site : stage.sites)
+      walls_.push_back({site.normal, site.carried});
+    corners_.assign(walls_.empty() ? 0 : triangles_, {});
+    each_in_parallel(corners_.size(), [&](std::size_t i) {
+      const Corners& corners = mesh_->triangles[i];
       const double area = stage.raised[i].area(), thickness = stage.start->volumes[i] / area;
       for (std::size_t c = 0; c < 3; ++c)
         if (const WallSite* site = site_at(stage, corners[c]); site != nullptr && site->slip_length != free_slip) {
           const double lies = lying(stage, i, *site), foot = thickness / 2 * length_on_wall(stage, corners, c);
-          stiffness_[i][c] = (lies * area + (1 - lies) * 3 * foot) * stage.viscosity[i] /
-                             (stage.duration * (thickness + 3 * site->slip_length));
+          corners_[i][c].stiffness = (lies * area + (1 - lies) * 3 * foot) * stage.viscosity[i] /
+                                     (stage.duration * (thickness + 3 * site->slip_length));
+          corners_[i][c].site = stage.site_of[corners[c]];
         }
     });
   }
@@ -60,18 +65,27 @@ public:
   }
 
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
-    const auto& triangles = stage_->start->mesh->triangles;
-    for (std::size_t t = 0; t < stiffness_.size(); ++t) {
+    for (std::size_t t = 0; t < corners_.size(); ++t) {
+      const Corners& corners = mesh_->triangles[t];
       VectorN<9> x, pull;
       for (Eigen::Index c = 0; c < 3; ++c)
-        x.segment<3>(3 * c) = stage_->position(u, triangles[t][static_cast<std::size_t>(c)]);
+        x.segment<3>(3 * c) = Stage::position(u, corners[static_cast<std::size_t>(c)]);
       (void)gradient(t, x, pull);
       for (Eigen::Index c = 0; c < 3; ++c)
-        force[triangles[t][static_cast<std::size_t>(c)]] -= pull.segment<3>(3 * c);
+        force[corners[static_cast<std::size_t>(c)]] -= pull.segment<3>(3 * c);
     }
   }
 
 private:
+  // Where a vertex touches.
+  struct Touched {
+    Vector3 normal, carried; // of the wall; as in WallSite [m]
+  };
+  struct Corner {
+    double stiffness = 0; // [N/m]; 0: it is not dragged
+    std::uint32_t site = 0;
+  };
+
   // Of the edges at a corner whose both ends touch its wall, at the start of the step [m].
   static double length_on_wall(const Stage& stage, const Corners& corners, std::size_t corner) {
     const auto& x = stage.start->positions;
@@ -85,18 +99,20 @@ private:
   }
 
   template <class Visit> void each_corner(std::size_t i, const VectorN<9>& u, Visit&& visit) const {
-    for (std::size_t c = 0; c < 3 && !stiffness_.empty(); ++c) {
-      if (stiffness_[i][c] == 0)
+    for (std::size_t c = 0; c < 3 && !corners_.empty(); ++c) {
+      const auto [stiffness, site] = corners_[i][c];
+      if (stiffness == 0)
         continue;
-      const WallSite* site = site_at(*stage_, stage_->start->mesh->triangles[i][c]);
-      const Vector3 moved = u.segment<3>(3 * static_cast<Eigen::Index>(c)) - site->carried;
-      visit(static_cast<int>(c), Vector3(moved - site->normal.dot(moved) * site->normal), site->normal,
-            stiffness_[i][c]);
+      const auto& [normal, carried] = walls_[site];
+      const Vector3 moved = u.segment<3>(3 * static_cast<Eigen::Index>(c)) - carried;
+      visit(static_cast<int>(c), Vector3(moved - normal.dot(moved) * normal), normal, stiffness);
     }
   }
 
-  const Stage* stage_ = nullptr;
-  std::vector<std::array<double, 3>> stiffness_; // of each corner of each triangle [N/m]; empty where nothing touches
+  std::shared_ptr<const Connectivity> mesh_;
+  std::size_t triangles_ = 0;
+  std::vector<Touched> walls_;                 // of what touches
+  std::vector<std::array<Corner, 3>> corners_; // of each triangle; empty where nothing touches
 };
 
 } // namespace sheet

@@ -179,12 +179,15 @@ void look_at_step(const Frame& frame, const Surface& surface, const Scene& scene
   if (pressure && std::holds_alternative<scene::GasPressure>(*pressure))
     return;
   const double step = number(frame, "step_size", infinity);
-  const scene::Scales scales = scene::scales_of(
-      scene, {.length = std::sqrt(surface.area), .thickness = surface.volume / surface.area, .curvature = {}});
-  if (!scales.length || !(scales.speed > 0))
-    return;
-  const double part = step * scales.speed / *scales.length;
-  if (part < kind_of(Trouble::short_steps).noted.worst)
+  const scene::Measured whole{
+      .length = std::sqrt(surface.area), .thickness = surface.volume / surface.area, .curvature = {}};
+  double part = 0; // of the time of the flow: of the sheet that has the shortest one
+  for (const scene::SheetTable& sheet : scene.sheets) {
+    const scene::Scales scales = scene::scales_of(scene, sheet, whole);
+    if (scales.length)
+      part = std::max(part, step * scales.speed / *scales.length);
+  }
+  if (part > 0 && part < kind_of(Trouble::short_steps).noted.worst)
     seen.push_back({.trouble = Trouble::short_steps, .value = part});
 }
 

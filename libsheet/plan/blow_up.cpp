@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/plan/blow_up.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace sheet {
 
 namespace {
@@ -17,13 +20,8 @@ std::optional<Pressing> pressing(const scene::Pressure& pressure, double radius)
   return {}; // a given amount of gas ends where its pressure does
 }
 
-} // namespace
-
-std::optional<double> blow_up_time(const Scene& scene) {
-  const auto& environment = scene.environment;
-  if (!environment.pressure)
-    return {};
-  const scene::SheetTable& sheet = sheet_named(scene, environment.pressure_sheet);
+// Of one that the pressure acts on, from when it is there.
+std::optional<double> blow_up_time_of(const scene::SheetTable& sheet, const Scene& scene) {
   const auto* thickness = std::get_if<double>(&sheet.thickness);
   const auto* sphere = std::get_if<scene::Sphere>(&sheet.shape);
   const auto* cap = std::get_if<scene::Cap>(&sheet.shape);
@@ -31,13 +29,25 @@ std::optional<double> blow_up_time(const Scene& scene) {
   if (thickness == nullptr || (sphere == nullptr && cap == nullptr && tube == nullptr))
     return {};
   const double radius = sphere != nullptr ? sphere->radius : cap != nullptr ? cap->radius : tube->radius;
-  const auto law = pressing(*environment.pressure, radius);
+  const auto law = pressing(*scene.environment.pressure, radius);
   const double tension = 2 * scene.material.surface_tension * (tube != nullptr ? 1 : 2) / radius;
   if (!law || !(law->value > tension) || (tube != nullptr && law->falls > 0))
     return {};
   // dr/dt = p r^n / c, h having thinned: with it r passes every bound at c / ((n - 1) p r^(n - 1)).
   const double viscous = scene.material.viscosity * *thickness / (law->value * radius);
   return tube != nullptr ? 2 * viscous : 12 / (3 - law->falls) * viscous;
+}
+
+} // namespace
+
+std::optional<double> blow_up_time(const Scene& scene) {
+  std::optional<double> first;
+  const std::string& only = scene.environment.pressure_sheet;
+  for (const scene::SheetTable& sheet : scene.sheets)
+    if (scene.environment.pressure && (only.empty() || sheet.name == only))
+      if (const auto time = blow_up_time_of(sheet, scene))
+        first = std::min(sheet.enters.value_or(0) + *time, first.value_or(std::numeric_limits<double>::infinity()));
+  return first;
 }
 
 } // namespace sheet

@@ -7,7 +7,7 @@
 
 namespace sheet {
 
-// The time at which the scene's pressure has blown its sheet up [s], without inertia and without what resists beside
+// The time at which the scene's pressure has blown a sheet up [s], without inertia and without what resists beside
 // viscosity; none where no closed form is known, or the sheet does not blow up. With r the radius, h the thickness and
 // mu the viscosity, the volume of liquid constant:
 //   sphere, constant pressure p: dr/dt = p r²/(12 mu h), so 4 mu h/(p r); caps likewise, in about that time

@@ -44,7 +44,9 @@ std::string scale_in_doubt(const Scene& scene, const solid::Solids& solids, std:
   for (const Vector3& x : positions(frame))
     box.add(x);
   std::string hint;
-  if (std::holds_alternative<scene::SheetMesh>(scene.sheets.front().shape))
+  if (std::ranges::any_of(scene.sheets, [](const scene::SheetTable& sheet) {
+        return std::holds_alternative<scene::SheetMesh>(sheet.shape);
+      }))
     hint = hint_of_scale("the sheet", box.diagonal());
   if (hint.empty() && std::holds_alternative<scene::SolidMesh>(scene.solids[i].shape))
     hint = hint_of_scale(solids.name(i), solids.shape(i).bounds().diagonal().norm());
@@ -172,6 +174,15 @@ scene::Measured measured(const Frame& frame) {
   for (const double v : volumes(frame))
     volume += v;
   return {.length = std::sqrt(area), .thickness = volume / area, .curvature = {}};
+}
+
+std::vector<scene::Measured> measured_sheets(const Scene& scene, const Frame& first) {
+  if (scene.sheets.size() == 1)
+    return {measured(first)};
+  std::vector<scene::Measured> all;
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    all.push_back(measured(build_sheet(scene, i)));
+  return all;
 }
 
 } // namespace sheet

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene's first frame, and what the stages will say of it before anything is run (sheet-init --check).
 #pragma once
+#include <vector>
+
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/explain.h"
 
@@ -15,7 +17,9 @@ namespace sheet {
 // that starts inside a solid or passes through itself.
 [[nodiscard]] formats::Frame checked_first_frame(const Scene& scene);
 
-// Length (the root of its area) and mean thickness of the frame's sheet.
+// Length (the root of its area) and mean thickness of the frame's sheets as one.
 [[nodiscard]] scene::Measured measured(const formats::Frame& frame);
+// Those of each of the scene's sheets, which starts so or enters later.
+[[nodiscard]] std::vector<scene::Measured> measured_sheets(const Scene& scene, const formats::Frame& first);
 
 } // namespace sheet

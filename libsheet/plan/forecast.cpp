@@ -11,6 +11,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/scene/scales.h"
+#include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -52,6 +53,15 @@ double bytes_of_a_vertex(const Scene& scene) {
          (lies_on_itself(scene) ? contacts : 0);
 }
 
+// In the mean over the run, which ends at `until` [s].
+double vertices_of_sheets_that_enter(const Scene& scene, double until) {
+  double vertices = 0;
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    if (const auto& enters = scene.sheets[i].enters; enters && *enters < until)
+      vertices += static_cast<double>(build_sheet(scene, i).vertices) * (1 - *enters / until);
+  return vertices;
+}
+
 // What a sheet that falls freely lands on does not drive it on.
 bool only_falls(const Scene& scene, const std::vector<Landing>& all) {
   return scene.holds.empty() && scene.inflows.empty() && !all.empty() &&
@@ -63,11 +73,13 @@ bool only_falls(const Scene& scene, const std::vector<Landing>& all) {
 double steps_of_motion(const Scene& scene, const Frame& first, double until, double edge, double tolerance) {
   constexpr double falls = 2.25;
   const std::vector<Landing> all = landings(scene, first);
-  const scene::Scales scales = scene::scales_of(scene, measured(first));
-  const double falling = all.empty() ? 0 : falls * std::sqrt(2 * longest_fall(all) / scales.gravity);
+  const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm();
+  const double falling = all.empty() ? 0 : falls * std::sqrt(2 * longest_fall(all) / gravity);
   const bool falls_freely = only_falls(scene, all);
-  const double length = scales.length.value_or(0);
-  const double acceleration = falls_freely ? scales.gravity : length > 0 ? scales.speed * scales.speed / length : 0;
+  double acceleration = falls_freely ? gravity : 0;
+  for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
+    if (!falls_freely && scales.length && *scales.length > 0)
+      acceleration = std::max(acceleration, scales.speed * scales.speed / *scales.length);
   double end = scene.inflows.empty() ? falls_freely ? falling : until : 0;
   for (const scene::Inflow& inflow : scene.inflows)
     end = std::max(end, inflow.until ? *inflow.until + falling : until);
@@ -90,7 +102,7 @@ Forecast forecast(const Scene& scene, const Frame& first, const ProposedRing& ri
   const double entered = entered_area(scene, first, until, edge) / area * start;
   Forecast run{};
   run.frames = 1 + std::ceil(until * ring.fps * (1 - 1e-9));
-  run.vertices = start + entered / 2;
+  run.vertices = start + entered / 2 + vertices_of_sheets_that_enter(scene, until);
   run.bytes = run.frames * (of_a_frame + run.vertices * bytes_of_a_vertex(scene));
   run.steps = run.frames - 1 + steps_of_motion(scene, first, until, edge, tolerance);
   run.seconds = run.steps * run.vertices * on_one_thread;

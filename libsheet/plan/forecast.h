@@ -17,8 +17,9 @@ struct Forecast {
   double seconds; // of computing, on one thread
 };
 
-// Vertices are those of the first frame and, at the same density, of the area that flows in until the end and, at the
-// speed of the inflow, has not reached an outflow: what stretches or is drawn together is not foreseen.
+// Vertices are those of the first frame, of sheets from when they enter and, at the first frame's density, of the area
+// that flows in until the end and, at the speed of the inflow, has not reached an outflow: what stretches or is drawn
+// together is not foreseen.
 // Each output time ends a step. What moves takes steps more, of sqrt(tolerance l/a): an acceleration a that begins
 // or ends is an error of a dt² of an edge's length l. Sheets that fall freely have a = g, for 2.25 times their fall,
 // by which time most of them have come to rest; whatever else is driven has a = V²/L (scene/scales.h), until the

@@ -70,11 +70,16 @@ double round_number(double value) {
 
 // Some times of the flow, of the fall and of what comes in; until whatever ends by the clock has ended.
 double until_of(const Scene& scene, const Frame& first) {
-  const scene::Scales scales = scene::scales_of(scene, measured(first));
-  const double length = scales.length.value_or(0);
-  double until = length > 0 && scales.speed > 0 ? 5 * length / scales.speed : 1;
-  if (scales.gravity > 0)
-    until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / scales.gravity);
+  double until = 0, length = 0;
+  for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
+    if (scales.length && scales.speed > 0) {
+      until = std::max(until, 5 * *scales.length / scales.speed);
+      length = std::max(length, *scales.length);
+    }
+  if (until == 0)
+    until = 1;
+  if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > 0)
+    until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / gravity);
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
   const auto comes_to_rest = [&](const scene::Motion& motion) {
     for (const double time : scene::events(motion))

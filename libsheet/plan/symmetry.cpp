@@ -116,12 +116,13 @@ bool stays_in_its_plane(const Scene& scene, const formats::Frame& first, double 
          meets_mirror_images(scene, *plane, first, thickness);
 }
 
-std::vector<std::string> small_noise(const Scene& scene, double thickness) {
+std::vector<std::string> small_noise(const Scene& scene, std::span<const scene::Measured> measured) {
   std::vector<std::string> sets;
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
     if (scene.sheets[i].perturbations.empty())
       sets.push_back(fmt::format("sheet.{}perturbation={{amplitude = \"{:.2g} um\", seed = {}}}",
-                                 scene.sheets.size() > 1 ? fmt::format("{}.", i) : "", 100 * thickness, i + 1));
+                                 scene.sheets.size() > 1 ? fmt::format("{}.", i) : "", 100 * *measured[i].thickness,
+                                 i + 1));
   return sets;
 }
 

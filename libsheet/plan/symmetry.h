@@ -2,11 +2,12 @@
 // Sheets that stand in a plane about which everything is symmetric: to the last bit nothing pushes them out of it, so
 // what comes down on a solid grows thicker in its plane instead of folding.
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
 #include "formats/cpp/stream_frame.h"
-#include "libsheet/scene/scene.h"
+#include "libsheet/scene/explain.h"
 
 namespace sheet {
 
@@ -15,7 +16,7 @@ namespace sheet {
 [[nodiscard]] bool stays_in_its_plane(const Scene& scene, const formats::Frame& first, double thickness);
 
 // Settings, as `sheet-init --set` takes them, that give every sheet without perturbations noise of a ten-thousandth of
-// the thickness [m].
-[[nodiscard]] std::vector<std::string> small_noise(const Scene& scene, double thickness);
+// its thickness; measured: of each sheet.
+[[nodiscard]] std::vector<std::string> small_noise(const Scene& scene, std::span<const scene::Measured> measured);
 
 } // namespace sheet

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
 
 namespace sheet::render {
 namespace {
@@ -59,6 +62,20 @@ Leaving two_stream(double sigma_a, double sigma_s, double h, double r) {
   return {(1 - r) * (alpha * g + beta * fade + big_b), (1 - r) * (alpha * fade + beta * g + big_a * end)};
 }
 
+struct Preset {
+  std::string_view name;
+  float index;
+  std::array<float, 3> absorption, scattering; // red, green, blue
+};
+
+// Chosen by eye so that layers of some millimetres look as one knows them.
+constexpr std::array<Preset, 6> presets{{{"chocolate", 1.46F, {2400, 6600, 12500}, {5200, 5200, 5200}},
+                                         {"caramel", 1.48F, {40, 190, 900}, {260, 260, 260}},
+                                         {"honey", 1.49F, {14, 75, 420}, {6, 6, 6}},
+                                         {"batter", 1.40F, {12, 50, 240}, {2600, 2600, 2600}},
+                                         {"glass", 1.52F, {55, 14, 30}, {0, 0, 0}},
+                                         {"film", 1.50F, {14, 8, 4}, {35, 35, 35}}}};
+
 } // namespace
 
 Fresnel fresnel(float mu, float n) {
@@ -76,26 +93,25 @@ double internal_reflection(float n) {
 }
 
 const std::vector<std::string>& liquid_names() {
-  static const std::vector<std::string> names = {"chocolate", "caramel", "honey", "batter", "glass", "film"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const Preset& p : presets)
+      result.emplace_back(p.name);
+    return result;
+  }();
   return names;
 }
 
-// Chosen by eye so that layers of some millimetres look as one knows them.
 Liquid preset(std::size_t which) {
-  switch (which) {
-  case 0:
-    return {1.46F, {2400, 6600, 12500}, {5200, 5200, 5200}};
-  case 1:
-    return {1.48F, {40, 190, 900}, {260, 260, 260}};
-  case 2:
-    return {1.49F, {14, 75, 420}, {6, 6, 6}};
-  case 3:
-    return {1.40F, {12, 50, 240}, {2600, 2600, 2600}};
-  case 4:
-    return {1.52F, {55, 14, 30}, {0, 0, 0}};
-  default:
-    return {1.50F, {14, 8, 4}, {35, 35, 35}};
-  }
+  const auto& [name, index, a, s] = presets[which];
+  return {index, {a[0], a[1], a[2]}, {s[0], s[1], s[2]}};
+}
+
+std::string list_of_liquids() {
+  std::string list;
+  for (const auto& [name, index, absorption, scattering] : presets)
+    list += fmt::format("{}\t{}\t{}\t{}\n", name, index, fmt::join(absorption, " "), fmt::join(scattering, " "));
+  return list;
 }
 
 Slab::Slab(const Liquid& liquid)

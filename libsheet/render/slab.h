@@ -41,9 +41,12 @@ struct Liquid {
   Colour scattering = Colour::Zero(); // reduced: sigma_s (1 - g) [1/m]
 };
 
-// The presets in the order of liquid_names: chocolate, caramel, honey, batter, glass, film.
+// The presets, by their place among liquid_names.
 [[nodiscard]] const std::vector<std::string>& liquid_names();
 [[nodiscard]] Liquid preset(std::size_t which);
+// One a line: name, index, absorption and reduced scattering of red, green and blue; separated by tabs, colours by
+// spaces.
+[[nodiscard]] std::string list_of_liquids();
 
 // What a slab does to light of one direction.
 struct Straight {

@@ -126,8 +126,8 @@ std::optional<double> longest_edge(const SheetTable& sheet) {
 
 // What is curved, drawn together by tension and not blown up may buckle, in waves no shorter than some root(R h). Arcs
 // longer than half of that give way before the sheet does.
-std::optional<std::string> warning_of_buckling(const Scene& scene, const Scales& scales) {
-  const auto edge = longest_edge(scene.sheets.front());
+std::optional<std::string> warning_of_buckling(const Scene& scene, const SheetTable& sheet, const Scales& scales) {
+  const auto edge = longest_edge(sheet);
   const bool viscous = scene.material.viscous() && scene.material.surface_tension > 0;
   if (!edge || !scales.thickness || !viscous || !scene.model.bending || scales.curvature <= 0 || scales.pressure > 0)
     return {};
@@ -149,12 +149,47 @@ std::optional<std::string> warning_of_jumps(const Motion& motion, std::string_vi
                      thing);
 }
 
-std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
-                                     const std::vector<DimensionlessNumber>& numbers) {
+// "sheet NAME", or its number from 0; "" where there is no other.
+std::string name_of_sheet(const Scene& scene, std::size_t number) {
+  const std::string& name = scene.sheets[number].name;
+  return scene.sheets.size() == 1 ? ""
+         : name.empty()           ? fmt::format("sheet {}", number)
+                                  : fmt::format("sheet \"{}\"", name);
+}
+
+bool is_carried(const Scene& scene, const SheetTable& sheet) {
+  const auto on_it = [&](const auto& thing) { return thing.sheet.empty() || thing.sheet == sheet.name; };
+  return scene.environment.bath || std::ranges::any_of(scene.holds, on_it) || std::ranges::any_of(scene.inflows, on_it);
+}
+
+// Whether solids may, or other sheets that are carried.
+bool may_be_caught(const Scene& scene) {
+  const auto carried = [&](const SheetTable& sheet) { return is_carried(scene, sheet); };
+  return !scene.solids.empty() || (scene.contact && scene.contact->self && std::ranges::any_of(scene.sheets, carried));
+}
+
+std::vector<std::string> warnings_of_edges(const Scene& scene, const SheetTable& sheet, const Scales& scales) {
+  std::vector<std::string> warnings;
+  if (const auto edge = sheet.edge_length; edge && scales.thickness) {
+    const double h = *scales.thickness, locking = std::sqrt(h / scales.curvature);
+    if (scene.model.bending && scales.curvature > 0 && *edge > locking)
+      warnings.push_back(fmt::format(
+          "edge_length {} m is above sqrt(h / curvature) = {} m: flat triangles resist bending too much there",
+          brief(*edge), brief(locking)));
+    if (*edge < h)
+      warnings.push_back(fmt::format("edge_length {} m is below the thickness {} m: a sheet has no detail that fine",
+                                     brief(*edge), brief(h)));
+  }
+  if (const auto buckling = warning_of_buckling(scene, sheet, scales))
+    warnings.push_back(*buckling);
+  return warnings;
+}
+
+std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable& sheet, const Scales& scales) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
-  const bool carried = !scene.holds.empty() || scene.environment.bath || !scene.inflows.empty();
-  for (const auto& number : numbers) {
+  const bool carried = is_carried(scene, sheet);
+  for (const auto& number : numbers_of(scene, scales)) {
     if (number.name != "Reynolds")
       continue;
     if (scene.model.inertia && number.value < 1e-4 && (carried || !scene.environment.gravity))
@@ -167,37 +202,39 @@ std::vector<std::string> warnings_of(const Scene& scene, const Scales& scales,
   if (const auto layer = layer_scales_of(scene, scales); layer && layer->reynolds > 1)
     warn(fmt::format("the Reynolds number of the layer on a solid is {}: drag that acts at once is wrong by its order",
                      brief(layer->reynolds)));
-  if (const auto edge = scene.sheets.front().edge_length; edge && scales.thickness) {
-    const double h = *scales.thickness, locking = std::sqrt(h / scales.curvature);
-    if (scene.model.bending && scales.curvature > 0 && *edge > locking)
-      warn(fmt::format(
-          "edge_length {} m is above sqrt(h / curvature) = {} m: flat triangles resist bending too much there",
-          brief(*edge), brief(locking)));
-    if (*edge < h)
-      warn(fmt::format("edge_length {} m is below the thickness {} m: a sheet has no detail that fine", brief(*edge),
-                       brief(h)));
-  }
-  if (const auto buckling = warning_of_buckling(scene, scales))
-    warn(*buckling);
+  for (std::string& warning : warnings_of_edges(scene, sheet, scales))
+    warn(std::move(warning));
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
   constexpr double large = 20; // [m]
   if (scales.length && *scales.length > large)
     warn(fmt::format("the sheet is {} m long: {}", brief(*scales.length),
-                     std::holds_alternative<SheetMesh>(scene.sheets.front().shape)
+                     std::holds_alternative<SheetMesh>(sheet.shape)
                          ? "if its mesh is in millimetres, give [sheet] scale = 0.001"
                          : "numbers without unit are metres; write \"50 mm\" if you mean that"));
   if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
     warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
-  else if (scene.environment.gravity && !carried && scene.solids.empty())
+  else if (scene.environment.gravity && !carried && !may_be_caught(scene))
     warn("nothing holds or catches the sheet: it falls for ever");
+  return warnings;
+}
+
+std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales> scales) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i) {
+    const std::string name = name_of_sheet(scene, i);
+    for (const std::string& warning : warnings_of_sheet(scene, scene.sheets[i], scales[i]))
+      warn(name.empty() ? warning : name + ": " + warning);
+  }
   for (std::size_t i = 0; i < scene.holds.size(); ++i)
     if (const auto jumps = warning_of_jumps(scene.holds[i].motion, fmt::format("hold {}", i)))
       warn(*jumps);
   for (std::size_t i = 0; i < scene.solids.size(); ++i)
     if (const auto jumps = warning_of_jumps(scene.solids[i].motion, fmt::format("solid {}", i)))
       warn(*jumps);
-  if (scales.speed == 0 && !scene.environment.pressure && !scene.environment.gravity)
+  if (std::ranges::all_of(scales, [](const Scales& s) { return s.speed == 0; }) && !scene.environment.pressure &&
+      !scene.environment.gravity)
     warn("nothing drives the sheet: it stays as it is");
   return warnings;
 }
@@ -227,13 +264,14 @@ std::vector<std::string> left_out_of(const Scene& scene) {
 
 } // namespace
 
-Explanation explain(const Scene& scene, const Measured& measured, std::vector<ModelledPart> parts) {
-  const Scales scales = scales_of(scene, measured);
+Explanation explain(const Scene& scene, std::span<const Measured> measured, std::vector<ModelledPart> parts) {
+  const std::vector<Scales> scales = scales_of_sheets(scene, measured);
   Explanation result;
   result.parts = std::move(parts);
-  result.scales = scale_list(scene, scales);
-  result.numbers = numbers_of(scene, scales);
-  result.warnings = warnings_of(scene, scales, result.numbers);
+  result.judged = name_of_sheet(scene, 0);
+  result.scales = scale_list(scene, scales.front());
+  result.numbers = numbers_of(scene, scales.front());
+  result.warnings = warnings_of(scene, scales);
   result.left_out = left_out_of(scene);
   return result;
 }
@@ -245,13 +283,14 @@ std::string to_text(const Explanation& explanation) {
   std::string text = modelled;
   if (!not_modelled.empty())
     text += "\nNot modelled, and at no cost\n" + not_modelled;
+  const std::string of = explanation.judged.empty() ? "" : " of " + explanation.judged;
   if (!explanation.scales.empty())
-    text += "\nScales\n";
+    text += "\nScales" + of + "\n";
   for (const Scale& scale : explanation.scales)
     text += fmt::format("  {:<7}{:>10} {:<4} {}: {}\n", scale.symbol, brief(scale.value), scale.unit, scale.name,
                         scale.source);
   if (!explanation.numbers.empty())
-    text += "\nDimensionless numbers\n";
+    text += "\nDimensionless numbers" + of + "\n";
   for (const auto& number : explanation.numbers)
     text += fmt::format("  {} = {} = {}\n      {}\n", number.name, number.formula, brief(number.value), number.meaning);
   if (!explanation.warnings.empty())

@@ -3,6 +3,7 @@
 // matters (sheet-init --check).
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,7 @@ struct DimensionlessNumber {
 
 struct Explanation {
   std::vector<ModelledPart> parts;
+  std::string judged; // the sheet, the first one, whose scales and numbers these are; "": there is no other
   std::vector<Scale> scales;
   std::vector<DimensionlessNumber> numbers;
   std::vector<std::string> warnings; // a modelling choice that looks wrong
@@ -44,7 +46,8 @@ struct Measured {
   std::optional<double> length, thickness, curvature; // [m], [m], [1/m]
 };
 
-[[nodiscard]] Explanation explain(const Scene& scene, const Measured& measured = {},
+// measured: of each sheet, or of none. Warnings are of all sheets.
+[[nodiscard]] Explanation explain(const Scene& scene, std::span<const Measured> measured = {},
                                   std::vector<ModelledPart> parts = {});
 
 // Plain text for a terminal.

@@ -59,9 +59,8 @@ void offer_forces(Scales& scales, const Scene& scene) {
 
 } // namespace
 
-Scales scales_of(const Scene& scene, const Measured& measured) {
+Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& measured) {
   Scales scales;
-  const SheetTable& sheet = scene.sheets.front();
   const auto size = size_of(sheet.shape);
   const auto* uniform = std::get_if<double>(&sheet.thickness);
   scales.length = size ? std::optional(size->length) : measured.length;
@@ -86,6 +85,13 @@ Scales scales_of(const Scene& scene, const Measured& measured) {
     offer(scales, solid.surface_velocity.norm(), "a belt");
   }
   offer_forces(scales, scene);
+  return scales;
+}
+
+std::vector<Scales> scales_of_sheets(const Scene& scene, std::span<const Measured> measured) {
+  std::vector<Scales> scales;
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    scales.push_back(scales_of(scene, scene.sheets[i], measured.empty() ? Measured{} : measured[i]));
   return scales;
 }
 

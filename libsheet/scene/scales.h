@@ -2,12 +2,15 @@
 // The lengths, speeds and stresses by which a scene is judged, for explain.cpp.
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "libsheet/scene/explain.h"
 
 namespace sheet::scene {
 
+// Of one sheet.
 struct Scales {
   std::optional<double> length;    // L [m]
   std::optional<double> thickness; // h [m]
@@ -23,6 +26,9 @@ struct Scales {
 //   gravity          rho g L²/mu        sqrt(g L)          not on a bath, which carries the weight
 //   surface tension  2 gamma L/(mu h)   sqrt(2 gamma/(rho h))  [Taylor 1959, Culick 1960]
 //   pressure         p L²/(mu h)        sqrt(p L/(rho h))
-[[nodiscard]] Scales scales_of(const Scene& scene, const Measured& measured);
+[[nodiscard]] Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& measured);
+
+// Of each sheet; measured: likewise, or of none.
+[[nodiscard]] std::vector<Scales> scales_of_sheets(const Scene& scene, std::span<const Measured> measured);
 
 } // namespace sheet::scene

@@ -17,9 +17,11 @@ Eigen::VectorXd prescribed_part(const Constraints& constraints, const Eigen::Vec
   return forces - free;
 }
 
-// The potential's gradient in the prescribed directions, and what walls do along themselves.
+// The potential's gradient in the prescribed directions, and what walls do along themselves, with the stage as it is.
 std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const Stage& stage, const Unknowns& u) {
   const Constraints constraints = system.constraints();
+  for (const auto& term : terms)
+    term->begin(stage);
   Eigen::VectorXd gradient;
   system.constrain({}, 0);
   (void)system.gradient(terms, u, gradient);
@@ -69,11 +71,11 @@ std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, c
 }
 
 std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, const Model& model, const State& start,
-                                   const State& end, double dt, const NewtonOptions& options, Stage& instant) {
+                                   const State& end, double dt, const NewtonOptions& options) {
   const double duration = instant_part * dt;
   State before = end;
   before.time = end.time - duration; // so that what is prescribed moves as it did until the end
-  instant = first_stage(before, model.liquid, duration, end.time, model.has_angles());
+  Stage instant = first_stage(before, model.liquid, duration, end.time, model.has_angles());
   instant.inertial_time = dt;
   for (std::size_t v = 0; v < end.positions.size(); ++v)
     instant.inertial[v] -= duration * (end.velocities[v] - start.velocities[v]);

@@ -20,10 +20,10 @@ namespace sheet {
 //   m (v - v_end)/dt + m (v_end - v_start)/dt = f(x_end, v),
 // which has the end's v where viscosity rules and v_end where inertia does. What is prescribed moves as is prescribed.
 // Of second order; beside holds that are accelerated, what is left of the layer falls with the root of dt
-// (docs/model.md). `instant` receives the stage of that solve, to which the terms refer afterwards; the system's
-// constraints are its. Where the solve does not converge, v is that of its last iteration.
+// (docs/model.md). The terms and the system's constraints are afterwards those of that solve. Where it does not
+// converge, v is that of its last iteration.
 [[nodiscard]] std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, const Model& model,
                                                  const State& start, const State& end, double dt,
-                                                 const NewtonOptions& options, Stage& instant);
+                                                 const NewtonOptions& options);
 
 } // namespace sheet

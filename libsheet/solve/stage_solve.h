@@ -21,8 +21,8 @@ public:
   StageSolve(LinearSystem& system, const Terms& terms, const std::vector<Hold>& holds, const Eigen::VectorXd& scale,
              const NewtonOptions& options, Demand demand);
 
-  // From the extrapolated state `guess` and the last known one `safe` to the result u. The stage must outlive the
-  // terms' use of it. At most `iterations` where convergence is demanded. Adds to the report; false if it failed.
+  // From the extrapolated state `guess` and the last known one `safe` to the result u, with the terms begun anew. At
+  // most `iterations` where convergence is demanded. Adds to the report; false if it failed.
   [[nodiscard]] bool solve(const Stage& stage, const Unknowns& guess, const Unknowns& safe, int iterations,
                            NewtonReport& report, Unknowns& u);
 

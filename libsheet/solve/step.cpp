@@ -123,7 +123,6 @@ struct Stepper::Cache {
   std::vector<std::uint32_t> signature;
   Terms terms;
   LinearSystem system;
-  Stage stage, instant; // live as long as the terms that refer to them; what they refer to does so only in an attempt
 };
 
 Stepper::Stepper(Model model, StepOptions options) : model_(std::move(model)), options_(options) {}
@@ -176,8 +175,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   Beginning beginning;
   tbb::parallel_invoke([&] { prepare_cache(state, report); }, // in parts on one thread
                        [&] { beginning = begin_step(model_, state, gamma * dt); });
-  Stage& stage = cache_->stage;
-  stage = std::move(beginning.stage);
+  Stage& stage = beginning.stage;
   stage.left_over = two ? 1 - gamma / (1 - gamma) : 0;
   const Eigen::VectorXd& scale = beginning.scale;
   // Without inertia a sheet that is not held is free to move rigidly, and a flat membrane to leave its plane.
@@ -236,8 +234,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   if (model_.reactions == Reactions::of_stage)
     report.reactions = stage_reactions(cache_->system, cache_->terms, state, end, dt, stage, last);
   else if (model_.reactions == Reactions::at_end)
-    report.reactions =
-        end_reactions(cache_->system, cache_->terms, model_, state, end, dt, options_.newton, cache_->instant);
+    report.reactions = end_reactions(cache_->system, cache_->terms, model_, state, end, dt, options_.newton);
   if (level_layers(stage, model_.gravity, model_.holds, dt, end))
     set_prescribed_velocities(stage, end);
   set_distances_from_walls(model_.walls, model_.holds, model_.contacts, stage, end);

@@ -225,6 +225,13 @@ class AddOn(unittest.TestCase):
         np.testing.assert_array_equal(held, painted)
         self.assertLess(len(boxes), 30)
 
+    def test_materials_are_the_renderers(self):
+        listed = subprocess.run(["sheet-render", "--list-liquids"], capture_output=True, text=True, check=True).stdout
+        rows = [[name, *(" ".join(f"{x:g}" for x in numbers) for numbers in ((index,), absorption, scattering))]
+                for name, (index, absorption, scattering) in self.add_on.LIQUIDS.items()]
+        self.assertEqual("".join("\t".join(row) + "\n" for row in rows), listed)
+        self.assertIn("honey", self.add_on.LIQUIDS)
+
     def test_errors_name_what_is_wrong(self):
         self.assert_error("no.sheet.*[Nn]o such file", self.add_on.import_run, "no.sheet")
         pathlib.Path("text.sheet").write_text("not a stream")

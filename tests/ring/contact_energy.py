@@ -18,6 +18,9 @@ than impulses reach. If A and B push on one, with B's velocity b as A's observer
 the square of the bodies' relative speed: for a blow of each. With something held in it a triangle's free corners are
 moved by up to 4 times the way of the point (longest_corner_lever), so b is up to 4 times as large there.
 
+Contact springs get no more in sheet-collide than it takes of the kinetic energy, for the one body that there is: what it
+does to springs by moving vertices is no work.
+
 sheet-step. Between its two ends the sheet gets energy from the weight and from what is prescribed only: contact springs
 give what they stored, tension what the area loses, viscosity takes. The observer who rests on the only body, so that
 this does no work, sees the sum of kinetic energy, weight, tension, springs and, where he spins, centrifugal potential,
@@ -100,6 +103,14 @@ def collide_gains(mass, before, after, bodies):
         yield gain - relative * (HELD_LEVER**2 if held else 1) - ROUND_OFF * kinetic(mass, v)
 
 
+def spring_gain(mass, before, after, u):
+    """What springs and vertices have more after sheet-collide, as seen from the body with the velocity u [J]."""
+    x = after["position"]
+    gain = (spring_energy(after, x) + kinetic(mass, after["velocity"] - u(x)) - spring_energy(before, before["position"])
+            - kinetic(mass, before["velocity"] - u(x)))
+    return gain - ROUND_OFF * kinetic(mass, before["velocity"])
+
+
 def step_gain(mass, start, end, u, weight, tension):
     """What is gained in a step beyond weight, tension and springs, as seen from the body with the velocity u [J]."""
     def energy(frame):
@@ -127,6 +138,7 @@ def main():
         gains = [("sheet-collide", gain) for gain in collide_gains(mass, end, collided, bodies)]
         contacts += len(gains)
         if len(bodies) == 1:
+            gains.append(("sheet-collide to springs", spring_gain(mass, end, collided, bodies[0])))
             gains.append(("sheet-step", step_gain(mass, start, end, bodies[0], weight,
                                                   scene["material"].get("surface_tension", 0))))
         for name, value in gains:

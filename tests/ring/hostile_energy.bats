@@ -74,6 +74,12 @@ held() {
   no_gain tube.toml 0.002 14 60
 }
 
+@test "stage by stage: a tube that falls on a box that spins faster, the other way, in shorter steps" {
+  spinning_box
+  sed -i 's/60 rad/-80 rad/' tube.toml
+  no_gain tube.toml 0.001 28 -80
+}
+
 @test "stage by stage: a tube that falls on the ground, and a rod" {
   fast_rod
   no_gain tube.toml 0.001 15 0,0,0 6,0,0

@@ -59,6 +59,7 @@ TEST(Units, PowersOfTenAreExact) {
 TEST(Units, AsDataSheetsWriteThem) {
   EXPECT_EQ(read("50 Pas", quantity::viscosity), 50);
   EXPECT_EQ(read("50 mPas", quantity::viscosity), 0.05);
+  EXPECT_EQ(read("50 Pa.s", quantity::viscosity), 50);
   EXPECT_EQ(read("350 cps", quantity::viscosity), 0.35);
   EXPECT_EQ(read("1 cc", quantity::volume), 1e-6);
   EXPECT_EQ(read("1 g/cc", quantity::density), 1000);

@@ -67,8 +67,13 @@ TEST(SolidContact, WhatLiesBetweenSolidsThatMovePastEachOtherIsCounted) {
     upper.center.y() -= 0.25e-3;
     sheet.path.start = sheet.path.end;
     std::ranges::fill(sheet.path.fixed, Axes{0});
-    EXPECT_EQ(resolve_solids(sheet.path, solids_of({solid(scene::HalfSpace{{0, 1, 0}}), upper})).between,
-              upper_moves ? sheet.path.start.size() : 0U);
+    const SolidReport then = resolve_solids(sheet.path, solids_of({solid(scene::HalfSpace{{0, 1, 0}}), upper}));
+    EXPECT_EQ(then.between, upper_moves ? sheet.path.start.size() : 0U);
+    if (!upper_moves)
+      continue;
+    EXPECT_EQ(std::pair(then.narrowest.first, then.narrowest.second), std::pair(std::size_t{0}, std::size_t{1}));
+    EXPECT_NEAR(then.narrowest.gap, 1.95e-3, 1e-9);
+    EXPECT_NEAR(then.narrowest.thickness, thickness_of_sheet, 1e-9);
   }
 }
 

@@ -191,6 +191,7 @@ void check_all(Elements<n>& elements, Properties properties, bool second_stage_t
     if (prepare != nullptr)
       prepare(stage, random);
     elements.begin(stage);
+    stage = {}; // a begun term needs no stage
     for (std::size_t i = 0; i < elements.size(); i += 13) {
       const VectorN<n> u = unknowns(elements, i, s, random);
       VectorN<n> g, ignored;

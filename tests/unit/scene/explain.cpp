@@ -2,6 +2,7 @@
 #include "libsheet/scene/explain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -49,8 +50,31 @@ TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
   EXPECT_TRUE(warned(of(sized("50")), "numbers without unit are metres"));
   EXPECT_FALSE(warned(of(sized("5")), "numbers without unit are metres"));
   const Scene mesh = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"a.obj\"\nthickness = 0.1\n" + liquid, "s");
-  EXPECT_TRUE(warned(explain(mesh, {.length = 50, .thickness = 0.1, .curvature = {}}), "scale = 0.001"));
-  EXPECT_FALSE(warned(explain(mesh, {.length = 5, .thickness = 0.1, .curvature = {}}), "scale = 0.001"));
+  EXPECT_TRUE(
+      warned(explain(mesh, std::array{Measured{.length = 50, .thickness = 0.1, .curvature = {}}}), "scale = 0.001"));
+  EXPECT_FALSE(
+      warned(explain(mesh, std::array{Measured{.length = 5, .thickness = 0.1, .curvature = {}}}), "scale = 0.001"));
+}
+
+TEST(Explain, WarnsOfEverySheetByItsName) {
+  const auto sheet = [](std::string_view name, std::string_view edge, std::string_view thickness) {
+    return fmt::format("[[sheet]]\n{}shape = \"disk\"\nradius = 1\nedge_length = {}\nthickness = {}\n", name, edge,
+                       thickness);
+  };
+  const Explanation e =
+      of(sheet("", "0.1", "0.02") + sheet("name = \"upper\"\n", "0.01", "0.02") + sheet("", "0.1", "0.5") + liquid +
+         "[environment]\ngravity = [0, 0, -9.81]\n" + "[[hold]]\nregion = \"rim\"\nsheet = \"upper\"\n");
+  EXPECT_EQ(e.judged, "sheet 0");
+  EXPECT_THAT(to_text(e), testing::HasSubstr("\nScales of sheet 0\n"));
+  const std::string falls = "nothing holds or catches the sheet: it falls for ever";
+  EXPECT_THAT(e.warnings, ElementsAre("sheet 0: " + falls,
+                                      "sheet \"upper\": edge_length 0.01 m is below the thickness 0.02 m: a sheet has "
+                                      "no detail that fine",
+                                      "sheet 2: edge_length 0.1 m is below the thickness 0.5 m: a sheet has no detail "
+                                      "that fine",
+                                      "sheet 2: the sheet is thicker than a fifth of its length: the equations of thin "
+                                      "sheets are doubtful",
+                                      "sheet 2: " + falls));
 }
 
 TEST(Explain, NumbersByTheirFormulas) {
@@ -100,8 +124,10 @@ TEST(Explain, TheFastestDriveGivesTheSpeed) {
 TEST(Explain, MeshesAreAsTheyAreMeasured) {
   const Scene mesh = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"a.off\"\nthickness = 0.1\n" + liquid, "s");
   EXPECT_THAT(explain(mesh).numbers, IsEmpty());
-  EXPECT_DOUBLE_EQ(number(explain(mesh, {.length = 2, .thickness = {}, .curvature = {}}), "thickness to length")->value,
-                   0.05);
+  EXPECT_DOUBLE_EQ(
+      number(explain(mesh, std::array{Measured{.length = 2, .thickness = {}, .curvature = {}}}), "thickness to length")
+          ->value,
+      0.05);
 }
 
 TEST(Explain, Warnings) {
