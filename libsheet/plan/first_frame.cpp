@@ -181,7 +181,7 @@ std::vector<scene::Measured> measured_sheets(const Scene& scene, const Frame& fi
     return {measured(first)};
   std::vector<scene::Measured> all;
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
-    all.push_back(measured(build_sheet(scene, i)));
+    all.push_back(measured(build_sheet(scene, i, Notes::silent)));
   return all;
 }
 

@@ -58,7 +58,7 @@ double vertices_of_sheets_that_enter(const Scene& scene, double until) {
   double vertices = 0;
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
     if (const auto& enters = scene.sheets[i].enters; enters && *enters < until)
-      vertices += static_cast<double>(build_sheet(scene, i).vertices) * (1 - *enters / until);
+      vertices += static_cast<double>(build_sheet(scene, i, Notes::silent).vertices) * (1 - *enters / until);
   return vertices;
 }
 

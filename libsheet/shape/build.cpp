@@ -40,17 +40,18 @@ MeshOptions mesh_options(const scene::SheetTable& table) {
   return options;
 }
 
-TriangleMesh load_scaled(const scene::SheetMesh& file) {
+TriangleMesh load_scaled(const scene::SheetMesh& file, Notes notes) {
   LoadedMesh loaded = load_mesh(file.file);
-  for (const std::string& note : loaded.notes)
-    log::warning("{}", note);
+  if (notes == Notes::told)
+    for (const std::string& note : loaded.notes)
+      log::warning("{}", note);
   for (Vector3d& x : loaded.mesh.positions)
     x *= file.scale;
   return std::move(loaded.mesh);
 }
 
 // In the shape's local frame (shapes.h).
-TriangleMesh local_mesh(const scene::SheetTable& table) {
+TriangleMesh local_mesh(const scene::SheetTable& table, Notes notes) {
   const MeshOptions options = mesh_options(table);
   return std::visit(Overloaded{
                         [&](const scene::Rectangle& r) { return make_rectangle(r.size_first, r.size_second, options); },
@@ -59,7 +60,7 @@ TriangleMesh local_mesh(const scene::SheetTable& table) {
                         [&](const scene::Sphere& s) { return make_sphere(s.radius, options); },
                         [&](const scene::Cap& c) { return make_cap(c.radius, c.angle, options, c.opening); },
                         [&](const scene::Tube& t) { return make_tube(t.radius, t.height, options); },
-                        [&](const scene::SheetMesh& m) { return load_scaled(m); },
+                        [&](const scene::SheetMesh& m) { return load_scaled(m, notes); },
                     },
                     table.shape);
 }
@@ -168,9 +169,9 @@ void add_holds(const TriangleMesh& mesh, const Scene& scene, const scene::SheetT
 
 } // namespace
 
-formats::Frame build_sheet(const Scene& scene, std::size_t number) {
+formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) {
   const scene::SheetTable& table = scene.sheets[number];
-  TriangleMesh mesh = local_mesh(table);
+  TriangleMesh mesh = local_mesh(table, notes);
   if (!std::holds_alternative<scene::SheetMesh>(table.shape)) // a file's coordinates are taken as they are
     place_mesh(mesh, {plane_of(table.plane), Eigen::Matrix3d::Identity(), Vector3d::Zero()});
   std::vector<std::uint64_t> holds(mesh.positions.size());

@@ -11,8 +11,11 @@ namespace sheet {
 // read.
 [[nodiscard]] formats::Frame build_frame(const Scene& scene);
 
+// Whether what was passed over or mended in a mesh file is told.
+enum class Notes { told, silent };
+
 // The scene's sheet `number` alone, without the scene's text. Errors as above.
-[[nodiscard]] formats::Frame build_sheet(const Scene& scene, std::size_t number);
+[[nodiscard]] formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes = Notes::told);
 
 // Puts a sheet's arrays behind those of the frame's. What it encloses gets numbers of its own.
 void append_sheet(const formats::Frame& sheet, formats::Frame& frame);

@@ -509,3 +509,11 @@ END
   run -0 sheet-init --check --set material.surface_tension=0.03 "$balloon"
   [[ $output != *'blows the sheet up'* ]]
 }
+
+@test "what is mended in the meshes of two sheets is told once each, with --check too" {
+  printf 'v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nv 5 5 5\nf 1 2 3\nf 1 3 4\n' > lone.obj
+  printf '[[sheet]]\nshape = "mesh"\nfile = "lone.obj"\ncenter = [%s, 0, 0]\nthickness = "2 mm"\n' 0 1 > two.toml
+  printf '[material]\nviscosity = 5\ndensity = 1200\n' >> two.toml
+  run --separate-stderr -0 sheet-init --check two.toml
+  [ "$(grep -c 'that no face uses' <<< "$stderr")" = 2 ]
+}
