@@ -125,7 +125,7 @@ ChosenUnion choose_union(const Frame& frame, const UnionSettings& settings) {
   for (const Vector3& x : positions(frame))
     box.add(x);
   const double least = box.diagonal() / most_across;
-  const double wanted = settings.voxel.value_or(quantile(parts, 0.05) / 4);
+  const double wanted = settings.voxel.value_or(parts.empty() ? 1 : quantile(parts, 0.05) / 4);
   const double most = settings.voxel ? 10 * most_voxels : most_voxels;
   const double voxel = std::max(least, parts.empty() ? wanted : coarse_enough(parts, wanted, close, most));
   if (settings.voxel && voxel > wanted)
@@ -134,7 +134,7 @@ ChosenUnion choose_union(const Frame& frame, const UnionSettings& settings) {
   return {{.volume = std::accumulate(volume.begin(), volume.end(), 0.0),
            .voxel = voxel,
            .close = close,
-           .wide = median,
+           .thickness = median,
            .keep_voids = settings.keep_voids,
            .level_set = settings.level_set,
            .time = frame.time},

@@ -21,10 +21,11 @@ struct Slabs {
 };
 
 struct UnionOptions {
-  double volume = 0; // that the surface shall hold [m³]
-  double voxel = 0;  // [m]
-  double close = 0;  // gaps between layers are closed where they are narrower than twice this [m]; 0: none
-  double wide = 0;   // a void into which a ball of this diameter fits [m] is air, which is not part of the volume
+  double volume = 0;    // that the surface shall hold [m³]
+  double voxel = 0;     // [m]
+  double close = 0;     // gaps between layers are closed where they are narrower than twice this [m]; 0: none
+  double thickness = 0; // of layers, their median [m]: voids that are wider than this on average are air, and no part
+                        // of the volume; for the volume the surface is shifted by some half of it at most
   bool keep_voids = false;
   bool level_set = false; // also the level set as a .vdb file
   double time = 0;        // [s], for that file
@@ -43,7 +44,7 @@ struct SlabUnion {
   std::size_t voxels = 0;         // that carry a distance of their own
   double union_volume = 0;        // of the slabs, before gaps are closed [m³]
   double shift = 0;               // outwards, by which the surface got its volume [m]
-  bool volume_reached = true;     // not if layers lie in each other so deep that the shift is more than two voxels
+  bool volume_reached = true;     // not if layers lie in each other deeper than it can be shifted
   std::size_t voids = 0;          // that were filled
   double air = 0;                 // in those of them that are wide [m³]
   struct {
@@ -51,7 +52,7 @@ struct SlabUnion {
   } seconds;
 };
 
-// The same bits for any number of threads. Throws Error (bad_input) if the voxel is too small to number all of them.
+// The same bits for any number of threads. Precondition: the slabs are less than 4e6 voxels across.
 [[nodiscard]] SlabUnion unite(const Slabs& slabs, const UnionOptions& options);
 
 } // namespace sheet::solid

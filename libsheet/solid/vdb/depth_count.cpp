@@ -2,24 +2,29 @@
 #include "libsheet/solid/vdb/depth_count.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace sheet::solid {
 namespace {
 
-constexpr double outermost = DepthCount::last_iso + 0.5; // of the values that count in part
-constexpr std::size_t bins_of_voxel = 1024, bins = static_cast<std::size_t>(2 * outermost * bins_of_voxel);
+constexpr double bins_of_voxel = 1024;
+
+// Of the values that count in part.
+double outermost(double last_iso) { return last_iso + 0.5; }
 
 } // namespace
 
-DepthCount::DepthCount() : counts_(bins, 0) {}
+DepthCount::DepthCount(double last_iso)
+    : last_iso_(last_iso), counts_(static_cast<std::size_t>(std::ceil(2 * outermost(last_iso) * bins_of_voxel)), 0) {}
 
 void DepthCount::add(std::span<const float> values) {
+  const double first = -outermost(last_iso_);
   for (const float value : values) {
-    const double place = (static_cast<double>(value) + outermost) * bins_of_voxel;
+    const double place = (static_cast<double>(value) - first) * bins_of_voxel;
     if (place < 0)
       ++deeper_;
-    else if (place < bins)
+    else if (place < static_cast<double>(counts_.size()))
       ++counts_[static_cast<std::size_t>(place)];
   }
 }
@@ -31,15 +36,15 @@ void DepthCount::add(const DepthCount& other) {
 
 double DepthCount::volume(double iso) const {
   double sum = static_cast<double>(deeper_);
-  for (std::size_t i = 0; i < bins; ++i) {
-    const double value = (static_cast<double>(i) + 0.5) / bins_of_voxel - outermost;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    const double value = (static_cast<double>(i) + 0.5) / bins_of_voxel - outermost(last_iso_);
     sum += static_cast<double>(counts_[i]) * std::clamp(0.5 - (value - iso), 0.0, 1.0);
   }
   return sum;
 }
 
 double DepthCount::iso_of(double wanted) const {
-  double low = -last_iso, high = last_iso;
+  double low = -last_iso_, high = last_iso_;
   while (high - low > 1e-6) {
     const double middle = (low + high) / 2;
     (volume(middle) < wanted ? low : high) = middle;

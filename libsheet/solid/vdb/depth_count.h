@@ -10,7 +10,7 @@ namespace sheet::solid {
 
 class DepthCount {
 public:
-  DepthCount();
+  explicit DepthCount(double last_iso);
 
   void add(std::span<const float> values);
   void add_deep(std::size_t voxels) { deeper_ += voxels; } // below all iso values
@@ -23,9 +23,8 @@ public:
   // The iso value of that volume, by bisection; the nearer end of the range if there is none.
   [[nodiscard]] double iso_of(double volume) const;
 
-  static constexpr double last_iso = 2;
-
 private:
+  double last_iso_;
   std::vector<std::size_t> counts_; // by value
   std::size_t deeper_ = 0;          // than the first of them
 };

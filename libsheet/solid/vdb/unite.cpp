@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -62,23 +63,55 @@ std::vector<SlabPoint> origins_of(const SlabBlocks& blocks, const std::vector<Ve
   return origins;
 }
 
-// Fills what voids are to be filled and chooses the iso value for the volume, anew as that changes what is a void.
-double iso_of_volume(const UnionOptions& options, BodyGrid& body, Voids& voids) {
-  const double volume = options.volume / std::pow(options.voxel, 3);
-  double iso = body.depths().iso_of(volume);
-  if (options.keep_voids)
-    return iso;
-  const int radius = std::max(1, static_cast<int>(std::lround(options.wide / options.voxel / 2)));
-  std::size_t filled = 0;
-  for (int round = 0; round < 4; ++round) {
-    voids = body.fill_narrow_voids(static_cast<float>(iso), radius);
-    if (voids.filled == 0)
-      break;
-    filled += voids.filled;
-    iso = body.depths().iso_of(volume);
+// The body and the iso value that gives it the volume, as far as layers of the median thickness can lose or gain it.
+struct Body {
+  std::unique_ptr<SlabBlocks> blocks;
+  std::unique_ptr<BodyGrid> grid;
+  double iso = 0, last_iso = 0;
+};
+
+Body find_body(const Slabs& slabs, const UnionOptions& options, const VoxelSpace& space, SlabUnion& result) {
+  const double voxel_volume = std::pow(options.voxel, 3), farthest = options.thickness / options.voxel / 2;
+  const auto close = static_cast<float>(options.close / options.voxel);
+  Stopwatch watch;
+  for (double last_iso = 2;; last_iso *= 2) { // a wider band costs more, and is hardly ever needed
+    Body body;
+    body.last_iso = last_iso;
+    const auto band = static_cast<float>(last_iso + 1);
+    body.blocks = std::make_unique<SlabBlocks>(slabs, space, band + close);
+    body.grid = std::make_unique<BodyGrid>(*body.blocks, band, band + close);
+    result.seconds.field += watch.lap();
+    result.voxels = body.grid->voxels();
+    result.union_volume = voxel_volume * body.grid->depths(last_iso).volume(0);
+    result.seconds.volume += watch.lap();
+    if (close > 0 && result.voxels > 0)
+      body.grid->close(close);
+    result.seconds.closing += watch.lap();
+    body.iso = body.grid->depths(last_iso).iso_of(options.volume / voxel_volume);
+    result.seconds.volume += watch.lap();
+    if (std::abs(body.iso) < 0.99 * last_iso || last_iso > farthest)
+      return body;
   }
-  voids.filled = filled;
-  return iso;
+}
+
+// The surface of the body, in voxels, with voids or without them.
+void find_surface(const UnionOptions& options, Body& body, SlabUnion& result) {
+  const double voxel_volume = std::pow(options.voxel, 3);
+  constexpr double farthest = 0.5,
+                   far = 0.1; // that points are moved for the volume, and without looking again, in voxels
+  double way = 0;
+  for (int round = 0; round < 4; ++round) {
+    result.surface = body.grid->isosurface(body.iso);
+    const Voids voids = options.keep_voids ? Voids{} : drop_voids(options.thickness / options.voxel, result.surface);
+    result.voids = voids.count;
+    result.air = voxel_volume * voids.air;
+    way = inflate_to(options.volume / voxel_volume + voids.air, farthest, result.surface);
+    if (std::abs(way) < far || std::abs(body.iso + way) > body.last_iso)
+      break;
+    body.iso += way;
+  }
+  result.shift = options.voxel * (body.iso + way);
+  result.volume_reached = std::abs(body.iso) < 0.99 * body.last_iso && std::abs(way) < 0.99 * farthest;
 }
 
 } // namespace
@@ -86,42 +119,24 @@ double iso_of_volume(const UnionOptions& options, BodyGrid& body, Voids& voids) 
 SlabUnion unite_slabs(const Slabs& slabs, const UnionOptions& options) {
   openvdb::initialize();
   SlabUnion result;
-  Stopwatch watch;
   const VoxelSpace space(slabs, options.voxel);
-  const double voxel_volume = std::pow(options.voxel, 3);
-  const auto close = static_cast<float>(options.close / options.voxel);
-  const float reach = BodyGrid::depth + close;
-  const SlabBlocks blocks(slabs, space, reach);
-  BodyGrid body(blocks, reach);
-  result.seconds.field = watch.lap();
-  result.voxels = body.voxels();
-  result.union_volume = voxel_volume * body.depths().volume(0);
-  result.seconds.volume = watch.lap();
-  if (close > 0 && result.voxels > 0)
-    body.close(close);
-  result.seconds.closing = watch.lap();
-  Voids voids;
-  const double iso = iso_of_volume(options, body, voids);
-  result.voids = voids.filled + voids.wide;
-  result.air = voxel_volume * static_cast<double>(voids.voxels);
-  result.seconds.volume += watch.lap();
-  constexpr double farthest = 0.5; // that the volume of the mesh is off by, in voxels
-  result.surface = body.isosurface(iso);
-  const double more = inflate_to(options.volume / voxel_volume, farthest, result.surface);
-  result.shift = options.voxel * (iso + more);
-  result.volume_reached = std::abs(iso) < 0.99 * DepthCount::last_iso && std::abs(more) < 0.99 * farthest;
-  if (voids.wide > 0)
-    drop_parts([&](const Vector3& x) { return body.is_beside_wide_void(x); }, result.surface);
+  if (slabs.triangles.empty()) {
+    if (options.level_set)
+      result.level_set = print_level_set({}, space, options.time);
+    return result;
+  }
+  Body body = find_body(slabs, options, space, result);
+  Stopwatch watch;
+  find_surface(options, body, result);
   result.seconds.mesh = watch.lap();
-  result.origins = origins_of(blocks, result.surface.points);
-  for (Vector3& x : result.surface.points)
-    x = space.in_metres(x);
+  result.origins = origins_of(*body.blocks, result.surface.points);
   result.seconds.origins = watch.lap();
   if (options.level_set) {
-    body.fill_wide_voids();
-    result.level_set = std::move(body).print(iso + more, space, options.time);
+    result.level_set = print_level_set(result.surface, space, options.time);
     result.seconds.level_set = watch.lap();
   }
+  for (Vector3& x : result.surface.points)
+    x = space.in_metres(x);
   return result;
 }
 

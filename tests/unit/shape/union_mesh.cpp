@@ -48,7 +48,7 @@ TEST(UnionMesh, IsChosenByThickness) {
   EXPECT_NEAR(even.options.voxel, thick / 4, 1e-15);
   EXPECT_EQ(even.options.voxel, even.wanted_voxel);
   EXPECT_NEAR(even.options.close, thick / 4, 1e-15);
-  EXPECT_NEAR(even.options.wide, thick, 1e-15);
+  EXPECT_NEAR(even.options.thickness, thick, 1e-15);
   EXPECT_NEAR(even.options.volume, side * side * thick, 1e-20);
   const ChosenUnion uneven = choose_union(plate(3), {});
   EXPECT_NEAR(uneven.options.voxel, thick / 4, 1e-15); // of the thinnest
