@@ -86,7 +86,7 @@ void tell(const std::string& path, const solid::SlabUnion& body, const solid::Un
   const auto& s = body.seconds;
   log::detail(
       "{}: {} voxels of {:.3g} m; closing {:.3g} m; the union holds {:.2f} % of the volume; shifted by {:.3g} m; "
-      "{} voids filled, {:.3g} m^3 of air; {} points; seconds: field {:.2f}, closing {:.2f}, volume and voids "
+      "{} voids filled, {:.3g} m^3 of air; {} points; seconds: field {:.2f}, closing {:.2f}, volume "
       "{:.2f}, mesh {:.2f}, origins {:.2f}, level set {:.2f}",
       path, body.voxels, options.voxel, options.close, 100 * body.union_volume / options.volume, body.shift, body.voids,
       body.air, body.surface.points.size(), s.field, s.closing, s.volume, s.mesh, s.origins, s.level_set);

@@ -29,6 +29,7 @@ constexpr double band = 3, most_across = 4e6; // voxels: carrying a value to eit
 
 struct Part { // of the sheet: a triangle
   double thickness, area;
+  Vector3 extent; // of its box
 };
 
 // Those with area, by rising thickness.
@@ -37,9 +38,11 @@ std::vector<Part> parts_of(const Frame& frame) {
   const auto corners = triangles(frame);
   const auto volume = volumes(frame);
   std::vector<Part> parts;
-  for (std::size_t t = 0; t < corners.size(); ++t)
-    if (const double area = TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area; area > 0)
-      parts.push_back({volume[t] / area, area});
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const Vector3 &a = x[corners[t][0]], &b = x[corners[t][1]], &c = x[corners[t][2]];
+    if (const double area = TriangleArea(a, b, c).area; area > 0)
+      parts.push_back({volume[t] / area, area, a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)});
+  }
   std::ranges::sort(parts, {}, &Part::thickness);
   return parts;
 }
@@ -55,12 +58,15 @@ double quantile(const std::vector<Part>& parts, double share) {
   return parts.empty() ? 0 : parts.back().thickness;
 }
 
-// How many voxels will carry a value, if no layers touch.
+// How many voxels will carry a value, if no layers touch; and what it costs to find the blocks near each triangle.
 double voxels_of(const std::vector<Part>& parts, double voxel, double close) {
-  double volume = 0;
-  for (const Part& part : parts)
+  constexpr double of_block = 0.1; // voxels that take as long as a block
+  double volume = 0, blocks = 0;
+  for (const Part& part : parts) {
     volume += 2 * part.area * (std::min(part.thickness / 2, band * voxel) + band * voxel + close);
-  return volume / std::pow(voxel, 3);
+    blocks += ((part.extent.array() + part.thickness + 2 * close) / (8 * voxel) + 1).prod();
+  }
+  return volume / std::pow(voxel, 3) + of_block * blocks;
 }
 
 // The wanted voxel, or the smallest one with which there are no more than `most`.
@@ -68,7 +74,7 @@ double coarse_enough(const std::vector<Part>& parts, double wanted, double close
   if (voxels_of(parts, wanted, close) <= most)
     return wanted;
   double small = wanted, large = wanted;
-  while (voxels_of(parts, large, close) > most)
+  while (voxels_of(parts, large, close) > most && std::isfinite(large))
     large *= 2;
   while (large / small > 1.001) {
     const double middle = std::sqrt(small * large);
@@ -128,6 +134,9 @@ ChosenUnion choose_union(const Frame& frame, const UnionSettings& settings) {
   const double wanted = settings.voxel.value_or(parts.empty() ? 1 : quantile(parts, 0.05) / 4);
   const double most = settings.voxel ? 10 * most_voxels : most_voxels;
   const double voxel = std::max(least, parts.empty() ? wanted : coarse_enough(parts, wanted, close, most));
+  if (!std::isfinite(voxel) || !(voxel > 0))
+    fail(ExitCode::bad_input, "a sheet of {:.3g} m across with layers of {:.3g} m cannot be divided into voxels",
+         box.diagonal(), median);
   if (settings.voxel && voxel > wanted)
     fail(ExitCode::usage, "--voxel: {:.3g} m makes some {:.0e} voxels here, too many for any memory: {:.2g} m or more",
          wanted, voxels_of(parts, wanted, close), 1.01 * voxel);

@@ -25,7 +25,8 @@ struct ChosenUnion {
 // A surface of as many active voxels as this is what a voxel is chosen for; ten times as many are refused.
 inline constexpr double most_voxels = 5e7;
 
-// Throws Error (usage) if the voxel is so small that there would be more than ten times `most_voxels`.
+// Throws Error (usage) if the voxel is so small that there would be more than ten times `most_voxels`, (bad_input) if
+// the sheet is larger than numbers can tell.
 [[nodiscard]] ChosenUnion choose_union(const formats::Frame& frame, const UnionSettings& settings);
 
 // The surface of the chosen union, closed and facing outward; with "thickness" [m] at points, and the arrays of the
