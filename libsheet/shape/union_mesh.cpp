@@ -32,7 +32,7 @@ struct Part { // of the sheet: a triangle
   Vector3 extent; // of its box
 };
 
-// Those with area, by rising thickness.
+// By rising thickness; those without area have none.
 std::vector<Part> parts_of(const Frame& frame) {
   const auto x = positions(frame);
   const auto corners = triangles(frame);
@@ -40,8 +40,10 @@ std::vector<Part> parts_of(const Frame& frame) {
   std::vector<Part> parts;
   for (std::size_t t = 0; t < corners.size(); ++t) {
     const Vector3 &a = x[corners[t][0]], &b = x[corners[t][1]], &c = x[corners[t][2]];
-    if (const double area = TriangleArea(a, b, c).area; area > 0)
-      parts.push_back({volume[t] / area, area, a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)});
+    const double area = TriangleArea(a, b, c).area;
+    const bool has_area = std::isfinite(area) && area > 0;
+    parts.push_back(
+        {has_area ? volume[t] / area : 0, has_area ? area : 0, a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)});
   }
   std::ranges::sort(parts, {}, &Part::thickness);
   return parts;
@@ -69,16 +71,15 @@ double voxels_of(const std::vector<Part>& parts, double voxel, double close) {
   return volume / std::pow(voxel, 3) + of_block * blocks;
 }
 
-// The wanted voxel, or the smallest one with which there are no more than `most`.
+// The wanted voxel, or the smallest one with which there are no more than `most`; not finite if there is none.
 double coarse_enough(const std::vector<Part>& parts, double wanted, double close, double most) {
-  if (voxels_of(parts, wanted, close) <= most)
-    return wanted;
+  const auto few = [&](double voxel) { return voxels_of(parts, voxel, close) <= most; }; // false where it is no number
   double small = wanted, large = wanted;
-  while (voxels_of(parts, large, close) > most && std::isfinite(large))
+  while (!few(large) && std::isfinite(large))
     large *= 2;
-  while (large / small > 1.001) {
-    const double middle = std::sqrt(small * large);
-    (voxels_of(parts, middle, close) > most ? small : large) = middle;
+  while (std::isfinite(large) && large / small > 1.001) {
+    const double middle = std::sqrt(small) * std::sqrt(large);
+    (few(middle) ? large : small) = middle;
   }
   return large;
 }
@@ -131,12 +132,18 @@ ChosenUnion choose_union(const Frame& frame, const UnionSettings& settings) {
   for (const Vector3& x : positions(frame))
     box.add(x);
   const double least = box.diagonal() / most_across;
-  const double wanted = settings.voxel.value_or(parts.empty() ? 1 : quantile(parts, 0.05) / 4);
+  const double finest = quantile(parts, 0.05) / 4;
+  const double wanted = settings.voxel.value_or(finest > 0 ? finest : 1);
   const double most = settings.voxel ? 10 * most_voxels : most_voxels;
   const double voxel = std::max(least, parts.empty() ? wanted : coarse_enough(parts, wanted, close, most));
   if (!std::isfinite(voxel) || !(voxel > 0))
     fail(ExitCode::bad_input, "a sheet of {:.3g} m across with layers of {:.3g} m cannot be divided into voxels",
          box.diagonal(), median);
+  const double thickest = parts.empty() ? 0 : parts.back().thickness;
+  if (thickest > 0 && voxel > 2 * thickest)
+    fail(settings.voxel ? ExitCode::usage : ExitCode::bad_input,
+         "--union: nothing is left of layers of {:.3g} m and less on voxels of {:.3g} m: {}", thickest, voxel,
+         settings.voxel ? "give a smaller --voxel" : "they are too thin for a sheet of this size");
   if (settings.voxel && voxel > wanted)
     fail(ExitCode::usage, "--voxel: {:.3g} m makes some {:.0e} voxels here, too many for any memory: {:.2g} m or more",
          wanted, voxels_of(parts, wanted, close), 1.01 * voxel);

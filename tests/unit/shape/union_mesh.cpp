@@ -61,13 +61,13 @@ TEST(UnionMesh, IsChosenByThickness) {
 TEST(UnionMesh, HasNoMoreVoxelsThanFit) {
   Frame thin = plate();
   for (double& volume : volumes(thin))
-    volume *= 1e-3;
+    volume *= 1e-2;
   const ChosenUnion chosen = choose_union(thin, {});
-  EXPECT_NEAR(chosen.wanted_voxel, thick / 4e3, 1e-12);
+  EXPECT_NEAR(chosen.wanted_voxel, thick / 4e2, 1e-12);
   EXPECT_GT(chosen.options.voxel, chosen.wanted_voxel);
   // both sides have three voxels outside and half the thickness inside, and what is closed
   const double voxel = chosen.options.voxel;
-  EXPECT_NEAR(2 * side * side * (3 * voxel + thick / 2e3 + thick / 4e3) / std::pow(voxel, 3) / most_voxels, 1, 0.01);
+  EXPECT_NEAR(2 * side * side * (3 * voxel + thick / 2e2 + thick / 4e2) / std::pow(voxel, 3) / most_voxels, 1, 0.01);
   try {
     (void)choose_union(plate(), {.voxel = 1e-7, .close = {}});
     FAIL();
@@ -76,6 +76,14 @@ TEST(UnionMesh, HasNoMoreVoxelsThanFit) {
     EXPECT_THAT(error.what(), testing::HasSubstr("--voxel: 1e-07 m"));
     EXPECT_THAT(error.what(), testing::HasSubstr("m or more"));
   }
+}
+
+TEST(UnionMesh, RefusesVoxelsThatNothingIsLeftOn) {
+  EXPECT_NO_THROW((void)choose_union(plate(), {.voxel = 1.9 * thick, .close = {}}));
+  EXPECT_THROW((void)choose_union(plate(), {.voxel = 2.1 * thick, .close = {}}), Error);
+  Frame vast = plate();
+  positions(vast)[1].x() = 1e29; // a sheet like this has no voxel
+  EXPECT_THROW((void)choose_union(vast, {}), Error);
 }
 
 TEST(UnionMesh, CarriesArraysFromTheNearestPoint) {
