@@ -83,3 +83,102 @@ END
   grep -q 'property double vertex_indices_2' header
   sheet-export --help | grep -q meshio
 }
+
+# Two layers, 30 x 30 x 2 mm, that touch.
+two_layers() {
+  sheet-parse -o layers.sheet << 'END'
+sheet-text 1.0
+frame
+time 0.5
+step 1
+vertices 8
+triangles 4
+edges 0
+array position vertex float64 3 m interpolate
+0 0 0
+0.03 0 0
+0.03 0.03 0
+0 0.03 0
+0 0 0.002
+0.03 0 0.002
+0.03 0.03 0.002
+0 0.03 0.002
+array triangle triangle uint32 3 1 drop
+0 1 2
+0 2 3
+4 5 6
+4 6 7
+array volume triangle float64 1 m^3 conserve
+9e-7
+9e-7
+9e-7
+9e-7
+array velocity vertex float64 3 m/s interpolate
+1 0 0
+1 0 0
+1 0 0
+1 0 0
+2 0 0
+2 0 0
+2 0 0
+2 0 0
+end
+END
+}
+
+@test "43: --union makes one closed body of layers, with the liquid's volume and its velocities" {
+  two_layers
+  for ending in ply obj off stl glb vtu vdb; do
+    sheet-export --union layers.sheet -o "a.$ending"
+    sheet-export --union --threads 1 layers.sheet -o "one.$ending"
+    cmp "a.$ending" "one.$ending"
+  done
+  /usr/bin/python3 - << 'END'
+import meshio
+import numpy as np
+
+mesh = meshio.read("a.vtu")
+x, faces = mesh.points, mesh.cells_dict["triangle"]
+sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+assert len(np.unique(sides, axis=0)) == len(sides)
+assert set(map(tuple, sides)) == set(map(tuple, sides[:, ::-1]))
+volume = np.einsum("ij,ij->", x[faces[:, 0]], np.cross(x[faces[:, 1]], x[faces[:, 2]])) / 6
+assert abs(volume / 3.6e-6 - 1) < 1e-6, volume
+assert len(x) - len(sides) // 2 + len(faces) == 2, "one part without holes"
+speed = mesh.point_data["velocity"][:, 0]
+assert np.allclose(speed[x[:, 2] < 0], 1) and np.allclose(speed[x[:, 2] > 0.002], 2)
+for ending in ("ply", "obj", "off", "stl"):
+    other = meshio.read(f"a.{ending}")
+    assert len(other.cells_dict["triangle"]) == len(faces), ending
+END
+}
+
+@test "43: layers apart are one body if --close says so; -v tells what was done" {
+  two_layers
+  sheet-print layers.sheet | sed 's/ 0.002$/ 0.0025/' | sheet-parse -o apart.sheet
+  euler() {
+    sheet-export --union "$@" -o a.off
+    awk 'NR == 2 {points = $1; faces = $2} END {print points - faces / 2}' a.off
+  }
+  [ "$(euler apart.sheet --close 0.1mm)" = 4 ]
+  [ "$(euler apart.sheet --close 0.5mm)" = 2 ]
+  sheet-export -v --union --voxel 0.4mm --close 0 apart.sheet -o a.off 2> told
+  grep -q 'voxels of 0.0004 m; closing 0 m; the union holds 1[0-9][0-9]' told
+}
+
+@test "43: what contradicts --union is refused by name" {
+  two_layers
+  refused() {
+    run -2 sheet-export layers.sheet "${@:2}"
+    [[ $output == *"$1"* ]] || { echo "$output"; return 1; }
+  }
+  refused '--union and --solidify are two surfaces' --union --solidify -o a.ply
+  refused '--voxel says how to unite layers: give --union' --voxel 1mm -o a.ply
+  refused '--close says how to unite layers: give --union' --close 1mm -o a.ply
+  refused '--keep-voids says how to unite layers: give --union' --keep-voids -o a.ply
+  refused 'a.vdb: a level set (.vdb) is made of a closed surface: give --union' -o a.vdb
+  refused '--voxel: "0": a length above 0, such as 0.3mm, is wanted' --union --voxel 0 -o a.ply
+  refused '--close: "-1mm": a length of 0 or more, such as 0.3mm, is wanted' --union --close=-1mm -o a.ply
+  refused '--voxel: expected a length such as "2.5 mm"' --union --voxel 3s -o a.ply
+  refused '--voxel: 1e-07 m makes some' --union --voxel 0.1um -o a.ply
+}

@@ -15,6 +15,7 @@
 #include <openvdb/version.h>
 
 #include "libsheet/geometry/box.h"
+#include "libsheet/solid/vdb/unite.h"
 
 namespace sheet::solid {
 namespace {
@@ -146,6 +147,6 @@ LevelSetFile read(const std::string& file) {
 
 } // namespace
 
-const LevelSetModule sheet_level_sets{openvdb::OPENVDB_LIBRARY_VERSION, make, parse, read};
+const LevelSetModule sheet_level_sets{openvdb::OPENVDB_LIBRARY_VERSION, make, parse, read, unite_slabs};
 
 } // namespace sheet::solid

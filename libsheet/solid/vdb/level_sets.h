@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All that knows OpenVDB, which takes longer to load than a short run to compute: a module, sheet-level-sets.so, that
-// programs load when a mesh is a solid (distance_field.cpp). It throws standard exceptions only, and nothing of
-// libsheet is called in it.
+// programs load when a mesh is a solid, or a union of layers is asked for (level_set_module.h). It throws standard
+// exceptions only, and nothing of libsheet is called in it.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "libsheet/solid/mesh.h"
+#include "libsheet/solid/slab_union.h"
 
 namespace sheet::solid {
 
@@ -36,6 +37,7 @@ struct LevelSetModule {
   std::unique_ptr<const LevelSet> (*make)(const SolidSurface& surface, double voxel_size, double band);
   std::unique_ptr<const LevelSet> (*parse)(const std::string& bytes); // throws std::exception
   LevelSetFile (*read)(const std::string& file);
+  SlabUnion (*unite)(const Slabs& slabs, const UnionOptions& options); // slab_union.h, without weights of origins
 };
 
 extern "C" const LevelSetModule sheet_level_sets;
