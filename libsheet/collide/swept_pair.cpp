@@ -171,6 +171,12 @@ Vector3 middle(const Hull& hull) {
   return sum;
 }
 
+// Another one: across the triangle, or both edges, at the start, as layers lie on each other.
+Vector3 across(const Differences& d, const Vector3& towards) {
+  const Vector3 normal = (d.start[1] - d.start[0]).cross(d.start[2] - d.start[0]);
+  return normal.dot(towards) < 0 ? Vector3(-normal) : normal;
+}
+
 } // namespace
 
 bool surely_apart(const SweptPair& pair, double gap) {
@@ -178,8 +184,9 @@ bool surely_apart(const SweptPair& pair, double gap) {
   if (!d.moving)
     return true;
   const Hull whole(d, 0, 1);
+  const double wanted = std::max(gap / d.size, smallest_gap);
   Vector3 direction = middle(whole);
-  return apart(whole, std::max(gap / d.size, smallest_gap), direction);
+  return whole.beyond(across(d, direction), wanted) || apart(whole, wanted, direction);
 }
 
 std::optional<double> first_contact(const SweptPair& pair, const SweptOptions& options) {
