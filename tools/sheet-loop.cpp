@@ -4,13 +4,15 @@
 
 #include "libsheet/base/tool.h"
 #include "libsheet/loop/loop.h"
+#include "libsheet/loop/stop_condition.h"
 #include "libsheet/scene/keys.h"
 
 int main(int argc, char** argv) {
   sheet::Tool tool(
       "sheet-loop", "run stages in a ring, step after step",
       "Starts the given shell pipeline once, sends the last frame of the input through it, and sends what comes "
-      "back through it again, until the time or the number of steps is reached. Each frame is complete, so "
+      "back through it again, until the time, the number of steps or a condition is reached. Each frame is complete, "
+      "so "
       "every kept frame is a checkpoint.\n"
       "The next output time is stamped into the frame, and sheet-step never steps past it. If a stage dies, the "
       "message names it, and what was kept is whole.");
@@ -21,6 +23,11 @@ int main(int argc, char** argv) {
   tool.option("--fps", o.fps, "FPS", "output times are the multiples of 1/FPS; steps end exactly at them");
   tool.option("--steps", o.steps, "N", "end at step N (in a ring without sheet-step: after N rounds)",
               Provenance::omit);
+  tool.option("--stop-when", o.stop_when, "CONDITION",
+              "end as soon as it holds, such as 'y_max > 40 mm' or 'vertices > 20000': a number of the frame that "
+              "sheet-info --csv prints, or vertices or triangles, and a bound; looked at after each step. May be given "
+              "again and again: the first that holds ends the run",
+              sheet::StopCondition::names());
   tool.option("--keep", o.keep, "output|last|N",
               "frames to keep: those at output times (the default with --fps), the last only, or every N-th step "
               "(the default without --fps is 1). The first frame, except with last, and the final one are kept too");
@@ -60,6 +67,8 @@ int main(int argc, char** argv) {
                "and two more, in which thin places tear");
   tool.example("sheet-init a.toml | sheet-loop --steps 100 --keep 10 -- 'sheet-step --dt 0.001' > run.sheet",
                "a hundred steps, every tenth kept");
+  tool.example("sheet-init dome.toml | sheet-loop --until 10 --stop-when 'y_max > 40 mm' -- sheet-step > run.sheet",
+               "ten seconds, or until the dome is 40 mm high");
   int signal = 0;
   const int code = tool.run(argc, argv, [&] {
     o.provenance = !no_provenance;

@@ -30,6 +30,7 @@
 #include "libsheet/loop/recorded_ring.h"
 #include "libsheet/loop/same_run.h"
 #include "libsheet/loop/signals.h"
+#include "libsheet/loop/stop_condition.h"
 #include "libsheet/scene/change.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/ring.h"
@@ -110,6 +111,7 @@ public:
       }
       ++rounds;
       slow = Clock::now() - round_begin > std::chrono::milliseconds(100); // else it would cost too much to watch
+      find_stop();
       write_first();
       const bool wanted = is_wanted();
       health_.follow(back_, frame_, wanted);
@@ -134,6 +136,8 @@ public:
     save_state();
     finish(pipeline, sent, returned, rounds, elapsed);
     output_->end();
+    if (stop_)
+      log::note("stopped at step {}, t = {} s, as --stop-when says: {}", frame_.step, frame_.time, *stop_);
     tell_of_health();
     return 0;
   }
@@ -163,6 +167,9 @@ private:
         first_ = frame_;
       kept_ = first_.has_value();
     }
+    for (const std::string& condition : options_.stop_when)
+      conditions_.emplace_back(condition);
+    find_stop();
     warn_of_missing_stages();
     tell_stages_where_the_streams_are();
   }
@@ -271,8 +278,15 @@ private:
     claim_checkpoint();
   }
 
+  // The first of the conditions that holds in the newest frame.
+  void find_stop() {
+    for (StopCondition& condition : conditions_)
+      if (!stop_)
+        stop_ = condition.holds(frame_);
+  }
+
   [[nodiscard]] bool done() const {
-    return (options_.until && frame_.time >= *options_.until) ||
+    return stop_ || (options_.until && frame_.time >= *options_.until) ||
            (options_.steps && frame_.step >= static_cast<std::uint64_t>(*options_.steps));
   }
 
@@ -461,6 +475,8 @@ private:
   std::optional<Frame> first_; // not yet written
   Frame frame_, back_;         // the newest state; the one that comes back (after a round: the one before)
   HealthWatch health_;
+  std::vector<StopCondition> conditions_;
+  std::optional<std::string> stop_; // what ends the run
   bool told_of_silence_ = false;
   bool sent_ = false; // where a round was broken off: the stages have its whole frame
   bool kept_ = false; // the newest state is in the output
@@ -479,8 +495,10 @@ void check(const LoopOptions& options) {
     fail(ExitCode::usage, "--until: {} is not finite", *options.until);
   if (options.steps && *options.steps < 0)
     fail(ExitCode::usage, "--steps: {} is negative", *options.steps);
-  if (!options.until && !options.steps)
-    fail(ExitCode::usage, "when does it end? give --until SECONDS or --steps N");
+  for (const std::string& condition : options.stop_when)
+    static_cast<void>(StopCondition(condition));
+  if (!options.until && !options.steps && options.stop_when.empty())
+    fail(ExitCode::usage, "when does it end? give --until SECONDS, --steps N or --stop-when CONDITION");
   if (options.resume.empty() && options.pipeline.find_first_not_of(" \t\n") == std::string::npos)
     fail(ExitCode::usage, "no pipeline: give the stages behind --, as in -- 'sheet-remesh | sheet-step'");
   if (!options.resume.empty() && (options.input != "-" || options.output != "-"))

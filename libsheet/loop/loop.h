@@ -9,14 +9,15 @@
 namespace sheet {
 
 struct LoopOptions {
-  std::string pipeline;              // shell command: the stages, joined by pipes; "" with resume: the stream's own
-  std::string input = "-";           // stream whose last frame is the start
-  std::string output = "-";          // stream of the frames kept
-  std::string resume;                // stream to go on with, instead of input and output
-  std::vector<std::string> sets;     // changes of the scene from the first frame on, KEY=VALUE (scene/change.h)
-  std::optional<double> until;       // [s] end when the frame's time is there
-  std::optional<double> fps;         // output times are the multiples of 1/fps [1/s]
-  std::optional<std::int64_t> steps; // end when the frame's step is there
+  std::string pipeline;               // shell command: the stages, joined by pipes; "" with resume: the stream's own
+  std::string input = "-";            // stream whose last frame is the start
+  std::string output = "-";           // stream of the frames kept
+  std::string resume;                 // stream to go on with, instead of input and output
+  std::vector<std::string> sets;      // changes of the scene from the first frame on, KEY=VALUE (scene/change.h)
+  std::optional<double> until;        // [s] end when the frame's time is there
+  std::optional<double> fps;          // output times are the multiples of 1/fps [1/s]
+  std::optional<std::int64_t> steps;  // end when the frame's step is there
+  std::vector<std::string> stop_when; // end as soon as one of these holds (stop_condition.h)
   std::string keep;             // "output" | "last" | a number n, for every n-th step; "" is output with fps, else 1
   std::string checkpoint;       // file that always holds the newest frame as a stream of its own
   double checkpoint_every = 60; // [s] of the clock on the wall
