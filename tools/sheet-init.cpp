@@ -161,7 +161,8 @@ int main(int argc, char** argv) {
   tool.option("--fps", source.fps, "FPS", "frames a second of the same", sheet::Tool::Provenance::omit);
   tool.flag("--ring", ring,
             "print the ring of --check alone, for a program to read: lines \"first COMMAND\", \"until SECONDS\", "
-            "\"fps FPS\", \"stages PIPELINE\"",
+            "\"fps FPS\", \"stages PIPELINE\", and what is to be expected of it: \"frames N\", \"megabytes MB\", "
+            "\"steps N\", \"seconds S\"",
             sheet::Tool::Provenance::omit);
   tool.option("--check-rows", rows, "FILE",
               "check many variants of the scene instead: each line of FILE (- for standard input) has settings as "

@@ -117,4 +117,9 @@ std::string forecast_text(const Scene& scene, const Frame& first, const Proposed
                      roughly(run.seconds, 1));
 }
 
+std::string forecast_lines(const Forecast& run) {
+  return fmt::format("frames {:.0f}\nmegabytes {:.3g}\nsteps {:.0f}\nseconds {:.3g}\n", run.frames, run.bytes / 1e6,
+                     run.steps, run.seconds);
+}
+
 } // namespace sheet

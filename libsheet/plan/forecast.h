@@ -31,5 +31,7 @@ struct Forecast {
 // A paragraph of it, indented as ring_text.
 [[nodiscard]] std::string forecast_text(const Scene& scene, const formats::Frame& first, const ProposedRing& ring,
                                         double tolerance);
+// The same for a program: lines "frames N", "megabytes MB", "steps N", "seconds S".
+[[nodiscard]] std::string forecast_lines(const Forecast& run);
 
 } // namespace sheet

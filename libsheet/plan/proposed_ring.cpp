@@ -151,7 +151,8 @@ std::string ring_text(const Scene& scene, const Frame& first, const RingWishes& 
 
 std::string ring_lines(const Scene& scene, const Frame& first, const RingWishes& wishes, const std::string& init) {
   const ProposedRing ring = proposed_ring(scene, first, wishes);
-  return fmt::format("first {}\nuntil {:.10g}\nfps {:.10g}\nstages {}\n", init, ring.until, ring.fps, ring.stages);
+  return fmt::format("first {}\nuntil {:.10g}\nfps {:.10g}\nstages {}\n", init, ring.until, ring.fps, ring.stages) +
+         forecast_lines(forecast(scene, first, ring, tolerance_at(wishes.quality)));
 }
 
 } // namespace sheet

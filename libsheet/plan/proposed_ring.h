@@ -35,7 +35,7 @@ struct RingWishes {
 // The same as commands to paste, and what they compute with. `init` is the command that makes the first frame.
 [[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& first, const RingWishes& wishes,
                                     const std::string& init);
-// The same for a program: lines "first INIT", "until SECONDS", "fps FPS", "stages PIPELINE".
+// The same for a program: lines "first INIT", "until SECONDS", "fps FPS", "stages PIPELINE", and forecast_lines.
 [[nodiscard]] std::string ring_lines(const Scene& scene, const formats::Frame& first, const RingWishes& wishes,
                                      const std::string& init);
 

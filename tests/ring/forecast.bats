@@ -9,22 +9,25 @@ setup() {
   cd "$BATS_TEST_TMPDIR"
 }
 
-# usage: foretell SCENE OPTION...: sets frames, megabytes and steps, and leaves the ring in ring.txt.
+# usage: of_ring NAME: what foretell has left
+of_ring() { sed -n "s/^$1 //p" ring.txt; }
+
+# usage: foretell SCENE OPTION...: sets frames, megabytes and steps, and leaves the ring in ring.txt. --check says the same.
 foretell() {
+  sheet-init --ring "${@:2}" "$1" > ring.txt
+  frames=$(of_ring frames) megabytes=$(of_ring megabytes) steps=$(of_ring steps)
   local words
   words=$(sheet-init --check "${@:2}" "$1" | grep '^  To expect: ')
   [[ $words =~ ([0-9]+)\ frames,\ about\ ([0-9.]+)\ MB\;\ about\ ([0-9]+)\ steps,\ ([0-9.]+)\ s\ of\ computing ]]
-  frames=${BASH_REMATCH[1]} megabytes=${BASH_REMATCH[2]} steps=${BASH_REMATCH[3]}
-  sheet-init --ring "${@:2}" "$1" > ring.txt
+  awk -v f="$frames" -v m="$megabytes" -v n="$steps" -v s="$(of_ring seconds)" -v told="${BASH_REMATCH[*]:1}" '
+    function far(a, b, most) { return a > b * (1 + most) || b > a * (1 + most) }
+    BEGIN { split(told, t, " "); exit f != t[1] || far(m, t[2], 0.06) || far(n, t[3], 0.06) || far(s, t[4], 0.5) }'
 }
 
 # usage: run_ring: what foretell left, to run.sheet
 run_ring() {
-  local words
-  words=$(sed -n 's/^first //p' ring.txt)
-  eval "$words -q -o first.sheet"
-  sheet-loop -q -i first.sheet -o run.sheet --until "$(sed -n 's/^until //p' ring.txt)" \
-    --fps "$(sed -n 's/^fps //p' ring.txt)" -- "$(sed -n 's/^stages //p' ring.txt)"
+  eval "$(of_ring first) -q -o first.sheet"
+  sheet-loop -q -i first.sheet -o run.sheet --until "$(of_ring until)" --fps "$(of_ring fps)" -- "$(of_ring stages)"
 }
 
 # usage: alike WHAT FORETOLD SEEN

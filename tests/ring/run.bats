@@ -24,10 +24,18 @@ shape = "plane"
 END_OF_SCENE
 }
 
+# In the folder slow: a stage with which a ring takes a while.
+make_slow() {
+  mkdir slow
+  printf '#!/bin/sh\n/usr/bin/python3 "%s/spoiler_stage.py" 1000000 0.1 | %s "$@"\n' "$BATS_TEST_DIRNAME" \
+    "$(command -v sheet-remesh)" > slow/sheet-remesh
+  chmod +x slow/sheet-remesh
+}
+
 @test "a scene becomes a folder of all, by commands that are told and that can be pasted" {
   sheet-run 'my scene.toml' --quality draft --until 0.1 --fps 40 2> log
   cd 'my scene-draft'
-  for file in run.sheet run.csv picture.png film.mp4 health.txt check.txt; do [[ -s $file ]]; done
+  for file in run.sheet run.csv picture.png film.mp4 health.txt check.txt foretold.txt; do [[ -s $file ]]; done
   [[ $(sheet-print run.sheet | grep -c '^frame$') == 5 && $(wc -l < run.csv) == 6 ]]
   [[ $(ffprobe -v error -count_frames -show_entries stream=width,nb_read_frames -of csv=p=0 film.mp4) == 320,5 ]]
   grep -q 'film.mp4' ../log
@@ -55,10 +63,7 @@ END_OF_SCENE
 @test "interrupted, the same command goes on: byte for byte the straight run; called again it does nothing" {
   options=(--quality draft --until 0.2 --fps 40)
   sheet-run -q 'my scene.toml' "${options[@]}" -o straight
-  mkdir slow # a ring that takes a while
-  printf '#!/bin/sh\n/usr/bin/python3 "%s/spoiler_stage.py" 1000000 0.1 | %s "$@"\n' "$BATS_TEST_DIRNAME" \
-    "$(command -v sheet-remesh)" > slow/sheet-remesh
-  chmod +x slow/sheet-remesh
+  make_slow
   PATH=$PWD/slow:$PATH sheet-run 'my scene.toml' "${options[@]}" -o run 2> log &
   whole=$!
   for _ in {1..200}; do
@@ -79,6 +84,35 @@ END_OF_SCENE
   made=$(stat -c %y run/{film.mp4,picture.png})
   sheet-run -q 'my scene.toml' "${options[@]}" -o run
   [[ $(stat -c %y run/{film.mp4,picture.png}) == "$made" ]]
+}
+
+@test "--limit ends a run, shows what there is, and the same command goes on" {
+  options=(--quality draft --until 0.2 --fps 40 --film no)
+  sheet-run -q 'my scene.toml' "${options[@]}" -o straight
+  make_slow
+  begin=$SECONDS
+  PATH=$PWD/slow:$PATH run -0 --separate-stderr sheet-run 'my scene.toml' "${options[@]}" --limit 1 -o run
+  [[ $stderr == *'not at its end after 1 s; the same command again goes on'* ]]
+  [[ $(wc -l < run/run.csv) -lt $(wc -l < straight/run.csv) && -s run/picture.png && -s run/health.txt ]]
+  run -0 --separate-stderr sheet-run 'my scene.toml' "${options[@]}" --limit 100 -o run
+  [[ $stderr != *'not at its end'* && $((SECONDS - begin)) -lt 60 ]]
+  cmp run/run.sheet straight/run.sheet
+}
+
+@test "films and pictures have the size and the material that are asked for, or there is no film" {
+  options=(--quality draft --until 0.05 --fps 40)
+  wide() { ffprobe -v error -show_entries stream=width -of csv=p=0 "$1"; }
+  sheet-run -q 'my scene.toml' "${options[@]}" --film 64x36 -o run
+  [[ $(wide run/film.mp4) == 64 && $(wide run/picture.png) == 64 ]]
+  cp run/picture.png chocolate.png
+  sheet-run -q 'my scene.toml' "${options[@]}" --film 64x36 --material honey -o run
+  ! cmp -s run/picture.png chocolate.png
+  sheet-run -q 'my scene.toml' "${options[@]}" --film no -o run
+  [[ ! -e run/film.mp4 && $(wide run/picture.png) == 320 ]]
+  run -2 --separate-stderr sheet-run 'my scene.toml' --film 64
+  [[ $stderr == *'--film: 64 is neither no nor a size'* ]]
+  run -2 --separate-stderr sheet-run 'my scene.toml' --material milk
+  [[ $stderr == *'--material: milk is not one of chocolate, caramel, honey'* ]]
 }
 
 @test "a later --until makes the run longer, and the film" {
@@ -123,7 +157,7 @@ END_OF_SCENE
 
 @test "five everyday scenes as drafts" {
   for scene in honey-drop honey-spoon honey-roller batter-tray glass-pear; do
-    (cd "$BATS_TEST_DIRNAME/../everyday" && sheet-run -q "$scene.toml" --quality draft --until 0.1 -o "$BATS_TEST_TMPDIR/$scene")
+    (cd "$BATS_TEST_DIRNAME/../everyday" && sheet-run -q "$scene.toml" --quality draft --until 0.1 --film 64x36 -o "$BATS_TEST_TMPDIR/$scene")
     sheet-check -q "$BATS_TEST_TMPDIR/$scene/run.sheet"
     [[ -s $BATS_TEST_TMPDIR/$scene/film.mp4 && -s $BATS_TEST_TMPDIR/$scene/health.txt ]]
   done
