@@ -31,7 +31,7 @@ steps_of() { sheet-print "$1" | sed -n 's/^step //p' | tr '\n' ' '; }
 
 @test "what cannot be is refused with a remedy" {
   run -2 sheet-loop -i start.sheet -- cat
-  [[ $output == *'give --until SECONDS or --steps N'* ]]
+  [[ $output == *'give --until SECONDS, --steps N or --stop-when CONDITION'* ]]
   run -2 sheet-loop -i start.sheet --until 1 --fps 24 -o run.sheet -- cat
   [[ $output == *'did not advance the time'* ]]
   run -2 sheet-loop -i start.sheet --steps 3 --fps -1 -- cat
