@@ -12,7 +12,15 @@ namespace sheet::remesh {
 
 namespace {
 const double sliver_cosine = cosine_of_degrees(15);
+
+// Whether two triangles that share an edge lie on each other but for round-off. They do not intersect, and whatever
+// becomes of them does.
+bool folded_flat(const Corners& a, const TriangleShape& shape_a, const Corners& b, const TriangleShape& shape_b) {
+  constexpr double flat = -1 + 1e-9; // 5e-5 from 180 degrees
+  return shape_a.normal.dot(shape_b.normal) < flat &&
+         std::ranges::count_if(a, [&](std::uint32_t v) { return std::ranges::find(b, v) != b.end(); }) == 2;
 }
+} // namespace
 
 Box EditableSheet::box_of(const Corners& c) const {
   Box box{position_[c[0]], position_[c[0]]};
@@ -131,7 +139,8 @@ bool EditableSheet::intersects(const Edit& edit) {
       return true;
   for (std::size_t i = 0; i < edit.added.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
-      if (triangles_intersect(position_, edit.added[i], edit.added[k]))
+      if (triangles_intersect(position_, edit.added[i], edit.added[k]) ||
+          folded_flat(edit.added[i], new_shapes_[i], edit.added[k], new_shapes_[k]))
         return true;
   Box patch = box_of(edit.added[0]);
   for (const Corners& c : edit.added)
@@ -141,11 +150,11 @@ bool EditableSheet::intersects(const Edit& edit) {
     if (found || std::find(edit.removed.begin(), edit.removed.end(), t) != edit.removed.end() ||
         degenerate(mesh_.corners(t), shape_[t]))
       return;
-    for (const Corners& c : edit.added)
-      if (box_of(c).overlaps(grid_->box_of(t)) && triangles_intersect(position_, c, mesh_.corners(t))) {
-        found = true;
-        return;
-      }
+    for (std::size_t i = 0; i < edit.added.size() && !found; ++i) {
+      const Corners& c = edit.added[i];
+      found = box_of(c).overlaps(grid_->box_of(t)) && (triangles_intersect(position_, c, mesh_.corners(t)) ||
+                                                       folded_flat(c, new_shapes_[i], mesh_.corners(t), shape_[t]));
+    }
   });
   return found;
 }

@@ -7,6 +7,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/measure/intersections.h"
+#include "libsheet/remesh/operations.h"
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/remesh/triangle_shape.h"
 #include "libsheet/shape/shapes.h"
@@ -53,6 +54,20 @@ std::uint64_t holes(const formats::Frame& frame) {
       seen.insert(w);
   }
   return loops;
+}
+
+// A corner whose edge was split, all around a vertex of degree four: turning the edge opposite to the new vertex puts a
+// triangle onto the two halves, from which they differ by round-off alone. Two vertices at one place were next.
+TEST(CornerCase, NoFlipFoldsATriangleOntoItsNeighbours) {
+  const Vector3 a(-1, 0.1, 0.3), b(1.1, 0, 0.2), middle = 0.5 * (a + b), tip(0, 1, 0), above(0, 0.5, 1);
+  EditableSheet sheet(frame_of({a, b, middle, tip, above}, {{0, 2, 3}, {2, 1, 3}, {1, 4, 3}, {4, 0, 3}}));
+  Edit edit;
+  ASSERT_TRUE(propose_flip(sheet, sheet.mesh().find_side(3, 4), edit));
+  const Limits limits = {.thickness = 100, .sharpest = 1, .facing = -1};
+  EXPECT_FALSE(sheet.make(edit, limits));
+  Limits lax = limits;
+  lax.intersections = false;
+  EXPECT_TRUE(sheet.make(edit, lax)); // nothing else stands against it
 }
 
 TEST(CornerCase, EmptyMesh) {
