@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <tbb/parallel_for.h>
@@ -12,32 +13,45 @@
 namespace sheet::render {
 namespace {
 
+constexpr float unending = std::numeric_limits<float>::infinity();
 constexpr float widest_gap = 1.25F;   // between layers that touch, in thicknesses
 constexpr float longest_gap = 4;      // along a ray, in widest gaps
 constexpr float start_inside = 0.25F; // in thicknesses: from there a point of the surface looks out for other layers
 constexpr float reach = 1.5F;         // in thicknesses: so far it looks
-constexpr double melting = 2.5;       // in mean thicknesses: so far normals are smoothed
+constexpr double melting = 2.5;      // in mean thicknesses: so far normals are smoothed
 constexpr int most_faces = 256;       // that a depth is looked for behind
 constexpr float most_layers = 32;     // that a body is told to be deep
 
-// The triangle of another part of the sheet that is near a point of the surface, out of the sheet.
-std::optional<std::uint32_t> neighbour(const World& world, std::uint32_t point, float mean) {
+// What a ray out of the sheet, from close below a point of its surface, hits first of other parts of the sheet.
+Hit beyond_own(const World& world, std::uint32_t point, float start, float length) {
   const Surface& s = world.surface();
   const std::uint32_t own = s.source_vertex[point];
-  const float h = s.thickness[own] / static_cast<float>(world.unit()),
-              length = start_inside * h + reach * std::max(h, mean / static_cast<float>(world.unit()));
-  const Ray ray{world.to_world(s.positions[point]) - start_inside * h * s.normals[point], s.normals[point]};
+  const Ray ray{world.to_world(s.positions[point]) - start * s.normals[point], s.normals[point]};
   float beyond = 0;
   for (int faces = 0; faces < 16; ++faces) {
     const Hit hit = world.nearest_sheet(ray, beyond, length);
     if (!hit.anything())
-      return std::nullopt;
+      break;
     const Corners& t = s.triangles[hit.triangle];
     if (std::none_of(t.begin(), t.end(), [&](std::uint32_t p) { return s.source_vertex[p] == own; }))
-      return hit.triangle;
-    beyond = std::nextafter(hit.distance, 2 * length);
+      return hit;
+    beyond = std::nextafter(hit.distance, unending);
   }
-  return std::nullopt;
+  return {};
+}
+
+// The triangle of another part of the sheet that is near a point of the surface.
+std::optional<std::uint32_t> neighbour(const World& world, std::uint32_t point, float mean) {
+  const Surface& s = world.surface();
+  const auto unit = static_cast<float>(world.unit());
+  const float h = s.thickness[s.source_vertex[point]], start = start_inside * h / unit;
+  const Hit hit = beyond_own(world, point, start, start + reach * std::max(h, mean) / unit);
+  return hit.anything() ? std::optional(hit.triangle) : std::nullopt;
+}
+
+// Whether a point that has no neighbour is in the liquid all the same, deep in another layer.
+bool is_sunk(const World& world, std::uint32_t point) {
+  return beyond_own(world, point, 0, unending).face.dot(world.surface().normals[point]) > 0;
 }
 
 // Triangles that have a marked vertex.
@@ -90,7 +104,7 @@ Body::Body(const World& world) {
   std::vector<char> chosen(near.size()), bare(near.size());
   for (std::size_t p = 0; p < near.size(); ++p) {
     chosen[p] = marked[s.source_vertex[p]];
-    bare[p] = static_cast<char>(!near[p]);
+    bare[p] = static_cast<char>(!near[p] && !(chosen[p] != 0 && is_sunk(world, static_cast<std::uint32_t>(p))));
   }
   normals_ = melted_normals(s, chosen, bare, melting * static_cast<double>(mean_));
 }

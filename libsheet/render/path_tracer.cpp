@@ -176,11 +176,11 @@ void PathTracer::follow(Path path, const Hit& first, Sampler& sampler, std::uint
   }
 }
 
-// Where layers have melted together the smooth normal may lean far from the surface: that does not make it a mirror.
+// Where layers have melted together the normal may lean far from the surface: that does not make it a mirror.
 PathTracer::Meeting PathTracer::meet(const Hit& hit, const Vec& direction) const {
   Meeting meeting(hit, body_.normal_at(*world_, hit), direction);
   if (body_.touches(hit))
-    meeting.cosine = std::max(meeting.cosine, std::abs(direction.dot(hit.face)));
+    meeting.cosine = std::max(meeting.cosine, Meeting(hit, hit.normal, direction).cosine);
   return meeting;
 }
 
