@@ -18,7 +18,7 @@ constexpr float widest_gap = 1.25F;   // between layers that touch, in thickness
 constexpr float longest_gap = 4;      // along a ray, in widest gaps
 constexpr float start_inside = 0.25F; // in thicknesses: from there a point of the surface looks out for other layers
 constexpr float reach = 1.5F;         // in thicknesses: so far it looks
-constexpr double melting = 2.5;      // in mean thicknesses: so far normals are smoothed
+constexpr double melting = 2.5;       // in mean thicknesses: so far normals are smoothed
 constexpr int most_faces = 256;       // that a depth is looked for behind
 constexpr float most_layers = 32;     // that a body is told to be deep
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layers of a sheet that touch, as one body of liquid: which faces lie inside it, and how deep it is.
 //
-// Two layers touch where they overlap, or where no more is between them than the thickness there, or that of the sheet
-// on average where it is greater. On the way of a ray, a face of theirs is inside the body if the ray comes from inside
-// the layer in front of it, or from a gap no wider than that. What fills the gap counts as liquid.
+// Two layers touch where they overlap, or where the gap is narrow between them: 1.25 thicknesses there, or those of the
+// sheet on average if that is more. On the way of a ray, a face of theirs is inside the body if the ray comes from
+// inside the layer in front of it, or from a gap no wider than that. A gap counts as liquid: it cannot be told from a
+// layer whose faces rays skip, as they coincide with others.
 #pragma once
 #include <vector>
 
