@@ -44,9 +44,9 @@ Lighting from_below() {
 }
 
 // The means of what comes along rays, so many degrees above level, that meet the layers far from their rims.
-std::vector<Colour> seen(const formats::Frame& frame, const Liquid& liquid, Drawn drawn, double degrees, int samples) {
+std::vector<Colour> seen(const formats::Frame& frame, const Liquid& liquid, Drawn drawn, double degrees, int samples,
+                         const Lighting& light = from_below()) {
   const World world(make_surface(frame, 1e-6), {}, {}, {}, test::box_of(frame));
-  const Lighting light = from_below();
   const PathTracer tracer(world, light, liquid, {}, drawn == Drawn::as_body ? Body(world) : Body());
   const double angle = degrees * std::numbers::pi / 180;
   const Vector3 direction(std::cos(angle), -std::sin(angle), 0);
@@ -99,6 +99,16 @@ TEST(Body, WhatDoesNotTouchIsDrawnAsBefore) {
   EXPECT_TRUE(same(stack(2, 4)));
   EXPECT_TRUE(same(test::trough(24, 0.03)));
   EXPECT_FALSE(same(stack(2, 1.05)));
+}
+
+TEST(Body, NoLightIsLost) {
+  for (const std::size_t which : {2, 3}) { // honey, batter
+    Liquid liquid = preset(which);
+    liquid.absorption.setZero();
+    for (const double degrees : {90.0, 20.0})
+      for (const Colour& c : seen(stack(10, 1.02), liquid, Drawn::as_body, degrees, 1024, Lighting::uniform(1)))
+        EXPECT_NEAR(c.mean(), 1, 0.01) << liquid_names()[which] << ", " << degrees << " degrees";
+  }
 }
 
 TEST(Body, WhatIsBehindLayersThatTouchIsOneSurfaceTheCameraLooksThrough) {
