@@ -9,6 +9,7 @@ namespace sheet::render {
 namespace {
 
 constexpr int longest_path = 256; // meetings; Russian roulette ends nearly all paths long before
+constexpr int most_passed = 4096; // faces within the liquid, so that no ray hangs where they coincide
 constexpr int sure_meetings = 4;  // before Russian roulette starts, and
 constexpr float faint = 0.1F;     // the weight to which it brings those that are fainter
 constexpr int longest_look = 16;  // layers that features are looked for behind
@@ -61,6 +62,7 @@ struct PathTracer::Path {
   Ray ray;
   Colour weight = Colour::Ones();
   Within within{};                // a sheet whose slab has been met already
+  int passed = 0;                 // faces within it
   std::size_t layer = 0;          // of Light::chance
   int splits = 2;                 // so many mirror images in turn are followed for themselves
   bool straight = true;           // nothing but straight transmission since the camera
@@ -145,8 +147,9 @@ Colour PathTracer::from_afar(const Path& path) const {
 
 // Goes on past a face within the liquid that the path has met already.
 bool PathTracer::passes(const Hit& hit, Path& path) const {
-  if (!body_.passes(*world_, hit, path.ray.direction, path.within))
+  if (path.passed >= most_passed || !body_.passes(*world_, hit, path.ray.direction, path.within))
     return false;
+  ++path.passed;
   path.ray = leave(hit, path.ray.direction);
   return true;
 }
