@@ -9,6 +9,7 @@ namespace sheet::render {
 namespace {
 
 constexpr int longest_path = 256; // meetings; Russian roulette ends nearly all paths long before
+constexpr int most_passed = 4096; // faces within the liquid, so that no ray hangs where they coincide
 constexpr int sure_meetings = 4;  // before Russian roulette starts, and
 constexpr float faint = 0.1F;     // the weight to which it brings those that are fainter
 constexpr int longest_look = 16;  // layers that features are looked for behind
@@ -60,7 +61,8 @@ std::size_t choose(const std::array<float, 4>& chance, float choice) {
 struct PathTracer::Path {
   Ray ray;
   Colour weight = Colour::Ones();
-  bool inside = false;            // in a sheet whose slab has been met already
+  Within within{};                // a sheet whose slab has been met already
+  int passed = 0;                 // faces within it
   std::size_t layer = 0;          // of Light::chance
   int splits = 2;                 // so many mirror images in turn are followed for themselves
   bool straight = true;           // nothing but straight transmission since the camera
@@ -74,9 +76,9 @@ struct PathTracer::Meeting {
   bool enters; // from outside
   Vec normal;
   float cosine;
-  Meeting(const Hit& hit, const Vec& direction) : enters(direction.dot(hit.face) < 0) {
+  Meeting(const Hit& hit, const Vec& smooth_normal, const Vec& direction) : enters(direction.dot(hit.face) < 0) {
     const float side = enters ? 1.0F : -1.0F;
-    normal = side * hit.normal;
+    normal = side * smooth_normal;
     cosine = -direction.dot(normal);
     if (cosine < 1e-3F) { // seen from behind: interpolated too far
       normal = side * hit.face;
@@ -86,6 +88,13 @@ struct PathTracer::Meeting {
   // Whether the sheet's slab has been met for a ray that goes on in `direction`.
   [[nodiscard]] bool inside_after(const Hit& hit, const Vec& direction) const {
     return enters && direction.dot(hit.face) < 0;
+  }
+  // The direction that a ray is refracted to [Snell], straight on where the smooth normal would lead it elsewhere, and
+  // the cosine of its angle with the normal.
+  [[nodiscard]] std::pair<Vec, float> refracted(const Hit& hit, const Vec& direction, float index) const {
+    const float inside = std::sqrt(1 - (1 - cosine * cosine) / (index * index));
+    const Vec way = (direction / index + (cosine / index - inside) * normal).normalized();
+    return way.dot(hit.face) * direction.dot(hit.face) > 0 ? std::pair(way, inside) : std::pair(direction, cosine);
   }
 };
 
@@ -99,9 +108,11 @@ struct PathTracer::Crossing {
   std::array<Colour, 4> part; // of the light, by way
 };
 
-PathTracer::PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings)
-    : world_(&world), lighting_(&lighting), slab_(liquid),
-      diffuse_(slab_, range_of(world.surface().thickness).first, range_of(world.surface().thickness).second),
+PathTracer::PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings,
+                       Body body)
+    : world_(&world), lighting_(&lighting), body_(std::move(body)), slab_(liquid),
+      diffuse_(slab_, range_of(world.surface().thickness).first,
+               body_.deepest(range_of(world.surface().thickness).second)),
       surroundings_(std::move(surroundings)) {}
 
 Light PathTracer::radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const {
@@ -134,9 +145,13 @@ Colour PathTracer::from_afar(const Path& path) const {
   return path.weight * share * far.radiance;
 }
 
-// Whether the path only leaves a slab that it has met already.
-bool PathTracer::leaves(const Hit& hit, const Path& path) const {
-  return hit.id == sheet_id && path.inside && world_->surface().closed && path.ray.direction.dot(hit.face) > 0;
+// Goes on past a face within the liquid that the path has met already.
+bool PathTracer::passes(const Hit& hit, Path& path) const {
+  if (path.passed >= most_passed || !body_.passes(*world_, hit, path.ray.direction, path.within))
+    return false;
+  ++path.passed;
+  path.ray = leave(hit, path.ray.direction);
+  return true;
 }
 
 void PathTracer::follow(Path path, const Hit& first, Sampler& sampler, std::uint64_t& rays, Light& light) const {
@@ -146,11 +161,8 @@ void PathTracer::follow(Path path, const Hit& first, Sampler& sampler, std::uint
       light.of(path.certain, path.layer) += from_afar(path);
       return;
     }
-    if (leaves(hit, path)) {
-      path.inside = false;
-      path.ray = leave(hit, path.ray.direction);
+    if (passes(hit, path))
       continue;
-    }
     if (hit.id == sheet_id)
       meet_sheet(hit, path, sampler, rays, light);
     else
@@ -167,28 +179,53 @@ void PathTracer::follow(Path path, const Hit& first, Sampler& sampler, std::uint
   }
 }
 
-PathTracer::Crossing PathTracer::cross(const Hit& hit, const Vec& direction) const {
-  const Meeting meeting(hit, direction);
-  const float h = world_->thickness_at(hit);
+// Where layers have melted together the normal may lean far from the surface: that does not make it a mirror.
+PathTracer::Meeting PathTracer::meet(const Hit& hit, const Vec& direction) const {
+  Meeting meeting(hit, body_.normal_at(*world_, hit), direction);
+  if (body_.touches(hit))
+    meeting.cosine = std::max(meeting.cosine, Meeting(hit, hit.normal, direction).cosine);
+  return meeting;
+}
+
+// Of the slab that a ray meets [m].
+float PathTracer::depth(const Hit& hit, const Meeting& meeting, const Vec& direction, std::uint64_t& rays) const {
+  if (!body_.touches(hit))
+    return world_->thickness_at(hit);
+  const auto [way, cosine] = meeting.refracted(hit, direction, slab_.liquid().index);
+  return body_.depth(*world_, hit, way, cosine, rays);
+}
+
+// The direction of the mirror image. Where layers have melted together their surface is less smooth than its normal,
+// which would send some of it into the liquid: that goes up beside the face.
+Vec PathTracer::mirrored(const Hit& hit, const Meeting& meeting, const Vec& direction) const {
+  const Vec image = direction - 2 * direction.dot(meeting.normal) * meeting.normal;
+  const float rise = image.dot(hit.face);
+  return body_.touches(hit) && rise * direction.dot(hit.face) > 0 ? Vec((image - 2 * rise * hit.face).normalized())
+                                                                  : image;
+}
+
+PathTracer::Crossing PathTracer::cross(const Hit& hit, const Vec& direction, std::uint64_t& rays) const {
+  const Meeting meeting = meet(hit, direction);
+  const float h = depth(hit, meeting, direction, rays);
   const Straight straight = slab_.straight(meeting.cosine, h);
   const Diffuse diffuse = diffuse_.at(h);
   return {meeting,
           h,
           diffuse.mean_coupled.max(1e-20F),
-          direction - 2 * direction.dot(meeting.normal) * meeting.normal,
+          mirrored(hit, meeting, direction),
           straight.coupled,
           {straight.reflected, straight.transmitted, straight.coupled * diffuse.reflected,
            straight.coupled * diffuse.transmitted}};
 }
 
 // Sends a path on from a meeting with a sheet.
-void PathTracer::go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path) {
+void PathTracer::go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path) const {
   path.ray = leave(hit, direction);
-  path.inside = meeting.inside_after(hit, direction);
+  path.within = body_.after(*world_, hit, direction, meeting.inside_after(hit, direction));
 }
 
 // Takes the mirror image out of a path, to be followed for itself.
-PathTracer::Path PathTracer::split(const Hit& hit, Crossing& crossing, Path& path) {
+PathTracer::Path PathTracer::split(const Hit& hit, Crossing& crossing, Path& path) const {
   Path image = path;
   --image.splits;
   image.layer = 1;
@@ -203,7 +240,7 @@ PathTracer::Path PathTracer::split(const Hit& hit, Crossing& crossing, Path& pat
 
 void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const {
   const Vec direction = path.ray.direction;
-  Crossing crossing = cross(hit, direction);
+  Crossing crossing = cross(hit, direction, rays);
   const Meeting& meeting = crossing.meeting;
   if (path.splits > 0) {
     const Path image = split(hit, crossing, path);
@@ -252,7 +289,8 @@ Colour PathTracer::lamp_at_sheet(const Hit& hit, const Colour& weight, const Cro
   if (!(share.maxCoeff() > 0))
     return Colour::Zero();
   return share * lamp.light.radiance *
-         visible(hit, lamp.direction, crossing.meeting.inside_after(hit, lamp.direction), rays);
+         visible(hit, lamp.direction,
+                 body_.after(*world_, hit, lamp.direction, crossing.meeting.inside_after(hit, lamp.direction)), rays);
 }
 
 // Planes that the camera sees straight blend into the backdrop in the distance.
@@ -286,7 +324,7 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   const float cosine = lamp.direction.dot(normal);
   if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0)
     light.chance[path.layer] += path.weight * (cosine / float_pi / (lamp.light.density + cosine / float_pi)) *
-                                lamp.light.radiance * visible(hit, lamp.direction, false, rays);
+                                lamp.light.radiance * visible(hit, lamp.direction, {}, rays);
 
   Vec d = cosine_direction(normal, sampler.point());
   path.density = std::max(d.dot(normal), 1e-6F) / float_pi;
@@ -297,7 +335,7 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   path.certain = false;
   path.splits = 0;
   path.indirect = true;
-  path.inside = false;
+  path.within = {};
   path.ray = leave(hit, d);
 }
 
@@ -323,12 +361,11 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
       return;
     }
     length += hit.distance;
-    if (leaves(hit, path)) {
-      path.inside = false;
-      path.ray = leave(hit, path.ray.direction);
+    if (passes(hit, path)) {
+      meetings -= body_.touches(hit) ? 1 : 0;
       continue;
     }
-    const Meeting meeting(hit, path.ray.direction);
+    const Meeting meeting = meet(hit, path.ray.direction);
     const Colour faded = hit.id == sheet_id ? Colour(Colour::Zero()) : fade(hit, path);
     if (path.certain)
       sight.certain += faded;
@@ -339,7 +376,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     layer.weight = path.weight;
     if (hit.id != sheet_id)
       return;
-    Crossing crossing = cross(hit, path.ray.direction);
+    Crossing crossing = cross(hit, path.ray.direction, rays);
     if (path.splits > 0) {
       Sight beyond;
       look(split(hit, crossing, path), beyond, rays);
@@ -359,7 +396,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
 }
 
 // What a ray that leaves `hit` brings of the light from infinity: all layers of sheet passed straight.
-Colour PathTracer::visible(const Hit& hit, const Vec& direction, bool inside, std::uint64_t& rays) const {
+Colour PathTracer::visible(const Hit& hit, const Vec& direction, Within within, std::uint64_t& rays) const {
   Colour left = Colour::Ones();
   Ray ray = leave(hit, direction);
   for (int layers = 0; layers < longest_path; ++layers) {
@@ -369,14 +406,12 @@ Colour PathTracer::visible(const Hit& hit, const Vec& direction, bool inside, st
       return left;
     if (next.id != sheet_id)
       return Colour::Zero();
-    const Meeting meeting(next, direction);
-    if (inside && !meeting.enters && world_->surface().closed) {
-      inside = false;
-    } else {
-      left *= slab_.straight(meeting.cosine, world_->thickness_at(next)).transmitted;
+    if (!body_.passes(*world_, next, direction, within)) {
+      const Meeting meeting = meet(next, direction);
+      left *= slab_.straight(meeting.cosine, depth(next, meeting, direction, rays)).transmitted;
       if (left.maxCoeff() < darkness)
         return Colour::Zero();
-      inside = meeting.enters;
+      within = body_.after(*world_, next, direction, meeting.enters);
     }
     ray = leave(next, direction);
   }

@@ -6,7 +6,8 @@
 // A sheet is a slab (slab.h) met where a ray enters its closed surface; the way out on the other side is free, since
 // the slab's formulas hold both faces. Where a ray comes from within (a solid that touches the mid-surface, two layers
 // that overlap), the way out is the meeting. So light that goes through a layer is always dimmed once. Straight light
-// passes without a shift: a slab bends it back. Shadows of clear layers are coloured.
+// passes without a shift: a slab bends it back. Shadows of clear layers are coloured. Layers that touch are one slab,
+// as thick as they are deep together (body.h).
 //
 // One bias, against specks: where a turbid or matte surface sees a mirror image of the lights (caustics), it sees them
 // blurred.
@@ -14,6 +15,7 @@
 #include <array>
 #include <vector>
 
+#include "libsheet/render/body.h"
 #include "libsheet/render/lighting.h"
 #include "libsheet/render/slab.h"
 #include "libsheet/render/world.h"
@@ -56,7 +58,8 @@ struct Sight {
 class PathTracer {
 public:
   // World and lighting must outlive it.
-  PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings);
+  PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings,
+             Body body = {});
   // The radiance that arrives along the ray. Adds the rays that it took to `rays`.
   [[nodiscard]] Light radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const;
   // The same, if it is known what the ray hits.
@@ -72,19 +75,23 @@ private:
   void meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const;
   void meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const;
   Hit nearest(const Path& path, std::uint64_t& rays) const;
-  [[nodiscard]] Crossing cross(const Hit& hit, const Vec& direction) const;
-  static void go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path);
-  static Path split(const Hit& hit, Crossing& crossing, Path& path);
+  [[nodiscard]] Vec mirrored(const Hit& hit, const Meeting& meeting, const Vec& direction) const;
+  [[nodiscard]] Crossing cross(const Hit& hit, const Vec& direction, std::uint64_t& rays) const;
+  [[nodiscard]] Meeting meet(const Hit& hit, const Vec& direction) const;
+  float depth(const Hit& hit, const Meeting& meeting, const Vec& direction, std::uint64_t& rays) const;
+  void go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path) const;
+  Path split(const Hit& hit, Crossing& crossing, Path& path) const;
   Colour lamp_at_sheet(const Hit& hit, const Colour& weight, const Crossing& crossing,
                        const std::array<float, 4>& chance, Sampler& sampler, std::uint64_t& rays) const;
-  Colour visible(const Hit& hit, const Vec& direction, bool inside, std::uint64_t& rays) const;
-  [[nodiscard]] bool leaves(const Hit& hit, const Path& path) const;
+  Colour visible(const Hit& hit, const Vec& direction, Within within, std::uint64_t& rays) const;
+  [[nodiscard]] bool passes(const Hit& hit, Path& path) const;
   [[nodiscard]] Colour from_afar(const Path& path) const;
   [[nodiscard]] Colour fade(const Hit& hit, Path& path) const;
   [[nodiscard]] const Colour& albedo(const Hit& hit) const;
 
   const World* world_;
   const Lighting* lighting_;
+  Body body_;
   Slab slab_;
   DiffuseTable diffuse_;
   Surroundings surroundings_;

@@ -246,7 +246,8 @@ struct RenderStage::Impl {
                                                                                                : solid_colour(i));
     if (bath_in_view() != nullptr)
       around.ground = bath_colour;
-    const PathTracer tracer(world, fixed->lighting, liquid_of(options), std::move(around));
+    const PathTracer tracer(world, fixed->lighting, liquid_of(options), std::move(around),
+                            options.layers ? Body() : Body(world));
     if (options.denoise)
       return draw_denoised(world, fixed->camera, tracer, options.draw, progress);
     return render::draw(

@@ -19,6 +19,7 @@ struct RenderOptions {
   bool y4m = false, ppm = false; // a video to standard output
   DrawOptions draw;              // exposure is not used; see below
   bool denoise = false;          // draw_denoised; of materials only
+  bool layers = false;           // that touch are drawn each by itself
   CameraOptions camera;
   Look look;
   std::size_t liquid = 0; // number of the preset

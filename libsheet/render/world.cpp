@@ -76,6 +76,28 @@ struct World::Impl {
     geometries.push_back({id, std::move(placed), std::move(normals), triangles});
   }
 
+  [[nodiscard]] Hit hit_of(const RTCRayHit& r) const {
+    Hit hit;
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+      return hit;
+    const Geometry& g = geometries[r.hit.geomID];
+    const Corners& t = g.triangles[r.hit.primID];
+    hit.id = g.id;
+    hit.distance = r.ray.tfar;
+    hit.face = Vec(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z).stableNormalized();
+    hit.u = r.hit.u;
+    hit.v = r.hit.v;
+    hit.triangle = r.hit.primID;
+    const auto between = [&](const std::vector<Vec>& values) -> Vec {
+      return (1 - hit.u - hit.v) * values[t[0]] + hit.u * values[t[1]] + hit.v * values[t[2]];
+    };
+    hit.position = between(g.positions); // rounded less than along the ray
+    const Vec n = between(g.normals);
+    const float length = n.norm();
+    hit.normal = length > 1e-3F ? Vec(n / length) : hit.face;
+    return hit;
+  }
+
   void planes_nearer(const Ray& ray, float beyond, Hit& hit) const {
     for (const PlaneF& plane : planes) {
       const float slope = ray.direction.dot(plane.normal);
@@ -131,7 +153,7 @@ World::~World() = default;
 
 namespace {
 
-RTCRayHit shoot(RTCScene scene, const Ray& ray, float beyond) {
+RTCRayHit shoot(RTCScene scene, const Ray& ray, float beyond, float within = infinity) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit r{};
@@ -142,7 +164,7 @@ RTCRayHit shoot(RTCScene scene, const Ray& ray, float beyond) {
   r.ray.dir_y = ray.direction.y();
   r.ray.dir_z = ray.direction.z();
   r.ray.tnear = beyond;
-  r.ray.tfar = infinity;
+  r.ray.tfar = within;
   r.ray.mask = ~0U;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene, &context, &r);
@@ -159,27 +181,14 @@ float World::bare_distance(const Ray& ray) const {
 Hit World::nearest(const Ray& ray) const { return nearest(ray, 0); }
 
 Hit World::nearest(const Ray& ray, float beyond) const {
-  const RTCRayHit r = shoot(impl_->scene, ray, beyond);
-  Hit hit;
-  if (r.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
-    const Impl::Geometry& g = impl_->geometries[r.hit.geomID];
-    const Corners& t = g.triangles[r.hit.primID];
-    hit.id = g.id;
-    hit.distance = r.ray.tfar;
-    hit.face = Vec(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z).stableNormalized();
-    hit.u = r.hit.u;
-    hit.v = r.hit.v;
-    hit.triangle = r.hit.primID;
-    const auto between = [&](const std::vector<Vec>& values) -> Vec {
-      return (1 - hit.u - hit.v) * values[t[0]] + hit.u * values[t[1]] + hit.v * values[t[2]];
-    };
-    hit.position = between(g.positions); // rounded less than along the ray
-    const Vec n = between(g.normals);
-    const float length = n.norm();
-    hit.normal = length > 1e-3F ? Vec(n / length) : hit.face;
-  }
+  Hit hit = impl_->hit_of(shoot(impl_->scene, ray, beyond));
   impl_->planes_nearer(ray, beyond, hit);
   return hit;
+}
+
+Hit World::nearest_sheet(const Ray& ray, float beyond, float within) const {
+  const Hit hit = impl_->hit_of(shoot(impl_->scene, ray, beyond, within));
+  return hit.id == sheet_id ? hit : Hit{};
 }
 
 float World::thickness_at(const Hit& hit) const {

@@ -42,6 +42,8 @@ public:
   [[nodiscard]] Hit nearest(const Ray& ray) const;
   // Only what is behind the distance `beyond`: to go on after a hit that is passed through.
   [[nodiscard]] Hit nearest(const Ray& ray, float beyond) const;
+  // Only the sheet, and only if it is the nearest between these distances.
+  [[nodiscard]] Hit nearest_sheet(const Ray& ray, float beyond, float within) const;
   // Embree's bare answer, for measurements: the distance or infinity.
   [[nodiscard]] float bare_distance(const Ray& ray) const;
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/melted_normals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include <tbb/parallel_for.h>
+
+namespace sheet::render {
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+// Points in cells of a grid, in the order of the cells.
+class Cells {
+public:
+  Cells(const Surface& surface, const std::vector<char>& bare, double size) : size_(size) {
+    for (std::uint32_t p = 0; p < bare.size(); ++p)
+      if (bare[p] != 0)
+        points_.emplace_back(cell_of(surface.positions[p]), p);
+    std::sort(points_.begin(), points_.end());
+  }
+
+  // Calls visit(point) for all points in the cells around x.
+  template <class Visit> void around(const Vector3& x, Visit&& visit) const {
+    const Cell c = cell_of(x);
+    for (std::int64_t i = c[0] - 1; i <= c[0] + 1; ++i)
+      for (std::int64_t j = c[1] - 1; j <= c[1] + 1; ++j) { // three cells in a row
+        const auto end = std::pair(Cell{i, j, c[2] + 2}, 0U);
+        for (auto p = std::lower_bound(points_.begin(), points_.end(), std::pair(Cell{i, j, c[2] - 1}, 0U));
+             p != points_.end() && *p < end; ++p)
+          visit(p->second);
+      }
+  }
+
+private:
+  [[nodiscard]] Cell cell_of(const Vector3& x) const {
+    const auto at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / size_)); };
+    return {at(x.x()), at(x.y()), at(x.z())};
+  }
+
+  double size_;
+  std::vector<std::pair<Cell, std::uint32_t>> points_;
+};
+
+// A third of the triangles around each point.
+std::vector<float> areas(const Surface& s) {
+  std::vector<float> result(s.positions.size());
+  for (const Corners& t : s.triangles) {
+    const Vector3& x = s.positions[t[0]];
+    const double area = 0.5 * (s.positions[t[1]] - x).cross(s.positions[t[2]] - x).norm();
+    for (const std::uint32_t p : t)
+      result[p] += static_cast<float>(area / 3);
+  }
+  return result;
+}
+
+} // namespace
+
+std::vector<Vec> melted_normals(const Surface& surface, const std::vector<char>& chosen, const std::vector<char>& bare,
+                                double radius) {
+  std::vector<Vec> result = surface.normals;
+  const Cells cells(surface, bare, radius);
+  const std::vector<float> area = areas(surface);
+  tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t p) {
+    if (chosen[p] == 0)
+      return;
+    const Vec& own = surface.normals[p];
+    Vec sum = area[p] * own;
+    cells.around(surface.positions[p], [&](std::uint32_t q) {
+      const double square = (surface.positions[q] - surface.positions[p]).squaredNorm() / (radius * radius);
+      const float alike = own.dot(surface.normals[q]);
+      if (square < 1 && alike > 0 && q != p)
+        sum += area[q] * alike * static_cast<float>((1 - square) * (1 - square)) * surface.normals[q];
+    });
+    if (sum.norm() > 0)
+      result[p] = sum.normalized();
+  });
+  return result;
+}
+
+} // namespace sheet::render
