@@ -153,7 +153,7 @@ self = true
 END
   run_scene steps 0.7 50 'sheet-emit |'
   echo "steps $(last steps step), $(last steps kinetic_energy) J"
-  (($(last steps step) <= 200))
+  (($(last steps step) <= 300))
   awk -v volume="$(last steps volume)" 'BEGIN { exit !(volume > 5e-6) }' # 1.35 ml at the start, 3.78 ml have entered
   awk -v e="$(last steps kinetic_energy)" 'BEGIN { exit !(e < 2e-5) }'   # of 6.4 g: below 80 mm/s
 }
