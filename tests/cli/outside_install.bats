@@ -39,7 +39,7 @@ END
   usr/bin/sheet-init --check scene.toml
   rm usr/lib/sheet/modules/sheet-level-sets.so
   run ! usr/bin/sheet-init --check scene.toml
-  [[ $output == *"distances of meshes cannot be loaded"*"$PWD/usr/lib/sheet/modules/sheet-level-sets.so"* ]]
+  [[ $output == *"level sets cannot be loaded"*"$PWD/usr/lib/sheet/modules/sheet-level-sets.so"* ]]
 }
 
 @test "27: a C++ program outside finds the readers and reads a stream with them" {
