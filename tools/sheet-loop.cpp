@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
                "and two more, in which thin places tear");
   tool.example("sheet-init a.toml | sheet-loop --steps 100 --keep 10 -- 'sheet-step --dt 0.001' > run.sheet",
                "a hundred steps, every tenth kept");
-  tool.example("sheet-init a.toml | sheet-loop --until 10 --fps 24 --stop-when 'y_max > 40 mm' -- sheet-step > run.sheet",
+  tool.example("sheet-init a.toml | sheet-loop --until 10 --stop-when 'y_max > 40 mm' -- sheet-step > run.sheet",
                "ten seconds, or until the sheet is 40 mm high");
   int signal = 0;
   const int code = tool.run(argc, argv, [&] {
