@@ -31,4 +31,5 @@ for command in script:
     changed = "--resume" in command and "--set" in command  # refused if there is nothing left to run
     command = re.sub(r"--until [0-9.]+", "--until 0.03" if changed else "--until 0.02", command)
     command = re.sub(r"--steps [0-9]+", "--steps 2", command)
+    command = re.sub(r"^sheet-run ", "sheet-run --film 64x36 ", command)
     print(command.replace("your-stage", "sheet-pass"))
