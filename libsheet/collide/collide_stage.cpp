@@ -185,6 +185,25 @@ struct CollideStage::Impl {
     return reach;
   }
 
+  // Where a step has led a vertex that is elsewhere for the sheet's contact with itself.
+  struct Displaced {
+    std::uint32_t vertex;
+    Vector3 end;
+  };
+
+  // sheet-emit puts the borders of inlets back to where they started from, so there they must not meet what has come
+  // round behind them; the triangles there cover those of the step's end.
+  static std::vector<Displaced> put_borders_back(const Frame& frame, StepPath& path) {
+    std::vector<Displaced> borders;
+    const auto inlets = sheet::masks(frame, "inlet");
+    for (std::uint32_t v = 0; v < inlets.size(); ++v)
+      if (at_a_border(inlets[v])) {
+        borders.push_back({v, path.end[v]});
+        path.end[v] = path.start[v];
+      }
+    return borders;
+  }
+
   void check_start(const StepPath& path) {
     if (std::equal(path.start.begin(), path.start.end(), last_end.begin(), last_end.end()))
       return;
@@ -249,6 +268,7 @@ struct CollideStage::Impl {
         search.emplace(*mesh.mesh());
       }
       const std::vector<double> reach = reach_of(path, at_start);
+      const std::vector<Displaced> borders = put_borders_back(frame, path);
       search->gather(path.start, path.end, reach);
       check_start(path);
       totals.check += watch.lap();
@@ -259,6 +279,8 @@ struct CollideStage::Impl {
       set_springs(frame, path, fixed, reach, taken);
       known.remember(path.triangles, path.start, path.end);
       last_end = path.end;
+      for (const Displaced& border : borders)
+        path.end[border.vertex] = border.end;
       totals.springs += watch.lap();
     } else {
       known.forget();

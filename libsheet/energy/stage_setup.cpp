@@ -16,6 +16,9 @@ namespace {
 
 // Principal stretches (squared) of an extrapolated metric, over the start's.
 constexpr double least_ratio = 0.25, greatest_ratio = 4;
+// Of a director with the mean of the normals [rad]: where a sheet is folded flat that mean turns over, and no director
+// follows it.
+constexpr double greatest_turn = 1;
 
 // The principal values of a change of the metric a.
 struct Principal {
@@ -129,6 +132,9 @@ void turn_with_normals(const Stage& stage, Unknowns& u) {
     along[e] = brought.dot(wanted);
   });
   angles_of(along, turns);
+  for (double& turn : turns)
+    if (std::abs(turn) > greatest_turn)
+      turn = 0;
 }
 
 std::vector<double> director_angles(const Stage& stage, const Unknowns& u) {

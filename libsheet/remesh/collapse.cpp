@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 
@@ -9,6 +11,9 @@
 namespace sheet::remesh {
 
 namespace {
+
+// Whether a vertex keeps enough triangles if it loses one: three inside, one at a rim.
+bool may_lose_one(const Mesh& mesh, std::uint32_t v) { return mesh.degree(v) >= (mesh.on_rim(v) ? 2U : 4U); }
 
 // Link condition: the ends have no common neighbours but the apices of the edge's triangles, and no apex would be left
 // with two triangles (inside) or none (at a rim).
@@ -23,8 +28,7 @@ bool keeps_manifold(const Mesh& mesh, std::uint32_t side) {
   });
   if (common != (twin == no_index ? 1U : 2U))
     return false;
-  const auto survives = [&](std::uint32_t apex) { return mesh.degree(apex) >= (mesh.on_rim(apex) ? 2U : 4U); };
-  return survives(mesh.apex(side)) && (twin == no_index || survives(mesh.apex(twin)));
+  return may_lose_one(mesh, mesh.apex(side)) && (twin == no_index || may_lose_one(mesh, mesh.apex(twin)));
 }
 
 // Regularised quadric of the planes of triangles: the point with the least Σ A (n·(x - c))² + r ΣA |x - middle|².
@@ -89,14 +93,17 @@ Vector3 rim_point(const EditableSheet& sheet, const Vector3& u, const Vector3& v
   return middle + chord.cross(a.cross(p) + p.cross(q) + q.cross(b)) / square;
 }
 
-void make_fans(const EditableSheet& sheet, std::uint32_t kept, std::uint32_t gone, Edit& edit) {
+// All triangles around both ends; those of an inlet's strip, which no edit may touch, only if the kept end moves.
+void make_fans(const EditableSheet& sheet, std::uint32_t kept, bool in_place, std::uint32_t gone, Edit& edit) {
   const Mesh& mesh = sheet.mesh();
   const auto take = [&](std::uint32_t side) {
     const std::uint32_t t = Mesh::triangle_of(side);
     if (std::find(edit.removed.begin(), edit.removed.end(), t) != edit.removed.end())
       return;
-    edit.removed.push_back(t);
     Corners corners = mesh.corners(t);
+    if (in_place && sheet.in_strip(t) && std::find(corners.begin(), corners.end(), gone) == corners.end())
+      return;
+    edit.removed.push_back(t);
     if (std::find(corners.begin(), corners.end(), kept) != corners.end() &&
         std::find(corners.begin(), corners.end(), gone) != corners.end())
       return;
@@ -204,7 +211,7 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
   edit.kind = Edit::Kind::collapse;
   edit.vertex = kept;
   edit.removed_vertex = gone;
-  make_fans(sheet, kept, gone, edit);
+  make_fans(sheet, kept, stays.in_place, gone, edit);
   if (edit.added.empty())
     return false;
   const Vector3 a = sheet.at(kept), b = sheet.at(gone), middle = 0.5 * (a + b);
@@ -219,6 +226,61 @@ bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay
     const double along = std::clamp((edit.position - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
     edit.parents = {{kept, 1 - along, 1}, {gone, along, 1}};
   }
+  return true;
+}
+
+namespace {
+// The three neighbours of an inner vertex of three triangles, in the order in which these turn.
+Corners rim_of_pocket(const Mesh& mesh, std::uint32_t v) {
+  std::array<std::uint32_t, 3> sides{};
+  std::size_t count = 0;
+  mesh.for_fan(v, [&](std::uint32_t side) { sides[count++] = side; });
+  Corners rim{mesh.to(sides[0]), mesh.apex(sides[0]), no_index};
+  for (const std::uint32_t side : sides)
+    if (std::ranges::find(rim, mesh.to(side)) == rim.end())
+      rim[2] = mesh.to(side);
+  return rim;
+}
+} // namespace
+
+bool propose_removal(const EditableSheet& sheet, std::uint32_t v, Edit& edit) {
+  const Mesh& mesh = sheet.mesh();
+  if (mesh.degree(v) != 3 || mesh.on_rim(v))
+    return false;
+  edit.clear();
+  edit.kind = Edit::Kind::collapse;
+  edit.removed_vertex = v;
+  const Corners rim = rim_of_pocket(mesh, v);
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t w : rim)
+    if (const double way = (sheet.at(w) - sheet.at(v)).norm(); (sheet.held_by_touch(v) || sheet.held_within(v, w)) && way < least) {
+      least = way;
+      edit.vertex = w;
+    }
+  if (edit.vertex == no_index)
+    return false;
+  mesh.for_fan(v, [&](std::uint32_t side) { edit.removed.push_back(Mesh::triangle_of(side)); });
+  edit.swept = -cone_volume(sheet, edit.removed, sheet.at(rim[0])) / 6;
+  edit.added = {rim};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t twin = mesh.twin(mesh.find_side(rim[i], rim[(i + 1) % 3]));
+    if (!may_lose_one(mesh, rim[i]) || (twin != no_index && mesh.apex(twin) == rim[(i + 2) % 3]))
+      return false;
+    if (twin == no_index)
+      continue;
+    edit.removed.push_back(Mesh::triangle_of(twin));
+    edit.added.push_back(mesh.corners(Mesh::triangle_of(twin)));
+  }
+  edit.position = sheet.at(edit.vertex);
+  edit.parents = {{edit.vertex, 1, 1}, {v, 0, 1}};
+  // The triangle covers a part of each of the pocket's, and its neighbours themselves.
+  const std::size_t old_count = edit.removed.size();
+  edit.overlap.assign(edit.added.size() * old_count, 0);
+  const double area = TriangleShape(sheet.at(rim[0]), sheet.at(rim[1]), sheet.at(rim[2])).area;
+  for (std::size_t j = 0; j < 3; ++j)
+    edit.overlap[j] = area / 3;
+  for (std::size_t i = 1; i < edit.added.size(); ++i)
+    edit.overlap[i * old_count + i + 2] = sheet.shape(edit.removed[i + 2]).area;
   return true;
 }
 

@@ -48,7 +48,7 @@ void EditableSheet::place(const Edit& edit) {
 bool EditableSheet::check_shapes(const Edit& edit, const Limits& limits) {
   double sharpest = limits.sharpest;
   for (const TriangleShape& old : old_shapes_)
-    sharpest = std::max(sharpest, old.sharpest - limits.gain);
+    sharpest = std::max(sharpest, limits.gain > 0 ? better_cosine(old.sharpest, limits.gain) : old.sharpest);
   new_shapes_.clear();
   new_areas_.clear();
   for (std::size_t i = 0; i < edit.added.size(); ++i) {

@@ -24,8 +24,8 @@ namespace sheet::remesh {
 // What an edit must keep to.
 struct Limits {
   double thickness = 1.1; // largest factor by which an edit may change thickness beyond the old range
-  // Cosine of the smallest angle that new triangles may have; where the old ones had a smaller angle, its cosine less
-  // gain.
+  // Cosine of the smallest angle that new triangles may have; where the old ones had a smaller angle, one that is better
+  // by that gain (better_cosine).
   double sharpest = 1;
   double gain = 0;
   double facing = 0;         // least cosine between a triangle's normal and its former one, or the mean of the old ones
@@ -49,11 +49,15 @@ public:
   [[nodiscard]] double carried(std::uint32_t v) const { return carried_[v]; }
   // What holds a vertex: any array with the rule common (hold, touch, ...). True if whatever holds u holds v, too.
   [[nodiscard]] bool held_within(std::uint32_t u, std::uint32_t v) const;
+  // Whether it is a solid that it touches, and nothing else.
+  [[nodiscard]] bool held_by_touch(std::uint32_t v) const { return grips_[grip(v)].by_touch; }
   [[nodiscard]] bool free(std::uint32_t v) const { return grip(v) == 0; } // of all that
   [[nodiscard]] bool held_alike(std::uint32_t u, std::uint32_t v) const { return grip(u) == grip(v); }
   // The coordinates in which a vertex is held.
   [[nodiscard]] Axes held_axes(std::uint32_t v) const { return grips_[grip(v)].axes; }
   [[nodiscard]] bool fixed(std::uint32_t v) const { return held_axes(v) == all_axes; }
+  // Of an inlet (inlet.h): all its corners are marked.
+  [[nodiscard]] bool in_strip(std::uint32_t t) const;
   // By how much edits at this vertex have made the enclosed volume grow, not yet paid back [m³].
   [[nodiscard]] double swept(std::uint32_t v) const { return swept_[v]; }
 
@@ -67,7 +71,6 @@ public:
   void put(formats::Frame& frame);
 
 private:
-  [[nodiscard]] bool in_strip(std::uint32_t t) const;
   [[nodiscard]] bool check_shapes(const Edit& edit, const Limits& limits);
   void flatten_old(const Edit& edit, const PlaneFrame& plane);
   void find_overlap(Edit& edit, const PlaneFrame& plane, bool given);
@@ -82,6 +85,7 @@ private:
   struct Grip {
     std::vector<std::byte> masks; // one after the other
     Axes axes = 0;
+    bool by_touch = false; // and by nothing else
   };
   [[nodiscard]] std::uint32_t grip(std::uint32_t v) const { return grip_.empty() ? 0 : grip_[v]; }
   [[nodiscard]] std::uint32_t grip_of(std::uint32_t v);

@@ -105,15 +105,22 @@ EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
 }
 
 std::uint32_t EditableSheet::grip_of(std::uint32_t v) {
+  const auto any = [](std::span<const std::byte> mask) {
+    return std::ranges::any_of(mask, [](std::byte b) { return b != std::byte{0}; });
+  };
   std::vector<std::byte> masks;
+  bool by_touch = true;
   for (Array& array : vertex_rows_)
-    if (array.transfer == Transfer::common)
-      masks.insert(masks.end(), row_at(array, v), row_at(array, v) + row_size(array));
-  if (std::all_of(masks.begin(), masks.end(), [](std::byte b) { return b == std::byte{0}; }))
+    if (array.transfer == Transfer::common) {
+      const std::span<const std::byte> mask{row_at(array, v), row_size(array)};
+      masks.insert(masks.end(), mask.begin(), mask.end());
+      by_touch = by_touch && (array.name == "touch" || !any(mask));
+    }
+  if (!any(masks))
     return 0;
   auto it = std::find_if(grips_.begin(), grips_.end(), [&](const Grip& grip) { return grip.masks == masks; });
   if (it == grips_.end())
-    it = grips_.insert(grips_.end(), {masks, axes_of(v)});
+    it = grips_.insert(grips_.end(), {masks, axes_of(v), by_touch});
   return static_cast<std::uint32_t>(it - grips_.begin());
 }
 

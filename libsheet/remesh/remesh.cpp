@@ -14,9 +14,12 @@ namespace sheet::remesh {
 
 namespace {
 
-const double cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22), cosine_35 = cosine_of_degrees(35);
+const double cosine_2 = cosine_of_degrees(2), cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22),
+             cosine_35 = cosine_of_degrees(35);
 
 constexpr double repair_thickness = 1.3; // see Limits::thickness
+constexpr double pocket_thickness = 4;   // likewise
+constexpr double steep_pocket = 2;       // its area over that of the triangle that closes it
 constexpr double flat_enough = 0.1;      // of an edge: a flip may move the surface so far at any fold
 constexpr double least_gain = 0.01;      // of the cosine of the smallest angle: about one degree
 constexpr double most_triangles = 1e8;
@@ -34,6 +37,7 @@ public:
     for (int pass = 0; pass < most_passes; ++pass) {
       const std::uint64_t before = report_.splits + report_.collapses;
       split_long();
+      close_pockets();
       collapse_short();
       flip_all();
       if (options_.smooth)
@@ -138,7 +142,7 @@ private:
     if (one.normal.dot(two.normal) < least_facing && diagonal_distance(a, b, c, d) > flat_enough * size_.along(a, b))
       return false;
     const TriangleShape left(sheet_.at(a), sheet_.at(d), sheet_.at(c)), right(sheet_.at(d), sheet_.at(b), sheet_.at(c));
-    if (std::max(left.sharpest, right.sharpest) > sharpest - least_gain)
+    if (std::max(left.sharpest, right.sharpest) > better_cosine(sharpest, least_gain))
       return false;
     if (!propose_flip(sheet_, side, edit_) || !sheet_.make(edit_, limits(1, 0, thickness)))
       return false;
@@ -155,10 +159,32 @@ private:
       const Corners& c = edit_.added[i];
       after = std::max(after, TriangleShape(edit_.position, sheet_.at(c[1]), sheet_.at(c[2])).sharpest);
     }
-    if (after > before - least_gain || !sheet_.make(edit_, limits(1, 0.5, thickness)))
+    if (after > better_cosine(before, least_gain) || !sheet_.make(edit_, limits(1, 0.5, thickness)))
       return false;
     ++report_.smoothed;
     return true;
+  }
+
+  // Whether the proposed triangle, which closes a pocket of three, is better than they are: they stand out steeply, or
+  // one of them is sharper than it.
+  [[nodiscard]] bool better_closed() const {
+    const Corners& c = edit_.added[0];
+    const TriangleShape closed(sheet_.at(c[0]), sheet_.at(c[1]), sheet_.at(c[2]));
+    double area = 0, sharpest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      area += sheet_.shape(edit_.removed[i]).area;
+      sharpest = std::max(sharpest, sheet_.shape(edit_.removed[i]).sharpest);
+    }
+    return area > steep_pocket * closed.area || (sharpest > cosine_22 && sharpest > closed.sharpest);
+  }
+
+  // Pockets are what crumpled sheets leave of folds smaller than their edges, and what becomes of threads. The liquid in
+  // them has no shape that triangles could tell: it may get much thicker, and the triangle may face anywhere.
+  void close_pockets() {
+    for (std::uint32_t v = 0; v < mesh_.vertex_slots() && within_budget(); ++v)
+      if (mesh_.has_vertex(v) && mesh_.side_at(v) != no_index && propose_removal(sheet_, v, edit_) &&
+          better_closed() && sheet_.make(edit_, limits(cosine_2, -1, pocket_thickness)))
+        ++report_.collapses;
   }
 
   bool absorb(std::uint32_t rim_side) {

@@ -37,6 +37,10 @@ struct TriangleShape {
   }
 };
 
+// The cosine of an angle that is better than one of this cosine: by that gain of the cosine, or, where the angle is
+// small, twice as large (1 - cos θ ≈ θ²/2).
+inline double better_cosine(double cosine, double gain) { return std::max(cosine - gain, 1 - 4 * (1 - cosine)); }
+
 inline double cosine_of_degrees(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 } // namespace sheet::remesh

@@ -49,6 +49,14 @@ inline constexpr std::size_t bits_of_an_inlet = 3, most_inlets = 21;
   return bits >> (bits_of_an_inlet * i) & ((std::uint64_t{1} << bits_of_an_inlet) - 1);
 }
 
+// Whether the bits are those of a vertex at the border of any inlet.
+[[nodiscard]] inline bool at_a_border(std::uint64_t bits) {
+  for (; bits != 0; bits >>= bits_of_an_inlet)
+    if ((bits & at_inlet_border) != 0)
+      return true;
+  return false;
+}
+
 // Adds or replaces a float64 array of one row at place frame: a standard one, or one of the caller's.
 void put_number(formats::Frame& frame, std::string_view name, double value);
 void put_number(formats::Frame& frame, std::string_view name, std::string_view unit, double value);

@@ -16,8 +16,9 @@ namespace sheet {
 struct NewtonOptions {
   double tolerance = 1e-5; // of the edges' length, what may remain
   // If positive, it also ends when what remains is below this part of the way from the extrapolated state, in the norm
-  // of the potential and at every vertex: the error of a step of order two is a part of that way.
-  double of_step_error = 0;
+  // of the potential and at every vertex: the error of a step of order two is a part of that way. At the vertices that
+  // part of the error that the step may have, `step_error` [of an edge], is enough.
+  double of_step_error = 0, step_error = 0;
   int iterations = 50; // with the Hessian; those by the factor alone end by themselves
 };
 

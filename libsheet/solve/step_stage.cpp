@@ -144,6 +144,8 @@ struct StepStage::Impl {
       step_options.newton.of_step_error = part_of_step_error;
       if (options.tolerance) // of a step's error Newton's iterations add a hundredth at most
         step_options.newton.tolerance = std::min(step_options.newton.tolerance, 0.01 * *options.tolerance);
+      if (!options.dt)
+        step_options.newton.step_error = options.tolerance.value_or(default_tolerance);
       stepper.emplace(std::move(model), step_options);
     }
     State state = state_of(frame, mesh.mesh());
