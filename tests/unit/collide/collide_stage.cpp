@@ -81,6 +81,30 @@ TEST(CollideStage, WhatIsPrescribedGoesItsWay) {
   }
 }
 
+// An inlet's border goes on with what has come in, and sheet-emit puts it back: what flies through where it comes from
+// is kept out of there.
+TEST(CollideStage, BordersOfInletsAreKeptClear) {
+  Frame frame =
+      two_triangles(0.5, "[contact]\nself = true\n[inflow]\nregion = \"x_min\"\nvelocity = [0, 0, 3]\n");
+  const auto bits = put_masks(frame, "inlet");
+  auto start = frame.find("start_position")->values<Vector3>();
+  auto now = positions(frame);
+  for (std::size_t v = 3; v < 6; ++v) { // an inlet's strip above, whose border has gone up from below
+    bits[v] = in_inlet | (v == 3 ? at_inlet_border : 0);
+    start[v] = now[v] = Vector3(now[v].x(), now[v].y(), v == 3 ? 0.3 : 0.45);
+    velocities(frame)[v] = Vector3::Zero();
+  }
+  now[3].z() = 0.6;
+  for (std::size_t v = 0; v < 3; ++v) { // and the triangle below rises past that place, but not as far as the border
+    now[v].z() = 0.35;
+    velocities(frame)[v].z() = 3.5;
+  }
+  CollideStage stage;
+  stage.step(frame);
+  EXPECT_EQ(now[3].z(), 0.6);
+  EXPECT_LT(0.6 * now[0].z() + 0.2 * now[1].z() + 0.2 * now[2].z(), 0.3); // under the border's place
+}
+
 TEST(CollideStage, WhatTheSceneDoesNotHaveIsLeftAlone) {
   for (const char* more : {"", "[contact]\nself = false\n"}) {
     Frame frame = two_triangles(-1, more);

@@ -251,6 +251,53 @@ TEST(CornerCase, InnerVertexOfDegreeThree) {
   expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.3, 0}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}), 0.6);
 }
 
+// A triangle of a plate with a vertex in its middle, raised: a spike goes and its liquid stays, a dent of the plate's
+// curvature stays too.
+TEST(CornerCase, SteepPocketsAreClosed) {
+  MeshOptions mesh_options;
+  mesh_options.edge_length = 0.2;
+  for (const double height : {0.02, 0.4}) {
+    TriangleMesh mesh = make_rectangle(1, 1, mesh_options);
+    const TriangleIndices t = mesh.triangles[mesh.triangles.size() / 2];
+    const Vector3 middle = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+    const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(middle + height * Vector3::UnitZ());
+    mesh.triangles[mesh.triangles.size() / 2] = {t[0], t[1], tip};
+    mesh.triangles.push_back({t[1], t[2], tip});
+    mesh.triangles.push_back({t[2], t[0], tip});
+    formats::Frame frame = test::frame_of(mesh, 0.01);
+    const double volume = test::account_of(frame).volume;
+    EditableSheet sheet(frame);
+    Edit edit;
+    ASSERT_TRUE(propose_removal(sheet, tip, edit));
+    const TriangleShape base(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    EXPECT_NEAR(edit.swept, -height * base.area / 3 * base.normal.z(), 1e-15); // the cone's
+    static_cast<void>(remesh(frame, nullptr, options(0.2)));
+    double highest = 0;
+    for (const Vector3& x : positions(std::as_const(frame)))
+      highest = std::max(highest, x.z());
+    EXPECT_EQ(highest < 1e-3, height > 0.2);
+    EXPECT_NEAR(test::account_of(frame).volume, volume, 1e-14 * volume);
+    test::expect_consistent(Mesh(frame.vertices, triangles(std::as_const(frame))));
+  }
+}
+
+// A rim vertex that liquid presses against the end of an inlet goes to that end: the inlet's strip there stays as it is.
+TEST(CornerCase, WhatIsPressedAgainstAnInletsEndGoesThere) {
+  // The strip 0 1 2, 1 3 2 comes from the left; 4 and 5 lie beside its end.
+  const std::vector<Vector3> x = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {1.001, 0, 0}, {2, 0, 0}, {2, 1, 0}};
+  formats::Frame frame = frame_of(x, {{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {4, 5, 3}, {3, 5, 6}});
+  const auto bits = put_masks(frame, "inlet");
+  for (std::size_t v = 0; v < 4; ++v)
+    bits[v] = in_inlet;
+  EditableSheet sheet(frame);
+  Edit edit;
+  ASSERT_TRUE(propose_collapse(sheet, sheet.mesh().find_side(2, 4), 0, edit));
+  EXPECT_EQ(edit.vertex, 2U);
+  EXPECT_TRUE(sheet.make(edit, {.thickness = 100, .sharpest = 1, .facing = -1}));
+  EXPECT_EQ(sheet.at(2), x[2]);
+}
+
 TEST(CornerCase, OppositeEdgeExists) {
   // Turning 0-1 would make a second edge 2-3: a tetrahedron without one face.
   expect_right(frame_of({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.4, 0.01}}, {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}), 0.6);

@@ -46,6 +46,25 @@ std::vector<double> stiffened(const State& s, double dt) {
   return stiffened_films(first_stage(s, liquid().liquid, dt, dt, false), true);
 }
 
+// Two triangles folded onto each other, which the step is predicted to open on the other side: the mean of their normals
+// turns over, and the director between them stays where it is.
+TEST(FlatFolds, DirectorsDoNotTurnOver) {
+  test::Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0.001}, {0.5, 1, -0.001}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+  State s = test::at_rest(mesh, 0.01);
+  for (const double speed : {0.0, 0.05}) {
+    s.velocities[2] = {0, 0, -speed};
+    s.velocities[3] = {0, 0, speed};
+    const Stage stage = first_stage(s, Liquid{.viscosity = 1}, 0.05, 0.05, true);
+    Unknowns u = stage.begin;
+    for (std::size_t v = 0; v < 4; ++v)
+      u.segment<3>(static_cast<Eigen::Index>(3 * v)) = stage.predicted[v];
+    turn_with_normals(stage, u);
+    EXPECT_LT(u.tail(static_cast<Eigen::Index>(s.mesh->edges.size())).cwiseAbs().maxCoeff(), 0.1) << speed;
+  }
+}
+
 // μ h/(4 γ) is 0.5 s in the sheet.
 TEST(Films, AreStiffenedWhereStepsDoNotResolveThem) {
   EXPECT_TRUE(stiffened(with_film(1), 0.01).empty());
