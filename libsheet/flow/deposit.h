@@ -10,7 +10,7 @@
 #include <span>
 
 #include "formats/cpp/stream_frame.h"
-#include "libsheet/flow/merge_patches.h"
+#include "libsheet/flow/lying.h"
 
 namespace sheet::flow {
 

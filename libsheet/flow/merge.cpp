@@ -62,6 +62,10 @@ public:
       for (const std::uint32_t v : mesh.triangles[l.upper])
         if (stays[v])
           lower_[v].push_back(l.lower);
+    for (const Lying& l : patches.lying) // at a bend, where the layer turns over on itself, nothing is to be welded
+      for (const std::uint32_t v : mesh.triangles[l.upper])
+        if (std::ranges::find(mesh.triangles[l.lower], v) != mesh.triangles[l.lower].end())
+          lower_[v].clear();
   }
 
   // Springs that never part; none where the vertex has one already.
@@ -95,7 +99,7 @@ private:
     if (!(time > 0))
       return 0;
     const double inertia = scene.model.inertia ? area * scene.material.density * h / (time * time) : 0;
-    return 20 * scene.material.viscosity * h / time + inertia;
+    return 0.5 * scene.material.viscosity * h / time + inertia;
   }
 
   const Frame& frame_;
@@ -222,7 +226,7 @@ void MergeStage::merge(Frame& frame) {
 void MergeStage::report() const {
   log::detail(
       "{} triangles taken up, {:.6g} m^3, {:.6g} J of kinetic energy lost; {} welds, {} vertices had no room to "
-      "move; {:.6g} m^2 that have touched for long enough are left",
+      "move; {:.6g} m^3 that have touched for long enough are left",
       total_.triangles, total_.volume, total_.energy, total_.welds, total_.staying, total_.ripe);
 }
 

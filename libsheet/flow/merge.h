@@ -4,10 +4,11 @@
 // stays, welded to the layer below by springs that never part: no liquid goes through the edges of a Lagrangian mesh
 // anyway, and force goes through springs. What does not go through is a moment: the border is a hinge.
 //
-// A weld is a spring of the array contact_since with the date -inf, at rest where it is made, of the stiffness
-//   k = 20 μ h/T + A ρ h/T²,   T = √(d/g)/10, without gravity the step,
-// along and across, with h = d the mean thickness of both layers there and A half of the border vertex' area: 40 times
-// what viscosity gives a contact (collide/contact_springs.h), so that it slips little. SI units.
+// A weld is a spring with the date -inf in the array contact_since, at rest where it is made, as stiff along as across:
+//   k = μ h/(2 T) + A ρ h/T²,   T = √(d/g)/10, without gravity the step,
+// with h = d the mean thickness of both layers there and A half of the border vertex' area, as contacts have it
+// (collide/contact_springs.h). It gives way by some ε' T edges where the sheet is stretched at the rate ε', which is
+// nothing. Forty times as stiff, folds of honey took half as many steps again. SI units.
 #pragma once
 #include <cstdint>
 
@@ -22,7 +23,7 @@ struct Merged {
   std::size_t staying = 0;   // vertices that had no room to move to the centre of mass
   double volume = 0;         // moved [m³]
   double energy = 0;         // kinetic, lost [J]
-  double ripe = 0;           // that had touched for long enough, of the last frame [m²]
+  double ripe = 0;           // that has touched for long enough and is left, in the last frame [m³]
 
   Merged& operator+=(const Merged& later); // all but the last adds up
 };

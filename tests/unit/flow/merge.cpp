@@ -9,7 +9,7 @@
 
 #include "libsheet/flow/lift.h"
 #include "libsheet/flow/merge_patches.h"
-#include "libsheet/geometry/box_tree.h"
+#include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/triangle_pair.h"
 #include "libsheet/sheet/append.h"
@@ -178,7 +178,7 @@ TEST(Merge, WeldsTheBorderOfWhatStays) {
       EXPECT_NEAR(s.gap(s.offset(x)), 0, 1e-15);
       EXPECT_LT(s.slide(s.offset(x)).norm(), 1e-15);
       EXPECT_NEAR(s.stiffness[0], s.stiffness[1], 0);
-      EXPECT_GT(s.stiffness[0], 20 * 0.05 / (0.1 * std::sqrt(0.1 / 9.81))); // 20 μ h/T with h = d at least 0.05
+      EXPECT_GT(s.stiffness[0], 0.05 / (0.2 * std::sqrt(0.05 / 9.81))); // μ h/(2 T) with h = d at least 0.05
     }
   EXPECT_EQ(welds, 9u);
   const Connectivity mesh = connect(frame.vertices, triangles(std::as_const(frame)));
@@ -210,6 +210,34 @@ TEST(Merge, PilesGoFromBelow) {
   const Merged merged = merge(frame, merging_scene());
   EXPECT_EQ(merged.triangles, 128u);
   EXPECT_EQ(frame.triangles, 288u + 72u);
+}
+
+// A strip that is folded over: the upper leg goes into the lower one, and the bend is its rim.
+TEST(Merge, ClosesAFold) {
+  Frame frame = test::grid(4, 16, 0.1, layer);
+  for (Vector3& x : positions(frame))
+    if (x.y() > 0.8)
+      x = Vector3(x.x(), 1.6 - x.y(), std::min(gap, x.y() - 0.8));
+  frame.time = 1;
+  std::vector<ContactSpring> springs;
+  const auto x = positions(std::as_const(frame));
+  for (std::uint32_t v = 9 * 5; v < frame.vertices; ++v) // the bend has no contact
+    for (const Corners& c : triangles(std::as_const(frame)))
+      if (std::ranges::all_of(c, [&](std::uint32_t i) { return i < 8 * 5; })) {
+        const ClosestPoints over = closest_vertex_triangle({x[v], x[c[0]], x[c[1]], x[c[2]]});
+        if (over.offset.norm() > gap + 1e-9)
+          continue;
+        springs.push_back({.vertices = {v, c[0], c[1], c[2]}, .weights = over.weights, .rest = gap, .since = 0});
+        break;
+      }
+  write_springs(frame, springs);
+  const double volume = test::volume_of(frame);
+  const Merged merged = merge(frame, merging_scene());
+  EXPECT_EQ(merged.triangles, 64u);
+  EXPECT_EQ(merged.welds, 0u);
+  EXPECT_EQ(frame.triangles, 64u);
+  EXPECT_NEAR(test::volume_of(frame), volume, 1e-15 * volume);
+  EXPECT_EQ(test::value_error(frame), "");
 }
 
 // A triangle just above the middle of a sheet's, and vertices below it that would go through.

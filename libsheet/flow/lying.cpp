@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/flow/lying.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/geometry/disjoint_sets.h"
+#include "libsheet/geometry/overlap.h"
+
+namespace sheet::flow {
+
+namespace {
+
+constexpr double reach = 1.5;  // mean thicknesses
+constexpr double facing = 0.7; // cosine
+
+} // namespace
+
+LyingOn LayersBelow::nearest(std::uint32_t t, double side) {
+  LyingOn on{nearest_of(all(t, side))};
+  double area = 0;
+  for (const Lying& l : on.parts)
+    area += l.part;
+  for (Lying& l : on.parts)
+    l.part /= area;
+  on.covered = area / areas_[t].area;
+  return on;
+}
+
+Box LayersBelow::box_around(std::uint32_t t) const {
+  Box box;
+  for (const std::uint32_t v : mesh_.triangles[t])
+    box.add(x_[v], reach / 2 * thickness_[t]);
+  return box;
+}
+
+// Parts are areas here [m²].
+std::vector<Lying> LayersBelow::all(std::uint32_t t, double side) {
+  if (!grid_) {
+    double sizes = 0;
+    for (std::uint32_t i = 0; i < areas_.size(); ++i)
+      sizes += box_of(x_, mesh_.triangles[i]).half_size();
+    grid_.emplace(2 * sizes / static_cast<double>(areas_.size()), areas_.size());
+    for (std::uint32_t i = 0; i < areas_.size(); ++i)
+      if (areas_[i].area > 0)
+        grid_->add(i, box_around(i));
+  }
+  std::vector<std::uint32_t> near;
+  grid_->for_meeting(box_around(t), [&](std::uint32_t other) { near.push_back(other); });
+  std::ranges::sort(near);
+  const Vector3& normal = areas_[t].normal;
+  const PlaneFrame plane(normal);
+  const auto flat = [&](std::uint32_t of) {
+    const Corners& c = mesh_.triangles[of];
+    return FlatTriangle{plane.flat(x_[c[0]]), plane.flat(x_[c[1]]), plane.flat(x_[c[2]])};
+  };
+  const FlatTriangle own = flat(t);
+  const double level = normal.dot(x_[mesh_.triangles[t][0]]);
+  std::vector<Lying> all;
+  for (const std::uint32_t other : near) {
+    const Vector3& its_normal = areas_[other].normal;
+    const double cosine = normal.dot(its_normal);
+    if (other == t || std::abs(cosine) < facing)
+      continue;
+    const Overlap overlap = overlap_of(own, flat(other));
+    if (overlap.area == 0)
+      continue;
+    const Vector3 middle = level * normal + overlap.middle[0] * plane.first + overlap.middle[1] * plane.second;
+    const double height = its_normal.dot(x_[mesh_.triangles[other][0]] - middle); // from here to the other one
+    if (side * height / cosine > 0 && std::abs(height) <= reach / 2 * (thickness_[t] + thickness_[other]))
+      all.push_back({t, other, overlap.area, std::abs(height), -std::copysign(1.0, height) * its_normal});
+  }
+  return all;
+}
+
+// Of the sets that hang together, the one that is nearest on the average.
+std::vector<Lying> LayersBelow::nearest_of(const std::vector<Lying>& all) const {
+  DisjointSets sets(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (share_corner(all[i].lower, all[j].lower))
+        sets.join(i, j);
+  const std::vector<std::uint64_t> layer = sets.take();
+  std::vector<double> area(all.size(), 0), moment(all.size(), 0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    area[layer[i]] += all[i].part;
+    moment[layer[i]] += all[i].part * all[i].gap;
+  }
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (layer[i] == i && moment[i] * area[nearest] < moment[nearest] * area[i])
+      nearest = i;
+  std::vector<Lying> chosen;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (layer[i] == nearest)
+      chosen.push_back(all[i]);
+  return chosen;
+}
+
+bool LayersBelow::share_corner(std::uint32_t a, std::uint32_t b) const {
+  return std::ranges::any_of(mesh_.triangles[a], [&](std::uint32_t v) {
+    return std::ranges::find(mesh_.triangles[b], v) != mesh_.triangles[b].end();
+  });
+}
+
+} // namespace sheet::flow
