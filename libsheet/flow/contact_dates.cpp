@@ -37,14 +37,19 @@ std::vector<Dates> contact_dates(const formats::Frame& frame, const Connectivity
   const std::vector<Dates> own = own_dates(frame, mesh, areas);
   std::vector<Dates> dates = own;
   for (std::size_t side = 0; side < 2; ++side) {
-    std::vector<double> youngest(mesh.vertices, ContactSpring::always);
+    std::vector<double> youngest(mesh.vertices, ContactSpring::always), youngest_dated = youngest;
     for (const auto& [a, b] : mesh.edges)
-      for (const auto& [v, neighbour] : {Edge{a, b}, Edge{b, a}})
-        if (own[neighbour][side] != ContactSpring::undated)
-          youngest[v] = std::max(youngest[v], own[neighbour][side]);
+      for (const auto& [v, neighbour] : {Edge{a, b}, Edge{b, a}}) {
+        const double date = own[neighbour][side];
+        youngest[v] = std::max(youngest[v], date);
+        if (date != ContactSpring::undated)
+          youngest_dated[v] = std::max(youngest_dated[v], date);
+      }
     for (std::size_t v = 0; v < own.size(); ++v)
-      if (own[v][side] == ContactSpring::undated && youngest[v] != ContactSpring::always)
-        dates[v][side] = youngest[v];
+      if (own[v][side] != ContactSpring::undated)
+        dates[v][side] = std::min(own[v][side], youngest[v]);
+      else if (youngest_dated[v] != ContactSpring::always)
+        dates[v][side] = youngest_dated[v];
   }
   return dates;
 }

@@ -14,8 +14,9 @@ namespace sheet::flow {
 // Towards the positive face and towards the other one [s]; ContactSpring::undated where nothing touches.
 using Dates = std::array<double, 2>;
 
-// For each vertex, by the array contact_since (absent: now): of several contacts on one side the oldest counts. Where
-// there is none, as in a bend, the youngest of the neighbours' that have one. areas: of the mesh's triangles.
+// For each vertex, by the array contact_since (absent: now): of several contacts on one side the oldest counts. What
+// touches among neighbours that all have touched for longer has so, too: the mesh has got a vertex there. Where there
+// is no contact, as in a bend, the youngest of the neighbours' that have one. areas: of the mesh's triangles.
 [[nodiscard]] std::vector<Dates> contact_dates(const formats::Frame& frame, const Connectivity& mesh,
                                                std::span<const TriangleArea> areas);
 

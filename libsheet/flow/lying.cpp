@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/geometry/overlap.h"
 
@@ -11,8 +12,9 @@ namespace sheet::flow {
 
 namespace {
 
-constexpr double reach = 1.5;  // mean thicknesses
-constexpr double facing = 0.7; // cosine
+constexpr double reach = 1.5;         // mean thicknesses
+constexpr double facing = 0.7;        // cosine
+constexpr double least_height = 0.25; // of the neighbour's
 
 } // namespace
 
@@ -24,6 +26,28 @@ LyingOn LayersBelow::nearest(std::uint32_t t, double side) {
   for (Lying& l : on.parts)
     l.part /= area;
   on.covered = area / areas_[t].area;
+  return on;
+}
+
+LyingOn LayersBelow::beside(std::uint32_t t, const LyingOn& neighbour) const {
+  const Corners& own = mesh_.triangles[t];
+  const auto near = [&](std::uint32_t v, std::uint32_t lower) {
+    const Corners& c = mesh_.triangles[lower];
+    return closest_vertex_triangle({x_[v], x_[c[0]], x_[c[1]], x_[c[2]]}).offset.norm() <=
+           reach / 2 * (thickness_[t] + thickness_[lower]);
+  };
+  for (const std::uint32_t v : own)
+    if (std::ranges::none_of(neighbour.parts, [&](const Lying& l) { return near(v, l.lower); }))
+      return {};
+  LyingOn on{neighbour.parts, 0};
+  const Vector3 middle = (x_[own[0]] + x_[own[1]] + x_[own[2]]) / 3;
+  for (Lying& l : on.parts) {
+    const double height = l.normal.dot(middle - x_[mesh_.triangles[l.lower][0]]);
+    if (l.lower == t || height < least_height * l.gap) // it is the layer below itself
+      return {};
+    l.upper = t;
+    l.gap = height;
+  }
   return on;
 }
 

@@ -37,6 +37,9 @@ public:
 
   // side: 1 or -1, towards the positive face or the other one. Precondition: triangle t has an area.
   [[nodiscard]] LyingOn nearest(std::uint32_t t, double side);
+  // Triangle t, which juts out over the rim of what its neighbour lies on, as if it lay on the same. Nothing if it is
+  // beyond the reach of that, 1.5 mean thicknesses.
+  [[nodiscard]] LyingOn beside(std::uint32_t t, const LyingOn& neighbour) const;
 
 private:
   [[nodiscard]] Box box_around(std::uint32_t t) const;

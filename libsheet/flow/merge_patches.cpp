@@ -89,42 +89,90 @@ private:
   Vector3 up_;
 };
 
-// What each triangle lies on that may go there; `ripe` is the volume of all that would, enough or not.
-std::vector<LyingOn> find_candidates(const Frame& frame, const Connectivity& mesh, const Scene& scene, double& ripe) {
-  const auto x = positions(frame);
-  const auto volume = volumes(frame);
-  std::vector<TriangleArea> areas;
-  std::vector<double> thickness;
-  for (const Corners& c : mesh.triangles) {
-    areas.emplace_back(x[c[0]], x[c[1]], x[c[2]]);
-    thickness.push_back(volume[thickness.size()] / areas.back().area);
+// What each triangle lies on that may go there.
+class Candidates {
+public:
+  Candidates(const Frame& frame, const Connectivity& mesh, const Scene& scene)
+      : frame_(frame), mesh_(mesh), scene_(scene), areas_(areas_of(frame, mesh)),
+        thickness_(thickness_of(frame, areas_)), dates_(contact_dates(frame, mesh, areas_)), order_(frame, mesh, scene),
+        layers_(mesh, positions(frame), areas_, thickness_), on_(mesh.triangles.size()) {
+    std::vector<std::uint32_t> not_enough;
+    for (std::uint32_t t = 0; t < on_.size(); ++t)
+      if (areas_[t].area > 0 && order_.may_go(t) && !look_below(t))
+        not_enough.push_back(t);
+    look_beside(not_enough);
   }
-  const std::vector<Dates> dates = contact_dates(frame, mesh, areas);
-  const Order order(frame, mesh, scene);
-  LayersBelow layers(mesh, x, areas, thickness);
-  const auto is_ripe = [&](std::uint32_t t, std::size_t side) {
-    const double after =
-        scene.merge->after.value_or(scene.material.viscosity * thickness[t] / scene.material.surface_tension);
-    return std::ranges::all_of(mesh.triangles[t],
-                               [&](std::uint32_t v) { return frame.time - dates[v][side] >= after; });
-  };
-  std::vector<LyingOn> candidates(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < candidates.size(); ++t) {
+  [[nodiscard]] const std::vector<LyingOn>& on() const { return on_; }
+  [[nodiscard]] double ripe() const { return ripe_; } // volume of all that would go, enough or not [m³]
+
+private:
+  static std::vector<TriangleArea> areas_of(const Frame& frame, const Connectivity& mesh) {
+    const auto x = positions(frame);
+    std::vector<TriangleArea> areas;
+    for (const Corners& c : mesh.triangles)
+      areas.emplace_back(x[c[0]], x[c[1]], x[c[2]]);
+    return areas;
+  }
+
+  static std::vector<double> thickness_of(const Frame& frame, std::span<const TriangleArea> areas) {
+    std::vector<double> thickness;
+    for (const double volume : volumes(frame))
+      thickness.push_back(volume / areas[thickness.size()].area);
+    return thickness;
+  }
+
+  [[nodiscard]] bool ripe(std::uint32_t t, std::size_t side) const {
+    const Liquid& liquid = scene_.material;
+    const double after = scene_.merge->after.value_or(liquid.viscosity * thickness_[t] / liquid.surface_tension);
+    return std::ranges::all_of(mesh_.triangles[t],
+                               [&](std::uint32_t v) { return frame_.time - dates_[v][side] >= after; });
+  }
+
+  [[nodiscard]] bool goes(const LyingOn& on) const {
+    return !on.parts.empty() && std::ranges::all_of(on.parts, [&](const Lying& l) { return order_.goes(l); });
+  }
+
+  // False if t is not over what is on either side of it.
+  bool look_below(std::uint32_t t) {
     bool counted = false;
-    for (std::size_t side = 0; side < sides.size() && areas[t].area > 0 && order.may_go(t); ++side) {
-      if (!is_ripe(t, side))
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+      if (!ripe(t, side))
         continue;
-      LyingOn on = layers.nearest(t, sides[side]);
-      if (on.parts.empty() || !std::ranges::all_of(on.parts, [&](const Lying& l) { return order.goes(l); }))
+      LyingOn on = layers_.nearest(t, sides[side]);
+      if (!goes(on))
         continue;
-      ripe += counted ? 0 : volume[t];
+      ripe_ += counted ? 0 : volumes(frame_)[t];
       counted = true;
-      if (candidates[t].parts.empty() && on.covered >= most_of_it && on.covered <= 2 - all_of_it)
-        candidates[t] = std::move(on);
+      if (on.covered >= most_of_it && on.covered <= 2 - all_of_it) {
+        on_[t] = std::move(on);
+        return true;
+      }
     }
+    return false;
   }
-  return candidates;
-}
+
+  // What juts out over the rim of what its neighbour lies on goes there as well.
+  void look_beside(std::span<const std::uint32_t> triangles) {
+    const std::vector<LyingOn> before = on_;
+    for (const std::uint32_t t : triangles)
+      for (const std::uint32_t e : mesh_.triangle_edges[t])
+        for (const std::uint32_t s : mesh_.edge_triangles[e])
+          if (s != no_index && on_[t].parts.empty() && !before[s].parts.empty() && (ripe(t, 0) || ripe(t, 1)))
+            if (LyingOn on = layers_.beside(t, before[s]); goes(on))
+              on_[t] = std::move(on);
+  }
+
+  const Frame& frame_;
+  const Connectivity& mesh_;
+  const Scene& scene_;
+  std::vector<TriangleArea> areas_;
+  std::vector<double> thickness_;
+  std::vector<Dates> dates_;
+  Order order_;
+  LayersBelow layers_;
+  std::vector<LyingOn> on_;
+  double ripe_ = 0;
+};
 
 // What is below is decided first, so that nothing is taken up by what is taken up.
 class Choice {
@@ -171,7 +219,9 @@ bool juts_out(const Connectivity& mesh, std::uint32_t t, const LyingOn& on, cons
 
 MergePatches find_patches(const Frame& frame, const Connectivity& mesh, const Scene& scene) {
   MergePatches found;
-  const std::vector<LyingOn> candidates = find_candidates(frame, mesh, scene, found.ripe);
+  const Candidates search(frame, mesh, scene);
+  const std::vector<LyingOn>& candidates = search.on();
+  found.ripe = search.ripe();
   found.taken = Choice(candidates).taken();
   leave_whole_patches(
       mesh, [&](std::uint32_t t) { return juts_out(mesh, t, candidates[t], found.taken); }, found.taken);

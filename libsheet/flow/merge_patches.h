@@ -6,8 +6,9 @@
 // tension: the time in which tension closes a gap of the thickness [Eggers, Lister and Stone 1999]. It may then be
 // taken up by the nearest layer there (lying.h), if nothing holds it (solids, [[hold]]s, inlets), its piece of the
 // sheet has a rim, and it lies on that layer with its whole area. Where a rim juts out a little over that of the layer
-// below, triangles at the rim go along that lie on it with half of their area at least, if what is inside of them goes:
-// their whole volume goes below, inwards by a part of an edge.
+// below, triangles go along that lie on it with half of their area at least, or are next to what lies on it and wholly
+// within 1.5 mean thicknesses of that, if nothing beyond them stays: their volume goes below, inwards by less than
+// that.
 //
 // Which of two layers is taken up: the one that touches no solid, else the piece of the sheet with less volume, else,
 // within a piece, the one that is above by gravity, else the one with the higher number. What is below is decided
