@@ -15,8 +15,7 @@ int main(int argc, char** argv) {
       "Without [merge] in the scene, frames pass unchanged.");
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);
-  tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-merge | sheet-remesh | sheet-step | "
-               "sheet-collide' > run.sheet",
+  tool.example("sheet-loop -i a.sheet --until 2 --fps 24 -- 'sheet-merge | sheet-step | sheet-collide' > run.sheet",
                "layers that become one as they come to rest on each other");
   return tool.run(argc, argv, [&] {
     sheet::flow::MergeStage stage;

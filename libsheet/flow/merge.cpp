@@ -181,6 +181,7 @@ Merged merge(Frame& frame, const Scene& scene) {
     return merged;
   for (const Lying& l : patches.lying)
     merged.volume += l.part * volumes(std::as_const(frame))[l.upper];
+  merged.ripe = std::max(0.0, patches.ripe - merged.volume);
   merged.triangles = static_cast<std::size_t>(std::ranges::count(patches.taken, true));
   const double before = kinetic_energy(frame, scene.material.density);
   std::vector<ContactSpring> springs = read_springs(frame);
