@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/geometry/box_tree.h"
 #include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/geometry/overlap.h"
@@ -18,7 +19,33 @@ constexpr double least_height = 0.25; // of the neighbour's
 
 } // namespace
 
-LyingOn LayersBelow::nearest(std::uint32_t t, double side) {
+LayersBelow::LayersBelow(const Connectivity& mesh, std::span<const Vector3> positions,
+                         std::span<const TriangleArea> areas, std::span<const double> thickness,
+                         std::span<const std::uint8_t> asked)
+    : mesh_(mesh), x_(positions), areas_(areas), thickness_(thickness), near_(areas.size()) {
+  if (std::ranges::none_of(asked, [](std::uint8_t flag) { return flag != 0; }))
+    return;
+  std::vector<Box> boxes(areas.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t])
+      boxes[t].add(x_[v], reach / 2 * thickness_[t]);
+  BoxTree tree;
+  tree.build(boxes);
+  std::vector<std::vector<std::array<std::uint32_t, 2>>> pairs(tree.chunks());
+  tree.for_overlaps(asked, [&](std::size_t chunk, std::uint32_t i, std::uint32_t j) {
+    if (areas[i].area > 0 && areas[j].area > 0 && std::abs(areas[i].normal.dot(areas[j].normal)) >= facing)
+      pairs[chunk].push_back({i, j});
+  });
+  for (const auto& chunk : pairs)
+    for (const auto& [i, j] : chunk) {
+      near_[i].push_back(j);
+      near_[j].push_back(i);
+    }
+  for (auto& near : near_)
+    std::ranges::sort(near);
+}
+
+LyingOn LayersBelow::nearest(std::uint32_t t, double side) const {
   LyingOn on{nearest_of(all(t, side))};
   double area = 0;
   for (const Lying& l : on.parts)
@@ -51,27 +78,8 @@ LyingOn LayersBelow::beside(std::uint32_t t, const LyingOn& neighbour) const {
   return on;
 }
 
-Box LayersBelow::box_around(std::uint32_t t) const {
-  Box box;
-  for (const std::uint32_t v : mesh_.triangles[t])
-    box.add(x_[v], reach / 2 * thickness_[t]);
-  return box;
-}
-
 // Parts are areas here [m²].
-std::vector<Lying> LayersBelow::all(std::uint32_t t, double side) {
-  if (!grid_) {
-    double sizes = 0;
-    for (std::uint32_t i = 0; i < areas_.size(); ++i)
-      sizes += box_of(x_, mesh_.triangles[i]).half_size();
-    grid_.emplace(2 * sizes / static_cast<double>(areas_.size()), areas_.size());
-    for (std::uint32_t i = 0; i < areas_.size(); ++i)
-      if (areas_[i].area > 0)
-        grid_->add(i, box_around(i));
-  }
-  std::vector<std::uint32_t> near;
-  grid_->for_meeting(box_around(t), [&](std::uint32_t other) { near.push_back(other); });
-  std::ranges::sort(near);
+std::vector<Lying> LayersBelow::all(std::uint32_t t, double side) const {
   const Vector3& normal = areas_[t].normal;
   const PlaneFrame plane(normal);
   const auto flat = [&](std::uint32_t of) {
@@ -81,11 +89,9 @@ std::vector<Lying> LayersBelow::all(std::uint32_t t, double side) {
   const FlatTriangle own = flat(t);
   const double level = normal.dot(x_[mesh_.triangles[t][0]]);
   std::vector<Lying> all;
-  for (const std::uint32_t other : near) {
+  for (const std::uint32_t other : near_[t]) {
     const Vector3& its_normal = areas_[other].normal;
     const double cosine = normal.dot(its_normal);
-    if (other == t || std::abs(cosine) < facing)
-      continue;
     const Overlap overlap = overlap_of(own, flat(other));
     if (overlap.area == 0)
       continue;

@@ -2,13 +2,11 @@
 // What a triangle of a sheet lies on: another layer of it. SI units.
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/connectivity.h"
-#include "libsheet/geometry/triangle_grid.h"
 
 namespace sheet::flow {
 
@@ -30,20 +28,18 @@ struct LyingOn {
 // triangle's own, and which lie on the same spot, seen along that normal (geometry/overlap.h).
 class LayersBelow {
 public:
-  // All outlive it. areas, thickness [m]: of the triangles.
+  // The spans outlive it. areas, thickness [m]: of the triangles; asked: those that will be asked for, a flag each.
   LayersBelow(const Connectivity& mesh, std::span<const Vector3> positions, std::span<const TriangleArea> areas,
-              std::span<const double> thickness)
-      : mesh_(mesh), x_(positions), areas_(areas), thickness_(thickness) {}
+              std::span<const double> thickness, std::span<const std::uint8_t> asked);
 
-  // side: 1 or -1, towards the positive face or the other one. Precondition: triangle t has an area.
-  [[nodiscard]] LyingOn nearest(std::uint32_t t, double side);
+  // side: 1 or -1, towards the positive face or the other one. Precondition: triangle t has an area and was asked for.
+  [[nodiscard]] LyingOn nearest(std::uint32_t t, double side) const;
   // Triangle t, which juts out over the rim of what its neighbour lies on, as if it lay on the same. Nothing if it is
   // beyond the reach of that, 1.5 mean thicknesses.
   [[nodiscard]] LyingOn beside(std::uint32_t t, const LyingOn& neighbour) const;
 
 private:
-  [[nodiscard]] Box box_around(std::uint32_t t) const;
-  [[nodiscard]] std::vector<Lying> all(std::uint32_t t, double side);
+  [[nodiscard]] std::vector<Lying> all(std::uint32_t t, double side) const;
   [[nodiscard]] std::vector<Lying> nearest_of(const std::vector<Lying>& all) const;
   [[nodiscard]] bool share_corner(std::uint32_t a, std::uint32_t b) const;
 
@@ -51,7 +47,7 @@ private:
   std::span<const Vector3> x_;
   std::span<const TriangleArea> areas_;
   std::span<const double> thickness_;
-  std::optional<TriangleGrid> grid_; // made when first asked for
+  std::vector<std::vector<std::uint32_t>> near_; // of each triangle that was asked for, ascending
 };
 
 } // namespace sheet::flow

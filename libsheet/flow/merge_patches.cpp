@@ -14,8 +14,9 @@ using formats::Frame;
 
 namespace {
 
-constexpr double all_of_it = 0.999;              // of a triangle's area
-constexpr double most_of_it = 0.5;               // of one that juts out over the rim of what it lies on
+constexpr double all_of_it = 0.999; // of a triangle's area
+constexpr double most_of_it = 0.5;  // of one that juts out over the rim of what it lies on
+constexpr double most_edges = 2;
 constexpr std::array<double, 2> sides = {1, -1}; // towards the positive face, and the other one
 
 // Pieces of the sheet that hang together across edges.
@@ -95,7 +96,7 @@ public:
   Candidates(const Frame& frame, const Connectivity& mesh, const Scene& scene)
       : frame_(frame), mesh_(mesh), scene_(scene), areas_(areas_of(frame, mesh)),
         thickness_(thickness_of(frame, areas_)), dates_(contact_dates(frame, mesh, areas_)), order_(frame, mesh, scene),
-        layers_(mesh, positions(frame), areas_, thickness_), on_(mesh.triangles.size()) {
+        layers_(mesh, positions(frame), areas_, thickness_, ripe_triangles()), on_(mesh.triangles.size()) {
     std::vector<std::uint32_t> not_enough;
     for (std::uint32_t t = 0; t < on_.size(); ++t)
       if (areas_[t].area > 0 && order_.may_go(t) && !look_below(t))
@@ -114,10 +115,14 @@ private:
     return areas;
   }
 
+  // Where triangles are crushed that is beyond sense, so no more than two edges, as for contacts (collide_stage.cpp).
   static std::vector<double> thickness_of(const Frame& frame, std::span<const TriangleArea> areas) {
     std::vector<double> thickness;
-    for (const double volume : volumes(frame))
-      thickness.push_back(volume / areas[thickness.size()].area);
+    for (const double volume : volumes(frame)) {
+      const TriangleArea& a = areas[thickness.size()];
+      const double around = a.edge[0].norm() + a.edge[1].norm() + a.edge[2].norm();
+      thickness.push_back(std::min(volume / a.area, most_edges * around / 3));
+    }
     return thickness;
   }
 
@@ -126,6 +131,13 @@ private:
     const double after = scene_.merge->after.value_or(liquid.viscosity * thickness_[t] / liquid.surface_tension);
     return std::ranges::all_of(mesh_.triangles[t],
                                [&](std::uint32_t v) { return frame_.time - dates_[v][side] >= after; });
+  }
+
+  [[nodiscard]] std::vector<std::uint8_t> ripe_triangles() const {
+    std::vector<std::uint8_t> flags;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      flags.push_back(order_.may_go(t) && (ripe(t, 0) || ripe(t, 1)));
+    return flags;
   }
 
   [[nodiscard]] bool goes(const LyingOn& on) const {

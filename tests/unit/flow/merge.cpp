@@ -77,10 +77,15 @@ Frame stack(std::uint32_t columns = 8, const Vector3& at = Vector3(0.13, 0.21, g
   const auto u = velocities(frame);
   for (std::size_t v = 0; v < frame.vertices; ++v)
     u[v] = Vector3(std::sin(static_cast<double>(v)), std::cos(3.0 * static_cast<double>(v)), v < lower ? 0 : -0.5);
-  frame.put(formats::make_array("amount", formats::Place::vertex, formats::Type::float64, 1, "1",
-                                formats::Transfer::conserve, frame.vertices));
-  for (std::size_t v = 0; v < frame.vertices; ++v)
-    frame.find("amount")->values<double>()[v] = 1 + static_cast<double>(v % 7);
+  const auto put = [&](std::string_view name, formats::Place place, formats::Transfer rule) {
+    formats::Array& array =
+        frame.put(formats::make_array(name, place, formats::Type::float64, 1, "1", rule, frame.rows_at(place)));
+    for (std::size_t i = 0; i < array.rows; ++i)
+      array.values<double>()[i] = 1 + static_cast<double>(i % 7);
+  };
+  put("amount", formats::Place::vertex, formats::Transfer::conserve);
+  put("dye", formats::Place::triangle, formats::Transfer::conserve);
+  put("warmth", formats::Place::vertex, formats::Transfer::interpolate);
   frame.time = 1;
   touch_each_other(frame, lower, since);
   return frame;
@@ -92,6 +97,14 @@ Vector3 moment(const Frame& frame) {
   for (std::size_t t = 0; t < frame.triangles; ++t)
     for (const std::uint32_t v : triangles(frame)[t])
       sum += volumes(frame)[t] / 3 * positions(frame)[v];
+  return sum;
+}
+
+double heat(const Frame& frame) {
+  double sum = 0;
+  for (std::size_t t = 0; t < frame.triangles; ++t)
+    for (const std::uint32_t v : triangles(frame)[t])
+      sum += volumes(frame)[t] / 3 * frame.find("warmth")->values<double>()[v];
   return sum;
 }
 
@@ -119,6 +132,8 @@ TEST(Merge, KeepsVolumeMomentumAndCentreOfMass) {
   EXPECT_LT((test::momentum(frame) - test::momentum(before)).norm(), 1e-14 * volume);
   EXPECT_NEAR(moment(frame).z(), moment(before).z(), 1e-14 * volume);
   EXPECT_NEAR(total_of(frame, "amount"), total_of(before, "amount"), 1e-12 * total_of(before, "amount"));
+  EXPECT_NEAR(total_of(frame, "dye"), total_of(before, "dye"), 1e-12 * total_of(before, "dye"));
+  EXPECT_NEAR(heat(frame), heat(before), 1e-13 * heat(before));
   EXPECT_NEAR(merged.energy, energy(before, 3) - energy(frame, 3), 1e-14);
   EXPECT_GT(merged.energy, 0);
   EXPECT_EQ(frame.find("merge.volume")->values<double>()[0], merged.volume);
