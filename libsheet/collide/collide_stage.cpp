@@ -132,9 +132,8 @@ struct CollideStage::Impl {
          .value = static_cast<double>(report.between) / static_cast<double>(frame.vertices),
          .amount = static_cast<double>(report.between),
          .place = at.place},
-        fmt::format("step {}: {} vertices lie between {} and {}, which move past each other, at the narrowest {:.2g} "
-                    "m apart where the sheet is {:.2g} m thick; the one that they touched first drags them, the "
-                    "other one only stops them",
+        fmt::format("step {}: {} vertices lie between {} and {}, at the narrowest {:.2g} m apart where the sheet is "
+                    "still {:.2g} m thick: what is squeezed cannot get away so fast",
                     frame.step, report.between, solids->name(at.first), solids->name(at.second), at.gap, at.thickness));
   }
 

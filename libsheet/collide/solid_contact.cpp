@@ -14,6 +14,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/collide/solid_sweep.h"
 #include "libsheet/collide/touch_distance.h"
+#include "libsheet/geometry/facing_walls.h"
 
 namespace sheet::collide {
 namespace {
@@ -23,8 +24,8 @@ constexpr int rounds = 10;
 // Of two corners with masses m and M the lighter moves by up to sqrt(M/m)/2 times the way of the triangle's point, so
 // lighter ones count as having a part of M.
 constexpr double least_mass_part = 1 / (4 * longest_lever * longest_lever);
-// By what part of its reach a vertex may be farther from a solid that stops it than where that puts it.
-constexpr double as_near = 0.01;
+// Gaps between two solids that are narrow, over the thickness of the sheet there.
+constexpr double narrow = 0.5;
 // What two hits may differ by that come together: of the step, and of the thickness.
 constexpr double same = 1e-7;
 
@@ -87,6 +88,7 @@ public:
       rides_[v] = held(v) ? no_solid : path.touch[v];
     changed_.assign(path.start.size(), 0);
     caught_.assign(path.start.size(), 0);
+    between_ = squeezed();
     carried_.assign(path.start.size(), 0);
     active_.resize(path.triangles.size());
     std::iota(active_.begin(), active_.end(), 0U);
@@ -169,7 +171,37 @@ private:
 
   // Whether what touches the vertex' solid flows along it.
   [[nodiscard]] bool slides(std::uint32_t v) const {
-    return rides_[v] != no_solid && solids_.scene(static_cast<std::size_t>(rides_[v])).contact != SolidContact::stick;
+    return rides_[v] != no_solid &&
+           (between_[v] != 0 || solids_.scene(static_cast<std::size_t>(rides_[v])).contact != SolidContact::stick);
+  }
+
+  // The vertices that start between their solid and another one which leave them no room: those flow even where liquid
+  // sticks, as sheet-step has it (scene_model.h).
+  [[nodiscard]] std::vector<std::uint8_t> squeezed() const {
+    std::vector<std::uint8_t> between(rides_.size(), 0);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, views_.size() > 1 ? rides_.size() : 0, 256),
+                      [&](const auto& range) {
+                        for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v)
+                          between[v] = is_squeezed(v) ? 1 : 0;
+                      });
+    return between;
+  }
+
+  [[nodiscard]] bool is_squeezed(std::uint32_t v) const {
+    if (rides_[v] == no_solid)
+      return false;
+    const auto touched = static_cast<std::size_t>(rides_[v]);
+    const Vector3& x = path_.start[v];
+    const double thickness = path_.thickness[v];
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      if (i == touched || !(views_[i].shape().distance(views_[i].own(0, x), thickness) < thickness))
+        continue;
+      const solid::SolidPoint own = solids_.at(touched, x, path_.start_time);
+      const solid::SolidPoint other = solids_.at(i, x, path_.start_time);
+      if (gap_between(own.distance, own.normal, other.distance, other.normal) < thickness)
+        return true;
+    }
+    return false;
   }
 
   // Where a vertex goes that hits a solid and slides on: what is left of its path, along the surface.
@@ -228,7 +260,7 @@ private:
       for (const SolidView& other : views_) {
         const Vector3 there = other.own(other.pieces(), end);
         const double offset = &other == &view ? 0 : beside_distance(v, other);
-        if (&other == &view || other.shape().distance(there, offset) >= offset * (1 - 1e-6))
+        if (&other == &view || (slides(v) && faces(view, other, end)) || other.shape().distance(there, offset) >= offset * (1 - 1e-6))
           continue;
         end = other.world_at_end(settle(other.shape(), there, offset));
         moved = true;
@@ -238,6 +270,15 @@ private:
       end = view.world_at_end(settle(view.shape(), view.own(view.pieces(), end), distance));
     }
     path_.end[v] = prescribed_[v] == 0 ? end : beside_hold(v, end);
+  }
+
+  // Whether another solid faces the own one across a point, at the end. What flows between two such solids sheet-step
+  // keeps in the gap (channels.h).
+  [[nodiscard]] static bool faces(const SolidView& own, const SolidView& other, const Vector3& end) {
+    const auto normal = [&](const SolidView& view) {
+      return view.turned_at_end(view.shape().nearest(view.own(view.pieces(), end)).normal);
+    };
+    return -normal(own).dot(normal(other)) > least_facing;
   }
 
   // The distance that a vertex on one solid keeps from another one: that at which it would touch it, unless it starts
@@ -460,22 +501,21 @@ private:
     }
   }
 
-  // A vertex that would touch another solid, too, which moves along or against its own one: that stops it at most.
+  // A vertex in a gap between two solids that is less than half as wide as the sheet is thick there: what is squeezed
+  // has not got away.
   void count_between(std::uint32_t v) {
-    const SolidView& own = own_view(v);
-    const double half = path_.half_thickness(v);
+    const double thickness = path_.thickness[v];
+    const std::size_t touched = static_cast<std::size_t>(rides_[v]);
+    const solid::SolidPoint own = solids_.at(touched, path_.end[v], path_.end_time);
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      const SolidView& other = views_[i];
-      if (&other == &own || !moves_past(own, other, path_.start[v]))
+      if (i == touched || !(distance_at_end(views_[i], v, thickness) < thickness))
         continue;
-      const double reach = catching_distance(path_, other, v, other.own(0, path_.start[v]), 2 * half);
-      const double most = (1 + as_near) * reach, there = distance_at_end(other, v, most);
-      if (!(there < most))
+      const solid::SolidPoint other = solids_.at(i, path_.end[v], path_.end_time);
+      const double gap = gap_between(own.distance, own.normal, other.distance, other.normal);
+      if (!(gap < narrow * thickness))
         continue;
-      const auto touched = static_cast<std::size_t>(rides_[v]);
-      const double gap = there + distance_at_end(own, v, most);
       if (report_.between == 0 || gap < report_.narrowest.gap)
-        report_.narrowest = {path_.end[v], std::min(i, touched), std::max(i, touched), gap, path_.thickness[v]};
+        report_.narrowest = {path_.end[v], std::min(i, touched), std::max(i, touched), gap, thickness};
       ++report_.between;
       return;
     }
@@ -485,11 +525,6 @@ private:
     return view.shape().distance(view.own(view.pieces(), path_.end[v]), enough);
   }
 
-  // Whether two solids' surfaces move with respect to each other at a point, by more than round-off.
-  [[nodiscard]] static bool moves_past(const SolidView& one, const SolidView& other, const Vector3& x) {
-    return one.runs() || other.runs() || (one.carried(x) - other.carried(x)).norm() > 1e-9 * (1 + x.norm());
-  }
-
   StepPath& path_;
   const solid::Solids& solids_;
   const std::vector<Axes> prescribed_;  // by [[hold]]s
@@ -497,6 +532,7 @@ private:
   std::vector<SolidView> views_;
   std::vector<std::int32_t> rides_;                      // the solid that each vertex moves with, or none
   std::vector<std::uint8_t> changed_, carried_, caught_; // per vertex; bits would not be safe to write in parallel
+  std::vector<std::uint8_t> between_;                    // per vertex: squeezed between two solids at the start
   std::vector<double> edges_;                            // the longest at each vertex [m]
   std::vector<std::uint32_t> active_;                    // triangles to be looked at
   SolidReport report_;

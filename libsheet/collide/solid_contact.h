@@ -31,7 +31,7 @@
 
 namespace sheet::collide {
 
-// Where a vertex that one solid holds meets another one, which moves past it.
+// Where a vertex lies between two solids.
 struct BetweenSolids {
   Vector3 place = Vector3::Zero(); // of the vertex [m]
   std::size_t first = 0, second = 0;
@@ -45,7 +45,7 @@ struct SolidReport {
   std::size_t carried = 0;                 // vertices carried with a solid because impulses did not help
   std::size_t started_across = 0;          // triangles that start across a solid's surface
   std::size_t brought_out = 0;             // vertices that started inside a solid, by at most half an edge
-  std::size_t between = 0;                 // vertices held by one solid that another one stops which moves past it
+  std::size_t between = 0;                 // vertices in gaps between two solids below half the sheet's thickness
   BetweenSolids narrowest;                 // of those, where between > 0
   std::size_t unresolved = 0;              // triangles that still come too close (see above)
   Vector3 unresolved_at = Vector3::Zero(); // a corner of the last of those, where unresolved > 0

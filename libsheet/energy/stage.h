@@ -20,14 +20,27 @@ using Unknowns = Eigen::VectorXd;
 // A vertex that touches a solid and may flow along it (walls.h), at the predicted end of the stage.
 struct WallSite {
   std::uint32_t vertex = 0, wall = 0;
-  Vector3 normal;         // of the wall
-  Vector3 stuck;          // where it would be had it stuck to the wall from the start of the step on [m]
-  Vector3 carried;        // the same, in a second stage extrapolated from the first: there it is not dragged [m]
-  double slip_length = 0; // [m]
-  double wetting = 2;     // 1 - cos of the contact angle
+  std::uint32_t channel = no_index;  // its number, where another wall faces the own one
+  Vector3 normal = Vector3::Zero();  // of the wall
+  Vector3 stuck = Vector3::Zero();   // where it would be had it stuck to the wall from the start of the step on [m]
+  Vector3 carried = Vector3::Zero(); // the same, in a second stage extrapolated from the first: not dragged there [m]
+  double slip_length = 0;            // [m]
+  double wetting = 2;                // 1 - cos of the contact angle
   std::vector<Vector3>
       across; // orthonormal: the directions in which its place is given, along its own wall's normal first
   std::vector<double> place; // that place along each of them [m]
+};
+
+// A site that lies between two walls (channels.h), at the predicted end of the stage.
+struct Channel {
+  std::uint32_t vertex = 0, facing = 0; // the wall that faces the site's own one
+  double gap = 0, gap_before = 0;       // between the two; at the start of the step [m]
+  double gap_first = 0;                 // at the end of the first stage, if this is a second one [m]
+  double filled = 0;                    // the part in which the layer touches both
+  double depth = 0;                     // of the drag of both [m]
+  Vector3 place = Vector3::Zero();      // predicted, of the vertex [m]
+  Vector3 slope = Vector3::Zero();      // of the gap along the wall
+  Vector3 carried = Vector3::Zero();    // as WallSite::carried, by both walls [m]
 };
 
 struct Stage {
@@ -50,6 +63,9 @@ struct Stage {
   std::vector<Vector3> predicted;        // the extrapolated end of the stage, for what is lagged [m]
   std::vector<WallSite> sites;           // of what touches walls, ascending
   std::vector<std::uint32_t> site_of;    // of each vertex, or no_index; empty without sites
+  std::vector<Channel> channels;         // of sites between two walls, ascending
+  double channel_area = 0;               // of the layer there [m²]
+  double channel_rate = 0;               // at which what is too thick there gives way [1/s]
   std::vector<std::uint32_t> wall_edges; // whose directors stand as the wall lets them, ascending
   std::vector<double> wall_turns;        // of these directors, by the predicted end of the stage [rad]
 

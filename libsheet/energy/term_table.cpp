@@ -12,6 +12,7 @@
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
+#include "libsheet/energy/channel_pressure.h"
 #include "libsheet/energy/contact_damping.h"
 #include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/gravity.h"
@@ -103,6 +104,13 @@ constexpr std::array table = {
               [](const Model&) -> std::string { return "solids drag what flows along them"; },
               [](const Model& m) { return m.liquid.viscous() ? "liquid flows along no [[solid]]" : inviscid(m); },
               [](const Model&, TermMaker& maker) { maker.add(WallDrag()); }},
+    TermEntry{"pressure between walls",
+              [](const Model& m) { return m.liquid.viscous() && m.walls.size() > 1; },
+              [](const Model&) -> std::string { return "what two solids close on flows out from between them"; },
+              [](const Model& m) {
+                return m.liquid.viscous() ? "liquid flows along no [[solid]] that another one may face" : inviscid(m);
+              },
+              [](const Model&, TermMaker& maker) { maker.add(ChannelPressure()); }},
     TermEntry{"weight on walls", [](const Model& m) { return (!m.walls.empty() || spreads(m)) && m.has_weight(); },
               [](const Model&) -> std::string { return "thick parts of a layer flow to thin ones by their weight"; },
               [](const Model& m) -> std::string {

@@ -113,6 +113,8 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
   std::vector<double> distance = lying_thickness(stage, end);
   for (double& d : distance)
     d /= 2;
+  for (const Channel& channel : stage.channels)
+    distance[channel.vertex] = std::min(distance[channel.vertex], channel.gap / 2);
   flatten(stage, end, distance);
   const std::vector<char> held = held_elsewhere(holds, stage);
   const Eigen::VectorXd lengths = step_scale(end, static_cast<Eigen::Index>(3 * stage.vertices()));

@@ -3,7 +3,8 @@
 // (walls.h); at its end, layers are put at half of what they have become, without speed. Thickness is here volume over
 // area as the wall sees it, of the triangles that lie, with all their corners on the wall: moving a vertex across the
 // wall does not change it, so the distance is not fed back. What stands on a wall, or hangs over its edge, has no such
-// thickness, and keeps its distance.
+// thickness, and keeps its distance. Between two walls (channels.h) a layer is
+// in the middle at most.
 #pragma once
 #include <span>
 #include <vector>

@@ -5,9 +5,12 @@
 //   W = (cos²φ Â/3 + sin²φ F) 3 μ |P (x - x̄)|² / (2 τ (ĥ + 3 b)),   F = Σ l ĥ/2,
 // φ the angle between triangle and wall at the start of the step, Â and ĥ predicted for the end of the stage, P along
 // the wall, x̄ where the corner had been carried by the wall (WallSite::carried). F is the foot on which a triangle
-// stands, of its edges there whose both ends touch, of the length l: belts carry along what stands on them.
+// stands, of its edges there whose both ends touch, of the length l: belts carry along what stands on them. Where
+// another wall faces it across the gap g, 1/(ĥ + 3 b) becomes (1 - f)/(g + 3 b) + f/D, f the part filled, and x̄ the mean
+// with these weights of where the one wall and both carry it (channels.h).
 #pragma once
 #include "libsheet/base/each.h"
+#include "libsheet/energy/channels.h"
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/walls.h"
 
@@ -23,16 +26,18 @@ public:
     triangles_ = mesh_->triangles.size();
     walls_.clear();
     for (const WallSite& site : stage.sites)
-      walls_.push_back({site.normal, site.carried});
+      walls_.push_back(touched(stage, site));
     corners_.assign(walls_.empty() ? 0 : triangles_, {});
     each_in_parallel(corners_.size(), [&](std::size_t i) {
       const Corners& corners = mesh_->triangles[i];
       const double area = stage.raised[i].area(), thickness = stage.start->volumes[i] / area;
       for (std::size_t c = 0; c < 3; ++c)
-        if (const WallSite* site = site_at(stage, corners[c]); site != nullptr && site->slip_length != free_slip) {
+        if (const WallSite* site = site_at(stage, corners[c])) {
+          const double between = walls_[stage.site_of[corners[c]]].depth;
+          const double depth = between > 0 ? between : thickness + 3 * site->slip_length;
           const double lies = lying(stage, i, *site), foot = thickness / 2 * length_on_wall(stage, corners, c);
-          corners_[i][c].stiffness = (lies * area + (1 - lies) * 3 * foot) * stage.viscosity[i] /
-                                     (stage.duration * (thickness + 3 * site->slip_length));
+          corners_[i][c].stiffness =
+              (lies * area + (1 - lies) * 3 * foot) * stage.viscosity[i] / (stage.duration * depth);
           corners_[i][c].site = stage.site_of[corners[c]];
         }
     });
@@ -80,11 +85,23 @@ private:
   // Where a vertex touches.
   struct Touched {
     Vector3 normal, carried; // of the wall; as in WallSite [m]
+    double depth = 0;        // in place of the layer's, where another wall faces it; else 0 [m]
   };
+
   struct Corner {
     double stiffness = 0; // [N/m]; 0: it is not dragged
     std::uint32_t site = 0;
   };
+
+  static Touched touched(const Stage& stage, const WallSite& site) {
+    const Channel* channel = channel_of(stage, site);
+    if (channel == nullptr)
+      return {site.normal, site.carried};
+    const double one = (1 - channel->filled) / (channel->gap + 3 * site.slip_length);
+    const double both = channel->filled / channel->depth, sum = one + both;
+    const double part = sum > 0 ? both / sum : 0;
+    return {site.normal, site.carried + part * (channel->carried - site.carried), 1 / sum};
+  }
 
   // Of the edges at a corner whose both ends touch its wall, at the start of the step [m].
   static double length_on_wall(const Stage& stage, const Corners& corners, std::size_t corner) {
@@ -103,7 +120,7 @@ private:
       const auto [stiffness, site] = corners_[i][c];
       if (stiffness == 0)
         continue;
-      const auto& [normal, carried] = walls_[site];
+      const auto& [normal, carried, depth] = walls_[site];
       const Vector3 moved = u.segment<3>(3 * static_cast<Eigen::Index>(c)) - carried;
       visit(static_cast<int>(c), Vector3(moved - normal.dot(moved) * normal), normal, stiffness);
     }

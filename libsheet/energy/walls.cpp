@@ -5,14 +5,16 @@
 #include <cmath>
 
 #include "libsheet/base/each.h"
+#include "libsheet/energy/channels.h"
 #include "libsheet/energy/stage_setup.h"
-#include "libsheet/geometry/area.h"
+#include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
 
 namespace {
 
 constexpr double in_reach = 1 + 1e-3;   // of the distance kept: another wall that is so near holds a vertex as well
+constexpr double farthest_in_gap = 0.75; // of the gap between two walls: from its own wall
 constexpr double part_of_an_edge = 0.5; // that a vertex may move along its wall in a step
 
 RigidMotion moved(const Wall& wall, double from, double to) {
@@ -44,15 +46,16 @@ void add_plane_of(WallSite& site, const WallPoint& point, const Vector3& x, doub
 }
 
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
-// moves it across.
+// moves it across, but one that faces its own and would come too near.
 void keep_distances(const std::vector<Wall>& walls, const Stage& stage, WallSite& site) {
   const Vector3 &x0 = stage.start->positions[site.vertex], &x = stage.predicted[site.vertex];
   const double own = walls[site.wall].nearest(stage.start->time, x0).distance;
   const WallPoint point = walls[site.wall].nearest(stage.end_time, x);
+  const Channel* channel = channel_of(stage, site);
   site.normal = point.normal;
-  add_plane_of(site, point, x, own);
+  add_plane_of(site, point, x, channel != nullptr ? std::min(own, farthest_in_gap * channel->gap) : own);
   for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w)
-    if (w != site.wall)
+    if (w != site.wall && !walls[w].vertices.empty() && (channel == nullptr || w != channel->facing))
       if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
         const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
         if (other.distance < in_reach * kept)
@@ -60,17 +63,32 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, WallSite
       }
 }
 
-// Where the wall takes the vertex of a site.
-void carry(const Wall& wall, const Stage& stage, WallSite& site) {
-  const Vector3& x0 = stage.start->positions[site.vertex];
-  const double from = stage.start->time;
-  const RigidMotion to_end = moved(wall, from, stage.end_time);
-  site.stuck = site.carried = to_end(x0);
+// Where the wall takes a vertex that sticks to it from the start of the step on.
+Vector3 stuck_to(const Wall& wall, const Stage& stage, std::uint32_t vertex) {
+  return moved(wall, stage.start->time, stage.end_time)(stage.start->positions[vertex]);
+}
+
+// The same, in a second stage extrapolated from the first in the wall's frame.
+Vector3 carried_by(const Wall& wall, const Stage& stage, std::uint32_t vertex) {
+  const Vector3 stuck = stuck_to(wall, stage, vertex);
   if (stage.previous == nullptr)
-    return;
+    return stuck;
+  const double from = stage.start->time;
   const RigidMotion to_first = moved(wall, from, from + stage.duration);
-  const Vector3 slid = stage.position(*stage.previous, site.vertex) - to_first(x0);
-  site.carried += stage.ratio * (to_end.rotation * (to_first.rotation.transpose() * slid));
+  const Vector3 slid = stage.position(*stage.previous, vertex) - to_first(stage.start->positions[vertex]);
+  return stuck + stage.ratio * (moved(wall, from, stage.end_time).rotation * (to_first.rotation.transpose() * slid));
+}
+
+// The sites that lie between two walls, by the thickness around them at the predicted end.
+void find_channels(const std::vector<Wall>& walls, Stage& stage) {
+  if (walls.size() < 2)
+    return;
+  const auto& triangles = stage.start->mesh->triangles;
+  const std::vector<double> thickness =
+      thickness_around(stage.vertices(), triangles, stage.start->volumes,
+                       [&](std::uint32_t t) { return stage.raised[t].area(); });
+  set_channels(
+      walls, thickness, [&](const Wall& wall, std::uint32_t v) { return carried_by(wall, stage, v); }, stage);
 }
 
 } // namespace
@@ -139,6 +157,7 @@ void set_wall_turns(Stage& stage) {
 void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   stage.sites.clear();
   stage.site_of.clear();
+  stage.channels.clear();
   stage.wall_edges.clear();
   stage.wall_turns.clear();
   if (std::ranges::all_of(walls, [](const Wall& w) { return w.vertices.empty(); }))
@@ -151,11 +170,14 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
       site.wall = w;
       site.slip_length = walls[w].slip_length;
       site.wetting = walls[w].wetting;
-      carry(walls[w], stage, site);
-      keep_distances(walls, stage, site);
+      site.stuck = stuck_to(walls[w], stage, v);
+      site.carried = carried_by(walls[w], stage, v);
       stage.sites.push_back(std::move(site));
     }
   std::ranges::sort(stage.sites, {}, &WallSite::vertex);
+  find_channels(walls, stage);
+  for (WallSite& site : stage.sites)
+    keep_distances(walls, stage, site);
   for (std::uint32_t s = 0; s < stage.sites.size(); ++s)
     stage.site_of[stage.sites[s].vertex] = s;
   set_wall_turns(stage);

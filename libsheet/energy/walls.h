@@ -30,10 +30,12 @@ struct WallPoint {
 
 // One solid on which liquid flows.
 struct Wall {
-  std::vector<std::uint32_t> vertices; // those that touch it
+  std::vector<std::uint32_t> vertices; // those that touch it; none: it only faces another wall (channels.h)
   double slip_length = 0;              // [m], or free_slip
   double wetting = 2;                  // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs
   std::function<WallPoint(double t, const Vector3& x)> nearest;
+  // Whether x is surely farther from it than `reach` [m], which is cheaper to know; absent: no one knows.
+  std::function<bool(double t, const Vector3& x, double reach)> beyond;
   // Of what sticks to it, as for holds; absent: it rests.
   std::function<RigidMotion(double from, double to)> motion;
   std::function<Vector3(double t, const Vector3& x)> velocity;

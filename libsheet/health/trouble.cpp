@@ -129,13 +129,13 @@ constexpr std::array table{
          .name = "between two solids",
          .least = false,
          .told = Told::in_percent,
-         .what = "up to {} of the vertices lay between two solids that move past each other",
+         .what = "up to {} of the vertices lay between two solids less than half as far apart as the sheet is thick",
          .counted = "vertices",
          .noted = {.worst = 0, .share = 0, .times = 3},
          .serious = {.worst = 0.05, .share = 0, .times = 20, .of_steps = 0.1},
          .remedy =
-             "believe nothing of what is rolled, pressed or combed there: a vertex feels the solid that it touched "
-             "first, the other one only stops it; wider gaps than the sheet is thick have no such places"},
+             "leave what is squeezed a way out, and edges shorter than that way; slower solids or a wider gap have no "
+             "such places"},
 };
 
 } // namespace

@@ -20,6 +20,16 @@ double area_of(const State& state, const Corners& c) {
   return TriangleArea(state.positions[c[0]], state.positions[c[1]], state.positions[c[2]]).area;
 }
 
+// By how much liquid may be faster than the walls that squeeze it: the sheet's width over its thickness.
+double squeezed(const Model& model, const State& state) {
+  double area = 0, volume = 0;
+  for (std::size_t t = 0; t < state.volumes.size() && model.walls.size() > 1; ++t) {
+    area += area_of(state, state.mesh->triangles[t]);
+    volume += state.volumes[t];
+  }
+  return volume > 0 ? std::max(1.0, std::sqrt(area) * area / volume) : 1;
+}
+
 // Of what holds and walls move, at the end [m/s].
 double fastest_prescribed(const Model& model, const State& end) {
   double fastest = 0;
@@ -27,10 +37,11 @@ double fastest_prescribed(const Model& model, const State& end) {
     for (const auto v : hold.vertices)
       fastest = std::max(fastest, hold.velocity_at(end.time, end.positions[v]).norm());
   for (const Wall& wall : model.walls)
-    for (const auto v : wall.vertices)
-      if (wall.velocity)
-        fastest = std::max(fastest, wall.velocity(end.time, end.positions[v]).norm());
-  return fastest;
+    for (const Wall& touched : model.walls) // what one faces touches another one
+      if (wall.velocity && (&wall == &touched || wall.vertices.empty()))
+        for (const auto v : touched.vertices)
+          fastest = std::max(fastest, wall.velocity(end.time, end.positions[v]).norm());
+  return squeezed(model, end) * fastest;
 }
 
 // Of gravity on all vertices, as if none had lost what another one gained, and of what the bath carries.

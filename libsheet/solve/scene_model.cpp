@@ -10,6 +10,8 @@
 #include "libsheet/energy/overshoot.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/capped_volume.h"
+#include "libsheet/geometry/facing_walls.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/directors.h"
@@ -164,9 +166,23 @@ Wall wall_of(const std::shared_ptr<const solid::Solids>& solids, std::size_t i, 
     const solid::SolidPoint point = solids->at(i, x, t);
     return WallPoint{point.distance, point.normal};
   };
+  wall.beyond = [solids, i](double t, const Vector3& x, double reach) {
+    return solids->shape(i).distance(solids->pose(i, t).inverse() * x, reach) >= reach;
+  };
   wall.motion = moved.motion;
   wall.velocity = moved.velocity;
   return wall;
+}
+
+// The solids that nothing flows along in this step: they may face those that something does.
+void add_facing(const Scene& scene, const std::shared_ptr<const solid::Solids>& solids, std::span<const char> listed,
+                Model& model) {
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (listed[i] == 0) {
+      Hold hold;
+      move(hold, scene.solids[i].motion, scene.solids[i].surface_velocity);
+      model.walls.push_back(wall_of(solids, i, {}, hold));
+    }
 }
 
 // Vertices around which the sheet is thinner than a thousandth of its mean thickness. A wall's drag on so thin a film
@@ -193,6 +209,36 @@ std::vector<char> thin_films(const Frame& frame) {
   return films;
 }
 
+// Of the vertices that stick to solid i, takes away those that lie between it and another solid which leaves them no
+// room, and gives them: they flow out from there, without slip.
+std::vector<std::uint32_t> take_squeezed(const solid::Solids* solids, std::size_t i, const Frame& frame,
+                                         std::vector<std::uint32_t>& vertices) {
+  std::vector<std::uint32_t> squeezed;
+  if (solids == nullptr || solids->size() < 2)
+    return squeezed;
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  const std::vector<double> thickness = thickness_around(x.size(), corners, volumes(frame), [&](std::uint32_t t) {
+    return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
+  });
+  const auto leave_no_room = [&](std::uint32_t v, std::size_t other) {
+    const Vector3 there = solids->pose(other, frame.time).inverse() * x[v];
+    if (!(solids->shape(other).distance(there, thickness[v]) < thickness[v]))
+      return false;
+    const solid::SolidPoint one = solids->at(i, x[v], frame.time), two = solids->at(other, x[v], frame.time);
+    return gap_between(one.distance, one.normal, two.distance, two.normal) < thickness[v];
+  };
+  std::erase_if(vertices, [&](std::uint32_t v) {
+    bool any = false;
+    for (std::size_t other = 0; other < solids->size() && !any; ++other)
+      any = other != i && leave_no_room(v, other);
+    if (any)
+      squeezed.push_back(v);
+    return any;
+  });
+  return squeezed;
+}
+
 // What touches a solid moves with its surface, without slip [Batty et al. 2012, section 3.5], or flows along it. Gives
 // whether anything touches.
 bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& mesh,
@@ -203,27 +249,34 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
     if (touched[v] != no_solid)
       touching[static_cast<std::size_t>(touched[v])].push_back(v);
   const std::vector<char> films = flows_on_solids(scene) ? thin_films(frame) : std::vector<char>{};
+  std::vector<char> listed(touching.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i < touching.size(); ++i) {
     if (touching[i].empty())
       continue;
     any = true;
     const scene::Solid& solid = scene.solids[i];
-    if (solid.contact == SolidContact::stick) {
-      add_stuck(solids.get(), i, solid, std::move(touching[i]), frame, model);
-      continue;
-    }
     Hold hold;
     move(hold, solid.motion, solid.surface_velocity);
+    if (solid.contact == SolidContact::stick) {
+      std::vector<std::uint32_t> squeezed = take_squeezed(solids.get(), i, frame, touching[i]);
+      add_stuck(solids.get(), i, solid, std::move(touching[i]), frame, model);
+      if (squeezed.empty())
+        continue;
+      touching[i] = std::move(squeezed);
+    }
     hold.of_wall = true;
     if (solid.contact == SolidContact::flow && !solid.receding)
       hold.vertices = held_rims(frame, mesh, touching[i]);
     if (solid.contact == SolidContact::flow)
       std::ranges::copy_if(touching[i], std::back_inserter(hold.vertices), [&](std::uint32_t v) { return films[v]; });
     model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
+    listed[i] = 1;
     if (!hold.vertices.empty())
       model.holds.push_back(std::move(hold));
   }
+  if (!model.walls.empty())
+    add_facing(scene, solids, listed, model);
   return any;
 }
 

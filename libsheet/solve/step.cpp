@@ -9,6 +9,7 @@
 
 #include "libsheet/base/each.h"
 #include "libsheet/base/error.h"
+#include "libsheet/energy/channels.h"
 #include "libsheet/energy/films.h"
 #include "libsheet/energy/levelling.h"
 #include "libsheet/energy/stage_setup.h"
@@ -265,6 +266,8 @@ void Stepper::estimate_error(const State& state, double dt, const Stage& stage, 
                           : two                  ? Vector3(x0 + (x1 - x0) / gamma)
                                                  : Vector3(x0 + 0.5 * dt * (v0 + end.velocities[v]));
     e.segment<3>(at) = last.segment<3>(at) - lower;
+    if (site != nullptr && channel_of(stage, *site) != nullptr) // its place between two walls is exact
+      e.segment<3>(at) -= site->normal.dot(e.segment<3>(at)) * site->normal;
     speeds.segment<3>(at) = end.velocities[v] - (v0 + ((x1 - x0) / tau - v0) / gamma);
   }
   LinearSystem& system = cache_->system;

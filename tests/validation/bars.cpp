@@ -222,6 +222,14 @@ TEST(Validation, LayersOnWalls) {
     EXPECT_GE(order_in_time("V24", settings("V24", 0.1, 80, set), Scheme::sdirk2), 1.9) << "set " << set;
 }
 
+// What is too thick for its gap by the pressure there is of the model, and no error of steps.
+TEST(Validation, LayersBetweenWalls) {
+  EXPECT_LT(error("V29", settings("V29", 0.1, 40, 1)), 1e-9);  // that slide past each other
+  EXPECT_LT(error("V29", settings("V29", 0.1, 40, 2)), 5e-3);  // that close
+  EXPECT_LT(error("V29", settings("V29", 0.05, 40, 3)), 3e-2); // a slider bearing
+  EXPECT_GE(order_in_time("V29", settings("V29", 0.2, 10, 2), Scheme::sdirk2), 1.9);
+}
+
 TEST(Validation, FallingCurtain) {
   const Result r = run(find_case("V18"), settings("V18", 0.01, 350));
   EXPECT_LT(std::abs(r.error), 0.01);

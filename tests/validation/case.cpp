@@ -77,6 +77,10 @@ const std::vector<Case>& cases() {
        "", 3, at(0.08, 100, Pattern::equilateral), true, true, v27},
       {"V28", "free disk with noise contracts, bending", "root mean square of its height over that at the start", "", 1,
        at(0.1, 25), false, false, v28},
+      {"V29",
+       "a layer between two walls (set 1: that slide past each other, one with slip; 2: round plates that close; 3: a "
+       "slider bearing)",
+       "1: way; 2: radius; 3: flux", "", 3, at(0.1, 40), true, false, v29},
   };
   return list;
 }

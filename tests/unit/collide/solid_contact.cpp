@@ -53,26 +53,31 @@ TEST(SolidContact, NothingToDo) {
   EXPECT_TRUE(unsafe_triangles(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).empty());
 }
 
-// Between two plates 2.2 mm apart a sheet of 2 mm touches the lower one, then comes within reach of the upper one, too.
-TEST(SolidContact, WhatLiesBetweenSolidsThatMovePastEachOtherIsCounted) {
-  for (const bool upper_moves : {false, true}) {
+// Between two plates a sheet of 2 mm touches the lower one. Where the upper one leaves it less room than that it slides,
+// though it sticks to solids; where it leaves less than half, that is counted.
+TEST(SolidContact, WhatIsSqueezedBetweenSolidsSlidesAndIsCounted) {
+  for (const double gap : {2.2e-3, 1.9e-3, 0.95e-3}) {
     FallingSheet sheet = falling(1, 1.05e-3);
     scene::Solid upper = solid(scene::SolidBox{{1, 0.1, 1}}, {0, 0.05 + 2.2e-3, 0});
-    if (upper_moves)
-      upper.motion = scene::Translating{{{{0, {0.05, 0, 0}}}}};
-    const solid::Solids solids = solids_of({solid(scene::HalfSpace{{0, 1, 0}}), upper});
-    const SolidReport first = resolve_solids(sheet.path, solids);
+    const SolidReport first = resolve_solids(sheet.path, solids_of({solid(scene::HalfSpace{{0, 1, 0}}), upper}));
     EXPECT_EQ(first.touching, sheet.path.start.size());
-    EXPECT_EQ(first.between, 0U); // all are 1.2 mm from the upper one
-    upper.center.y() -= 0.25e-3;
+    EXPECT_EQ(first.between, 0U);
+    upper.center.y() += gap - 2.2e-3;
     sheet.path.start = sheet.path.end;
+    for (Vector3& x : sheet.path.end) // as sheet-step moves what flows
+      x += Vector3(1e-3, gap / 2 - 1e-3, 0);
+    for (Vector3& v : sheet.path.velocity)
+      v = Vector3(0.01, 0, 0);
     std::ranges::fill(sheet.path.fixed, Axes{0});
     const SolidReport then = resolve_solids(sheet.path, solids_of({solid(scene::HalfSpace{{0, 1, 0}}), upper}));
-    EXPECT_EQ(then.between, upper_moves ? sheet.path.start.size() : 0U);
-    if (!upper_moves)
+    const bool squeezed = gap < thickness_of_sheet;
+    for (const Vector3& v : sheet.path.velocity)
+      EXPECT_EQ(v.x(), squeezed ? 0.01 : 0);
+    EXPECT_EQ(then.between, gap < 1e-3 ? sheet.path.start.size() : 0U);
+    if (then.between == 0)
       continue;
     EXPECT_EQ(std::pair(then.narrowest.first, then.narrowest.second), std::pair(std::size_t{0}, std::size_t{1}));
-    EXPECT_NEAR(then.narrowest.gap, 1.95e-3, 1e-9);
+    EXPECT_NEAR(then.narrowest.gap, gap, 1e-9);
     EXPECT_NEAR(then.narrowest.thickness, thickness_of_sheet, 1e-9);
   }
 }

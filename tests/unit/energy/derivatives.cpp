@@ -12,6 +12,7 @@
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
+#include "libsheet/energy/channel_pressure.h"
 #include "libsheet/energy/contact.h"
 #include "libsheet/energy/contact_damping.h"
 #include "libsheet/energy/contact_shear.h"
@@ -91,6 +92,25 @@ void touch_walls(Stage& stage, Random& random) {
     site.wetting = 1 + random();
     stage.site_of[v] = static_cast<std::uint32_t>(stage.sites.size());
     stage.sites.push_back(std::move(site));
+  }
+}
+
+// The same, and another wall faces each of them; the layer is thicker than the gap.
+void touch_two_walls(Stage& stage, Random& random) {
+  touch_walls(stage, random);
+  stage.channels.clear();
+  for (WallSite& site : stage.sites) {
+    Channel channel;
+    channel.vertex = site.vertex;
+    channel.gap = 0.02 * (1.5 + random());
+    channel.gap_before = 1; // so none is too thick at the start
+    channel.filled = 0.5 * (1 + random());
+    channel.depth = 0.1 * (1.5 + random());
+    channel.place = stage.start->positions[site.vertex];
+    channel.slope = random.vector(0.005);
+    channel.carried = site.carried + random.vector(0.1);
+    site.channel = static_cast<std::uint32_t>(stage.channels.size());
+    stage.channels.push_back(channel);
   }
 }
 
@@ -248,6 +268,8 @@ TEST(Derivatives, Membrane) { check(Membrane(), {}); }
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(), {}, true, crumpled, touch_walls); }
 TEST(Derivatives, WallDrag) { check(WallDrag(), {false, false}, true, crumpled, touch_walls); }
+TEST(Derivatives, DragOfTwoWalls) { check(WallDrag(), {false, false}, true, crumpled, touch_two_walls); }
+TEST(Derivatives, ChannelPressure) { check(ChannelPressure(), {false, false}, true, crumpled, touch_two_walls); }
 TEST(Derivatives, WallWeight) { check(WallWeight({0.3, -9, 2}, no_bath), {}, true, crumpled, touch_walls); }
 TEST(Derivatives, WeightOnABath) { check(WallWeight({0.3, -9, 2}, 0.1), {}); }
 TEST(Derivatives, BathDrag) { check(BathDrag(3, {0.3, -9, 2}, 0.1), {false, false}); }
