@@ -159,7 +159,7 @@ def standard_arrays():
     return frame
 
 
-def contacts(vertex=2, rests=2):
+def contacts(vertex=2, rests=2, **more):
     one = np.array([[1.0, -0.5, -0.25, -0.25]] * 2)
     return triangle_frame(
         touch=Array(np.array([0, 0, 2], "u8"), "vertex", "1", "common"),
@@ -168,7 +168,11 @@ def contacts(vertex=2, rests=2):
         contact_normal=Array(np.array([[0, 0, 1.0], [0, 1.0, 0]]), "frame", "1", "drop"),
         contact_rest=Array(np.full(rests, 0.125), "frame", "m", "drop"),
         contact_anchor=Array(np.zeros((2, 3)), "frame", "m", "drop"),
-        contact_stiffness=Array(np.array([[1.5, 0.5], [1.5, 0]]), "frame", "N/m", "drop"))
+        contact_stiffness=Array(np.array([[1.5, 0.5], [1.5, 0]]), "frame", "N/m", "drop"), **more)
+
+
+def dated_contacts(*dates):
+    return contacts(contact_since=Array(np.array(dates, "f8"), "frame", "s", "drop"))
 
 
 def inlet():
@@ -223,6 +227,7 @@ passed = {
     "health": with_array("health", Array(np.array([[1, 40, 0.25, 0.5, 0.001953125, 0.5, 0.125, 12, 1, 0.5, 0, -0.25],
                                                    [5, 3, 0.5, 0.5, 0.0009765625, 0.5, 0, 0, 0, 0, 0, 0]]), "frame",
                                                    "1", "copy")),
+    "contact_since": stream(dated_contacts(0.25, -np.inf)),
 }
 
 failed = {
@@ -338,6 +343,8 @@ failed = {
     "director_angle_place": with_array("director_angle", Array(np.zeros(3), "vertex", "rad", "drop")),
     "touch_overshoot_nan": with_array("touch_overshoot", Array(np.full((3, 3), np.nan), "vertex", "m", "interpolate")),
     "health_nan": with_array("health", Array(np.full((1, 12), np.nan), "frame", "1", "copy")),
+    "contact_since_infinite": stream(dated_contacts(0.25, np.inf)),
+    "contact_since_rows": stream(dated_contacts(0.25)),
 }
 
 

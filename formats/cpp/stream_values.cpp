@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -51,6 +52,7 @@ constexpr std::array standards{
     Standard{"contact_rest", Place::frame, Type::float64, 1, "m", Transfer::drop, false},
     Standard{"contact_anchor", Place::frame, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"contact_stiffness", Place::frame, Type::float64, 2, "N/m", Transfer::drop, false},
+    Standard{"contact_since", Place::frame, Type::float64, 1, "s", Transfer::drop, false},
     Standard{"director_angle", Place::edge, Type::float64, 1, "rad", Transfer::drop, false},
     Standard{"next_output_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"step_size", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
@@ -140,6 +142,14 @@ std::string find_contact_error(const Frame& frame, const Array& array) {
   return {};
 }
 
+// Dates are finite, or -inf.
+std::string find_date_error(std::string_view name, std::span<const double> dates) {
+  for (std::size_t i = 0; i < dates.size(); ++i)
+    if (!(dates[i] < std::numeric_limits<double>::infinity()))
+      return fmt::format("array \"{}\": row {} is neither finite nor -inf", name, i);
+  return {};
+}
+
 std::string find_error(const Frame& frame, const Standard& standard, const Array& array) {
   const std::uint32_t components = standard.components == any_number ? array.components : standard.components;
   if (array.place != standard.place || array.type != standard.type || array.components != components)
@@ -160,6 +170,8 @@ std::string find_error(const Frame& frame, const Standard& standard, const Array
   if (const std::uint64_t rows = rows_wanted(frame, standard, array); array.place == Place::frame && array.rows != rows)
     return fmt::format("array \"{}\" has {} rows, it must have {}", array.name, array.rows, rows);
   const auto values = array.values<double>();
+  if (array.name == "contact_since")
+    return find_date_error(array.name, values);
   const std::size_t row = first_not_finite(values, array.components);
   if (row < array.rows)
     return fmt::format("array \"{}\": row {} is not finite", array.name, row);

@@ -403,6 +403,7 @@ struct CollideStage::Impl {
                             at_end.area, fixed,    path.length(), path.end_thickness};
     std::vector<ContactSpring> springs = read_springs(frame);
     drop_within_layers(springs, search->layers(), sheet);
+    weld_anew(springs, *mesh.mesh(), path.start);
     const LooseSprings loose = take_loose(springs, *mesh.mesh(), path.start);
     const std::vector<double> had = follow(springs, *scene, sheet, positions(frame));
     const std::size_t old = springs.size();
@@ -412,6 +413,7 @@ struct CollideStage::Impl {
     hand_over(loose.without_features, path.end, springs); // as they were before the mesh changed
     level_velocities(std::span(springs).subspan(old), *scene, path.mass, fixed, path.velocity);
     totals.most_springs = std::max(totals.most_springs, springs.size());
+    date(springs, *scene, frame.time);
     write_springs(frame, springs);
   }
 };

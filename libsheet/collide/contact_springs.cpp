@@ -47,13 +47,15 @@ double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringShee
 bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   const auto before = normal_of(s, sheet.start), after = normal_of(s, sheet.end);
   if (!before || !after)
-    return false;
+    return s.welded();
   const auto turn = Eigen::Quaterniond::FromTwoVectors(*before, *after);
   s.normal = (turn * s.normal).normalized();
   s.anchor = turn * s.anchor;
   if (!sheet.end_thickness.empty())
     s.rest *= s.mean(sheet.end_thickness) / s.mean(sheet.thickness);
   const double gap = s.normal.dot(s.offset(sheet.end));
+  if (s.welded())
+    return true;
   if (!(gap > 0))
     return false;
   if (!scene.contact || !scene.contact->adhesion)
@@ -76,7 +78,7 @@ void ease(ContactSpring& s, double part, std::span<const Vector3> x) {
 
 void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet) {
   std::erase_if(springs, [&](const ContactSpring& s) {
-    return layers.one(sheet.start, s.vertices, s.weights, SheetLayers::of_kept, s.mean(sheet.reach));
+    return !s.welded() && layers.one(sheet.start, s.vertices, s.weights, SheetLayers::of_kept, s.mean(sheet.reach));
   });
 }
 
@@ -147,6 +149,15 @@ void level_velocities(std::span<const ContactSpring> springs, const Scene& scene
         for (std::size_t i = 0; i < 4; ++i)
           velocity[s.vertices[i]] -= rate / compliance * share[i];
     }
+}
+
+void date(std::vector<ContactSpring>& springs, const Scene& scene, double now) {
+  const auto dated = [](const ContactSpring& s) { return s.since != ContactSpring::undated; };
+  if (!scene.merge && std::ranges::none_of(springs, dated))
+    return;
+  for (ContactSpring& s : springs)
+    if (!dated(s))
+      s.since = now;
 }
 
 void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,

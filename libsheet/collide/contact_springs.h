@@ -45,7 +45,8 @@ struct SpringSheet {
 void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet);
 
 // Turns the springs with their features and takes away those that parted: whose features passed each other or became
-// parallel edges, and whose tension [Pa] exceeds the scene's adhesion. Without `adhesion` in the scene none parts.
+// parallel edges, and whose tension [Pa] exceeds the scene's adhesion. Without `adhesion` in the scene none parts, and
+// welds never do.
 // Returns of each that is left the energy that it had at the step's end before impulses and what carries or pulls back
 // vertices corrected that, `uncorrected`: turned, and, if they moved its features, no more than as it was [J].
 [[nodiscard]] std::vector<double> follow(std::vector<ContactSpring>& springs, const Scene& scene,
@@ -61,6 +62,9 @@ void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& 
 // of the first springs before; those behind are new.
 void ease_strained(std::vector<ContactSpring>& springs, std::span<const double> had, double given, const Scene& scene,
                    std::span<const Vector3> positions);
+
+// Where the scene merges layers, or some springs have dates, those without one have come to be now [s].
+void date(std::vector<ContactSpring>& springs, const Scene& scene, double now);
 
 // Adds springs for near pairs of two layers that have none.
 void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,

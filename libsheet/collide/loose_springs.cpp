@@ -2,8 +2,11 @@
 #include "libsheet/collide/loose_springs.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <unordered_map>
+
+#include "libsheet/geometry/closest_points.h"
 
 namespace sheet::collide {
 
@@ -36,7 +39,7 @@ bool has_features(const Connectivity& mesh, const ContactSpring& s) {
 
 bool is_aside(const ContactSpring& s, std::span<const Vector3> x) {
   const Vector3 c = s.offset(x);
-  return !(s.normal.dot(c) > kept_facing * c.norm());
+  return !s.welded() && !(s.normal.dot(c) > kept_facing * c.norm());
 }
 
 struct Force {
@@ -50,6 +53,38 @@ Force force_of(const ContactSpring& s, std::span<const Vector3> x) {
 }
 
 } // namespace
+
+void weld_anew(std::vector<ContactSpring>& springs, const Connectivity& mesh, std::span<const Vector3> positions) {
+  std::vector<std::vector<std::uint32_t>> around; // the triangles of each vertex
+  for (ContactSpring& s : springs) {
+    if (!s.welded() || has_features(mesh, s))
+      continue;
+    if (around.empty()) {
+      around.resize(mesh.vertices);
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        for (const std::uint32_t v : mesh.triangles[t])
+          around[v].push_back(t);
+    }
+    const ContactSpring old = s;
+    const std::uint32_t vertex = old.vertices[0];
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < 4; ++i)
+      for (const std::uint32_t t : around[old.vertices[i]]) {
+        const Corners& c = mesh.triangles[t];
+        const auto closest =
+            closest_vertex_triangle({positions[vertex], positions[c[0]], positions[c[1]], positions[c[2]]});
+        if (const double distance = closest.offset.norm();
+            distance < nearest && std::ranges::find(c, vertex) == c.end()) {
+          nearest = distance;
+          s.vertices = {vertex, c[0], c[1], c[2]};
+          s.weights = closest.weights;
+        }
+      }
+    const Vector3 change = s.offset(positions) - old.offset(positions);
+    s.rest += s.normal.dot(change);
+    s.anchor += change;
+  }
+}
 
 LooseSprings take_loose(std::vector<ContactSpring>& springs, const Connectivity& mesh,
                         std::span<const Vector3> positions) {
@@ -90,6 +125,8 @@ void hand_over(std::span<const ContactSpring> loose, std::span<const Vector3> po
       ContactSpring& s = springs[i];
       if (count != most || !(s.stiffness[0] > 0))
         continue;
+      if (!old.welded())
+        s.since = std::min(s.since, old.since);
       const double part = s.stiffness[0] / stiffness, sign = s.normal.dot(old.normal) > 0 ? 1 : -1;
       s.rest -= part * force.normal / s.stiffness[0];
       if (s.stiffness[1] > 0)

@@ -31,6 +31,8 @@ void ContactShear::begin(const Stage& stage) {
   links_.assign(springs_.size(), {});
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
+    if (s.welded())
+      continue;
     const std::size_t middle = s.second_feature();
     const Feature one = feature(s, 0, middle, stage, shares.thickness);
     const Feature other = feature(s, middle, 4, stage, shares.thickness);

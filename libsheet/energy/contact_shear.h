@@ -7,7 +7,7 @@
 // the start of the step, in a second stage extrapolated from the first, and what a corner does beyond its own weight
 // counts from WallSite::carried. What this does not give back to the upper layer the wall takes (add_wall_forces). The
 // second part is that of liquid which is drawn out or squeezed between the middles of the layers [Trouton 1906];
-// without it they would bounce on their springs whenever contacts change.
+// without it they would bounce on their springs whenever contacts change. Welds hold by their springs alone.
 #pragma once
 #include "libsheet/energy/contact.h"
 

@@ -39,13 +39,6 @@ private:
 
 bool apart(const Fans& fans, std::uint32_t v) { return fans.fan_count[fans.old_vertex[v]] > 1; }
 
-Box box_of(std::span<const Vector3> x, const Corners& t) {
-  Box box{x[t[0]], x[t[0]]};
-  box.add(x[t[1]]);
-  box.add(x[t[2]]);
-  return box;
-}
-
 } // namespace
 
 std::vector<Vector3> open_cracks(const Fans& fans, const std::vector<bool>& dropped, std::span<const Vector3> x) {

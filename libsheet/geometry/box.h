@@ -2,6 +2,7 @@
 // An axis-aligned box; without points it is empty.
 #pragma once
 #include <limits>
+#include <span>
 
 #include "libsheet/geometry/types.h"
 
@@ -35,5 +36,13 @@ struct Box {
   [[nodiscard]] double half_size() const { return (high - low).maxCoeff() / 2; }
   [[nodiscard]] double diagonal() const { return empty() ? 0 : (high - low).norm(); }
 };
+
+// Of a triangle.
+[[nodiscard]] inline Box box_of(std::span<const Vector3> positions, const Corners& triangle) {
+  Box box;
+  for (const std::uint32_t v : triangle)
+    box.add(positions[v]);
+  return box;
+}
 
 } // namespace sheet

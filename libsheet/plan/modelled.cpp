@@ -93,6 +93,11 @@ std::vector<scene::ModelledPart> modelled(const Scene& scene) {
   part("tear", scene.tear.has_value(),
        scene.tear ? fmt::format("where thinner than {} m", brief(scene.tear->below)) : "",
        "no [tear]: the sheet only thins");
+  part("merge", scene.merge.has_value(),
+       !scene.merge         ? ""
+       : scene.merge->after ? fmt::format("layers that have touched for {} s become one", brief(*scene.merge->after))
+                            : "layers that have touched for mu h/gamma become one",
+       "no [merge]: layers stay two");
   return parts;
 }
 

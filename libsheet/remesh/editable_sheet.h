@@ -11,7 +11,7 @@
 
 #include "libsheet/geometry/triangle_grid.h"
 #include "libsheet/remesh/edit.h"
-#include "libsheet/remesh/overlap.h"
+#include "libsheet/geometry/overlap.h"
 #include "libsheet/remesh/side_directors.h"
 #include "libsheet/remesh/thickness.h"
 #include "libsheet/remesh/triangle_shape.h"

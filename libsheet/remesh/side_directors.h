@@ -8,7 +8,7 @@
 
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/remesh/edit.h"
-#include "libsheet/remesh/overlap.h"
+#include "libsheet/geometry/overlap.h"
 
 namespace sheet::remesh {
 

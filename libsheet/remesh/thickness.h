@@ -12,7 +12,7 @@
 #include <span>
 
 #include "libsheet/remesh/edit.h"
-#include "libsheet/remesh/overlap.h"
+#include "libsheet/geometry/overlap.h"
 
 namespace sheet::remesh {
 

@@ -265,6 +265,12 @@ center = [0, "-0.3 m", 0]
 #below = "0.8 mm"?
 #crumbs = "keep"?
 
+# ------------------------------------------------------------------------ layers that lie on each other become one
+
+#[merge]
+#after = "0.3 s"?
+#on = "all"?
+
 # ------------------------------------------------------------------------ contact of the sheet with itself
 
 # All keys may be absent.

@@ -244,8 +244,10 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   std::vector<std::string> left_out;
   if (std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact == SolidContact::stick; }))
     left_out.push_back("what sticks to a solid does not spread on it");
-  if (scene.contact && scene.contact->self)
-    left_out.push_back("layers that touch never become one liquid");
+  if (scene.merge)
+    left_out.push_back("layers become one where one lies wholly on another; tight folds stay two");
+  else if (scene.contact && scene.contact->self)
+    left_out.push_back("layers that touch never become one liquid ([merge])");
   if (const auto& bath = scene.environment.bath) {
     left_out.push_back(bath->drag > 0 ? "the bath has no waves and stays at rest"
                                       : "the bath has no waves and no viscosity");

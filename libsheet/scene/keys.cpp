@@ -143,7 +143,7 @@ constexpr std::array model_keys{
     boolean_key("forces", "those of holds and solids on the sheet are written, for sheet-info")};
 constexpr KeyTable model_table{"model", model_keys};
 
-// ---- [[hold]], [[solid]], [[inflow]], [[outflow]], [tear], [contact]
+// ---- [[hold]], [[solid]], [[inflow]], [[outflow]], [tear], [merge], [contact]
 
 constexpr std::array ball_keys{list_key("center", quantity::length, "[3]", "of the ball"),
                                number_key("radius", quantity::length, "of the ball")};
@@ -205,6 +205,11 @@ constexpr std::array tear_keys{number_key("below", quantity::length, "thickness 
                                word_key("crumbs", words::crumbs, "what becomes of small pieces that come off")};
 constexpr KeyTable tear_table{"tear", tear_keys};
 
+constexpr std::array merge_keys{
+    number_key("after", quantity::time, "how long it has touched (default, with tension: mu h/gamma)"),
+    word_key("on", words::merges, "what may take it up: any layer, or one that lies on a solid")};
+constexpr KeyTable merge_table{"merge", merge_keys};
+
 constexpr std::array contact_keys{
     boolean_key("self", "of the sheet with itself (default true)"),
     number_key("stiffness", quantity::stiffness, "of the springs of one contact (default: the program chooses)"),
@@ -221,6 +226,7 @@ constexpr std::array all_tables{table_key("sheet", sheet_table),
                                 table_key("inflow", inflow_table),
                                 table_key("outflow", outflow_table),
                                 table_key("tear", tear_table),
+                                table_key("merge", merge_table),
                                 table_key("contact", contact_table)};
 constexpr KeyTable scene_table{"the scene", all_tables};
 

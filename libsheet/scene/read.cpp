@@ -31,7 +31,7 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     const Node* found = document.find(table);
     return found && found->find(key);
   };
-  const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, contact] = scene;
+  const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, merge, contact] = scene;
   if (!has("material", "density") && model.inertia)
     problems.add(place("material", "density"), "missing key \"density\" in [material]: inertia needs it (or switch it "
                                                "off: inertia = false in [model])");
@@ -41,6 +41,11 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     problems.add(place("material", "viscosity"), "viscosity: 0 needs inertia: nothing else would resist the forces");
   if (environment.bath && !environment.gravity && (!has("environment", "gravity") || !problems.any()))
     problems.add(place("environment", "bath"), "bath: needs gravity, which says where up is");
+  if (merge && !(contact && contact->self))
+    problems.add(place("merge", "after"), "[merge] needs [contact] with self = true: nothing touches without it");
+  if (merge && !merge->after && !(material.surface_tension > 0))
+    problems.add(place("merge", "after"), "missing key \"after\" in [merge]: without surface tension nothing says how "
+                                          "long layers take to become one; for example after = \"0.3 s\"");
   if (const std::string& name = environment.pressure_sheet; !name.empty() && !has_sheet_named(sheets, name))
     problems.add(place("environment", "pressure"), fmt::format("pressure: there is no [[sheet]] \"{}\"", name));
   const bool flat = std::ranges::all_of(sheets, [](const SheetTable& sheet) { return sheet.shape.index() <= 2; });
@@ -158,6 +163,8 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     scene.outflows.push_back(read_outflow(table));
   if (auto table = optional("tear"))
     scene.tear = read_tear(*table, scene.sheets);
+  if (auto table = optional("merge"))
+    scene.merge = read_merge(*table);
   if (auto table = optional("contact"))
     scene.contact = read_contact(*table);
   top.finish();

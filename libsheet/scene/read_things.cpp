@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// [[hold]], [[solid]], [inflow], [tear], [contact]
+// [[hold]], [[solid]], [inflow], [tear], [merge], [contact]
 #include <filesystem>
 #include <numbers>
 
@@ -268,6 +268,14 @@ Tear read_tear(TableReader table, std::span<const SheetTable> sheets) {
   tear.drop_crumbs = table.choice("crumbs").value_or(0) == 1;
   table.finish();
   return tear;
+}
+
+Merge read_merge(TableReader table) {
+  Merge merge;
+  merge.after = table.quantity("after", Bound::not_negative);
+  merge.on_solids = table.choice("on").value_or(0) == 1;
+  table.finish();
+  return merge;
 }
 
 Contact read_contact(TableReader table) {

@@ -6,7 +6,10 @@
 namespace sheet::scene {
 
 std::vector<RingStage> ring_of(const Scene& scene) {
-  std::vector<RingStage> stages{{"sheet-remesh --smooth", ""}};
+  std::vector<RingStage> stages;
+  if (scene.merge)
+    stages.push_back({"sheet-merge", "[merge] makes nothing one"});
+  stages.push_back({"sheet-remesh --smooth", ""});
   if (scene.tear)
     stages.push_back({"sheet-tear", "[tear] parts nothing"});
   if (flows_in_or_out(scene))

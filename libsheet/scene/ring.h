@@ -14,8 +14,8 @@ struct RingStage {
   std::string without; // what becomes of the scene without it; "": it is wise, but nothing is missing
 };
 
-// In their order: the mesh is mended and new liquid comes in before the step, and nothing stands behind sheet-collide,
-// so that what is kept has passed through nothing.
+// In their order: layers become one, the mesh is mended and new liquid comes in before the step, and nothing stands
+// behind sheet-collide, so that what is kept has passed through nothing.
 [[nodiscard]] std::vector<RingStage> ring_of(const Scene& scene);
 
 // Joined by pipes.

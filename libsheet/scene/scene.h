@@ -269,6 +269,13 @@ struct Tear {
   bool operator==(const Tear&) const = default;
 };
 
+// What lies wholly on another layer of the sheet becomes one with it.
+struct Merge {
+  std::optional<double> after; // when it has touched for so long [s]; absent: viscosity x its thickness / tension
+  bool on_solids = false;      // only where the lower layer lies on a solid
+  bool operator==(const Merge&) const = default;
+};
+
 struct Contact {
   bool self = true;                // of the sheet with itself
   std::optional<double> stiffness; // of one contact's springs [N/m]; absent: the program chooses
@@ -287,6 +294,7 @@ struct Scene {
   std::vector<Inflow> inflows;
   std::vector<Outflow> outflows;
   std::optional<Tear> tear;
+  std::optional<Merge> merge;
   std::optional<Contact> contact;
   bool operator==(const Scene&) const = default;
 };

@@ -28,6 +28,7 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
 Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets);
 Outflow read_outflow(TableReader table);
 Tear read_tear(TableReader table, std::span<const SheetTable> sheets);
+Merge read_merge(TableReader table);
 Contact read_contact(TableReader table);
 
 // Rows of motions that a scene may have in all: every frame carries them, and a scene's text has 4 MiB at most.

@@ -22,5 +22,6 @@ inline constexpr std::array<std::string_view, 3> interpolations{"smooth", "linea
 inline constexpr std::array<std::string_view, 6> solid_shapes{"sphere", "box", "capsule", "cylinder", "plane", "mesh"};
 inline constexpr std::array<std::string_view, 3> solid_contacts{"stick", "flow", "slip"};
 inline constexpr std::array<std::string_view, 2> crumbs{"keep", "drop"};
+inline constexpr std::array<std::string_view, 2> merges{"all", "solids"};
 
 } // namespace sheet::scene::words

@@ -305,6 +305,11 @@ std::string to_toml(const Scene& scene) {
     out.line("below", tear->below);
     out.line("crumbs", word(words::crumbs, tear->drop_crumbs ? 1UL : 0UL));
   }
+  if (const auto& merge = scene.merge) {
+    out.open("[merge]");
+    out.line("after", merge->after);
+    out.line("on", word(words::merges, merge->on_solids ? 1UL : 0UL));
+  }
   if (const auto& contact = scene.contact) {
     out.open("[contact]");
     out.line("self", flag(contact->self));

@@ -14,8 +14,9 @@ using formats::Frame;
 
 namespace {
 
-constexpr std::array<std::string_view, 6> names = {"contact_vertex", "contact_weight", "contact_normal",
-                                                   "contact_rest",   "contact_anchor", "contact_stiffness"};
+constexpr std::array<std::string_view, 7> names = {"contact_vertex", "contact_weight", "contact_normal",
+                                                   "contact_rest",   "contact_anchor", "contact_stiffness",
+                                                   "contact_since"};
 
 using Four = std::array<std::uint32_t, 4>;
 using Weights = std::array<double, 4>;
@@ -29,7 +30,8 @@ CarriedSprings::CarriedSprings(const Frame& frame) {
   if (vertices == nullptr || vertices->rows == 0)
     return;
   for (const std::string_view name : names)
-    arrays_.push_back(*frame.find(name));
+    if (const Array* array = frame.find(name)) // contact_since may be absent
+      arrays_.push_back(*array);
   const auto corners = arrays_[0].values<Four>();
   const auto weights = arrays_[1].values<Weights>();
   const auto x = positions(frame);

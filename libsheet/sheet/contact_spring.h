@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,11 @@ struct ContactSpring {
   double rest = 0;                   // of the offset along the normal [m]
   Vector3 anchor = Vector3::Zero();  // the offset at which nothing pulls sideways [m]
   std::array<double, 2> stiffness{}; // normal, tangential [N/m]
+  double since = undated;            // when its features came to touch [s]; of contacts that become one, the earliest
+
+  static constexpr double undated = std::numeric_limits<double>::infinity();
+  static constexpr double always = -undated; // of a weld, which never parts
+  [[nodiscard]] bool welded() const { return since == always; }
 
   // Between vertices[0] and the triangle of the others; else between the first two and the last two.
   [[nodiscard]] bool of_vertex() const { return weights[0] == 1; }
@@ -51,9 +57,9 @@ struct ContactSpring {
   [[nodiscard]] Vector3 slide(const Vector3& offset) const { return along(offset - anchor); }
   // A vector without its part along the normal.
   [[nodiscard]] Vector3 along(const Vector3& vector) const { return vector - normal.dot(vector) * normal; }
-  // adheres: it pulls, too; else it only pushes [N/m].
+  // adheres: it pulls, too, as welds always do; else it only pushes [N/m].
   [[nodiscard]] double normal_stiffness(double gap, bool adheres) const {
-    return adheres || gap < 0 ? stiffness[0] : 0;
+    return adheres || welded() || gap < 0 ? stiffness[0] : 0;
   }
   // (libsheet/energy/contact.h) [J].
   [[nodiscard]] double energy(const Vector3& offset, bool adheres) const {
@@ -82,7 +88,8 @@ struct ContactSpring {
 
 // None if the frame has no contact arrays.
 [[nodiscard]] std::vector<ContactSpring> read_springs(const formats::Frame& frame);
-// Replaces the frame's springs; without any, its contact arrays go.
+// Replaces the frame's springs; without any, its contact arrays go. contact_since is there if the springs have dates:
+// all have, or none.
 void write_springs(formats::Frame& frame, std::span<const ContactSpring> springs);
 
 } // namespace sheet

@@ -82,7 +82,7 @@ stream_reader() {
 @test "output to a full disk is exit code 6, a reader that has gone is none" {
   stream_reader || skip "reads no stream from standard input"
   [[ $PROGRAM != sheet-check ]] || skip "prints nothing if all is well"
-  if [[ $PROGRAM == sheet-@(step|emit|tear|collide) ]]; then # they need a scene
+  if [[ $PROGRAM == sheet-@(step|emit|tear|merge|collide) ]]; then # they need a scene
     sheet-init - > grid.sheet << 'END'
 [sheet]
 shape = "disk"

@@ -8,7 +8,7 @@ bats_require_minimum_version 1.5.0
   cd "$BATS_TEST_TMPDIR"
   DESTDIR=$PWD/root cmake --install "$SHEET_BUILD" > log
   share=$(dirname "$(find root -name sheet.md)")
-  [[ $(find root -name 'sheet-*' -path '*/bin/*' | wc -l) == 19 && $(find root -name '*.1.gz' | wc -l) == 19 ]]
+  [[ $(find root -name 'sheet-*' -path '*/bin/*' | wc -l) == 20 && $(find root -name '*.1.gz' | wc -l) == 20 ]]
   cmp "$share/sheet.md" "$SHEET_SOURCE/formats/sheet.md"
   cmp "$share/LICENSE" "$SHEET_SOURCE/LICENSE"
   cmp "$share/LICENSE.formats" "$SHEET_SOURCE/formats/LICENSE"

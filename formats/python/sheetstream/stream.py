@@ -62,6 +62,7 @@ _STANDARD = {
     "contact_rest": ("frame", "float64", 1, "m", "drop"),
     "contact_anchor": ("frame", "float64", 3, "m", "drop"),
     "contact_stiffness": ("frame", "float64", 2, "N/m", "drop"),
+    "contact_since": ("frame", "float64", 1, "s", "drop"),
     "health": ("frame", "float64", 12, "1", "copy"),
     "scene": ("frame", "text", 1, "1", "copy"),
     "provenance": ("frame", "text", 1, "1", "copy"),
@@ -327,6 +328,9 @@ def _find_standard_error(frame: Frame, name: str, array: Array) -> str | None:
         return _find_contact_error(frame, values)
     if kind != "float64":
         return None
+    if name == "contact_since":
+        dates = values.reshape(-1) < np.inf
+        return None if dates.all() else f'array "{name}": row {dates.argmin()} is neither finite nor -inf'
     finite = np.isfinite(values).reshape(array.rows, -1).all(axis=1) if array.rows else np.ones(0, bool)
     if not finite.all():
         return f'array "{name}": row {finite.argmin()} is not finite'

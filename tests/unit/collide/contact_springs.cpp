@@ -324,6 +324,64 @@ TEST(LooseSprings, FeaturesNoLongerOverEachOther) {
   }
 }
 
+// The diagonal under a weld is flipped: it holds on to the triangle that is now below, and pulls as it did.
+TEST(LooseSprings, WeldsTakeWhatIsBelowNow) {
+  const std::vector<Vector3> x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0.4, 0.01}, {0.5, 2, 1}, {1, 2, 1}};
+  const Connectivity after = connect(7, std::vector<Corners>{{0, 1, 3}, {1, 2, 3}, {4, 6, 5}});
+  ContactSpring weld;
+  weld.vertices = {4, 0, 2, 3};
+  weld.weights = {1, -0.6, -0.3, -0.1};
+  weld.rest = 0.013;
+  weld.anchor = Vector3(-0.001, 0.002, 0.013);
+  weld.stiffness = {5, 3};
+  weld.since = ContactSpring::always;
+  std::vector<ContactSpring> springs = {weld};
+  weld_anew(springs, after, x);
+  EXPECT_EQ(springs[0].vertices, (std::array<std::uint32_t, 4>{4, 0, 1, 3}));
+  const Vector3 old = weld.offset(x), now = springs[0].offset(x);
+  EXPECT_NEAR(springs[0].gap(now), weld.gap(old), 1e-15);
+  EXPECT_LT((springs[0].slide(now) - weld.slide(old)).norm(), 1e-15);
+  EXPECT_TRUE(take_loose(springs, after, x).without_features.empty());
+  weld.since = 0;
+  springs = {weld};
+  weld_anew(springs, after, x);
+  EXPECT_EQ(springs[0].vertices, weld.vertices);
+}
+
+// What has parted keeps its weld, and pulls, where other springs only push.
+TEST(ContactSprings, WeldsNeverPart) {
+  Layers layers;
+  const Scene scene = scene_with("adhesion = 0");
+  std::vector<ContactSpring> springs = layers.springs(scene);
+  const std::size_t all = springs.size();
+  springs[0].since = ContactSpring::always;
+  layers.move(Eigen::Isometry3d::Identity());
+  for (std::size_t v = layers.end.size() / 2; v < layers.end.size(); ++v)
+    layers.end[v].z() += 0.05;
+  (void)follow(springs, scene, layers.sheet(), layers.end);
+  EXPECT_GT(all, 1u);
+  ASSERT_EQ(springs.size(), 1u);
+  EXPECT_TRUE(springs[0].welded());
+  EXPECT_GT(energy_of(springs, scene, layers.end), 0);
+}
+
+// Where layers merge, contacts have dates: new ones that of now, and what takes a force over that of the older one.
+TEST(ContactSprings, HaveDatesWhereLayersMerge) {
+  const Layers layers;
+  std::vector<ContactSpring> springs = layers.springs(scene_with(""));
+  date(springs, scene_with(""), 3);
+  EXPECT_EQ(springs[0].since, ContactSpring::undated);
+  springs[1].since = 2;
+  date(springs, scene_with("[merge]\nafter = 1"), 3);
+  EXPECT_EQ(springs[0].since, 3);
+  EXPECT_EQ(springs[1].since, 2);
+  ContactSpring older = springs[0];
+  older.since = 1;
+  hand_over(std::vector{older}, layers.end, springs);
+  EXPECT_EQ(springs[0].since, 1);
+  EXPECT_EQ(springs[1].since, 2);
+}
+
 TEST(ContactArrays, RoundTrip) {
   const Layers layers;
   const auto springs = layers.springs(scene_with(""));
@@ -341,7 +399,16 @@ TEST(ContactArrays, RoundTrip) {
     EXPECT_EQ(read[i].anchor, springs[i].anchor);
     EXPECT_EQ(read[i].stiffness, springs[i].stiffness);
   }
+  EXPECT_EQ(frame.find("contact_since"), nullptr);
+  std::vector<ContactSpring> dated = springs;
+  for (std::size_t i = 0; i < dated.size(); ++i)
+    dated[i].since = i == 0 ? ContactSpring::always : static_cast<double>(i);
+  write_springs(frame, dated);
+  EXPECT_EQ(formats::find_value_error(frame), "");
+  EXPECT_TRUE(read_springs(frame)[0].welded());
+  EXPECT_EQ(read_springs(frame)[1].since, 1);
   write_springs(frame, {});
+  EXPECT_EQ(frame.find("contact_since"), nullptr);
   EXPECT_EQ(frame.find("contact_vertex"), nullptr);
   EXPECT_TRUE(read_springs(frame).empty());
 }

@@ -226,6 +226,11 @@ TEST(Read, ProblemsOfMeshesAndCounts) {
 TEST(Read, ProblemsOfTheOtherTables) {
   for (const auto& [text, expected] : std::vector<Case>{
            {"[environment]\nbath = {density = 3}", "s:10:8: bath: needs gravity, which says where up is"},
+           {"[merge]\nafter = 3\n[contact]\nself = false",
+            "s:10:9: [merge] needs [contact] with self = true: nothing touches without it"},
+           {"[contact]\nself = true\n[merge]\non = \"solids\"",
+            "s:11:1: missing key \"after\" in [merge]: without surface tension nothing says how long layers take to "
+            "become one; for example after = \"0.3 s\""},
            {"[environment]\ngravity = -9.81", "s:10:11: gravity: expected [x, y, z], each an acceleration such as "
                                               "\"9.81 m/s^2\", got a number"},
            {"[environment]\npressure = {law = \"draining\", value = 3}",

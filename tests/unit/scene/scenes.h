@@ -84,6 +84,9 @@ normal = [0, -1, 0]
 [tear]
 below = "0.8 mm"
 crumbs = "drop"
+[merge]
+after = "0.3 s"
+on = "solids"
 [contact]
 self = true
 stiffness = 1.5

@@ -16,7 +16,7 @@ TEST(Set, TomlBareWordsAndUnits) {
   EXPECT_EQ(with(" material . viscosity = 2.5 P ").material.viscosity, 0.25);
   EXPECT_EQ(std::get<double>(with("sheet.thickness=2.5mm").sheets[0].thickness), 0.0025);
   EXPECT_FALSE(with("hold.0.kind=pinned").holds[0].clamped);
-  EXPECT_FALSE(with("contact.self=false").contact->self);
+  EXPECT_FALSE(with("model.inertia=false").model.inertia);
   EXPECT_EQ(*with("environment.gravity=[0, 0, -1]").environment.gravity, Vector3d(0, 0, -1));
   EXPECT_EQ(std::get<Wave>(with("sheet.perturbation.0.wavelength=1 µm").sheets[0].perturbations[0].form).wavelength,
             1e-6);

@@ -90,6 +90,10 @@ normal = [0, -1, 0]
 below = 0.0008
 crumbs = "drop"
 
+[merge]
+after = 0.3
+on = "solids"
+
 [contact]
 self = true
 stiffness = 1.5

@@ -22,6 +22,7 @@ TEST(CarriedSprings, KeepTheirDigitsFarFromTheOrigin) {
   formats::Frame frame = make_frame(x, std::vector<Corners>{{0, 4, 5}, {1, 2, 3}}, std::vector<double>{1, 1});
   ContactSpring spring{.vertices = {0, 1, 2, 3}, .weights = {1, -1.0 / 3, -1.0 / 3, -1.0 / 3}, .rest = 0.5};
   spring.weights[3] = -(1 + spring.weights[1] + spring.weights[2]);
+  spring.since = 7;
   write_springs(frame, std::vector{spring});
   CarriedSprings carried(frame);
   std::vector<std::uint32_t> same(x.size());
@@ -30,6 +31,7 @@ TEST(CarriedSprings, KeepTheirDigitsFarFromTheOrigin) {
   positions(frame)[1].z() += 0x1p-10;
   carried.put(frame);
   EXPECT_NEAR(read_springs(frame)[0].rest, 0.5 - 0x1p-10 / 3, 1e-15);
+  EXPECT_EQ(read_springs(frame)[0].since, 7);
 }
 
 } // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "libsheet/remesh/overlap.h"
+#include "libsheet/geometry/overlap.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
-namespace sheet::remesh {
+namespace sheet {
 
 namespace {
 
@@ -60,4 +60,4 @@ Overlap overlap_of(const FlatTriangle& a, const FlatTriangle& b) {
   return {std::abs(twice) / 2, moment / twice};
 }
 
-} // namespace sheet::remesh
+} // namespace sheet

@@ -5,7 +5,7 @@
 
 #include "libsheet/geometry/types.h"
 
-namespace sheet::remesh {
+namespace sheet {
 
 using FlatTriangle = std::array<Eigen::Vector2d, 3>;
 
@@ -25,4 +25,4 @@ struct PlaneFrame {
   [[nodiscard]] Eigen::Vector2d flat(const Vector3& x) const { return {first.dot(x), second.dot(x)}; }
 };
 
-} // namespace sheet::remesh
+} // namespace sheet
