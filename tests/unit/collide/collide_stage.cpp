@@ -85,7 +85,7 @@ TEST(CollideStage, WhatIsPrescribedGoesItsWay) {
 // is kept out of there.
 TEST(CollideStage, BordersOfInletsAreKeptClear) {
   Frame frame =
-      two_triangles(0.5, "[contact]\nself = true\n[inflow]\nregion = \"x_min\"\nvelocity = [0, 0, 3]\n");
+      two_triangles(0.5, "[contact]\nself = true\n[inflow]\nregion = \"rim\"\nvelocity = [0, 0, 3]\n");
   const auto bits = put_masks(frame, "inlet");
   auto start = frame.find("start_position")->values<Vector3>();
   auto now = positions(frame);
