@@ -16,9 +16,9 @@ using Cell = std::array<std::int64_t, 3>;
 // Points in cells of a grid, in the order of the cells.
 class Cells {
 public:
-  Cells(const Surface& surface, const std::vector<char>& bare, double size) : size_(size) {
-    for (std::uint32_t p = 0; p < bare.size(); ++p)
-      if (bare[p] != 0)
+  Cells(const Surface& surface, const std::vector<float>& covered, double size) : size_(size) {
+    for (std::uint32_t p = 0; p < covered.size(); ++p)
+      if (covered[p] < 1)
         points_.emplace_back(cell_of(surface.positions[p]), p);
     std::sort(points_.begin(), points_.end());
   }
@@ -59,13 +59,13 @@ std::vector<float> areas(const Surface& s) {
 
 } // namespace
 
-std::vector<Vec> melted_normals(const Surface& surface, const std::vector<char>& chosen, const std::vector<char>& bare,
-                                double radius) {
+std::vector<Vec> melted_normals(const Surface& surface, const NearLayers& near, double radius) {
   std::vector<Vec> result = surface.normals;
-  const Cells cells(surface, bare, radius);
+  const Cells cells(surface, near.covered, radius);
   const std::vector<float> area = areas(surface);
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t p) {
-    if (chosen[p] == 0)
+    const float closeness = near.closeness[surface.source_vertex[p]];
+    if (!(closeness > 0))
       return;
     const Vec& own = surface.normals[p];
     Vec sum = area[p] * own;
@@ -73,10 +73,11 @@ std::vector<Vec> melted_normals(const Surface& surface, const std::vector<char>&
       const double square = (surface.positions[q] - surface.positions[p]).squaredNorm() / (radius * radius);
       const float alike = own.dot(surface.normals[q]);
       if (square < 1 && alike > 0 && q != p)
-        sum += area[q] * alike * static_cast<float>((1 - square) * (1 - square)) * surface.normals[q];
+        sum += area[q] * (1 - near.covered[q]) * alike * static_cast<float>((1 - square) * (1 - square)) *
+               surface.normals[q];
     });
     if (sum.norm() > 0)
-      result[p] = sum.normalized();
+      result[p] = ((1 - closeness) * own + closeness * sum.normalized()).normalized();
   });
   return result;
 }
