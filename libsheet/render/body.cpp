@@ -88,8 +88,8 @@ float gap_before(const Hit& hit, const Vec& direction, const Within& within) {
 
 float Body::bridged(float number) { return narrow_gap + number * (wide_gap - narrow_gap); }
 
-Within Body::after(const World& world, const Hit& hit, const Vec& direction, bool inside, float bridged) const {
-  const bool leaves = !inside && direction.dot(hit.face) > 0;
+Within Body::after(const World& world, const Hit& hit, const Vec& direction, bool enters, float bridged) const {
+  const bool out = direction.dot(hit.face) > 0, inside = enters && !out, leaves = !enters && out;
   return {bridged, inside, inside ? 1 : 0, leaves ? width_at(world, hit, direction) : 0};
 }
 

@@ -53,8 +53,9 @@ public:
   [[nodiscard]] bool passes(const World& world, const Hit& hit, const Vec& direction, Within& within) const;
   // Whether rays that bridge other gaps do not all do as that one does.
   [[nodiscard]] static bool is_by_chance(const Hit& hit, const Vec& direction, const Within& within);
-  // Where a ray is that has met a layer at `hit` and goes on in that direction; `inside`: in that layer.
-  [[nodiscard]] Within after(const World& world, const Hit& hit, const Vec& direction, bool inside,
+  // Where a ray is that goes on from a layer at `hit` in that direction; `enters`: it came there from outside, so that
+  // what is thrown back is in air and bridges nothing.
+  [[nodiscard]] Within after(const World& world, const Hit& hit, const Vec& direction, bool enters,
                              float bridged) const;
   // How deep the body is along a ray that meets it at `hit`, which touches. `way`: the direction inside, refracted;
   // `cosine`: of its angle with the normal. Adds the rays that it took to `rays`.

@@ -86,10 +86,6 @@ struct PathTracer::Meeting {
       cosine = -direction.dot(normal);
     }
   }
-  // Whether the sheet's slab has been met for a ray that goes on in `direction`.
-  [[nodiscard]] bool inside_after(const Hit& hit, const Vec& direction) const {
-    return enters && direction.dot(hit.face) < 0;
-  }
   // The direction that a ray is refracted to [Snell], straight on where the smooth normal would lead it elsewhere, and
   // the cosine of its angle with the normal.
   [[nodiscard]] std::pair<Vec, float> refracted(const Hit& hit, const Vec& direction, float index) const {
@@ -246,7 +242,7 @@ PathTracer::Crossing PathTracer::cross(const Hit& hit, const Path& path, std::ui
 // Sends a path on from a meeting with a sheet.
 void PathTracer::go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path) const {
   path.ray = leave(hit, direction);
-  path.within = body_.after(*world_, hit, direction, meeting.inside_after(hit, direction), path.within.bridged);
+  path.within = body_.after(*world_, hit, direction, meeting.enters, path.within.bridged);
 }
 
 // Takes the mirror image out of a path, to be followed for itself.
@@ -313,9 +309,8 @@ Colour PathTracer::lamp_at_sheet(const Hit& hit, const Path& path, const Crossin
   const Colour share = path.weight * crossing.part[way] * out * (cosine / float_pi) / (lamp.light.density + lobe);
   if (!(share.maxCoeff() > 0))
     return Colour::Zero();
-  const bool inside = crossing.meeting.inside_after(hit, lamp.direction);
-  return share * lamp.light.radiance *
-         visible(hit, lamp.direction, body_.after(*world_, hit, lamp.direction, inside, path.within.bridged), rays);
+  const Within within = body_.after(*world_, hit, lamp.direction, crossing.meeting.enters, path.within.bridged);
+  return share * lamp.light.radiance * visible(hit, lamp.direction, within, rays);
 }
 
 // Planes that the camera sees straight blend into the backdrop in the distance.

@@ -156,6 +156,29 @@ TEST(Body, LayersByThemselvesAreAPileOfPlates) {
     EXPECT_NEAR(static_cast<double>(c[0]) / expected, 1, 0.02);
 }
 
+TEST(Body, AGapThatIsOpenToTheEyeIsAsDarkAsWithLayers) {
+  // Light in it comes from its mouth, and through opaque layers next to none. The eye looks in from the side.
+  const formats::Frame frame = together(
+      {layer_at(40, layer_thickness, 0, -0.1, 0.1), layer_at(40, layer_thickness, 2 * layer_thickness, -0.1, 0.1)});
+  const auto brightness = [&](Drawn drawn) {
+    const std::unique_ptr<World> world = world_of(frame, drawn);
+    const Lighting light = Lighting::uniform(1);
+    const PathTracer tracer(*world, light, preset(3), {}, drawn == Drawn::as_body ? Body(*world) : Body());
+    const Vector3 mouth(-0.11, 0.0125, 0.003), wall(-0.07, 0.0055, 0.003);
+    const Vec way = (wall - mouth).normalized().cast<float>();
+    double sum = 0;
+    std::uint64_t rays = 0;
+    for (std::uint32_t s = 0; s < 4096; ++s) {
+      Sampler sampler(0, s);
+      sum += static_cast<double>(luminance(tracer.radiance({world->to_world(mouth), way}, sampler, rays).sum())) / 4096;
+    }
+    return sum;
+  };
+  const double layers = brightness(Drawn::as_layers);
+  EXPECT_LT(layers, 0.6);
+  EXPECT_NEAR(brightness(Drawn::as_body) / layers, 1, 0.1); // normals melt; 3.6 if light came through the layers
+}
+
 TEST(Body, WhatDoesNotTouchIsDrawnAsBefore) {
   const auto same = [](const formats::Frame& frame) {
     const std::vector<Colour> body = seen(frame, preset(2), Drawn::as_body, 50, 64),
