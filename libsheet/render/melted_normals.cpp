@@ -13,17 +13,39 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-// Points in cells of a grid, in the order of the cells.
+// A part of the surface: a third of a triangle, at the middle of a side.
+struct Part {
+  Vector3 place;
+  Vec normal;
+  float weight; // its area, as far as it is bare
+};
+
+std::vector<Part> bare_parts(const Surface& s, const std::vector<float>& covered) {
+  std::vector<Part> parts;
+  for (const Corners& t : s.triangles) {
+    const Vector3& x = s.positions[t[0]];
+    const double area = 0.5 * (s.positions[t[1]] - x).cross(s.positions[t[2]] - x).norm();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t p = t[i], q = t[(i + 1) % 3];
+      const float weight = static_cast<float>(area / 3) * (1 - 0.5F * (covered[p] + covered[q]));
+      const Vec normal = s.normals[p] + s.normals[q];
+      if (weight > 0 && normal.norm() > 0)
+        parts.push_back({0.5 * (s.positions[p] + s.positions[q]), normal.normalized(), weight});
+    }
+  }
+  return parts;
+}
+
+// Parts in cells of a grid, in the order of the cells.
 class Cells {
 public:
-  Cells(const Surface& surface, const std::vector<float>& covered, double size) : size_(size) {
-    for (std::uint32_t p = 0; p < covered.size(); ++p)
-      if (covered[p] < 1)
-        points_.emplace_back(cell_of(surface.positions[p]), p);
+  Cells(const std::vector<Part>& parts, double size) : size_(size) {
+    for (std::uint32_t p = 0; p < parts.size(); ++p)
+      points_.emplace_back(cell_of(parts[p].place), p);
     std::sort(points_.begin(), points_.end());
   }
 
-  // Calls visit(point) for all points in the cells around x.
+  // Calls visit(part) for all parts in the cells around x.
   template <class Visit> void around(const Vector3& x, Visit&& visit) const {
     const Cell c = cell_of(x);
     for (std::int64_t i = c[0] - 1; i <= c[0] + 1; ++i)
@@ -61,7 +83,8 @@ std::vector<float> areas(const Surface& s) {
 
 std::vector<Vec> melted_normals(const Surface& surface, const NearLayers& near, double radius) {
   std::vector<Vec> result = surface.normals;
-  const Cells cells(surface, near.covered, radius);
+  const std::vector<Part> parts = bare_parts(surface, near.covered);
+  const Cells cells(parts, radius);
   const std::vector<float> area = areas(surface);
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t p) {
     const float closeness = near.closeness[surface.source_vertex[p]];
@@ -70,11 +93,10 @@ std::vector<Vec> melted_normals(const Surface& surface, const NearLayers& near, 
     const Vec& own = surface.normals[p];
     Vec sum = area[p] * own;
     cells.around(surface.positions[p], [&](std::uint32_t q) {
-      const double square = (surface.positions[q] - surface.positions[p]).squaredNorm() / (radius * radius);
-      const float alike = own.dot(surface.normals[q]);
-      if (square < 1 && alike > 0 && q != p)
-        sum += area[q] * (1 - near.covered[q]) * alike * static_cast<float>((1 - square) * (1 - square)) *
-               surface.normals[q];
+      const double square = (parts[q].place - surface.positions[p]).squaredNorm() / (radius * radius);
+      const float alike = own.dot(parts[q].normal);
+      if (square < 1 && alike > 0)
+        sum += parts[q].weight * alike * static_cast<float>((1 - square) * (1 - square)) * parts[q].normal;
     });
     if (sum.norm() > 0)
       result[p] = ((1 - closeness) * own + closeness * sum.normalized()).normalized();

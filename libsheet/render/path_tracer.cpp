@@ -205,12 +205,15 @@ Depth PathTracer::depth(const Hit& hit, const Meeting& meeting, const Vec& direc
 }
 
 // The direction of the mirror image. Where layers have melted together their surface is less smooth than its normal,
-// which would send some of it into the liquid: that goes up beside the face.
+// which would send some of it into the liquid: that goes up beside the face, unless the sheet's own normal sends it
+// there too, as at sharp folds.
 Vec PathTracer::mirrored(const Hit& hit, const Meeting& meeting, const Vec& direction) const {
-  const Vec image = direction - 2 * direction.dot(meeting.normal) * meeting.normal;
-  const float rise = image.dot(hit.face);
-  return body_.touches(hit) && rise * direction.dot(hit.face) > 0 ? Vec((image - 2 * rise * hit.face).normalized())
-                                                                  : image;
+  const auto image_by = [&](const Vec& normal) -> Vec { return direction - 2 * direction.dot(normal) * normal; };
+  const auto goes_in = [&](const Vec& image) { return image.dot(hit.face) * direction.dot(hit.face) > 0; };
+  const Vec image = image_by(meeting.normal);
+  if (!body_.touches(hit) || !goes_in(image) || goes_in(image_by(hit.normal)))
+    return image;
+  return (image - 2 * image.dot(hit.face) * hit.face).normalized();
 }
 
 // The mirror image is what it is to all paths on average, so that it is certain.

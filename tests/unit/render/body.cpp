@@ -156,27 +156,45 @@ TEST(Body, LayersByThemselvesAreAPileOfPlates) {
     EXPECT_NEAR(static_cast<double>(c[0]) / expected, 1, 0.02);
 }
 
+// The mean luminance along a ray under even light.
+double luminance_along(const formats::Frame& frame, Drawn drawn, std::size_t liquid, const Vector3& from,
+                       const Vector3& to) {
+  const std::unique_ptr<World> world = world_of(frame, drawn);
+  const Lighting light = Lighting::uniform(1);
+  const PathTracer tracer(*world, light, preset(liquid), {}, drawn == Drawn::as_body ? Body(*world) : Body());
+  const Ray ray{world->to_world(from), (to - from).normalized().cast<float>()};
+  double sum = 0;
+  std::uint64_t rays = 0;
+  for (std::uint32_t s = 0; s < 4096; ++s) {
+    Sampler sampler(0, s);
+    sum += static_cast<double>(luminance(tracer.radiance(ray, sampler, rays).sum())) / 4096;
+  }
+  return sum;
+}
+
 TEST(Body, AGapThatIsOpenToTheEyeIsAsDarkAsWithLayers) {
   // Light in it comes from its mouth, and through opaque layers next to none. The eye looks in from the side.
   const formats::Frame frame = together(
       {layer_at(40, layer_thickness, 0, -0.1, 0.1), layer_at(40, layer_thickness, 2 * layer_thickness, -0.1, 0.1)});
-  const auto brightness = [&](Drawn drawn) {
-    const std::unique_ptr<World> world = world_of(frame, drawn);
-    const Lighting light = Lighting::uniform(1);
-    const PathTracer tracer(*world, light, preset(3), {}, drawn == Drawn::as_body ? Body(*world) : Body());
-    const Vector3 mouth(-0.11, 0.0125, 0.003), wall(-0.07, 0.0055, 0.003);
-    const Vec way = (wall - mouth).normalized().cast<float>();
-    double sum = 0;
-    std::uint64_t rays = 0;
-    for (std::uint32_t s = 0; s < 4096; ++s) {
-      Sampler sampler(0, s);
-      sum += static_cast<double>(luminance(tracer.radiance({world->to_world(mouth), way}, sampler, rays).sum())) / 4096;
-    }
-    return sum;
+  const auto seen_in = [&](Drawn drawn) {
+    return luminance_along(frame, drawn, 3, {-0.11, 0.0125, 0.003}, {-0.07, 0.0055, 0.003});
   };
-  const double layers = brightness(Drawn::as_layers);
+  const double layers = seen_in(Drawn::as_layers);
   EXPECT_LT(layers, 0.6);
-  EXPECT_NEAR(brightness(Drawn::as_body) / layers, 1, 0.1); // normals melt; 3.6 if light came through the layers
+  EXPECT_NEAR(seen_in(Drawn::as_body) / layers, 1, 0.1); // normals melt; 3.6 if light came through the layers
+}
+
+TEST(Body, ASharpFoldOfLongEdgesDoesNotShine) {
+  // Its smooth normals send mirror images into the chocolate, which the body is deeper of. 5.4 if they went up.
+  const auto roof = [](double height) {
+    return test::grid(2, layer_thickness,
+                      [=](double s, double t) { return Vector3(s - 0.5, height - std::abs(s - 0.5), 0.5 - t); });
+  };
+  const formats::Frame frame = together({roof(0), roof(-1.6 * layer_thickness)});
+  const auto seen_on = [&](Drawn drawn) {
+    return luminance_along(frame, drawn, 0, {1.1, 0.0, 0.003}, {0.1, -0.1, 0.003});
+  };
+  EXPECT_LT(seen_on(Drawn::as_body), 2 * seen_on(Drawn::as_layers));
 }
 
 TEST(Body, WhatDoesNotTouchIsDrawnAsBefore) {
