@@ -7,15 +7,31 @@
 
 #include "libsheet/render/melted_normals.h"
 #include "libsheet/render/near_layers.h"
+#include "libsheet/render/rounded.h"
 
 namespace sheet::render {
 namespace {
 
-constexpr float longest_gap = 4;  // along a ray, in gaps
-constexpr double outset = 3e-6;   // in units of the world: some of the steps by which rays leave a face
-constexpr double melting = 2.5;   // in mean thicknesses: so far normals are smoothed
+constexpr float longest_gap = 4;               // along a ray, in gaps
+constexpr double outset = 3e-6;                // in units of the world: some of the steps by which rays leave a face
+constexpr double melting = 2.5;                // in mean thicknesses: so far normals are smoothed
+constexpr std::size_t most_to_round = 100'000; // triangles of the surface
+constexpr float long_edge = 3;    // in thicknesses: where edges are longer what is round goes over to flat,
+constexpr float longest_edge = 5; // since their folds are sharp
 constexpr int most_faces = 256;   // that a depth is looked for behind
 constexpr float most_layers = 32; // that a body is told to be deep
+
+// The longest edge at each vertex of the sheet [m].
+std::vector<float> longest_edges(const Surface& s) {
+  std::vector<float> result(s.thickness.size());
+  for (const Corners& t : s.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const std::size_t j : {i, (i + 1) % 3}) {
+        float& longest = result[s.source_vertex[t[j]]];
+        longest = std::max(longest, static_cast<float>((s.positions[t[(i + 1) % 3]] - s.positions[t[i]]).norm()));
+      }
+  return result;
+}
 
 // By area [m].
 float mean_thickness(const Surface& s) {
@@ -36,9 +52,20 @@ std::unique_ptr<World> world_of_bodies(const Surface& surface, const std::vector
                                        const std::vector<Eigen::Isometry3d>& motions, const std::vector<Plane>& planes,
                                        const Box& box) {
   auto world = std::make_unique<World>(surface, meshes, motions, planes, box);
-  if (!Body(*world).has_layers_that_touch())
+  const float mean = mean_thickness(surface);
+  std::vector<float> roundness = surface.closed ? near_layers(*world, mean).closeness : std::vector<float>();
+  if (roundness.empty())
     return world;
+  const std::vector<float> edges = longest_edges(surface);
+  float longest = 0; // of those that are made round, in thicknesses
+  for (std::size_t v = 0; v < edges.size(); ++v) {
+    const float length = edges[v] / std::max(surface.thickness[v], mean);
+    roundness[v] *= 1 - smooth_step(long_edge, longest_edge, length);
+    longest = roundness[v] > 0 ? std::max(longest, length) : longest;
+  }
   Surface larger = surface;
+  for (; longest > 1 && larger.triangles.size() <= most_to_round; longest /= 2)
+    larger = rounded(larger, roundness);
   for (std::size_t p = 0; p < larger.positions.size(); ++p)
     larger.positions[p] += outset * world->unit() * larger.normals[p].cast<double>();
   return std::make_unique<World>(larger, meshes, motions, planes, box);

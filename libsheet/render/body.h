@@ -72,8 +72,9 @@ private:
   float mean_ = 0;             // thickness [m]
 };
 
-// The world to draw bodies in. Where any layers touch, the sheet's faces stand out by so little (3e-6 of the world's
-// unit) that those which coincide lie in order along a ray.
+// The world to draw bodies in. Where any layers touch, the surface is round instead of flat from vertex to vertex
+// (rounded.h), as far as layers are close, and its faces stand out by so little (3e-6 of the world's unit) that those
+// which coincide lie in order along a ray.
 [[nodiscard]] std::unique_ptr<World> world_of_bodies(const Surface& surface, const std::vector<SolidMesh>& meshes,
                                                      const std::vector<Eigen::Isometry3d>& motions,
                                                      const std::vector<Plane>& planes, const Box& box);

@@ -13,7 +13,7 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-// A part of the surface: a third of a triangle, at the middle of a side.
+// A triangle of the surface.
 struct Part {
   Vector3 place;
   Vec normal;
@@ -22,16 +22,14 @@ struct Part {
 
 std::vector<Part> bare_parts(const Surface& s, const std::vector<float>& covered) {
   std::vector<Part> parts;
-  for (const Corners& t : s.triangles) {
-    const Vector3& x = s.positions[t[0]];
-    const double area = 0.5 * (s.positions[t[1]] - x).cross(s.positions[t[2]] - x).norm();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t p = t[i], q = t[(i + 1) % 3];
-      const float weight = static_cast<float>(area / 3) * (1 - 0.5F * (covered[p] + covered[q]));
-      const Vec normal = s.normals[p] + s.normals[q];
-      if (weight > 0 && normal.norm() > 0)
-        parts.push_back({0.5 * (s.positions[p] + s.positions[q]), normal.normalized(), weight});
-    }
+  for (const auto& [a, b, c] : s.triangles) {
+    const Vector3& x = s.positions[a];
+    const double area = 0.5 * (s.positions[b] - x).cross(s.positions[c] - x).norm();
+    const float bare = 1 - (covered[a] + covered[b] + covered[c]) / 3;
+    const Vec normal = s.normals[a] + s.normals[b] + s.normals[c];
+    if (area > 0 && bare > 0 && normal.norm() > 0)
+      parts.push_back(
+          {(x + s.positions[b] + s.positions[c]) / 3, normal.normalized(), static_cast<float>(area) * bare});
   }
   return parts;
 }
