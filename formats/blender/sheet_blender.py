@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sheet in Blender (3.4 and later): runs as meshes that change with time, and scenes made of meshes.
 
-File > Import > Sheet run (.sheet) and File > Export > Sheet scene (.toml); docs/blender.md is the page. It reads
-streams by the package sheetstream, which lies beside it in the zip file that the build makes. In scripts:
+File > Import > Sheet run (.sheet) or Sheet bodies (.ply) and File > Export > Sheet scene (.toml); docs/blender.md is
+the page. It reads streams by the package sheetstream, which lies beside it in the zip file that the build makes. In
+scripts:
 
     import sheet_blender
     thing = sheet_blender.import_run("run.sheet", material="honey")
+    thing = sheet_blender.import_bodies("body_0000.ply", material="honey", up="Y")
     sheet_blender.export_scene("scene.toml", thing, thickness=0.005)
 """
 from __future__ import annotations
@@ -24,9 +26,10 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 from mathutils import Matrix, Quaternion, Vector
 
 try:
-    from . import sheetstream
+    from . import body_files, sheetstream
 except ImportError:
     try:
+        import body_files  # type: ignore[no-redef]
         import sheetstream  # type: ignore[no-redef]
     except ImportError as error:
         raise ImportError("Sheet's add-on needs the package sheetstream: install sheet-blender.zip, which has it, or"
@@ -119,6 +122,36 @@ def frame_at(run: sheetstream.Run, time: float, between: bool) -> tuple[sheetstr
     return frame, position + ahead * frame.velocity()
 
 
+_bodies: dict[str, tuple[tuple[int, float], body_files.BodySequence]] = {}
+
+
+def open_bodies(path: str, rate: float) -> body_files.BodySequence:
+    """The files of `sheet-export --union` that one of them belongs to, listed once as long as their folder stays the
+    same. Those that do not say their time follow each other `rate` times a second."""
+    full = pathlib.Path(bpy.path.abspath(path))
+    try:
+        key = (os.stat(full.parent).st_mtime_ns, rate)
+        if str(full) not in _bodies or _bodies[str(full)][0] != key:
+            _bodies[str(full)] = (key, body_files.BodySequence(full, rate))
+    except OSError as error:
+        raise SheetError(f"{full}: {error.strerror}") from error
+    except body_files.BodyError as error:
+        raise SheetError(str(error)) from error
+    return _bodies[str(full)][1]
+
+
+def fill_body(mesh: bpy.types.Mesh, body: body_files.Body, ahead: float, velocity_scale: float = 1.0) -> None:
+    """Makes the mesh that of the body, gone on for the time `ahead` [s] with its velocity; its arrays are attributes of
+    their names."""
+    velocity = body.arrays.get("velocity", np.zeros_like(body.position))
+    if len(mesh.vertices) != len(body.position) or not _has_triangles(mesh, body.triangle):
+        _set_triangles(mesh, len(body.position), body.triangle)
+    mesh.vertices.foreach_set("co", (body.position + ahead * velocity).astype(np.float32).ravel())
+    for name, values in (body.arrays | {"velocity": velocity_scale * velocity}).items():
+        _set_attribute(mesh, name, "FLOAT_VECTOR" if values.ndim == 2 else "FLOAT", "POINT", values)
+    mesh.update()
+
+
 def fill_mesh(mesh: bpy.types.Mesh, frame: sheetstream.Frame, position: Any, velocity_scale: float = 1.0) -> None:
     """Makes the mesh that of the frame, with the attributes thickness, triangle_thickness, velocity, slab and touch."""
     corners = frame["triangle"]
@@ -176,13 +209,38 @@ def update_object(thing: bpy.types.Object, scene: bpy.types.Scene) -> None:
     """Brings an imported object to the scene's frame. What is wrong is shown in its panel; the mesh stays as it was."""
     settings = thing.sheet
     try:
-        run = open_run(settings.file)
-        frame, position = frame_at(run, time_of(scene, settings), settings.between)
-        fill_mesh(thing.data, frame, position, settings.speed)
-        settings.message = f"frame {int(np.searchsorted(run.times, frame.time))} of {len(run)}, {frame.time:.4g} s"
+        settings.message = _follow_bodies(thing, scene) if has_bodies(settings.file) else _follow_run(thing, scene)
     except SheetError as error:
         settings.message = f"Error: {error}"
         print(f"Sheet: {thing.name}: {error}")
+
+
+def has_bodies(path: str) -> bool:
+    """Whether a file is one of `sheet-export --union`, not a run."""
+    return path.lower().endswith(".ply")
+
+
+def _follow_run(thing: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    settings = thing.sheet
+    run = open_run(settings.file)
+    frame, position = frame_at(run, time_of(scene, settings), settings.between)
+    fill_mesh(thing.data, frame, position, settings.speed)
+    return f"frame {int(np.searchsorted(run.times, frame.time))} of {len(run)}, {frame.time:.4g} s"
+
+
+def _follow_bodies(thing: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    settings = thing.sheet
+    bodies = open_bodies(settings.file, scene.render.fps / scene.render.fps_base)
+    time = min(time_of(scene, settings), bodies.times[-1])
+    i = max(0, int(np.searchsorted(bodies.times, time + 1e-9, "right")) - 1)
+    try:
+        body = bodies[i]
+    except OSError as error:
+        raise SheetError(f"{bodies.files[i]}: {error.strerror}") from error
+    except body_files.BodyError as error:
+        raise SheetError(str(error)) from error
+    fill_body(thing.data, body, max(0.0, time - bodies.times[i]) if settings.between else 0.0, settings.speed)
+    return f"{bodies.files[i].name}, {i} of {len(bodies)}, {bodies.times[i]:.4g} s"
 
 
 @persistent
@@ -203,31 +261,64 @@ def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: in
     """
     scene = scene or bpy.context.scene
     run = open_run(path)
-    name = pathlib.Path(path).stem
-    thing = bpy.data.objects.new(name, bpy.data.meshes.new(name))
-    scene.collection.objects.link(thing)
     described = _scene_of(run)
-    thing.matrix_world = Matrix.Scale(1 / scene.unit_settings.scale_length, 4) @ _upright(described, up)
-    settings = thing.sheet
-    settings.start, settings.speed, settings.between = start, speed, between
-    settings.first_time = float(run.times[0])
-    settings.file = path
+    thing = _add_object(path, _upright(described, up), run.times, start, speed, between, scene)
     if slab:
         add_slab(thing)
     set_material(thing, material, scene)
     if adapt_scene:
-        scene.unit_settings.system = "METRIC"
-        scene.render.use_lock_interface = True  # meshes change while a picture is rendered
-        rate = scene.render.fps / scene.render.fps_base
-        last = start + math.ceil(float(run.times[-1] - run.times[0]) / speed * rate - 1e-6)
-        another = any(other.sheet.file for other in scene.objects if other is not thing)
-        scene.frame_end = max(scene.frame_end, last) if another else last
+        _adapt_scene(thing, run.times, scene)
     if solids:
         add_solids(described, thing, scene)
-    update_object(thing, scene)
-    if settings.message.startswith("Error"):
-        raise SheetError(settings.message[7:])
+    _show_first(thing, scene)
     return thing
+
+
+def import_bodies(path: str, material: str = "caramel", up: str = "Y", start: int = 1, speed: float = 1.0,
+                  between: bool = True, adapt_scene: bool = True,
+                  scene: bpy.types.Scene | None = None) -> bpy.types.Object:
+    """Adds the files that `sheet-export --union` has written of a run, of which `path` names one, to the scene as an
+    object whose mesh follows the time; returns it. Raises SheetError.
+
+    up: the axis of the files that points upwards (X, Y, Z); start, speed: as of import_run.
+    """
+    scene = scene or bpy.context.scene
+    bodies = open_bodies(path, scene.render.fps / scene.render.fps_base)
+    thing = _add_object(path, _upright({}, up), bodies.times, start, speed, between, scene)
+    set_material(thing, material, scene)
+    if adapt_scene:
+        _adapt_scene(thing, bodies.times, scene)
+    _show_first(thing, scene)
+    return thing
+
+
+def _add_object(path: str, turn: Matrix, times: Any, start: int, speed: float, between: bool,
+                scene: bpy.types.Scene) -> bpy.types.Object:
+    """An object without a mesh yet that follows a file from the first of these times on."""
+    name = pathlib.Path(path).stem
+    thing = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+    scene.collection.objects.link(thing)
+    thing.matrix_world = Matrix.Scale(1 / scene.unit_settings.scale_length, 4) @ turn
+    settings = thing.sheet
+    settings.start, settings.speed, settings.between = start, speed, between
+    settings.first_time = float(times[0])
+    settings.file = path
+    return thing
+
+
+def _adapt_scene(thing: bpy.types.Object, times: Any, scene: bpy.types.Scene) -> None:
+    scene.unit_settings.system = "METRIC"
+    scene.render.use_lock_interface = True  # meshes change while a picture is rendered
+    rate = scene.render.fps / scene.render.fps_base
+    last = thing.sheet.start + math.ceil(float(times[-1] - times[0]) / thing.sheet.speed * rate - 1e-6)
+    another = any(other.sheet.file for other in scene.objects if other is not thing)
+    scene.frame_end = max(scene.frame_end, last) if another else last
+
+
+def _show_first(thing: bpy.types.Object, scene: bpy.types.Scene) -> None:
+    update_object(thing, scene)
+    if thing.sheet.message.startswith("Error"):
+        raise SheetError(thing.sheet.message[7:])
 
 
 def _scene_of(run: sheetstream.Run) -> dict[str, Any]:
@@ -764,7 +855,7 @@ def _refresh(self: Any, context: Any) -> None:
 
 class SheetSettings(bpy.types.PropertyGroup):
     """What an imported object follows."""
-    file: bpy.props.StringProperty(name="Run", subtype="FILE_PATH", update=_refresh)  # type: ignore[valid-type]
+    file: bpy.props.StringProperty(name="File", subtype="FILE_PATH", update=_refresh)  # type: ignore[valid-type]
     start: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="First frame", description="Blender's frame that shows the run's first", default=1, update=_refresh)
     speed: bpy.props.FloatProperty(  # type: ignore[valid-type]
@@ -779,6 +870,13 @@ class SheetSettings(bpy.types.PropertyGroup):
 def _material_items() -> list[tuple[str, str, str]]:
     return [(name, name.capitalize(), "as sheet-render's" if name in LIQUIDS else "false colours")
             for name in (*LIQUIDS, THICKNESS_LOOK)]
+
+
+def _select(thing: bpy.types.Object, context: Any) -> None:
+    for other in context.selected_objects:
+        other.select_set(False)
+    thing.select_set(True)
+    context.view_layer.objects.active = thing
 
 
 class SHEET_OT_import(bpy.types.Operator, ImportHelper):
@@ -808,10 +906,35 @@ class SHEET_OT_import(bpy.types.Operator, ImportHelper):
         except SheetError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        for other in context.selected_objects:
-            other.select_set(False)
-        thing.select_set(True)
-        context.view_layer.objects.active = thing
+        _select(thing, context)
+        return {"FINISHED"}
+
+
+class SHEET_OT_import_bodies(bpy.types.Operator, ImportHelper):
+    """Import the files of sheet-export --union as one mesh that changes with time"""
+    bl_idname = "sheet.import_bodies"
+    bl_label = "Import Sheet bodies"
+    bl_options = {"REGISTER", "UNDO"}
+    filename_ext = ".ply"
+    filter_glob: bpy.props.StringProperty(default="*.ply", options={"HIDDEN"})  # type: ignore[valid-type]
+    material: bpy.props.EnumProperty(name="Material", items=_material_items(),
+                                     default="caramel")  # type: ignore[valid-type]
+    up: bpy.props.EnumProperty(name="Up", items=[(a, a, "") for a in "XYZ"], default="Y")  # type: ignore[valid-type]
+    start: bpy.props.IntProperty(name="First frame", default=1)  # type: ignore[valid-type]
+    speed: bpy.props.FloatProperty(name="Speed", default=1.0, min=1e-6)  # type: ignore[valid-type]
+    between: bpy.props.BoolProperty(name="Move between frames", default=True)  # type: ignore[valid-type]
+    adapt_scene: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Adapt the scene", description="Its last frame, metric units, a locked interface while rendering",
+        default=True)
+
+    def execute(self, context: Any) -> set[str]:
+        try:
+            thing = import_bodies(self.filepath, self.material, self.up, self.start, self.speed, self.between,
+                                  self.adapt_scene, context.scene)
+        except SheetError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        _select(thing, context)
         return {"FINISHED"}
 
 
@@ -859,13 +982,14 @@ class SHEET_PT_object(bpy.types.Panel):
 
 def _import_entry(self: Any, _context: Any) -> None:
     self.layout.operator(SHEET_OT_import.bl_idname, text="Sheet run (.sheet)")
+    self.layout.operator(SHEET_OT_import_bodies.bl_idname, text="Sheet bodies (.ply)")
 
 
 def _export_entry(self: Any, _context: Any) -> None:
     self.layout.operator(SHEET_OT_export.bl_idname, text="Sheet scene (.toml)")
 
 
-CLASSES = (SheetSettings, SHEET_OT_import, SHEET_OT_export, SHEET_PT_object)
+CLASSES = (SheetSettings, SHEET_OT_import, SHEET_OT_import_bodies, SHEET_OT_export, SHEET_PT_object)
 
 
 def register() -> None:

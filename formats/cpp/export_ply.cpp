@@ -5,6 +5,7 @@
 #include "formats/cpp/byte_store.h"
 #include "formats/cpp/export_check.h"
 #include "formats/cpp/mesh_export.h"
+#include "formats/cpp/text_scan.h"
 
 namespace sheet::formats {
 
@@ -46,9 +47,14 @@ void store_tuples(std::string& bytes, const ForeignMesh& mesh, MeshPlace place, 
 
 std::string encode_ply(const ForeignMesh& mesh) {
   check_export(mesh);
-  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment written by Sheet\nelement vertex " +
-                      std::to_string(mesh.points.size()) +
-                      "\nproperty double x\nproperty double y\nproperty double z\n";
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment written by Sheet\n";
+  if (mesh.time) {
+    bytes += "comment time ";
+    append_real(bytes, *mesh.time);
+    bytes += '\n';
+  }
+  bytes += "element vertex " + std::to_string(mesh.points.size()) +
+           "\nproperty double x\nproperty double y\nproperty double z\n";
   declare_all(bytes, mesh, MeshPlace::point, {"x", "y", "z"});
   // int is what most readers expect; it holds indices below 2^31
   const bool small = mesh.points.size() < (std::size_t{1} << 31);

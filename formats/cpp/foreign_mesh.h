@@ -27,7 +27,7 @@ struct ForeignMesh {
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<std::uint32_t, 3>> triangles; // counter-clockwise seen from the positive side
   std::vector<MeshArray> arrays;
-  std::optional<double> time; // [s], which VTU files can say
+  std::optional<double> time; // [s], which VTU files can say, and PLY files in a comment
 
   // The array of that name and place, or nullptr.
   [[nodiscard]] const MeshArray* find(std::string_view name, MeshPlace place) const {

@@ -3,7 +3,7 @@
 //
 //   VTU   points and all arrays as 64-bit reals, appended raw data, little endian
 //   PLY   binary little endian, 64-bit reals; arrays become properties: name, or name_x, _y, _z for 3 components, or
-//         name_0, name_1, ... for other numbers; spaces in names become underscores
+//         name_0, name_1, ... for other numbers; spaces in names become underscores; the time as "comment time 0.5"
 //   OBJ, OFF   points and triangles only, shortest text that reads back as the same double
 //   STL   binary; 32-bit coordinates (the format has no others), triangles only
 //

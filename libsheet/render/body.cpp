@@ -4,62 +4,32 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-
-#include <tbb/parallel_for.h>
 
 #include "libsheet/render/melted_normals.h"
+#include "libsheet/render/near_layers.h"
+#include "libsheet/render/rounded.h"
 
 namespace sheet::render {
 namespace {
 
-constexpr float unending = std::numeric_limits<float>::infinity();
-constexpr float widest_gap = 1.25F;   // between layers that touch, in thicknesses
-constexpr float longest_gap = 4;      // along a ray, in widest gaps
-constexpr float start_inside = 0.25F; // in thicknesses: from there a point of the surface looks out for other layers
-constexpr float reach = 1.5F;         // in thicknesses: so far it looks
-constexpr double melting = 2.5;       // in mean thicknesses: so far normals are smoothed
-constexpr int most_faces = 256;       // that a depth is looked for behind
-constexpr float most_layers = 32;     // that a body is told to be deep
+constexpr float longest_gap = 4;               // along a ray, in gaps
+constexpr double outset = 3e-6;                // in units of the world: some of the steps by which rays leave a face
+constexpr double melting = 2.5;                // in mean thicknesses: so far normals are smoothed
+constexpr std::size_t most_to_round = 100'000; // triangles of the surface
+constexpr float long_edge = 3;    // in thicknesses: where edges are longer what is round goes over to flat,
+constexpr float longest_edge = 5; // since their folds are sharp
+constexpr int most_faces = 256;   // that a depth is looked for behind
+constexpr float most_layers = 32; // that a body is told to be deep
 
-// What a ray out of the sheet, from close below a point of its surface, hits first of other parts of the sheet.
-Hit beyond_own(const World& world, std::uint32_t point, float start, float length) {
-  const Surface& s = world.surface();
-  const std::uint32_t own = s.source_vertex[point];
-  const Ray ray{world.to_world(s.positions[point]) - start * s.normals[point], s.normals[point]};
-  float beyond = 0;
-  for (int faces = 0; faces < 16; ++faces) {
-    const Hit hit = world.nearest_sheet(ray, beyond, length);
-    if (!hit.anything())
-      break;
-    const Corners& t = s.triangles[hit.triangle];
-    if (std::none_of(t.begin(), t.end(), [&](std::uint32_t p) { return s.source_vertex[p] == own; }))
-      return hit;
-    beyond = std::nextafter(hit.distance, unending);
-  }
-  return {};
-}
-
-// The triangle of another part of the sheet that is near a point of the surface.
-std::optional<std::uint32_t> neighbour(const World& world, std::uint32_t point, float mean) {
-  const Surface& s = world.surface();
-  const auto unit = static_cast<float>(world.unit());
-  const float h = s.thickness[s.source_vertex[point]], start = start_inside * h / unit;
-  const Hit hit = beyond_own(world, point, start, start + reach * std::max(h, mean) / unit);
-  return hit.anything() ? std::optional(hit.triangle) : std::nullopt;
-}
-
-// Whether a point that has no neighbour is in the liquid all the same, deep in another layer.
-bool is_sunk(const World& world, std::uint32_t point) {
-  return beyond_own(world, point, 0, unending).face.dot(world.surface().normals[point]) > 0;
-}
-
-// Triangles that have a marked vertex.
-std::vector<char> around(const Surface& s, const std::vector<char>& marked) {
-  std::vector<char> result(s.triangles.size());
-  for (std::size_t t = 0; t < result.size(); ++t)
-    result[t] = static_cast<char>(std::any_of(s.triangles[t].begin(), s.triangles[t].end(),
-                                              [&](std::uint32_t p) { return marked[s.source_vertex[p]] != 0; }));
+// The longest edge at each vertex of the sheet [m].
+std::vector<float> longest_edges(const Surface& s) {
+  std::vector<float> result(s.thickness.size());
+  for (const Corners& t : s.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const std::size_t j : {i, (i + 1) % 3}) {
+        float& longest = result[s.source_vertex[t[j]]];
+        longest = std::max(longest, static_cast<float>((s.positions[t[(i + 1) % 3]] - s.positions[t[i]]).norm()));
+      }
   return result;
 }
 
@@ -78,35 +48,41 @@ float mean_thickness(const Surface& s) {
 
 } // namespace
 
+std::unique_ptr<World> world_of_bodies(const Surface& surface, const std::vector<SolidMesh>& meshes,
+                                       const std::vector<Eigen::Isometry3d>& motions, const std::vector<Plane>& planes,
+                                       const Box& box) {
+  auto world = std::make_unique<World>(surface, meshes, motions, planes, box);
+  const float mean = mean_thickness(surface);
+  std::vector<float> roundness = surface.closed ? near_layers(*world, mean).closeness : std::vector<float>();
+  if (roundness.empty())
+    return world;
+  const std::vector<float> edges = longest_edges(surface);
+  float longest = 0; // of those that are made round, in thicknesses
+  for (std::size_t v = 0; v < edges.size(); ++v) {
+    const float length = edges[v] / std::max(surface.thickness[v], mean);
+    roundness[v] *= 1 - smooth_step(long_edge, longest_edge, length);
+    longest = roundness[v] > 0 ? std::max(longest, length) : longest;
+  }
+  Surface larger = surface;
+  for (; longest > 1 && larger.triangles.size() <= most_to_round; longest /= 2)
+    larger = rounded(larger, roundness);
+  for (std::size_t p = 0; p < larger.positions.size(); ++p)
+    larger.positions[p] += outset * world->unit() * larger.normals[p].cast<double>();
+  return std::make_unique<World>(larger, meshes, motions, planes, box);
+}
+
 Body::Body(const World& world) {
   const Surface& s = world.surface();
   if (!s.closed)
     return;
   mean_ = mean_thickness(s);
-  std::vector<std::optional<std::uint32_t>> near(s.positions.size());
-  tbb::parallel_for(std::size_t{0}, near.size(),
-                    [&](std::size_t p) { near[p] = neighbour(world, static_cast<std::uint32_t>(p), mean_); });
-  std::vector<char> marked(s.thickness.size());
-  for (std::size_t p = 0; p < near.size(); ++p)
-    if (near[p]) {
-      marked[s.source_vertex[p]] = 1;
-      for (const std::uint32_t q : s.triangles[*near[p]])
-        marked[s.source_vertex[q]] = 1;
-    }
-  if (std::find(marked.begin(), marked.end(), 1) == marked.end())
+  const NearLayers near = near_layers(world, mean_);
+  if (near.closeness.empty())
     return;
-  touching_ = around(s, marked);
-  for (std::size_t t = 0; t < touching_.size(); ++t) // one ring more: layers may touch between the vertices
-    if (touching_[t] != 0)
-      for (const std::uint32_t p : s.triangles[t])
-        marked[s.source_vertex[p]] = 1;
-  touching_ = around(s, marked);
-  std::vector<char> chosen(near.size()), bare(near.size());
-  for (std::size_t p = 0; p < near.size(); ++p) {
-    chosen[p] = marked[s.source_vertex[p]];
-    bare[p] = static_cast<char>(!near[p] && !(chosen[p] != 0 && is_sunk(world, static_cast<std::uint32_t>(p))));
-  }
-  normals_ = melted_normals(s, chosen, bare, melting * static_cast<double>(mean_));
+  for (const Corners& t : s.triangles)
+    touching_.push_back(static_cast<char>(
+        std::any_of(t.begin(), t.end(), [&](std::uint32_t p) { return near.closeness[s.source_vertex[p]] > 0; })));
+  normals_ = melted_normals(s, near, melting * static_cast<double>(mean_));
 }
 
 Vec Body::normal_at(const World& world, const Hit& hit) const {
@@ -117,56 +93,90 @@ Vec Body::normal_at(const World& world, const Hit& hit) const {
   return n.norm() > 1e-3F ? Vec(n.normalized()) : hit.face;
 }
 
-// So far along a ray that leaves a layer at `hit` the body goes on.
-float Body::gap_at(const World& world, const Hit& hit, const Vec& direction) const {
+// What gaps are measured by along a ray that leaves a layer at `hit`.
+float Body::width_at(const World& world, const Hit& hit, const Vec& direction) const {
   if (!touches(hit))
     return 0;
-  const float widest = widest_gap * std::max(world.thickness_at(hit), mean_) / static_cast<float>(world.unit());
-  return widest / std::max(std::abs(direction.dot(hit.face)), 1 / longest_gap);
+  const float width = std::max(world.thickness_at(hit), mean_) / static_cast<float>(world.unit());
+  return width / std::max(std::abs(direction.dot(hit.face)), 1 / longest_gap);
 }
 
-Within Body::after(const World& world, const Hit& hit, const Vec& direction, bool inside) const {
-  const bool leaves = !inside && direction.dot(hit.face) > 0;
-  return {inside, leaves ? gap_at(world, hit, direction) : 0};
+namespace {
+
+// The gap before the face that a ray hits, in widths. None before a face that leads out: that which leads in lies so
+// near before it that rays skip it.
+float gap_before(const Hit& hit, const Vec& direction, const Within& within) {
+  if (within.layer || within.layers > 0 || direction.dot(hit.face) > 0)
+    return 0;
+  return within.width > 0 ? hit.distance / within.width : std::numeric_limits<float>::infinity();
+}
+
+} // namespace
+
+float Body::bridged(float number) { return narrow_gap + number * (wide_gap - narrow_gap); }
+
+Within Body::after(const World& world, const Hit& hit, const Vec& direction, bool enters, float bridged) const {
+  const bool out = direction.dot(hit.face) > 0, inside = enters && !out, leaves = !enters && out;
+  return {bridged, inside, inside ? 1 : 0, leaves ? width_at(world, hit, direction) : 0};
+}
+
+bool Body::is_by_chance(const Hit& hit, const Vec& direction, const Within& within) {
+  const float gap = hit.id == sheet_id ? gap_before(hit, direction, within) : 0;
+  return gap > narrow_gap && gap < wide_gap;
 }
 
 bool Body::passes(const World& world, const Hit& hit, const Vec& direction, Within& within) const {
   if (hit.id != sheet_id || !world.surface().closed)
     return false;
   const bool leaves = direction.dot(hit.face) > 0;
-  // A face that leads out is passed from a gap too: that which leads in lies so near before it that rays skip it.
-  const bool inside = within.layer ? leaves || touches(hit) : within.gap > 0 && (leaves || hit.distance <= within.gap);
-  if (inside)
-    within = after(world, hit, direction, !leaves);
+  const bool inside = within.layer        ? leaves || touches(hit)
+                      : within.layers > 0 ? leaves || hit.distance <= wide_gap * within.width
+                                          : within.width > 0 && gap_before(hit, direction, within) <= within.bridged;
+  if (inside) {
+    const int layers = std::max(within.layers + (leaves ? -1 : 1), 0);
+    within = after(world, hit, direction, !leaves, within.bridged);
+    within.layers = layers;
+  }
   return inside;
 }
 
-float Body::depth(const World& world, const Hit& hit, const Vec& way, float cosine, std::uint64_t& rays) const {
-  const float own = world.thickness_at(hit);
+// The way of a ray that bridges all gaps; shorter ones of others end at one of these.
+Depth Body::depth(const World& world, const Hit& hit, const Vec& way, float cosine, float bridged,
+                  std::uint64_t& rays) const {
+  const float own = world.thickness_at(hit), slab = cosine * static_cast<float>(world.unit());
   const bool enters = way.dot(hit.face) < 0;
-  Within within = after(world, hit, way, enters);
+  Within within = after(world, hit, way, enters, wide_gap);
   Ray ray = leave(hit, way);
-  float length = 0, inside = 0; // of the way, and up to the last face that leads out
+  float inside = 0, widest = narrow_gap; // of the way; gap so far
   int faces = 0;
+  Depth result;
+  const auto end = [&](float gap) { // for rays that bridge what has been met, but not this gap
+    const float deep = enters ? faces > 1 ? slab * inside : own : own + slab * inside;
+    if (widest <= bridged)
+      result.thickness = deep;
+    if (result.parts < static_cast<int>(result.of_all.size()))
+      result.of_all[static_cast<std::size_t>(result.parts++)] = {0, deep};
+    result.of_all[static_cast<std::size_t>(result.parts - 1)].share += (gap - widest) / (wide_gap - narrow_gap);
+    widest = gap;
+  };
   for (; faces < most_faces; ++faces) {
     ++rays;
     const Hit next = world.nearest(ray);
     if (!next.anything())
       break;
-    if (!passes(world, next, way, within)) {
-      if (within.layer && next.id != sheet_id) // the liquid ends at a solid
-        inside = length + next.distance;
+    const float gap = gap_before(next, way, within);
+    const bool ends_at_solid = within.layer && next.id != sheet_id;
+    if (next.id == sheet_id && gap > widest && gap < wide_gap)
+      end(gap);
+    const bool goes_on = passes(world, next, way, within);
+    if (gap == 0 && (goes_on || ends_at_solid))
+      inside += next.distance;
+    if (!goes_on)
       break;
-    }
-    length += next.distance;
-    if (!within.layer)
-      inside = length;
     ray = leave(next, way);
   }
-  const float deep = inside * cosine * static_cast<float>(world.unit());
-  if (enters)
-    return faces > 1 ? deep : own;
-  return own + deep;
+  end(wide_gap);
+  return result;
 }
 
 float Body::deepest(float thickest) const { return touching_.empty() ? thickest : most_layers * thickest; }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layers of a sheet that touch, as one body of liquid: which faces lie inside it, and how deep it is.
 //
-// Two layers touch where they overlap, or where the gap is narrow between them: 1.25 thicknesses there, or those of the
-// sheet on average if that is more. On the way of a ray, a face of theirs is inside the body if the ray comes from
-// inside the layer in front of it, or from a gap no wider than that. A gap counts as liquid: it cannot be told from a
-// layer whose faces rays skip, as they coincide with others.
+// Two layers touch where they overlap, or where the gap is narrow between them. On the way of a ray, a face of theirs
+// is inside the body if the ray comes from inside the layer in front of it, or from a gap that it bridges: gaps up to
+// half the thickness there, or of the sheet on average if that is more, every ray bridges, gaps above twice that none,
+// and of rays that draw what they bridge evenly, a part that falls linearly between. So what is seen, their mean, is
+// continuous in the gap. Gaps have no depth.
 #pragma once
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "libsheet/render/world.h"
@@ -14,8 +17,20 @@ namespace sheet::render {
 
 // Where a ray is.
 struct Within {
-  bool layer = false; // in a layer that it has met
-  float gap = 0;      // otherwise it has just left one, and the body goes on in a layer so near [units of the world]
+  float bridged;      // gaps up to so wide are liquid to this ray [widths]
+  bool layer = false; // it has last come into a layer
+  int layers = 0;     // that it is in, by the faces that it has passed
+  float width = 0; // otherwise, what gaps are measured by along the ray; 0: no layer may be near [units of the world]
+};
+
+// How deep the body is along a ray, as the thickness of a slab [m].
+struct Depth {
+  struct Part {
+    float share, thickness;
+  };
+  float thickness = 0;          // to a ray that bridges so wide gaps as it does
+  std::array<Part, 8> of_all{}; // to rays that bridge other gaps: shares of their sum, 1
+  int parts = 0;                // of that
 };
 
 class Body {
@@ -29,24 +44,39 @@ public:
   }
   // The normal of the surface at a hit of the sheet: smooth across the folds of layers that touch.
   [[nodiscard]] Vec normal_at(const World& world, const Hit& hit) const;
+  // What a ray bridges, drawn with a number of [0, 1); 0.5 is the middle.
+  [[nodiscard]] static float bridged(float number);
+  // Whether any layers may touch.
+  [[nodiscard]] bool has_layers_that_touch() const { return !touching_.empty(); }
   // Whether the ray that is `within` passes the face that it hits without meeting it: it leaves the layer it is in, or
   // goes from layer to layer in the body. `within` is then where it goes on.
   [[nodiscard]] bool passes(const World& world, const Hit& hit, const Vec& direction, Within& within) const;
-  // Where a ray is that has met a layer at `hit` and goes on in that direction; `inside`: in that layer.
-  [[nodiscard]] Within after(const World& world, const Hit& hit, const Vec& direction, bool inside) const;
-  // The thickness of a slab that the body is as deep as along a ray which meets it at `hit`, which touches [m]. `way`:
-  // the direction inside, refracted; `cosine`: of its angle with the normal. Adds the rays that it took to `rays`.
-  [[nodiscard]] float depth(const World& world, const Hit& hit, const Vec& way, float cosine,
+  // Whether rays that bridge other gaps do not all do as that one does.
+  [[nodiscard]] static bool is_by_chance(const Hit& hit, const Vec& direction, const Within& within);
+  // Where a ray is that goes on from a layer at `hit` in that direction; `enters`: it came there from outside, so that
+  // what is thrown back is in air and bridges nothing.
+  [[nodiscard]] Within after(const World& world, const Hit& hit, const Vec& direction, bool enters,
+                             float bridged) const;
+  // How deep the body is along a ray that meets it at `hit`, which touches. `way`: the direction inside, refracted;
+  // `cosine`: of its angle with the normal. Adds the rays that it took to `rays`.
+  [[nodiscard]] Depth depth(const World& world, const Hit& hit, const Vec& way, float cosine, float bridged,
                             std::uint64_t& rays) const;
   // The greatest depth that is worth telling from greater ones [m], for layers of at most `thickest`.
   [[nodiscard]] float deepest(float thickest) const;
 
 private:
-  [[nodiscard]] float gap_at(const World& world, const Hit& hit, const Vec& direction) const;
+  [[nodiscard]] float width_at(const World& world, const Hit& hit, const Vec& direction) const;
 
   std::vector<char> touching_; // of Surface's triangles: another layer is near; empty: none is
   std::vector<Vec> normals_;   // of Surface's points
   float mean_ = 0;             // thickness [m]
 };
+
+// The world to draw bodies in. Where any layers touch, the surface is round instead of flat from vertex to vertex
+// (rounded.h), as far as layers are close, and its faces stand out by so little (3e-6 of the world's unit) that those
+// which coincide lie in order along a ray.
+[[nodiscard]] std::unique_ptr<World> world_of_bodies(const Surface& surface, const std::vector<SolidMesh>& meshes,
+                                                     const std::vector<Eigen::Isometry3d>& motions,
+                                                     const std::vector<Plane>& planes, const Box& box);
 
 } // namespace sheet::render

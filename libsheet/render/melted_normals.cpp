@@ -13,17 +13,37 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-// Points in cells of a grid, in the order of the cells.
+// A triangle of the surface.
+struct Part {
+  Vector3 place;
+  Vec normal;
+  float weight; // its area, as far as it is bare
+};
+
+std::vector<Part> bare_parts(const Surface& s, const std::vector<float>& covered) {
+  std::vector<Part> parts;
+  for (const auto& [a, b, c] : s.triangles) {
+    const Vector3& x = s.positions[a];
+    const double area = 0.5 * (s.positions[b] - x).cross(s.positions[c] - x).norm();
+    const float bare = 1 - (covered[a] + covered[b] + covered[c]) / 3;
+    const Vec normal = s.normals[a] + s.normals[b] + s.normals[c];
+    if (area > 0 && bare > 0 && normal.norm() > 0)
+      parts.push_back(
+          {(x + s.positions[b] + s.positions[c]) / 3, normal.normalized(), static_cast<float>(area) * bare});
+  }
+  return parts;
+}
+
+// Parts in cells of a grid, in the order of the cells.
 class Cells {
 public:
-  Cells(const Surface& surface, const std::vector<char>& bare, double size) : size_(size) {
-    for (std::uint32_t p = 0; p < bare.size(); ++p)
-      if (bare[p] != 0)
-        points_.emplace_back(cell_of(surface.positions[p]), p);
+  Cells(const std::vector<Part>& parts, double size) : size_(size) {
+    for (std::uint32_t p = 0; p < parts.size(); ++p)
+      points_.emplace_back(cell_of(parts[p].place), p);
     std::sort(points_.begin(), points_.end());
   }
 
-  // Calls visit(point) for all points in the cells around x.
+  // Calls visit(part) for all parts in the cells around x.
   template <class Visit> void around(const Vector3& x, Visit&& visit) const {
     const Cell c = cell_of(x);
     for (std::int64_t i = c[0] - 1; i <= c[0] + 1; ++i)
@@ -59,24 +79,25 @@ std::vector<float> areas(const Surface& s) {
 
 } // namespace
 
-std::vector<Vec> melted_normals(const Surface& surface, const std::vector<char>& chosen, const std::vector<char>& bare,
-                                double radius) {
+std::vector<Vec> melted_normals(const Surface& surface, const NearLayers& near, double radius) {
   std::vector<Vec> result = surface.normals;
-  const Cells cells(surface, bare, radius);
+  const std::vector<Part> parts = bare_parts(surface, near.covered);
+  const Cells cells(parts, radius);
   const std::vector<float> area = areas(surface);
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t p) {
-    if (chosen[p] == 0)
+    const float closeness = near.closeness[surface.source_vertex[p]];
+    if (!(closeness > 0))
       return;
     const Vec& own = surface.normals[p];
     Vec sum = area[p] * own;
     cells.around(surface.positions[p], [&](std::uint32_t q) {
-      const double square = (surface.positions[q] - surface.positions[p]).squaredNorm() / (radius * radius);
-      const float alike = own.dot(surface.normals[q]);
-      if (square < 1 && alike > 0 && q != p)
-        sum += area[q] * alike * static_cast<float>((1 - square) * (1 - square)) * surface.normals[q];
+      const double square = (parts[q].place - surface.positions[p]).squaredNorm() / (radius * radius);
+      const float alike = own.dot(parts[q].normal);
+      if (square < 1 && alike > 0)
+        sum += parts[q].weight * alike * static_cast<float>((1 - square) * (1 - square)) * parts[q].normal;
     });
     if (sum.norm() > 0)
-      result[p] = sum.normalized();
+      result[p] = ((1 - closeness) * own + closeness * sum.normalized()).normalized();
   });
   return result;
 }

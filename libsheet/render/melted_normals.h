@@ -3,13 +3,13 @@
 #pragma once
 #include <vector>
 
-#include "libsheet/render/surface.h"
+#include "libsheet/render/near_layers.h"
 
 namespace sheet::render {
 
-// The normals of the surface, each of those chosen being the mean of its own and of what is bare around it, up to
-// `radius` [m] away, by area and nearness (a kernel that ends there smoothly), as far as it faces the same way.
-[[nodiscard]] std::vector<Vec> melted_normals(const Surface& surface, const std::vector<char>& chosen,
-                                              const std::vector<char>& bare, double radius);
+// The normals of the surface, each turned so far as layers are close there to the mean of its own and of what is bare
+// around it, not covered by others, up to `radius` [m] away, by area and nearness (a kernel that ends there smoothly),
+// as far as it faces the same way.
+[[nodiscard]] std::vector<Vec> melted_normals(const Surface& surface, const NearLayers& near, double radius);
 
 } // namespace sheet::render

@@ -13,6 +13,7 @@ constexpr int most_passed = 4096; // faces within the liquid, so that no ray han
 constexpr int sure_meetings = 4;  // before Russian roulette starts, and
 constexpr float faint = 0.1F;     // the weight to which it brings those that are fainter
 constexpr int longest_look = 16;  // layers that features are looked for behind
+constexpr float middle = 0.5F;    // of what paths bridge, for those that are looked along
 constexpr float darkness = 1e-3F; // a shadow that lets less through is black
 
 Vec cosine_direction(const Vec& normal, Point2 p) { // density cos / pi [Malley]
@@ -59,9 +60,9 @@ std::size_t choose(const std::array<float, 4>& chance, float choice) {
 
 // A path on its way.
 struct PathTracer::Path {
-  Ray ray;
+  Ray ray{};
   Colour weight = Colour::Ones();
-  Within within{};                // a sheet whose slab has been met already
+  Within within;                  // a sheet whose slab has been met already
   int passed = 0;                 // faces within it
   std::size_t layer = 0;          // of Light::chance
   int splits = 2;                 // so many mirror images in turn are followed for themselves
@@ -85,10 +86,6 @@ struct PathTracer::Meeting {
       cosine = -direction.dot(normal);
     }
   }
-  // Whether the sheet's slab has been met for a ray that goes on in `direction`.
-  [[nodiscard]] bool inside_after(const Hit& hit, const Vec& direction) const {
-    return enters && direction.dot(hit.face) < 0;
-  }
   // The direction that a ray is refracted to [Snell], straight on where the smooth normal would lead it elsewhere, and
   // the cosine of its angle with the normal.
   [[nodiscard]] std::pair<Vec, float> refracted(const Hit& hit, const Vec& direction, float index) const {
@@ -106,6 +103,7 @@ struct PathTracer::Crossing {
   Vec mirrored;               // the direction
   Colour coupled;             // Straight::coupled
   std::array<Colour, 4> part; // of the light, by way
+  bool by_chance;             // it does something else to paths that bridge other gaps
 };
 
 PathTracer::PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings,
@@ -115,14 +113,21 @@ PathTracer::PathTracer(const World& world, const Lighting& lighting, const Liqui
                body_.deepest(range_of(world.surface().thickness).second)),
       surroundings_(std::move(surroundings)) {}
 
+// `number` of [0, 1) decides which gaps between layers the path bridges.
+PathTracer::Path PathTracer::start(const Ray& ray, float number) const {
+  Path path;
+  path.ray = ray;
+  path.within.bridged = Body::bridged(number);
+  return path;
+}
+
 Light PathTracer::radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const {
   ++rays;
   return radiance(ray, world_->nearest(ray), sampler, rays);
 }
 
 Light PathTracer::radiance(const Ray& ray, const Hit& first, Sampler& sampler, std::uint64_t& rays) const {
-  Path path;
-  path.ray = ray;
+  Path path = start(ray, body_.has_layers_that_touch() ? sampler.number() : middle);
   Light light;
   follow(path, first, sampler, rays, light);
   return light;
@@ -147,6 +152,7 @@ Colour PathTracer::from_afar(const Path& path) const {
 
 // Goes on past a face within the liquid that the path has met already.
 bool PathTracer::passes(const Hit& hit, Path& path) const {
+  path.certain = path.certain && !Body::is_by_chance(hit, path.ray.direction, path.within);
   if (path.passed >= most_passed || !body_.passes(*world_, hit, path.ray.direction, path.within))
     return false;
   ++path.passed;
@@ -187,41 +193,59 @@ PathTracer::Meeting PathTracer::meet(const Hit& hit, const Vec& direction) const
   return meeting;
 }
 
-// Of the slab that a ray meets [m].
-float PathTracer::depth(const Hit& hit, const Meeting& meeting, const Vec& direction, std::uint64_t& rays) const {
-  if (!body_.touches(hit))
-    return world_->thickness_at(hit);
+// Of the slab that a ray meets.
+Depth PathTracer::depth(const Hit& hit, const Meeting& meeting, const Vec& direction, float bridged,
+                        std::uint64_t& rays) const {
+  if (!body_.touches(hit)) {
+    const float h = world_->thickness_at(hit);
+    return {h, {{{1, h}}}, 1};
+  }
   const auto [way, cosine] = meeting.refracted(hit, direction, slab_.liquid().index);
-  return body_.depth(*world_, hit, way, cosine, rays);
+  return body_.depth(*world_, hit, way, cosine, bridged, rays);
 }
 
 // The direction of the mirror image. Where layers have melted together their surface is less smooth than its normal,
-// which would send some of it into the liquid: that goes up beside the face.
+// which would send some of it into the liquid: that goes up beside the face, unless the sheet's own normal sends it
+// there too, as at sharp folds.
 Vec PathTracer::mirrored(const Hit& hit, const Meeting& meeting, const Vec& direction) const {
-  const Vec image = direction - 2 * direction.dot(meeting.normal) * meeting.normal;
-  const float rise = image.dot(hit.face);
-  return body_.touches(hit) && rise * direction.dot(hit.face) > 0 ? Vec((image - 2 * rise * hit.face).normalized())
-                                                                  : image;
+  const auto image_by = [&](const Vec& normal) -> Vec { return direction - 2 * direction.dot(normal) * normal; };
+  const auto goes_in = [&](const Vec& image) { return image.dot(hit.face) * direction.dot(hit.face) > 0; };
+  const Vec image = image_by(meeting.normal);
+  if (!body_.touches(hit) || !goes_in(image) || goes_in(image_by(hit.normal)))
+    return image;
+  return (image - 2 * image.dot(hit.face) * hit.face).normalized();
 }
 
-PathTracer::Crossing PathTracer::cross(const Hit& hit, const Vec& direction, std::uint64_t& rays) const {
+// The mirror image is what it is to all paths on average, so that it is certain.
+PathTracer::Crossing PathTracer::cross(const Hit& hit, const Path& path, std::uint64_t& rays) const {
+  const Vec& direction = path.ray.direction;
   const Meeting meeting = meet(hit, direction);
-  const float h = depth(hit, meeting, direction, rays);
+  const Depth depths = depth(hit, meeting, direction, path.within.bridged, rays);
+  const float h = depths.thickness;
   const Straight straight = slab_.straight(meeting.cosine, h);
   const Diffuse diffuse = diffuse_.at(h);
-  return {meeting,
-          h,
-          diffuse.mean_coupled.max(1e-20F),
-          mirrored(hit, meeting, direction),
-          straight.coupled,
-          {straight.reflected, straight.transmitted, straight.coupled * diffuse.reflected,
-           straight.coupled * diffuse.transmitted}};
+  Colour reflected = straight.reflected;
+  if (depths.parts > 1) {
+    reflected.setZero();
+    for (int i = 0; i < depths.parts; ++i) {
+      const auto [share, thickness] = depths.of_all[static_cast<std::size_t>(i)];
+      reflected += share * slab_.straight(meeting.cosine, thickness).reflected;
+    }
+  }
+  return {
+      meeting,
+      h,
+      diffuse.mean_coupled.max(1e-20F),
+      mirrored(hit, meeting, direction),
+      straight.coupled,
+      {reflected, straight.transmitted, straight.coupled * diffuse.reflected, straight.coupled * diffuse.transmitted},
+      depths.parts > 1};
 }
 
 // Sends a path on from a meeting with a sheet.
 void PathTracer::go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path) const {
   path.ray = leave(hit, direction);
-  path.within = body_.after(*world_, hit, direction, meeting.inside_after(hit, direction));
+  path.within = body_.after(*world_, hit, direction, meeting.enters, path.within.bridged);
 }
 
 // Takes the mirror image out of a path, to be followed for itself.
@@ -240,7 +264,7 @@ PathTracer::Path PathTracer::split(const Hit& hit, Crossing& crossing, Path& pat
 
 void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const {
   const Vec direction = path.ray.direction;
-  Crossing crossing = cross(hit, direction, rays);
+  Crossing crossing = cross(hit, path, rays);
   const Meeting& meeting = crossing.meeting;
   if (path.splits > 0) {
     const Path image = split(hit, crossing, path);
@@ -248,13 +272,13 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   }
   const std::array<float, 4> chance = chances(path.weight, crossing.part);
   if (chance[turbid_back] + chance[turbid_through] > 0)
-    light.chance[path.layer] += lamp_at_sheet(hit, path.weight, crossing, chance, sampler, rays);
+    light.chance[path.layer] += lamp_at_sheet(hit, path, crossing, chance, sampler, rays);
   const std::size_t lobe = choose(chance, sampler.number());
   if (!(chance[lobe] > 0)) {
     path.weight.setZero();
     return;
   }
-  path.certain = path.certain && lobe == through && chance[lobe] == 1;
+  path.certain = path.certain && !crossing.by_chance && lobe == through && chance[lobe] == 1;
   path.weight *= crossing.part[lobe] / chance[lobe];
   if (lobe == through) {
     go(hit, meeting, direction, path);
@@ -275,7 +299,7 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
 }
 
 // A sample of the lights, scattered by a turbid sheet.
-Colour PathTracer::lamp_at_sheet(const Hit& hit, const Colour& weight, const Crossing& crossing,
+Colour PathTracer::lamp_at_sheet(const Hit& hit, const Path& path, const Crossing& crossing,
                                  const std::array<float, 4>& chance, Sampler& sampler, std::uint64_t& rays) const {
   const float choice = sampler.number();
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
@@ -285,12 +309,11 @@ Colour PathTracer::lamp_at_sheet(const Hit& hit, const Colour& weight, const Cro
   if (!(lobe > 0 && lamp.light.density > 0))
     return Colour::Zero();
   const Colour out = slab_.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
-  const Colour share = weight * crossing.part[way] * out * (cosine / float_pi) / (lamp.light.density + lobe);
+  const Colour share = path.weight * crossing.part[way] * out * (cosine / float_pi) / (lamp.light.density + lobe);
   if (!(share.maxCoeff() > 0))
     return Colour::Zero();
-  return share * lamp.light.radiance *
-         visible(hit, lamp.direction,
-                 body_.after(*world_, hit, lamp.direction, crossing.meeting.inside_after(hit, lamp.direction)), rays);
+  const Within within = body_.after(*world_, hit, lamp.direction, crossing.meeting.enters, path.within.bridged);
+  return share * lamp.light.radiance * visible(hit, lamp.direction, within, rays);
 }
 
 // Planes that the camera sees straight blend into the backdrop in the distance.
@@ -324,7 +347,7 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   const float cosine = lamp.direction.dot(normal);
   if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0)
     light.chance[path.layer] += path.weight * (cosine / float_pi / (lamp.light.density + cosine / float_pi)) *
-                                lamp.light.radiance * visible(hit, lamp.direction, {}, rays);
+                                lamp.light.radiance * visible(hit, lamp.direction, {path.within.bridged}, rays);
 
   Vec d = cosine_direction(normal, sampler.point());
   path.density = std::max(d.dot(normal), 1e-6F) / float_pi;
@@ -335,13 +358,12 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   path.certain = false;
   path.splits = 0;
   path.indirect = true;
-  path.within = {};
+  path.within = {path.within.bridged};
   path.ray = leave(hit, d);
 }
 
 Sight PathTracer::look(const Ray& ray, std::uint64_t& rays) const {
-  Path path;
-  path.ray = ray;
+  Path path = start(ray, middle);
   Sight sight;
   look(path, sight, rays);
   return sight;
@@ -376,7 +398,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     layer.weight = path.weight;
     if (hit.id != sheet_id)
       return;
-    Crossing crossing = cross(hit, path.ray.direction, rays);
+    Crossing crossing = cross(hit, path, rays);
     if (path.splits > 0) {
       Sight beyond;
       look(split(hit, crossing, path), beyond, rays);
@@ -389,7 +411,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
       layer.weight *= crossing.coupled;
       return;
     }
-    path.certain = path.certain && chance[through] == 1;
+    path.certain = path.certain && !crossing.by_chance && chance[through] == 1;
     path.weight *= crossing.part[through];
     go(hit, meeting, path.ray.direction, path);
   }
@@ -408,10 +430,11 @@ Colour PathTracer::visible(const Hit& hit, const Vec& direction, Within within, 
       return Colour::Zero();
     if (!body_.passes(*world_, next, direction, within)) {
       const Meeting meeting = meet(next, direction);
-      left *= slab_.straight(meeting.cosine, depth(next, meeting, direction, rays)).transmitted;
+      left *=
+          slab_.straight(meeting.cosine, depth(next, meeting, direction, within.bridged, rays).thickness).transmitted;
       if (left.maxCoeff() < darkness)
         return Colour::Zero();
-      within = body_.after(*world_, next, direction, meeting.enters);
+      within = body_.after(*world_, next, direction, meeting.enters, within.bridged);
     }
     ray = leave(next, direction);
   }

@@ -295,16 +295,19 @@ struct RenderStage::Impl {
     std::vector<Plane> planes = scene && options.solids ? make_planes(*scene, frame.time) : std::vector<Plane>{};
     if (fixed->ground)
       planes.push_back(*fixed->ground);
-    const World world(make_surface(frame, thinnest * fixed->subject.diagonal()), meshes, motions, planes,
-                      fixed->subject);
-    Picture picture = picture_of(frame, world, progress);
+    const Surface surface = make_surface(frame, thinnest * fixed->subject.diagonal());
+    const bool bodies = options.look.is_material() && !options.layers;
+    const std::unique_ptr<World> world =
+        bodies ? world_of_bodies(surface, meshes, motions, planes, fixed->subject)
+               : std::make_unique<World>(surface, meshes, motions, planes, fixed->subject);
+    Picture picture = picture_of(frame, *world, progress);
     if (options.draw.noise > 0 && picture.worst_noise > options.draw.noise && !told_noisy) {
       log::warning("the noise of the frame at {} s stays above {:g} in places, at most {:.2g}: give more --samples",
                    frame.time, options.draw.noise, picture.worst_noise);
       told_noisy = true;
     }
     const std::string file = name ? name->of(index) : "";
-    write(picture, world, frame, file);
+    write(picture, *world, frame, file);
     ++pictures;
     return {picture.noise, picture.worst_noise, picture.samples, picture.rays, file};
   }

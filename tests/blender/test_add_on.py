@@ -232,6 +232,108 @@ class AddOn(unittest.TestCase):
         self.assertEqual("".join("\t".join(row) + "\n" for row in rows), listed)
         self.assertIn("honey", self.add_on.LIQUIDS)
 
+    def bodies(self):
+        """A sheet that falls on a ball, each frame as one closed body: the files, and what sheet-info says of them."""
+        if not pathlib.Path("fall.csv").exists():
+            pathlib.Path("fall.toml").write_text(
+                '[sheet]\nshape = "rectangle"\nsize = ["40 mm", "30 mm"]\nedge_length = "8 mm"\nthickness = "4 mm"\n'
+                'plane = "xz"\ncenter = [0, "20 mm", 0]\nvelocity = [0, -0.1, 0]\n'
+                '[material]\nviscosity = 5\ndensity = 1300\n[environment]\ngravity = [0, -9.81, 0]\n'
+                '[[solid]]\nshape = "sphere"\nradius = "10 mm"\n')
+            shell(f"sheet-init fall.toml | sheet-loop -q --until 0.2 --fps {FPS} -o fall.sheet -- "
+                  "'sheet-remesh | sheet-step | sheet-collide'; sheet-info --csv fall.sheet > fall.csv; "
+                  "sheet-export --union --voxel 1mm --close 1mm fall.sheet -o bodies/body_%03d.ply")
+        with open("fall.csv") as file:
+            rows = [{k: float(v) for k, v in row.items() if v} for row in csv.DictReader(file)]
+        return sorted(pathlib.Path("bodies").glob("*.ply")), rows
+
+    def test_bodies_are_one_mesh_that_follows_the_time(self):
+        files, rows = self.bodies()
+        thing = self.add_on.import_bodies(str(files[3]), material="honey")
+        scene = bpy.context.scene
+        self.assertEqual((scene.frame_end, scene.unit_settings.system), (len(files), "METRIC"))
+        seen = set()
+        for i in [*range(len(files)), 1, 0, 4]:  # backwards, too
+            scene.frame_set(1 + i)
+            body, mesh = self.add_on.body_files.read_body(files[i]), thing.data
+            self.assertFalse(mesh.validate())
+            np.testing.assert_array_equal(corners_of(mesh), body.triangle)
+            np.testing.assert_allclose(places_of(mesh), body.position, atol=1e-7)
+            np.testing.assert_allclose(attribute(mesh, "thickness"), body.arrays["thickness"], atol=1e-7)
+            if i > 0:
+                np.testing.assert_allclose(attribute(mesh, "velocity", 3), body.arrays["velocity"], atol=1e-6)
+            self.assertAlmostEqual(shown_volume(thing) / rows[i]["volume"], 1, places=4)
+            self.assertIn(f"{files[i].name}, {i} of {len(files)}, {rows[i]['time']:.4g} s", thing.sheet.message)
+            seen.add(len(mesh.polygons))
+        self.assertGreater(len(seen), 2)
+        self.assertAlmostEqual((thing.matrix_world.to_3x3() @ Vector((0, 1, 0))).z, 1, places=6)
+        self.assertEqual(thing.data.materials[0].name, "Sheet honey")
+
+    def test_bodies_go_on_between_their_files_with_their_velocity(self):
+        files, rows = self.bodies()
+        thing = self.add_on.import_bodies(str(files[0]), start=10, speed=0.5)
+        bpy.context.scene.frame_set(13)  # 1.5 files on
+        body = self.add_on.body_files.read_body(files[1])
+        velocity = body.arrays["velocity"]
+        np.testing.assert_allclose(places_of(thing.data), body.position + velocity * 0.5 / FPS, atol=1e-7)
+        np.testing.assert_allclose(attribute(thing.data, "velocity", 3), 0.5 * velocity, atol=1e-6)
+        thing.sheet.between = False
+        np.testing.assert_allclose(places_of(thing.data), body.position, atol=1e-7)
+
+    def test_bodies_without_times_are_one_a_frame(self):
+        files, _ = self.bodies()
+        os.makedirs("untimed")
+        for file in files:
+            whole = file.read_bytes()
+            self.assertIn(b"\ncomment time ", whole)
+            pathlib.Path("untimed", file.name).write_bytes(re.sub(rb"comment time [^\n]*\n", b"", whole, count=1))
+        self.assertEqual(bpy.ops.sheet.import_bodies(filepath=os.path.abspath(f"untimed/{files[0].name}")), {"FINISHED"})
+        bpy.context.scene.frame_set(4)
+        self.assertIn(f"{files[3].name}, 3 of {len(files)}", bpy.data.objects["body_000"].sheet.message)
+
+    def test_bodies_are_blurred_along_their_velocity(self):
+        files, _ = self.bodies()
+        thing = self.add_on.import_bodies(str(files[1]), material="batter")
+        scene = bpy.context.scene
+        scene.frame_set(2)  # it falls at more than 0.4 m/s, by 20 mm a frame
+        camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+        camera.data.type, camera.data.ortho_scale = "ORTHO", 0.1
+        camera.location, camera.rotation_euler = (0, -1, 0.01), (math.pi / 2, 0, 0)
+        scene.collection.objects.link(camera)
+        scene.camera, scene.render.engine, scene.cycles.samples = camera, "CYCLES", 16
+        scene.cycles.use_denoising = False
+        scene.render.resolution_x = scene.render.resolution_y = 40
+        scene.render.film_transparent, scene.render.motion_blur_shutter = True, 1.0
+        shown = {}
+        for scene.render.use_motion_blur in (False, True):
+            scene.render.filepath = os.path.abspath("blur.png")
+            bpy.ops.render.render(write_still=True)
+            image = bpy.data.images.load(scene.render.filepath)
+            alpha = np.array(image.pixels[:]).reshape(40, 40, 4)[..., 3]
+            bpy.data.images.remove(image)
+            shown[scene.render.use_motion_blur] = (np.count_nonzero((alpha > 0.02).any(axis=1)),
+                                                   np.count_nonzero((alpha > 0.02).any(axis=0)))
+        self.assertGreater(shown[True][0], shown[False][0] + 4)  # rows
+        self.assertLessEqual(abs(shown[True][1] - shown[False][1]), 1)  # columns
+        self.assertEqual(thing.data.attributes["velocity"].domain, "POINT")
+
+    def test_errors_of_bodies_name_what_is_wrong(self):
+        files, _ = self.bodies()
+        whole = files[0].read_bytes()
+        for name, content, what in (("text.ply", b"solid", "this is no PLY file"),
+                                    ("cut.ply", whole[:-1], "the file ends before its header says so"),
+                                    ("ascii.ply", whole.replace(b"binary_little_endian", b"ascii", 1), "it is not binary"),
+                                    ("type.ply", whole.replace(b"property double x", b"property tuple x", 1), "its header"),
+                                    ("face.ply", whole[:-12] + b"\xff" * 12, "other faces than triangles")):
+            pathlib.Path(name).write_bytes(content)
+            self.assert_error(f"{name}: .*{what}", self.add_on.import_bodies, name)
+        self.assert_error("no_000.ply: there is no such file", self.add_on.import_bodies, "no_000.ply")
+        self.assert_error("nowhere.*[Nn]o such file", self.add_on.import_bodies, "nowhere/no_000.ply")
+        os.makedirs("mixed")
+        for i in (0, 1):
+            pathlib.Path(f"mixed/a_{i}.ply").write_bytes(whole)
+        self.assert_error("a_1.ply: its time is not after", self.add_on.import_bodies, "mixed/a_0.ply")
+
     def test_errors_name_what_is_wrong(self):
         self.assert_error("no.sheet.*[Nn]o such file", self.add_on.import_run, "no.sheet")
         pathlib.Path("text.sheet").write_text("not a stream")
@@ -264,7 +366,7 @@ class AddOn(unittest.TestCase):
 class Page(unittest.TestCase):
     def test_commands_run_and_the_picture_shows_the_sheet(self):
         commands = re.findall(r"^    \$ (.+)$", (root / "docs/blender.md").read_text(), re.M)
-        self.assertEqual(len(commands), 6)
+        self.assertEqual(len(commands), 7)
         os.makedirs("page/build/share")
         os.symlink(archive, "page/build/share/sheet-blender.zip")
         os.symlink(root / "formats", "page/formats")

@@ -60,6 +60,14 @@ TEST(MeshExport, NumbersDoNotDependOnTheLocale) {
   std::setlocale(LC_ALL, "C");
 }
 
+TEST(MeshExport, PlySaysItsTimeInAComment) {
+  ForeignMesh mesh = awkward_mesh();
+  mesh.time = 0.1;
+  EXPECT_NE(encode_ply(mesh).find("\ncomment time 0.1\nelement vertex "), std::string::npos);
+  mesh.time.reset();
+  EXPECT_EQ(encode_ply(mesh).find("comment time"), std::string::npos);
+}
+
 TEST(MeshExport, PvdNamesTimesAndFiles) {
   const std::vector<PvdEntry> entries = {{0.0, "a.vtu"}, {0.1, "b&c.vtu"}};
   const std::string text = encode_pvd(entries);

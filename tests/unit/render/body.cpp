@@ -2,6 +2,7 @@
 // Layers that touch as one body: what they let through, against one slab as thick; layers apart, bit for bit.
 #include "libsheet/render/body.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,24 +16,45 @@ namespace {
 
 constexpr double layer_thickness = 0.01; // of a layer
 
-// Level layers one above the other, `apart` thicknesses from middle to middle.
-formats::Frame stack(int layers, double apart, double thick = layer_thickness) {
-  const formats::Frame one = test::flat(8, thick);
+// Frames as one.
+formats::Frame together(const std::vector<formats::Frame>& frames) {
   std::vector<Vector3> x;
   std::vector<Corners> triangles;
   std::vector<double> volume;
-  for (int layer = 0; layer < layers; ++layer) {
+  for (const formats::Frame& one : frames) {
     const auto first = static_cast<std::uint32_t>(x.size());
-    for (const Vector3& p : positions(one))
-      x.emplace_back(p + apart * layer_thickness * layer * Vector3::UnitY());
     for (const Corners& t : sheet::triangles(one))
       triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    x.insert(x.end(), positions(one).begin(), positions(one).end());
     volume.insert(volume.end(), volumes(one).begin(), volumes(one).end());
   }
   return make_frame(x, triangles, volume);
 }
 
+// A level square layer between these x, of n x n squares.
+formats::Frame layer_at(int n, double thick, double height, double left, double right) {
+  return test::grid(n, thick, [=](double s, double t) {
+    return Vector3(left + (right - left) * s, height, (right - left) * (0.5 - t));
+  });
+}
+
+// Level layers one above the other, `apart` thicknesses from middle to middle.
+formats::Frame stack(int layers, double apart, double thick = layer_thickness) {
+  std::vector<formats::Frame> all;
+  for (int layer = 0; layer < layers; ++layer)
+    all.push_back(layer_at(8, thick, apart * layer_thickness * layer, -0.5, 0.5));
+  return together(all);
+}
+
 enum class Drawn { as_body, as_layers };
+
+std::unique_ptr<World> world_of(const formats::Frame& frame, Drawn drawn, const std::vector<Plane>& planes = {}) {
+  const Surface surface = make_surface(frame, 1e-6);
+  return drawn == Drawn::as_body
+             ? world_of_bodies(surface, {}, {}, planes, test::box_of(frame))
+             : std::make_unique<World>(surface, std::vector<SolidMesh>{}, std::vector<Eigen::Isometry3d>{}, planes,
+                                       test::box_of(frame));
+}
 
 // Light from below alone: what comes up is what was let through.
 Lighting from_below() {
@@ -46,7 +68,8 @@ Lighting from_below() {
 // The means of what comes along rays, so many degrees above level, that meet the layers far from their rims.
 std::vector<Colour> seen(const formats::Frame& frame, const Liquid& liquid, Drawn drawn, double degrees, int samples,
                          const Lighting& light = from_below()) {
-  const World world(make_surface(frame, 1e-6), {}, {}, {}, test::box_of(frame));
+  const std::unique_ptr<World> built = world_of(frame, drawn);
+  const World& world = *built;
   const PathTracer tracer(world, light, liquid, {}, drawn == Drawn::as_body ? Body(world) : Body());
   const double angle = degrees * std::numbers::pi / 180;
   const Vector3 direction(std::cos(angle), -std::sin(angle), 0);
@@ -79,11 +102,99 @@ TEST(Body, TenLayersThatTouchLetThroughWhatOneSlabDoes) {
   }
 }
 
+TEST(Body, WhatTwoLayersLetThroughIsContinuousInTheGapBetweenThem) {
+  // From one slab to two, linearly between gaps of half a thickness and of two.
+  const auto through = [](const formats::Frame& frame) { return seen(frame, clear, Drawn::as_body, 70, 8192)[1]; };
+  const Colour slab = through(stack(1, 1, 2 * layer_thickness)), pair = through(stack(2, 4));
+  ASSERT_GT((slab - pair).minCoeff(), 0.05);
+  Colour last = slab;
+  for (double gap = 0.1; gap < 2.5; gap += 0.15) {
+    const Colour now = through(stack(2, 1 + gap));
+    const auto bridged = static_cast<float>(std::clamp((2 - gap) / 1.5, 0.0, 1.0));
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(now[c], bridged * slab[c] + (1 - bridged) * pair[c], 0.003) << "gap " << gap << ", channel " << c;
+      EXPECT_LE(now[c], last[c] + 1e-4F) << "gap " << gap << ", channel " << c;
+    }
+    last = now;
+  }
+}
+
+TEST(Body, NormalsTurnContinuouslyAsLayersComeNear) {
+  // Of a layer along the rim of another that covers half of it: the rim melts in as it comes near.
+  const auto slopes = [](double gap) {
+    const formats::Frame frame = together({layer_at(40, layer_thickness, 0, -0.1, 0.1),
+                                           layer_at(40, layer_thickness, (1 + gap) * layer_thickness, -0.2, 0.0013)});
+    const std::unique_ptr<World> world = world_of(frame, Drawn::as_body);
+    const Body body(*world);
+    std::vector<float> result;
+    for (int i = 0; i < 20; ++i) {
+      const Vec from = world->to_world(Vector3(0.008 + 0.001 * i, 1, 0.003));
+      result.push_back(body.normal_at(*world, world->nearest({from, -Vec::UnitY()})).x());
+    }
+    return result;
+  };
+  const auto difference = [](const std::vector<float>& a, const std::vector<float>& b) {
+    float most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+  };
+  std::vector<float> last = slopes(0.3);
+  const float all = difference(last, slopes(2.2));
+  EXPECT_GT(all, 0.05F);
+  for (double gap = 0.35; gap < 2.2; gap += 0.05) {
+    const std::vector<float> now = slopes(gap);
+    EXPECT_LT(difference(now, last), 0.25F * all) << "gap " << gap;
+    last = now;
+  }
+}
+
 TEST(Body, LayersByThemselvesAreAPileOfPlates) {
   // T = (1 - F) / (1 + (2 N - 1) F) of 2 N faces that each reflect F [Stokes 1862].
   const double face = 0.04, expected = (1 - face) / (1 + 19 * face);
   for (const Colour& c : seen(stack(10, 1.05), clear, Drawn::as_layers, 90, 8192))
     EXPECT_NEAR(static_cast<double>(c[0]) / expected, 1, 0.02);
+}
+
+// The mean luminance along a ray under even light.
+double luminance_along(const formats::Frame& frame, Drawn drawn, std::size_t liquid, const Vector3& from,
+                       const Vector3& to) {
+  const std::unique_ptr<World> world = world_of(frame, drawn);
+  const Lighting light = Lighting::uniform(1);
+  const PathTracer tracer(*world, light, preset(liquid), {}, drawn == Drawn::as_body ? Body(*world) : Body());
+  const Ray ray{world->to_world(from), (to - from).normalized().cast<float>()};
+  double sum = 0;
+  std::uint64_t rays = 0;
+  for (std::uint32_t s = 0; s < 4096; ++s) {
+    Sampler sampler(0, s);
+    sum += static_cast<double>(luminance(tracer.radiance(ray, sampler, rays).sum())) / 4096;
+  }
+  return sum;
+}
+
+TEST(Body, AGapThatIsOpenToTheEyeIsAsDarkAsWithLayers) {
+  // Light in it comes from its mouth, and through opaque layers next to none. The eye looks in from the side.
+  const formats::Frame frame = together(
+      {layer_at(40, layer_thickness, 0, -0.1, 0.1), layer_at(40, layer_thickness, 2 * layer_thickness, -0.1, 0.1)});
+  const auto seen_in = [&](Drawn drawn) {
+    return luminance_along(frame, drawn, 3, {-0.11, 0.0125, 0.003}, {-0.07, 0.0055, 0.003});
+  };
+  const double layers = seen_in(Drawn::as_layers);
+  EXPECT_LT(layers, 0.6);
+  EXPECT_NEAR(seen_in(Drawn::as_body) / layers, 1, 0.1); // normals melt; 3.6 if light came through the layers
+}
+
+TEST(Body, ASharpFoldOfLongEdgesDoesNotShine) {
+  // Its smooth normals send mirror images into the chocolate, which the body is deeper of. 5.4 if they went up.
+  const auto roof = [](double height) {
+    return test::grid(2, layer_thickness,
+                      [=](double s, double t) { return Vector3(s - 0.5, height - std::abs(s - 0.5), 0.5 - t); });
+  };
+  const formats::Frame frame = together({roof(0), roof(-1.6 * layer_thickness)});
+  const auto seen_on = [&](Drawn drawn) {
+    return luminance_along(frame, drawn, 0, {1.1, 0.0, 0.003}, {0.1, -0.1, 0.003});
+  };
+  EXPECT_LT(seen_on(Drawn::as_body), 2 * seen_on(Drawn::as_layers));
 }
 
 TEST(Body, WhatDoesNotTouchIsDrawnAsBefore) {
@@ -114,8 +225,8 @@ TEST(Body, NoLightIsLost) {
 TEST(Body, WhatIsBehindLayersThatTouchIsOneSurfaceTheCameraLooksThrough) {
   // The denoiser's view: the body is met once, however many layers it has.
   const auto weight = [](const formats::Frame& frame, Drawn drawn) {
-    const World world(make_surface(frame, 1e-6), {}, {}, {{ground_id, Vector3(0, -0.2, 0), Vector3::UnitY()}},
-                      test::box_of(frame));
+    const std::unique_ptr<World> built = world_of(frame, drawn, {{ground_id, Vector3(0, -0.2, 0), Vector3::UnitY()}});
+    const World& world = *built;
     const Lighting light = from_below();
     const PathTracer tracer(world, light, clear, {}, drawn == Drawn::as_body ? Body(world) : Body());
     std::uint64_t rays = 0;
