@@ -27,7 +27,7 @@ namespace sheet {
 class ChannelPressure {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  [[nodiscard]] const char* name() const { return "pressure between walls"; }
+  [[nodiscard]] const char* name() const { return "gap pressure"; }
   [[nodiscard]] std::size_t size() const { return triangles_; }
 
   void begin(const Stage& stage) {

@@ -28,9 +28,10 @@ struct Model {
   std::optional<BathLiquid> bath;     // needs gravity
   bool inertia = true;
   Bending bending = Bending::none;
-  bool arcs = false;       // with mid-edge bending: edges are arcs in the membrane's strain
-  std::vector<Hold> holds; // of two that hold the same unknown, the later one
-  std::vector<Wall> walls; // along which liquid flows
+  bool arcs = false;        // with mid-edge bending: edges are arcs in the membrane's strain
+  std::vector<Hold> holds;  // of two that hold the same unknown, the later one
+  std::vector<Wall> walls;  // along which liquid flows
+  bool may_squeeze = false; // several solids, which may leave liquid no room between them
   Reactions reactions = Reactions::none;
   std::vector<ContactSpring> contacts;
   bool contacts_adhere = false;

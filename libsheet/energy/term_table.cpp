@@ -104,11 +104,11 @@ constexpr std::array table = {
               [](const Model&) -> std::string { return "solids drag what flows along them"; },
               [](const Model& m) { return m.liquid.viscous() ? "liquid flows along no [[solid]]" : inviscid(m); },
               [](const Model&, TermMaker& maker) { maker.add(WallDrag()); }},
-    TermEntry{"pressure between walls",
-              [](const Model& m) { return m.liquid.viscous() && m.walls.size() > 1; },
+    TermEntry{"gap pressure",
+              [](const Model& m) { return m.liquid.viscous() && (m.may_squeeze || m.walls.size() > 1); },
               [](const Model&) -> std::string { return "what two solids close on flows out from between them"; },
               [](const Model& m) {
-                return m.liquid.viscous() ? "liquid flows along no [[solid]] that another one may face" : inviscid(m);
+                return m.liquid.viscous() ? "fewer than two [[solid]]s" : inviscid(m);
               },
               [](const Model&, TermMaker& maker) { maker.add(ChannelPressure()); }},
     TermEntry{"weight on walls", [](const Model& m) { return (!m.walls.empty() || spreads(m)) && m.has_weight(); },

@@ -431,6 +431,7 @@ Model model_of(const Scene& scene) {
       wall.slip_length = solid.contact == SolidContact::slip ? free_slip : solid.slip_length;
       model.walls.push_back(std::move(wall));
     }
+  model.may_squeeze = scene.solids.size() > 1;
   if (scene.contact && scene.contact->self)
     model.contacts.resize(1);
   return model;
