@@ -176,10 +176,13 @@ private:
   }
 
   // The vertices that start between their solid and another one which leave them no room: those flow even where liquid
-  // sticks, as sheet-step has it (scene_model.h).
+  // sticks, if any solid moves, as sheet-step has it (scene_model.h).
   [[nodiscard]] std::vector<std::uint8_t> squeezed() const {
     std::vector<std::uint8_t> between(rides_.size(), 0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, views_.size() > 1 ? rides_.size() : 0, 256),
+    bool any_moves = false;
+    for (std::size_t i = 0; i < views_.size(); ++i)
+      any_moves = any_moves || !std::holds_alternative<scene::Fixed>(solids_.scene(i).motion);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, views_.size() > 1 && any_moves ? rides_.size() : 0, 256),
                       [&](const auto& range) {
                         for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v)
                           between[v] = is_squeezed(v) ? 1 : 0;

@@ -103,6 +103,11 @@ std::optional<Vector3d> up(const Environment& environment) {
   return -environment.gravity->stableNormalized();
 }
 
+bool solids_squeeze(const Scene& scene) {
+  return scene.solids.size() > 1 &&
+         std::ranges::any_of(scene.solids, [](const Solid& s) { return !std::holds_alternative<Fixed>(s.motion); });
+}
+
 bool flows_on_solids(const Scene& scene) {
   return std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact != SolidContact::stick; });
 }

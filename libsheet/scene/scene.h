@@ -322,6 +322,9 @@ struct PlaneAxes {
 // Whether liquid that touches flows or slips along any of the scene's solids.
 [[nodiscard]] bool flows_on_solids(const Scene& scene);
 
+// Whether what sticks to a solid may be squeezed by another one: where there are several and one of them moves.
+[[nodiscard]] bool solids_squeeze(const Scene& scene);
+
 // Whether layers that lie on each other flow along each other: where liquid flows on solids or spreads on a bath.
 [[nodiscard]] bool layers_flow(const Scene& scene);
 // Whether what touches sticks: contact springs pull, too. They do unless the scene's adhesion is 0.
@@ -339,6 +342,7 @@ namespace sheet {
 using scene::contacts_adhere;
 using scene::flows_in_or_out;
 using scene::flows_on_solids;
+using scene::solids_squeeze;
 using scene::layers_flow;
 using scene::Scene;
 using scene::sheet_named;

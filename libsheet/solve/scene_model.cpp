@@ -211,26 +211,24 @@ std::vector<char> thin_films(const Frame& frame) {
 
 // Of the vertices that stick to solid i, takes away those that lie between it and another solid which leaves them no
 // room, and gives them: they flow out from there, without slip.
-std::vector<std::uint32_t> take_squeezed(const solid::Solids* solids, std::size_t i, const Frame& frame,
+std::vector<std::uint32_t> take_squeezed(const solid::Solids& solids, std::size_t i, const Frame& frame,
                                          std::vector<std::uint32_t>& vertices) {
   std::vector<std::uint32_t> squeezed;
-  if (solids == nullptr || solids->size() < 2)
-    return squeezed;
   const auto x = positions(frame);
   const auto corners = triangles(frame);
   const std::vector<double> thickness = thickness_around(x.size(), corners, volumes(frame), [&](std::uint32_t t) {
     return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
   });
   const auto leave_no_room = [&](std::uint32_t v, std::size_t other) {
-    const Vector3 there = solids->pose(other, frame.time).inverse() * x[v];
-    if (!(solids->shape(other).distance(there, thickness[v]) < thickness[v]))
+    const Vector3 there = solids.pose(other, frame.time).inverse() * x[v];
+    if (!(solids.shape(other).distance(there, thickness[v]) < thickness[v]))
       return false;
-    const solid::SolidPoint one = solids->at(i, x[v], frame.time), two = solids->at(other, x[v], frame.time);
+    const solid::SolidPoint one = solids.at(i, x[v], frame.time), two = solids.at(other, x[v], frame.time);
     return gap_between(one.distance, one.normal, two.distance, two.normal) < thickness[v];
   };
   std::erase_if(vertices, [&](std::uint32_t v) {
     bool any = false;
-    for (std::size_t other = 0; other < solids->size() && !any; ++other)
+    for (std::size_t other = 0; other < solids.size() && !any; ++other)
       any = other != i && leave_no_room(v, other);
     if (any)
       squeezed.push_back(v);
@@ -259,7 +257,9 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
     Hold hold;
     move(hold, solid.motion, solid.surface_velocity);
     if (solid.contact == SolidContact::stick) {
-      std::vector<std::uint32_t> squeezed = take_squeezed(solids.get(), i, frame, touching[i]);
+      std::vector<std::uint32_t> squeezed;
+      if (solids_squeeze(scene))
+        squeezed = take_squeezed(*solids, i, frame, touching[i]);
       add_stuck(solids.get(), i, solid, std::move(touching[i]), frame, model);
       if (squeezed.empty())
         continue;
@@ -431,7 +431,7 @@ Model model_of(const Scene& scene) {
       wall.slip_length = solid.contact == SolidContact::slip ? free_slip : solid.slip_length;
       model.walls.push_back(std::move(wall));
     }
-  model.may_squeeze = scene.solids.size() > 1;
+  model.may_squeeze = solids_squeeze(scene) || (scene.solids.size() > 1 && flows_on_solids(scene));
   if (scene.contact && scene.contact->self)
     model.contacts.resize(1);
   return model;

@@ -71,7 +71,7 @@ void check_edges(const Frame& frame, const Connectivity& mesh) {
 // Liquid that flows on solids has to know their surfaces, and so has what sticks to belts, which run along them, and
 // what is squeezed between two.
 bool needs_surfaces(const Scene& scene) {
-  return flows_on_solids(scene) || scene.solids.size() > 1 ||
+  return flows_on_solids(scene) || solids_squeeze(scene) ||
          std::ranges::any_of(scene.solids, [](const scene::Solid& solid) { return !solid.surface_velocity.isZero(0); });
 }
 

@@ -63,6 +63,7 @@ TEST(SolidContact, WhatIsSqueezedBetweenSolidsSlidesAndIsCounted) {
     EXPECT_EQ(first.touching, sheet.path.start.size());
     EXPECT_EQ(first.between, 0U);
     upper.center.y() += gap - 2.2e-3;
+    upper.motion = scene::Translating{{{{0, {0.05, 0, 0}}}}}; // along itself
     sheet.path.start = sheet.path.end;
     for (Vector3& x : sheet.path.end) // as sheet-step moves what flows
       x += Vector3(1e-3, gap / 2 - 1e-3, 0);
