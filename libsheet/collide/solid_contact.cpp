@@ -263,7 +263,8 @@ private:
       for (const SolidView& other : views_) {
         const Vector3 there = other.own(other.pieces(), end);
         const double offset = &other == &view ? 0 : beside_distance(v, other);
-        if (&other == &view || (slides(v) && faces(view, other, end)) || other.shape().distance(there, offset) >= offset * (1 - 1e-6))
+        if (&other == &view || (slides(v) && faces(view, other, end)) ||
+            other.shape().distance(there, offset) >= offset * (1 - 1e-6))
           continue;
         end = other.world_at_end(settle(other.shape(), there, offset));
         moved = true;

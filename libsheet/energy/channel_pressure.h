@@ -8,8 +8,8 @@
 //   G = Σ (f_c g_c exp(s_c·(x_c - x̂_c)/g_c) + (1 - f_c) 1.1 ĥ)/3,
 // τ the stage's duration, x̄ at the start of the step, in a second stage extrapolated from the first, f_c the part in
 // which the layer fills the gap g_c of a corner at the stage's predicted end, s_c the gap's slope along the wall, 1.1 ĥ
-// the gap that the layer would begin to fill there. The layer feels -∇(p g) from the areas and p ∇g from the gaps: -g ∇p
-// together, which with the drag of two walls is Reynolds' equation of lubrication [Reynolds 1886; Batchelor 1967,
+// the gap that the layer would begin to fill there. The layer feels -∇(p g) from the areas and p ∇g from the gaps: -g
+// ∇p together, which with the drag of two walls is Reynolds' equation of lubrication [Reynolds 1886; Batchelor 1967,
 // section 4.8]. Round plates of radius R that close at the rate e have p = 3 μ e (R² - s²)/g² at the radius s [Stefan
 // 1874], so that x stays below 4e-3 there.
 #pragma once
@@ -52,8 +52,8 @@ public:
         mean += (gap.corners[c].free + gap.corners[c].width) / 3;
         filled += part / 3;
       }
-      gap.stiffness = filled * modulus * (1 + area / (mean * mean)) * stage.viscosity[t] *
-                      (1 / stage.duration + rate) * gap.volume;
+      gap.stiffness =
+          filled * modulus * (1 + area / (mean * mean)) * stage.viscosity[t] * (1 / stage.duration + rate) * gap.volume;
       gap.allowed = std::max(0.0, reference(stage, t)) / (1 + rate * stage.duration);
     });
   }
@@ -79,7 +79,7 @@ public:
     if (over == 0)
       return 0;
     const double ratio = gap.volume / (a.area * mean); // of thickness and gap
-    VectorN<9> spreads, widens; // of the logarithms of the area, and of the gap
+    VectorN<9> spreads, widens;                        // of the logarithms of the area, and of the gap
     spreads << a.gradient(0), a.gradient(1), a.gradient(2);
     spreads /= a.area;
     for (int c = 0; c < 3; ++c)

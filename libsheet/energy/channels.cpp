@@ -12,9 +12,9 @@ namespace sheet {
 
 namespace {
 
-constexpr double touch = 1.05;         // gaps that a layer fills, in its thicknesses
-constexpr double relief = 10;          // of the rate at which walls move
-constexpr double least_gap = 0.05;     // of the thickness: narrower gaps count as so wide
+constexpr double touch = 1.05;     // gaps that a layer fills, in its thicknesses
+constexpr double relief = 10;      // of the rate at which walls move
+constexpr double least_gap = 0.05; // of the thickness: narrower gaps count as so wide
 
 double gap_of(const WallPoint& own, const WallPoint& other) {
   return gap_between(own.distance, own.normal, other.distance, other.normal);

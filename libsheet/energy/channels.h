@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Liquid between two walls: where another wall faces the one on which a layer lies, nearer than the layer is thick, as
-// under a roller, a blade or the upper half of a mould. A layer that fills a gap g between walls that move at U1 and U2,
-// with the slip lengths b1 and b2, has the mean velocity u and is dragged along them by
+// under a roller, a blade or the upper half of a mould. A layer that fills a gap g between walls that move at U1 and
+// U2, with the slip lengths b1 and b2, has the mean velocity u and is dragged along them by
 //   3 μ (u - U)/D,   D = g (1 + 4 s + 12 p)/(4 (1 + s)),   U = U1 + (U2 - U1) (g/2 + b1)/(g + b1 + b2),
-// s = (b1 + b2)/g, p = b1 b2/g² [plane Couette and Poiseuille flow with Navier's slip; Batchelor 1967, section 4.2]: D =
-// g/4 and the walls' mean velocity without slip. With b2 = infinity it is the layer with a free face (wall_drag.h). What
-// lies in the gap is in its middle, and no thicker than it is wide (channel_pressure.h).
+// s = (b1 + b2)/g, p = b1 b2/g² [plane Couette and Poiseuille flow with Navier's slip; Batchelor 1967, section 4.2]: D
+// = g/4 and the walls' mean velocity without slip. With b2 = infinity it is the layer with a free face (wall_drag.h).
+// What lies in the gap is in its middle, and no thicker than it is wide (channel_pressure.h).
 //
 // What is too thick for its gap at once, as where a solid stands in the sheet at the start, gives way at ten times the
 // rate at which the walls move there: the speed of closing over the gap, that of sliding over the root of the area. (A

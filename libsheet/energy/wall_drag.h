@@ -6,8 +6,8 @@
 // φ the angle between triangle and wall at the start of the step, Â and ĥ predicted for the end of the stage, P along
 // the wall, x̄ where the corner had been carried by the wall (WallSite::carried). F is the foot on which a triangle
 // stands, of its edges there whose both ends touch, of the length l: belts carry along what stands on them. Where
-// another wall faces it across the gap g, 1/(ĥ + 3 b) becomes (1 - f)/(g + 3 b) + f/D, f the part filled, and x̄ the mean
-// with these weights of where the one wall and both carry it (channels.h).
+// another wall faces it across the gap g, 1/(ĥ + 3 b) becomes (1 - f)/(g + 3 b) + f/D, f the part filled, and x̄ the
+// mean with these weights of where the one wall and both carry it (channels.h).
 #pragma once
 #include "libsheet/base/each.h"
 #include "libsheet/energy/channels.h"

@@ -13,9 +13,9 @@ namespace sheet {
 
 namespace {
 
-constexpr double in_reach = 1 + 1e-3;   // of the distance kept: another wall that is so near holds a vertex as well
+constexpr double in_reach = 1 + 1e-3;    // of the distance kept: another wall that is so near holds a vertex as well
 constexpr double farthest_in_gap = 0.75; // of the gap between two walls: from its own wall
-constexpr double part_of_an_edge = 0.5; // that a vertex may move along its wall in a step
+constexpr double part_of_an_edge = 0.5;  // that a vertex may move along its wall in a step
 
 RigidMotion moved(const Wall& wall, double from, double to) {
   return wall.motion ? wall.motion(from, to) : RigidMotion{};
@@ -84,9 +84,8 @@ void find_channels(const std::vector<Wall>& walls, Stage& stage) {
   if (walls.size() < 2)
     return;
   const auto& triangles = stage.start->mesh->triangles;
-  const std::vector<double> thickness =
-      thickness_around(stage.vertices(), triangles, stage.start->volumes,
-                       [&](std::uint32_t t) { return stage.raised[t].area(); });
+  const std::vector<double> thickness = thickness_around(stage.vertices(), triangles, stage.start->volumes,
+                                                         [&](std::uint32_t t) { return stage.raised[t].area(); });
   set_channels(
       walls, thickness, [&](const Wall& wall, std::uint32_t v) { return carried_by(wall, stage, v); }, stage);
 }
