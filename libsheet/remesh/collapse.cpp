@@ -253,7 +253,8 @@ bool propose_removal(const EditableSheet& sheet, std::uint32_t v, Edit& edit) {
   const Corners rim = rim_of_pocket(mesh, v);
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t w : rim)
-    if (const double way = (sheet.at(w) - sheet.at(v)).norm(); (sheet.held_by_touch(v) || sheet.held_within(v, w)) && way < least) {
+    if (const double way = (sheet.at(w) - sheet.at(v)).norm();
+        (sheet.held_by_touch(v) || sheet.held_within(v, w)) && way < least) {
       least = way;
       edit.vertex = w;
     }

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
+#include "libsheet/geometry/overlap.h"
 #include "libsheet/geometry/triangle_grid.h"
 #include "libsheet/remesh/edit.h"
-#include "libsheet/geometry/overlap.h"
 #include "libsheet/remesh/side_directors.h"
 #include "libsheet/remesh/thickness.h"
 #include "libsheet/remesh/triangle_shape.h"
@@ -24,8 +24,8 @@ namespace sheet::remesh {
 // What an edit must keep to.
 struct Limits {
   double thickness = 1.1; // largest factor by which an edit may change thickness beyond the old range
-  // Cosine of the smallest angle that new triangles may have; where the old ones had a smaller angle, one that is better
-  // by that gain (better_cosine).
+  // Cosine of the smallest angle that new triangles may have; where the old ones had a smaller angle, one that is
+  // better by that gain (better_cosine).
   double sharpest = 1;
   double gain = 0;
   double facing = 0;         // least cosine between a triangle's normal and its former one, or the mean of the old ones

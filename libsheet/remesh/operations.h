@@ -38,8 +38,8 @@ void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 
 // An inner vertex of three triangles goes, and one triangle takes their place: a pocket whose rim is a triangle, which
 // no other operation can open or close. What liquid it has more than that triangle takes goes to the neighbours, too.
-// False where the triangle exists already or a vertex of the rim would be left with too few, or if the vertex is held by
-// more than a solid that it touches and none of the rim's is held as it is.
+// False where the triangle exists already or a vertex of the rim would be left with too few, or if the vertex is held
+// by more than a solid that it touches and none of the rim's is held as it is.
 [[nodiscard]] bool propose_removal(const EditableSheet& sheet, std::uint32_t v, Edit& edit);
 
 // A free inner vertex moves along the sheet to the middle of its triangles, weighted by their areas. The movement

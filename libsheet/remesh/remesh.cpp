@@ -178,12 +178,12 @@ private:
     return area > steep_pocket * closed.area || (sharpest > cosine_22 && sharpest > closed.sharpest);
   }
 
-  // Pockets are what crumpled sheets leave of folds smaller than their edges, and what becomes of threads. The liquid in
-  // them has no shape that triangles could tell: it may get much thicker, and the triangle may face anywhere.
+  // Pockets are what crumpled sheets leave of folds smaller than their edges, and what becomes of threads. The liquid
+  // in them has no shape that triangles could tell: it may get much thicker, and the triangle may face anywhere.
   void close_pockets() {
     for (std::uint32_t v = 0; v < mesh_.vertex_slots() && within_budget(); ++v)
-      if (mesh_.has_vertex(v) && mesh_.side_at(v) != no_index && propose_removal(sheet_, v, edit_) &&
-          better_closed() && sheet_.make(edit_, limits(cosine_2, -1, pocket_thickness)))
+      if (mesh_.has_vertex(v) && mesh_.side_at(v) != no_index && propose_removal(sheet_, v, edit_) && better_closed() &&
+          sheet_.make(edit_, limits(cosine_2, -1, pocket_thickness)))
         ++report_.collapses;
   }
 

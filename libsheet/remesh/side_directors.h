@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "formats/cpp/stream_frame.h"
-#include "libsheet/remesh/edit.h"
 #include "libsheet/geometry/overlap.h"
+#include "libsheet/remesh/edit.h"
 
 namespace sheet::remesh {
 

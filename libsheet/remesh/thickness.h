@@ -11,8 +11,8 @@
 #pragma once
 #include <span>
 
-#include "libsheet/remesh/edit.h"
 #include "libsheet/geometry/overlap.h"
+#include "libsheet/remesh/edit.h"
 
 namespace sheet::remesh {
 

@@ -342,9 +342,9 @@ namespace sheet {
 using scene::contacts_adhere;
 using scene::flows_in_or_out;
 using scene::flows_on_solids;
-using scene::solids_squeeze;
 using scene::layers_flow;
 using scene::Scene;
 using scene::sheet_named;
 using scene::SolidContact;
+using scene::solids_squeeze;
 } // namespace sheet

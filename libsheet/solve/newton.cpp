@@ -205,9 +205,9 @@ private:
 
   bool converged() {
     const bool strict = trusted() && remains_ <= (followed_ ? sharper : 1) * options_.tolerance;
-    const bool near = options_.of_step_error > 0 && norm_ <= options_.of_step_error * first_norm_ &&
-                      positions_remain_ <=
-                          std::min(largest, options_.of_step_error * std::max(way_, options_.step_error));
+    const bool near =
+        options_.of_step_error > 0 && norm_ <= options_.of_step_error * first_norm_ &&
+        positions_remain_ <= std::min(largest, options_.of_step_error * std::max(way_, options_.step_error));
     near_ = near ? near_ + 1 : 0;
     // Slivers and films of no mass may have a curvature that is negative for ever, and move by next to nothing.
     const bool lenient = near_ >= (trusted() ? 1 : often);

@@ -31,8 +31,8 @@ void put_reactions(std::span<const Vector3> reactions, bool of_holds, formats::F
 // scene wants none. Reactions are wanted where the scene says at what tension the sheet parts from solids that it
 // touches, or where rims do not retreat on a solid along which liquid flows. `solids`: the scene's, where liquid flows
 // or slips on one of them (flows_on_solids), or where what sticks to one may be squeezed by another one
-// (solids_squeeze), as it flows out from between them then; else not needed. Throws Error (bad_input) where the scene has
-// too little for a model.
+// (solids_squeeze), as it flows out from between them then; else not needed. Throws Error (bad_input) where the scene
+// has too little for a model.
 [[nodiscard]] Model model_of(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh, Bending bending,
                              bool arcs, const std::shared_ptr<const solid::Solids>& solids = nullptr);
 

@@ -31,9 +31,7 @@ Wall lower_wall(const State& s) {
 Wall upper_wall(const std::function<double(double t)>& at, double slope) {
   Wall wall;
   const Vector3 normal = Vector3(slope, 0, -1).normalized();
-  wall.nearest = [=](double t, const Vector3& x) {
-    return WallPoint{normal.dot(x - Vector3(0, 0, at(t))), normal};
-  };
+  wall.nearest = [=](double t, const Vector3& x) { return WallPoint{normal.dot(x - Vector3(0, 0, at(t))), normal}; };
   return wall;
 }
 

@@ -84,8 +84,7 @@ TEST(CollideStage, WhatIsPrescribedGoesItsWay) {
 // An inlet's border goes on with what has come in, and sheet-emit puts it back: what flies through where it comes from
 // is kept out of there.
 TEST(CollideStage, BordersOfInletsAreKeptClear) {
-  Frame frame =
-      two_triangles(0.5, "[contact]\nself = true\n[inflow]\nregion = \"rim\"\nvelocity = [0, 0, 3]\n");
+  Frame frame = two_triangles(0.5, "[contact]\nself = true\n[inflow]\nregion = \"rim\"\nvelocity = [0, 0, 3]\n");
   const auto bits = put_masks(frame, "inlet");
   auto start = frame.find("start_position")->values<Vector3>();
   auto now = positions(frame);

@@ -53,8 +53,8 @@ TEST(SolidContact, NothingToDo) {
   EXPECT_TRUE(unsafe_triangles(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).empty());
 }
 
-// Between two plates a sheet of 2 mm touches the lower one. Where the upper one leaves it less room than that it slides,
-// though it sticks to solids; where it leaves less than half, that is counted.
+// Between two plates a sheet of 2 mm touches the lower one. Where the upper one leaves it less room than that it
+// slides, though it sticks to solids; where it leaves less than half, that is counted.
 TEST(SolidContact, WhatIsSqueezedBetweenSolidsSlidesAndIsCounted) {
   for (const double gap : {2.2e-3, 1.9e-3, 0.95e-3}) {
     FallingSheet sheet = falling(1, 1.05e-3);

@@ -276,13 +276,14 @@ TEST(CornerCase, SteepPocketsAreClosed) {
     double highest = 0;
     for (const Vector3& x : positions(std::as_const(frame)))
       highest = std::max(highest, x.z());
-    EXPECT_EQ(highest < 1e-3, height > 0.2);
+    EXPECT_EQ(highest<1e-3, height> 0.2);
     EXPECT_NEAR(test::account_of(frame).volume, volume, 1e-14 * volume);
     test::expect_consistent(Mesh(frame.vertices, triangles(std::as_const(frame))));
   }
 }
 
-// A rim vertex that liquid presses against the end of an inlet goes to that end: the inlet's strip there stays as it is.
+// A rim vertex that liquid presses against the end of an inlet goes to that end: the inlet's strip there stays as it
+// is.
 TEST(CornerCase, WhatIsPressedAgainstAnInletsEndGoesThere) {
   // The strip 0 1 2, 1 3 2 comes from the left; 4 and 5 lie beside its end.
   const std::vector<Vector3> x = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {1.001, 0, 0}, {2, 0, 0}, {2, 1, 0}};

@@ -46,8 +46,8 @@ std::vector<double> stiffened(const State& s, double dt) {
   return stiffened_films(first_stage(s, liquid().liquid, dt, dt, false), true);
 }
 
-// Two triangles folded onto each other, which the step is predicted to open on the other side: the mean of their normals
-// turns over, and the director between them stays where it is.
+// Two triangles folded onto each other, which the step is predicted to open on the other side: the mean of their
+// normals turns over, and the director between them stays where it is.
 TEST(FlatFolds, DirectorsDoNotTurnOver) {
   test::Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0.001}, {0.5, 1, -0.001}};
