@@ -179,10 +179,7 @@ private:
   // sticks, if any solid moves, as sheet-step has it (scene_model.h).
   [[nodiscard]] std::vector<std::uint8_t> squeezed() const {
     std::vector<std::uint8_t> between(rides_.size(), 0);
-    bool any_moves = false;
-    for (std::size_t i = 0; i < views_.size(); ++i)
-      any_moves = any_moves || !std::holds_alternative<scene::Fixed>(solids_.scene(i).motion);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, views_.size() > 1 && any_moves ? rides_.size() : 0, 256),
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, solids_.may_squeeze() ? rides_.size() : 0, 256),
                       [&](const auto& range) {
                         for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v)
                           between[v] = is_squeezed(v) ? 1 : 0;
@@ -191,20 +188,8 @@ private:
   }
 
   [[nodiscard]] bool is_squeezed(std::uint32_t v) const {
-    if (rides_[v] == no_solid)
-      return false;
-    const auto touched = static_cast<std::size_t>(rides_[v]);
-    const Vector3& x = path_.start[v];
-    const double thickness = path_.thickness[v];
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      if (i == touched || !(views_[i].shape().distance(views_[i].own(0, x), thickness) < thickness))
-        continue;
-      const solid::SolidPoint own = solids_.at(touched, x, path_.start_time);
-      const solid::SolidPoint other = solids_.at(i, x, path_.start_time);
-      if (gap_between(own.distance, own.normal, other.distance, other.normal) < thickness)
-        return true;
-    }
-    return false;
+    return rides_[v] != no_solid &&
+           solids_.facing(static_cast<std::size_t>(rides_[v]), path_.start[v], path_.start_time, path_.thickness[v]);
   }
 
   // Where a vertex goes that hits a solid and slides on: what is left of its path, along the surface.
@@ -508,25 +493,15 @@ private:
   // A vertex in a gap between two solids that is less than half as wide as the sheet is thick there: what is squeezed
   // has not got away.
   void count_between(std::uint32_t v) {
+    const auto touched = static_cast<std::size_t>(rides_[v]);
     const double thickness = path_.thickness[v];
-    const std::size_t touched = static_cast<std::size_t>(rides_[v]);
-    const solid::SolidPoint own = solids_.at(touched, path_.end[v], path_.end_time);
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      if (i == touched || !(distance_at_end(views_[i], v, thickness) < thickness))
-        continue;
-      const solid::SolidPoint other = solids_.at(i, path_.end[v], path_.end_time);
-      const double gap = gap_between(own.distance, own.normal, other.distance, other.normal);
-      if (!(gap < narrow * thickness))
-        continue;
-      if (report_.between == 0 || gap < report_.narrowest.gap)
-        report_.narrowest = {path_.end[v], std::min(i, touched), std::max(i, touched), gap, thickness};
-      ++report_.between;
+    const auto other = solids_.facing(touched, path_.end[v], path_.end_time, narrow * thickness);
+    if (!other)
       return;
-    }
-  }
-
-  [[nodiscard]] double distance_at_end(const SolidView& view, std::uint32_t v, double enough) const {
-    return view.shape().distance(view.own(view.pieces(), path_.end[v]), enough);
+    if (report_.between == 0 || other->gap < report_.narrowest.gap)
+      report_.narrowest = {path_.end[v], std::min(other->solid, touched), std::max(other->solid, touched), other->gap,
+                           thickness};
+    ++report_.between;
   }
 
   StepPath& path_;

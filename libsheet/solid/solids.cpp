@@ -4,13 +4,14 @@
 #include <fmt/core.h>
 
 #include "libsheet/base/overloaded.h"
+#include "libsheet/geometry/facing_walls.h"
 #include "libsheet/scene/words.h"
 #include "libsheet/solid/mesh.h"
 #include "libsheet/solid/shapes.h"
 
 namespace sheet::solid {
 
-Solids::Solids(const Scene& scene) {
+Solids::Solids(const Scene& scene) : may_squeeze_(scene::solids_squeeze(scene)) {
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const scene::Solid& solid = scene.solids[i];
     Entry entry{solid, fmt::format("solid {} ({})", i, scene::words::solid_shapes[solid.shape.index()]), {}, nullptr};
@@ -42,6 +43,19 @@ SolidPoint Solids::at(std::size_t solid, const Vector3& x, double t) const {
   const Near near = solids_[solid].shape->nearest(place.inverse() * x);
   const Vector3 normal = place.linear() * near.normal;
   return {near.distance, normal, surface_velocity(solid, x, normal, t)};
+}
+
+std::optional<Solids::Facing> Solids::facing(std::size_t solid, const Vector3& x, double t, double room) const {
+  std::optional<Facing> nearest;
+  for (std::size_t i = 0; i < solids_.size(); ++i) {
+    if (i == solid || !(solids_[i].shape->distance(pose(i, t).inverse() * x, room) < room))
+      continue;
+    const SolidPoint own = at(solid, x, t), other = at(i, x, t);
+    const double gap = gap_between(own.distance, own.normal, other.distance, other.normal);
+    if (gap < room && (!nearest || gap < nearest->gap))
+      nearest = {i, gap};
+  }
+  return nearest;
 }
 
 } // namespace sheet::solid

@@ -3,6 +3,7 @@
 #pragma once
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,18 @@ public:
   // The belt's part of it.
   [[nodiscard]] Vector3 belt_velocity(std::size_t solid, const Vector3& normal) const;
 
+  // Whether what sticks to one may be squeezed by another one (scene::solids_squeeze).
+  [[nodiscard]] bool may_squeeze() const { return may_squeeze_; }
+
+  // Another solid across a gap.
+  struct Facing {
+    std::size_t solid;
+    double gap; // [m]
+  };
+  // Of those that face `solid` at the point x [m] at time t [s] (facing_walls.h), the nearest, if it leaves less than
+  // `room` [m].
+  [[nodiscard]] std::optional<Facing> facing(std::size_t solid, const Vector3& x, double t, double room) const;
+
 private:
   struct Entry {
     scene::Solid scene;
@@ -59,6 +72,7 @@ private:
     std::unique_ptr<const SolidDistance> shape;
   };
   std::vector<Entry> solids_;
+  bool may_squeeze_ = false;
 };
 
 } // namespace sheet::solid

@@ -10,7 +10,6 @@
 #include "libsheet/energy/overshoot.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/capped_volume.h"
-#include "libsheet/geometry/facing_walls.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
@@ -219,20 +218,11 @@ std::vector<std::uint32_t> take_squeezed(const solid::Solids& solids, std::size_
   const std::vector<double> thickness = thickness_around(x.size(), corners, volumes(frame), [&](std::uint32_t t) {
     return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
   });
-  const auto leave_no_room = [&](std::uint32_t v, std::size_t other) {
-    const Vector3 there = solids.pose(other, frame.time).inverse() * x[v];
-    if (!(solids.shape(other).distance(there, thickness[v]) < thickness[v]))
-      return false;
-    const solid::SolidPoint one = solids.at(i, x[v], frame.time), two = solids.at(other, x[v], frame.time);
-    return gap_between(one.distance, one.normal, two.distance, two.normal) < thickness[v];
-  };
   std::erase_if(vertices, [&](std::uint32_t v) {
-    bool any = false;
-    for (std::size_t other = 0; other < solids.size() && !any; ++other)
-      any = other != i && leave_no_room(v, other);
-    if (any)
+    const bool no_room = solids.facing(i, x[v], frame.time, thickness[v]).has_value();
+    if (no_room)
       squeezed.push_back(v);
-    return any;
+    return no_room;
   });
   return squeezed;
 }
