@@ -37,6 +37,7 @@ inline constexpr Quantity mass{"a mass", {1, 0, 0}, "kg", "20 g"};
 inline constexpr Quantity velocity{"a velocity", {0, 1, -1}, "m/s", "0.1 m/s"};
 inline constexpr Quantity acceleration{"an acceleration", {0, 1, -2}, "m/s^2", "9.81 m/s^2"};
 inline constexpr Quantity turning_rate{"a turning rate", {0, 0, -1}, "rad/s", "0.3 rad/s"};
+inline constexpr Quantity strain_rate{"a rate", {0, 0, -1}, "1/s", "0.1 s^-1"};
 inline constexpr Quantity viscosity{"a viscosity", {1, -1, -1}, "Pa*s", "100 Pa*s"};
 inline constexpr Quantity density{"a density", {1, -3, 0}, "kg/m^3", "1000 kg/m^3"};
 inline constexpr Quantity surface_tension{"a surface tension", {1, 0, -2}, "N/m", "30 mN/m"};

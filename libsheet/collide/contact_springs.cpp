@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "libsheet/material/flow_curve.h"
+
 namespace sheet::collide {
 
 namespace {

@@ -29,6 +29,11 @@ void ContactShear::begin(const Stage& stage) {
   const LayerShares shares = layer_shares(stage);
   const std::vector<double> viscosities = vertex_viscosities(stage);
   links_.assign(springs_.size(), {});
+  liquid_ = stage.liquid;
+  flow_ = stage.flow;
+  duration_ = stage.duration;
+  yields_ = stage.liquid.law.yields();
+  own_force_.clear();
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
     if (s.welded())
@@ -45,6 +50,8 @@ void ContactShear::begin(const Stage& stage) {
     Link& link = links_[i];
     const double rate = s.area(shares.area) * viscosity_between(s, viscosities) / stage.duration;
     link.shear = rate / shear.depth;
+    link.area = s.area(shares.area);
+    link.depth = shear.depth;
     link.squeeze = 3 * rate / ((lower.thickness + upper.thickness) / 2);
     link.before.setZero();
     for (std::size_t c = 0; c < 4; ++c) {
@@ -61,6 +68,25 @@ void ContactShear::begin(const Stage& stage) {
   }
 }
 
+void ContactShear::follow(const Unknowns& u, const Unknowns& step) {
+  if (!yields_)
+    return;
+  std::vector<Vector3> next(springs_.size(), Vector3::Zero());
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    if (links_[i].area == 0)
+      continue;
+    const ContactSpring& s = springs_[i];
+    VectorN<12> at, by;
+    for (int c = 0; c < 4; ++c) {
+      at.segment<3>(3 * c) = Stage::position(u, s.vertices[static_cast<std::size_t>(c)]);
+      by.segment<3>(3 * c) = Stage::position(step, s.vertices[static_cast<std::size_t>(c)]);
+    }
+    const Vector3 slid = way(i, at), along = s.along(weighted_sum(links_[i].weights, by));
+    next[i] = drag_of(links_[i], slid).followed(slid, along, own_force(i));
+  }
+  own_force_ = std::move(next);
+}
+
 void ContactShear::add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
@@ -68,7 +94,8 @@ void ContactShear::add_wall_forces(const Unknowns& u, std::span<Vector3> force) 
     for (int c = 0; c < 4; ++c)
       x.segment<3>(3 * c) = Stage::position(u, s.vertices[static_cast<std::size_t>(c)]);
     for (std::size_t c = 0; c < 4; ++c)
-      force[s.vertices[c]] -= (links_[i].weights[c] - s.weights[c]) * links_[i].shear * way(i, x);
+      force[s.vertices[c]] -=
+          (links_[i].weights[c] - s.weights[c]) * drag_of(links_[i], way(i, x)).stiffness * way(i, x);
   }
 }
 

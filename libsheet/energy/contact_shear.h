@@ -7,9 +7,11 @@
 // the start of the step, in a second stage extrapolated from the first, and what a corner does beyond its own weight
 // counts from WallSite::carried. What this does not give back to the upper layer the wall takes (add_wall_forces). The
 // second part is that of liquid which is drawn out or squeezed between the middles of the layers [Trouton 1906];
-// without it they would bounce on their springs whenever contacts change. Welds hold by their springs alone.
+// without it they would bounce on their springs whenever contacts change. Of a liquid that is not Newtonian the first
+// part is A τ depth φ(γ̇²), γ̇ = |P e|/(τ depth) (curved_drag.h). Welds hold by their springs alone.
 #pragma once
 #include "libsheet/energy/contact.h"
+#include "libsheet/energy/curved_drag.h"
 
 namespace sheet {
 
@@ -25,13 +27,16 @@ public:
 
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const {
     const double gap = thickening(i, u);
-    return 0.5 * links_[i].shear * way(i, u).squaredNorm() + 0.5 * links_[i].squeeze * gap * gap;
+    return drag_of(links_[i], way(i, u)).potential + 0.5 * links_[i].squeeze * gap * gap;
   }
 
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian, bool) const {
     const Link& link = links_[i];
-    const Vector3 e = link.shear * way(i, u), &n = springs_[i].normal;
-    const Matrix3 nn = n * n.transpose(), along = link.shear * (Matrix3::Identity() - nn), across = link.squeeze * nn;
+    const Vector3 slid = way(i, u), &n = springs_[i].normal;
+    const CurvedDrag drag = drag_of(link, slid);
+    const Vector3 e = drag.stiffness * slid;
+    const Matrix3 nn = n * n.transpose(), across = link.squeeze * nn;
+    const Matrix3 along = drag.hessian(slid, Matrix3::Identity() - nn, own_force(i));
     const Vector3 f = link.squeeze * thickening(i, u) * n;
     const auto& w = springs_[i].weights;
     for (std::size_t a = 0; a < 4; ++a) {
@@ -44,6 +49,10 @@ public:
     return value(i, u);
   }
 
+  // See term.h.
+  void follow(const Unknowns& u, const Unknowns& step);
+  void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
+
   // What the wall takes of the shear: what the layers do not give each other.
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const;
 
@@ -53,7 +62,18 @@ private:
     Vector3 before;                  // Σ v_i x̄_i [m]
     double thickness = 0;            // n·Σ w_i x̄_i [m]
     double shear = 0, squeeze = 0;   // stiffnesses [N/m]
+    double area = 0, depth = 0;      // for a flow curve [m²], [m]
   };
+
+  [[nodiscard]] CurvedDrag drag_of(const Link& link, const Vector3& slid) const {
+    if (flow_.newtonian() || link.area == 0)
+      return {0.5 * link.shear * slid.squaredNorm(), link.shear, 0};
+    const double per = 1 / (duration_ * link.depth);
+    const FlowPoint flow = flow_.at(per * per * slid.squaredNorm());
+    return {link.area * duration_ * link.depth * flow.potential, link.area * per * flow.viscosity,
+            link.area * per * per * per * flow.slope};
+  }
+  [[nodiscard]] const Vector3* own_force(std::size_t i) const { return own_force_.empty() ? nullptr : &own_force_[i]; }
 
   // P e [m].
   [[nodiscard]] Vector3 way(std::size_t i, const VectorN<12>& u) const {
@@ -66,6 +86,11 @@ private:
 
   std::span<const ContactSpring> springs_;
   std::vector<Link> links_;
+  Liquid liquid_;
+  FlowCurve flow_;
+  double duration_ = 0; // [s]
+  bool yields_ = false;
+  std::vector<Vector3> own_force_; // of what yields, once Newton has gone a step [N]
 };
 
 } // namespace sheet

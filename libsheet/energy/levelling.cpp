@@ -77,14 +77,18 @@ struct Carried {
   std::vector<Vector3> momentum;
 };
 
-// How fast unevenness of the size of an edge flows across it [m²/s]; 0 where nothing drags.
-double diffusivity(const WallSite& one, const WallSite& other, const Liquid& liquid, double viscosity,
-                   const Vector3& gravity, double h, double apart) {
+// How fast unevenness of the size of an edge flows across it, a step of thickness over `apart` [m²/s]; 0 where nothing
+// drags.
+double diffusivity(const WallSite& one, const WallSite& other, const Stage& stage, const Vector3& gravity, double h,
+                   double step, double apart) {
   if (one.slip_length == free_slip || other.slip_length == free_slip)
     return 0;
   const double towards = std::max(0.0, -gravity.dot(one.normal + other.normal) / 2);
-  const double stiffness = liquid.density * towards + liquid.surface_tension / (apart * apart);
-  return stiffness * h * h * (h + 3 * std::min(one.slip_length, other.slip_length)) / (3 * viscosity);
+  const double stiffness = stage.liquid.density * towards + stage.liquid.surface_tension / (apart * apart);
+  const double slip = std::min(one.slip_length, other.slip_length);
+  if (stage.wall_flow)
+    return stage.wall_flow->velocity(stiffness * h * step / apart, h, slip) * h * apart / step;
+  return stiffness * h * h * (h + 3 * slip) / (3 * stage.liquid.viscosity);
 }
 
 } // namespace
@@ -110,9 +114,8 @@ bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<
     const double length = (end.positions[b] - end.positions[a]).norm();
     const double apart = (middle_of(end, up) - middle_of(end, down)).norm();
     const double h = (layers.thickness[up] + layers.thickness[down]) / 2;
-    const double viscosity = (stage.viscosity[up] + stage.viscosity[down]) / 2;
     const double amount =
-        rest * std::min(diffusivity(*one, *other, stage.liquid, viscosity, gravity, h, apart) * dt * length / apart,
+        rest * std::min(diffusivity(*one, *other, stage, gravity, h, rest, apart) * dt * length / apart,
                         most_in_a_step * std::min(layers.area[up], layers.area[down]));
     end.volumes[up] -= amount;
     end.volumes[down] += amount;

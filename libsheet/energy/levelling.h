@@ -3,9 +3,10 @@
 // patterns of thickness cannot move the vertices, and would stay for ever; and a front at which thick liquid overruns
 // thin is steeper than an edge. A layer's weight and tension level it by a flux of volume
 //   q = -(D_g + D_γ) ∇h,   D_g = g_n h² (h + 3 b)/(3 ν),   D_γ = γ k² h² (h + 3 b)/(3 μ)
-// [Oron, Davis and Bankoff 1997, section II.B], k = 1/l for patterns of the size of an edge l. What vertices see,
-// the means H around them, flows with them (wall_weight.h); volume goes between triangles by the rest, h - H, which
-// falls with the edges squared, so orders stay.
+// [Oron, Davis and Bankoff 1997, section II.B], of a liquid that is not Newtonian q = h u(τ_w) (wall_flow.h), τ_w the
+// stress at the wall of the same forces, so that nothing levels below a yield stress; k = 1/l for patterns of the size
+// of an edge l. What vertices see, the means H around them, flows with them (wall_weight.h); volume goes between
+// triangles by the rest, h - H, which falls with the edges squared, so orders stay.
 #pragma once
 #include "libsheet/energy/holds.h"
 #include "libsheet/energy/stage.h"

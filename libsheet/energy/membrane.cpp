@@ -2,12 +2,31 @@
 // Viscous stretching, written in squared edge lengths: with m = q(x) - q̄, W = V μ/(4τ) mᵀ C m.
 #include "libsheet/energy/membrane.h"
 
+#include "libsheet/base/each.h"
 #include "libsheet/energy/edge_springs.h"
 
 namespace sheet {
 
+namespace {
+
+// 𝔇 p/η, of a p that is no longer than η²/|dη/dγ̇|: then the Hessian is positive semidefinite.
+Vector3 dual_factor(const RaisedMetric& a, const FlowPoint& flow, StrainRate rate, const Vector3& p) {
+  const Vector3 raised = a.dissipated(p);
+  const double square = flow.viscosity * flow.viscosity;
+  const double over = std::sqrt(std::max(0.0, 2 * p.dot(raised)) * rate.squared) * std::max(0.0, -flow.slope);
+  return raised * ((over > square ? square / over : 1) / flow.viscosity);
+}
+
+} // namespace
+
 void Membrane::begin(const Stage& stage) {
   raised_ = stage.raised;
+  liquid_ = stage.liquid;
+  flow_ = stage.flow;
+  duration_ = stage.duration;
+  yields_ = stage.liquid.law.yields();
+  stress_.clear();
+  mesh_ = stage.start->mesh;
   const auto& triangles = stage.start->mesh->triangles;
   reference_.resize(triangles.size());
   weight_.resize(triangles.size());
@@ -17,7 +36,7 @@ void Membrane::begin(const Stage& stage) {
       return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
     };
     const Vector3 start = lengths(stage.begin);
-    const double rate = stage.viscosity[t] / (4 * stage.duration);
+    const double rate = (flow_.newtonian() ? stage.viscosity[t] : 1) / (4 * stage.duration);
     weight_[t] = 2 * rate * stage.start->volumes[t] * stage.stiffening(t);
     reference_[t] = stage.previous ? Vector3(start + stage.ratio * (lengths(*stage.previous) - start)) : start;
   }
@@ -26,11 +45,56 @@ void Membrane::begin(const Stage& stage) {
 double Membrane::value(std::size_t i, const VectorN<9>& u) const {
   const Vector3 m = squared_lengths(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)) - reference_[i];
   const RaisedMetric& a = raised_[i];
+  if (!flow_.newtonian())
+    return 2 * duration_ * duration_ * weight_[i] * flow_.at(strain_rate(a, m, duration_).squared).potential;
   const double trace = a.trace.dot(m);
   return weight_[i] * (trace * trace - form_determinant(m) / a.determinant);
 }
 
+// With r = m/(2τ), c = 𝔇 r:  ∂W/∂q = V η c,  ∂²W/∂q∂q = V η 𝔇/(2τ) + V d c cᵀ/τ; see mid_edge_shell.h.
+double Membrane::curved_derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>* hessian,
+                                    bool definite) const {
+  const EdgeSprings springs(u);
+  const Vector3 m = springs.squared_lengths() - reference_[i];
+  const RaisedMetric& a = raised_[i];
+  const FlowPoint flow = flow_.at(strain_rate(a, m, duration_).squared);
+  const double volume = 2 * duration_ * weight_[i];
+  const Vector3 c = a.dissipated(m) / (2 * duration_), s = volume * flow.viscosity * c;
+  springs.gradient(s, gradient);
+  if (hessian != nullptr) {
+    const Vector3 other = stress_.empty() ? c : dual_factor(a, flow, strain_rate(a, m, duration_), stress_[i]);
+    const Matrix3 product = 0.5 * (c * other.transpose() + other * c.transpose());
+    const Matrix3 qq = (volume / duration_) * (0.5 * flow.viscosity * a.dissipation() + flow.slope * product);
+    springs.hessian(qq, definite ? a.positive_part(s) : s, *hessian);
+  }
+  return volume * duration_ * flow.potential;
+}
+
+void Membrane::follow(const Unknowns& u, const Unknowns& step) {
+  if (!yields_)
+    return;
+  const auto& triangles = mesh_->triangles;
+  std::vector<Vector3> next(triangles.size());
+  each_in_parallel(triangles.size(), [&](std::size_t t) {
+    const Corners& v = triangles[t];
+    Vector3 m, dm;
+    for (int k = 0; k < 3; ++k) {
+      const auto from = v[(k + 1) % 3], to = v[(k + 2) % 3];
+      const Vector3 e = Stage::position(u, to) - Stage::position(u, from);
+      m[k] = e.squaredNorm() - reference_[t][k];
+      dm[k] = 2 * e.dot(Stage::position(step, to) - Stage::position(step, from));
+    }
+    const FlowPoint flow = flow_.at(strain_rate(raised_[t], m, duration_).squared);
+    const Vector3 r = m / (2 * duration_), dr = dm / (2 * duration_);
+    const Vector3 p = stress_.empty() ? Vector3(flow.viscosity * r) : stress_[t];
+    next[t] = flow.viscosity * (r + dr) + (flow.slope / flow.viscosity * 2 * raised_[t].dissipated(r).dot(dr)) * p;
+  });
+  stress_ = std::move(next);
+}
+
 double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
+  if (!flow_.newtonian())
+    return curved_derivatives(i, u, gradient, nullptr, false);
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];
   const Vector3 s = weight_[i] * raised_[i].dissipated(m);
@@ -40,6 +104,8 @@ double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradie
 
 double Membrane::derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                              bool definite) const {
+  if (!flow_.newtonian())
+    return curved_derivatives(i, u, gradient, &hessian, definite);
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];
   const RaisedMetric& a = raised_[i];

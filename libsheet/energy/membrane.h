@@ -2,8 +2,11 @@
 // Viscous stretching of flat triangles [Batty et al. 2012, eq. (3), as a potential of one step of duration τ]:
 //   W = (V μ/τ) (tr(E²) + tr(E)²),   E = â⁻¹ (a - ā)/2.
 // a: first fundamental form, ā: its reference, â: the metric that raises indices (Stage::raised), V: the triangle's
-// volume [m³], μ: viscosity [Pa s]. With â the metric at the stage's end the weight μ V = μ h A couples thickness and
-// area exactly; with â the metric at the start it is the paper's explicit thickness.
+// volume [m³], μ: viscosity [Pa s]. A liquid that is not Newtonian has, with the potential φ of its flow curve,
+//   W = V τ φ(γ̇²),   γ̇² = 2 (tr(E²) + tr(E)²)/τ²,
+// and if it yields, Newton's Hessian has a stress of its own as mid_edge_shell.h says. With â the metric at the stage's
+// end the weight μ V = μ h A couples thickness and area exactly; with â the metric at the start it is the paper's
+// explicit thickness.
 #pragma once
 #include "libsheet/energy/element.h"
 
@@ -20,10 +23,23 @@ public:
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const;
 
+  // See term.h.
+  void follow(const Unknowns& u, const Unknowns& step);
+  void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
+
 private:
+  [[nodiscard]] double curved_derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>* hessian,
+                                          bool definite) const;
+
   std::vector<RaisedMetric> raised_; // â
   std::vector<Vector3> reference_;   // squared edge lengths ā [m²]
-  std::vector<double> weight_;       // V μ/(2τ) [J]
+  std::vector<double> weight_;       // V μ/(2τ) [J]; of a liquid that is not Newtonian V/(2τ)
+  Liquid liquid_;
+  FlowCurve flow_;
+  double duration_ = 0; // τ [s]
+  bool yields_ = false;
+  std::vector<Vector3> stress_; // of a liquid that yields, once Newton has gone a step [Pa m²]
+  std::shared_ptr<const Connectivity> mesh_;
 };
 
 } // namespace sheet

@@ -5,6 +5,12 @@
 
 namespace sheet {
 
+class FlowCurve;
+
+// As in material/flow_curve.h, of which a source for one instruction set can include nothing.
+void flow_points(const FlowCurve& curve, int count, const double* squared_rates, double* potentials,
+                 double* viscosities, double* slopes);
+
 inline constexpr int lane_count = 8;
 
 // A number of each triangle.
@@ -16,12 +22,28 @@ struct alignas(64) MidEdgeReference {
   LaneNumbers tangent[3][3], director[3][3], binormal[3][3];
   LaneNumbers trace[3], determinant;    // of the raised metric [1/m², m⁴]
   LaneNumbers curvature[3], lengths[3]; // references [m], [m²]
-  LaneNumbers weight, membrane;         // V μ ĥ²/(6 τ) and V μ/(2 τ) [J]
+  LaneNumbers weight, membrane;         // V μ ĥ²/(6 τ) and V μ/(2 τ) [J], μ as predicted
   LaneNumbers stiffness[3], height[3];  // of caps, at their longest edge, else 0 [J/m²], [m]
   // Of directors that lean far: half a hinge by their angle, else 0 [J]; that angle; the part of the height that
   // counts.
   LaneNumbers folding[3], lean_cosine[3], lean_sine[3], upright[3];
-  bool folded; // whether any lane has such a one
+  LaneNumbers volume, thickness; // for flow curves; the volume as stiffened [m³], [m]
+  double duration;               // τ [s]
+  bool folded;                   // whether any lane has a director that leans far
+};
+
+// At points through the thickness, in each half two of Gauss [z/h, from the middle outwards].
+inline constexpr int flow_points_through = 4;
+
+// Of liquids that yield: a stress p at each point (mid_edge_shell.h), as a form on edges [Pa m²].
+struct alignas(64) MidEdgeStress {
+  LaneNumbers at[flow_points_through][3];
+};
+
+// What a liquid does that is not Newtonian (curve: null if it is) and, with a stress, yields.
+struct MidEdgeFlow {
+  const FlowCurve* curve = nullptr;
+  const MidEdgeStress* stress = nullptr;
 };
 
 struct alignas(64) MidEdgeState {
@@ -33,10 +55,10 @@ struct alignas(64) MidEdgeState {
 struct alignas(64) MidEdgeStart {
   LaneNumbers x[9];              // corners at the start of the step [m]
   LaneNumbers metric[3], volume; // squared lengths of the raised metric [m²], [m³]
-  LaneNumbers rate;              // μ/(2 τ) [Pa]
+  LaneNumbers rate, stiffening;  // μ/(2 τ), as stiffened, and by how much it is [Pa], [1]
   LaneNumbers sign[3];           // 1 where edge k runs from its lower to its higher vertex, else -1
   LaneNumbers held[3];           // 1 where edge k's director is held, else 0
-  double ratio;                  // of the stage, see stage.h
+  double ratio, duration;        // of the stage, see stage.h; τ [s]
 };
 
 // What works on the area A within the arcs (area_loads.h).
@@ -51,9 +73,14 @@ struct alignas(64) MidEdgeResult {
   LaneNumbers hessian[78];  // lower triangle, row by row
 };
 
-// loads: of arcs only; null: none.
+// loads: of arcs only; null: none. Flow curves are of arcs only, too.
 using MidEdgeKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, bool arcs, const MidEdgeLoads* loads,
-                               MidEdgeResult&);
+                               const MidEdgeFlow& flow, MidEdgeResult&);
+
+// From the stress that flow has, or without one from that of the flow itself, to that at the end of a step of the
+// twelve unknowns.
+using MidEdgeStressKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, const LaneNumbers (&step)[12],
+                                     const MidEdgeFlow& flow, MidEdgeStress&);
 
 // Fills a reference whose frames are set. previous: the first stage's result; it counts if the ratio is not 0.
 using MidEdgeReferenceKernel = void (*)(const MidEdgeStart& start, const MidEdgeState& previous,
@@ -63,6 +90,7 @@ struct MidEdgeKernels {
   MidEdgeReferenceKernel reference;
   MidEdgeKernel value, gradient, hessian; // each with those before it
   MidEdgeKernel definite;                 // as `hessian`, with the positive semidefinite approximation
+  MidEdgeStressKernel stress;
 };
 
 // Those for this processor.

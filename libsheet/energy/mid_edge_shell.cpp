@@ -50,6 +50,11 @@ void MidEdgeShell::begin(const Stage& stage) {
   if (stage.previous)
     prepare(*stage.previous);
   area_loads_.begin(stage);
+  curved_ = arcs_ && !stage.flow.newtonian();
+  yields_ = curved_ && stage.liquid.law.yields();
+  liquid_ = stage.liquid;
+  flow_ = stage.flow;
+  stresses_.clear();
   loads_.resize(area_loads_.any() ? references_.size() : 0);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count),
                     [&](const auto& range) {
@@ -67,11 +72,13 @@ void MidEdgeShell::refer(const Stage& stage, std::size_t batch) {
   MidEdgeStart start;
   MidEdgeState previous;
   start.ratio = stage.previous ? stage.ratio : 0;
+  start.duration = stage.duration;
   for (int lane = 0; lane < lane_count; ++lane) {
     const std::size_t t = std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1);
     const Corners& v = mesh_->triangles[t];
     start.volume[lane] = stage.start->volumes[t];
     start.rate[lane] = stage.viscosity[t] / (2 * stage.duration) * stage.stiffening(t);
+    start.stiffening[lane] = stage.stiffening(t);
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const std::uint32_t edge = mesh_->triangle_edges[t][at];
@@ -120,6 +127,53 @@ void MidEdgeShell::prepare(const Unknowns& u) {
   sines_and_cosines({u.data() + 3 * mesh_->vertices, edges}, sine_, cosine_);
 }
 
+void MidEdgeShell::follow(const Unknowns& u, const Unknowns& step) {
+  if (!yields_)
+    return;
+  prepare(u);
+  std::vector<MidEdgeStress> next(references_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count),
+                    [&](const auto& range) {
+                      for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
+                        const std::size_t first = batch * lane_count;
+                        const MidEdgeState state = global_state(u, first);
+                        LaneNumbers by[12];
+                        gather(step, first, by);
+                        mid_edge_kernels().stress(references_[batch], state, by, flow_of(first), next[batch]);
+                      }
+                    });
+  stresses_ = std::move(next);
+}
+
+// The unknowns of lane_count triangles; lanes beyond the last triangle are like it.
+void MidEdgeShell::gather(const Unknowns& u, std::size_t first, LaneNumbers (&to)[12]) const {
+  const auto angles = static_cast<Eigen::Index>(3 * mesh_->vertices);
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const std::size_t t = std::min(first + static_cast<std::size_t>(lane), triangles_ - 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = static_cast<Eigen::Index>(3 * mesh_->triangles[t][k]);
+      for (int a = 0; a < 3; ++a)
+        to[3 * k + a][lane] = u[at + a];
+      to[9 + k][lane] = u[angles + mesh_->triangle_edges[t][k]];
+    }
+  }
+}
+
+MidEdgeState MidEdgeShell::global_state(const Unknowns& u, std::size_t first) const {
+  LaneNumbers all[12];
+  gather(u, first, all);
+  MidEdgeState state;
+  std::copy_n(&all[0][0], 9 * lane_count, &state.x[0][0]);
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const std::size_t t = std::min(first + static_cast<std::size_t>(lane), triangles_ - 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      state.cosine[k][lane] = cosine_[mesh_->triangle_edges[t][k]];
+      state.sine[k][lane] = sine_[mesh_->triangle_edges[t][k]];
+    }
+  }
+  return state;
+}
+
 // Of the elements first to first + used - 1; lanes beyond the last one repeat it.
 MidEdgeState MidEdgeShell::state_of(std::size_t first, int used, const double* u, int stride) const {
   MidEdgeState state;
@@ -145,7 +199,7 @@ EnergySum MidEdgeShell::evaluate(std::size_t first, std::size_t last, const doub
   EnergySum sum;
   for (std::size_t i = first; i < last; i += lane_count) {
     const int used = static_cast<int>(std::min<std::size_t>(lane_count, last - i));
-    kernel(references_[i / lane_count], state_of(i, used, u, stride), arcs_, loads_of(i), result);
+    kernel(references_[i / lane_count], state_of(i, used, u, stride), arcs_, loads_of(i), flow_of(i), result);
     for (int lane = 0; lane < used; ++lane) {
       sum.add(result.value[lane]);
       if (gradients) {
@@ -171,9 +225,9 @@ void MidEdgeShell::hessians_of(Kind kind, std::size_t first, std::size_t last, c
     const MidEdgeState state = state_of(i, used, u, stride);
     const MidEdgeReference& reference = references_[i / lane_count];
     if (kind == Kind::elastic)
-      mid_edge_kernels().hessian(inviscid(reference), state, arcs_, loads_of(i), result);
+      mid_edge_kernels().hessian(inviscid(reference), state, arcs_, loads_of(i), {}, result);
     else
-      mid_edge_kernels().hessian(reference, state, arcs_, nullptr, result);
+      mid_edge_kernels().hessian(reference, state, arcs_, nullptr, flow_of(i), result);
     give_hessians(result, used, stride, hessians, true);
     hessians += used * stride * stride;
     u += lane_count * stride;
@@ -196,7 +250,7 @@ MidEdgeState MidEdgeShell::state_of(const VectorN<12>& u) {
 
 double MidEdgeShell::value(std::size_t i, const VectorN<12>& u) const {
   MidEdgeResult result;
-  mid_edge_kernels().value(references_[i / lane_count], state_of(u), arcs_, loads_of(i), result);
+  mid_edge_kernels().value(references_[i / lane_count], state_of(u), arcs_, loads_of(i), flow_of(i), result);
   return result.value[i % lane_count];
 }
 
@@ -204,7 +258,8 @@ double MidEdgeShell::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
                                  bool definite) const {
   MidEdgeResult result;
   const MidEdgeKernels& kernels = mid_edge_kernels();
-  (definite ? kernels.definite : kernels.hessian)(references_[i / lane_count], state_of(u), arcs_, loads_of(i), result);
+  (definite ? kernels.definite : kernels.hessian)(references_[i / lane_count], state_of(u), arcs_, loads_of(i),
+                                                  flow_of(i), result);
   const LaneNumbers* from = result.hessian;
   for (int row = 0; row < 12; ++row) {
     gradient[row] = result.gradient[row][i % lane_count];

@@ -21,6 +21,17 @@
 // At 90 degrees nothing else would hold it, as g hardly changes any more when it turns; and arcs are longest there, so
 // that tension would be at the top of a hill, where Newton's iterations go round with the director. One that is held
 // has p = 1, and 1 - √2 cos α₀ in place of 1 - p².
+//
+// A liquid that is not Newtonian has, with the potential φ of its flow curve and arcs,
+//   W = V τ Σ w φ(γ̇²(z)),   γ̇²(z) = 2 rᵀ𝔇r,   r(z) = (Q - Q̄)/(2τ) - z (β - β̄)/τ,
+// summed over two points of Gauss in each half of the thickness, and 𝔇 m·m = tr(m²) + tr(m)² of a form m on edges. Its
+// forces and Hessians follow from a = 𝔇 r(0), b = 𝔇 (β - β̄)/τ and moments over z of η and d (flow_curve.h). Caps,
+// leaning directors, and bending without arcs have the viscosity that the stage predicts.
+//
+// If it yields, plain Newton fails as the rest rate goes to 0. Its stress is then an unknown of Newton's, eliminated at
+// each point [Chan, Golub and Mulet 1999; Rudi, Shih and Stadler 2020]: in the Hessian d c cᵀ, c = 𝔇 r, becomes
+//   (d/η) (c (𝔇p)ᵀ + (𝔇p) cᵀ)/2,   (2 pᵀ𝔇p)^½ <= η²/|dη/dγ̇|,
+// and a direction δ takes p to η (r + δr) + (d/η) (2 rᵀ𝔇δr) p. At the solution p = η r, where this is the Hessian.
 #pragma once
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/element.h"
@@ -47,6 +58,9 @@ public:
   void begin(const Stage& stage);
   // The cosines and sines of the angles of u.
   void prepare(const Unknowns& u);
+  // See term.h.
+  void follow(const Unknowns& u, const Unknowns& step);
+  void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
 
   // Elements first to last-1, their unknowns `stride` apart; see term.h. Gradients, unless null, are set or added to,
   // of Hessians (none: null) the lower triangles.
@@ -62,18 +76,29 @@ public:
 private:
   void refer(const Stage& stage, std::size_t batch);
   void load(const Stage& stage, std::size_t batch);
+  void gather(const Unknowns& u, std::size_t first, LaneNumbers (&to)[12]) const;
+  [[nodiscard]] MidEdgeState global_state(const Unknowns& u, std::size_t first) const;
   [[nodiscard]] const MidEdgeLoads* loads_of(std::size_t i) const {
     return loads_.empty() ? nullptr : &loads_[i / lane_count];
   }
   [[nodiscard]] MidEdgeState state_of(std::size_t first, int used, const double* u, int stride) const;
   [[nodiscard]] static MidEdgeState state_of(const VectorN<12>& u);
 
+  [[nodiscard]] MidEdgeFlow flow_of(std::size_t i) const {
+    return curved_ ? MidEdgeFlow{&flow_, stresses_.empty() ? nullptr : &stresses_[i / lane_count]} : MidEdgeFlow{};
+  }
+
   bool arcs_;
+  bool curved_ = false; // the liquid is not Newtonian,
+  bool yields_ = false; // and yields
+  Liquid liquid_;
+  FlowCurve flow_;
   AreaLoads area_loads_;
   std::shared_ptr<const Connectivity> mesh_;
   std::size_t triangles_ = 0;
   std::vector<MidEdgeReference> references_; // of lane_count triangles each
   std::vector<MidEdgeLoads> loads_;          // likewise; empty: none
+  std::vector<MidEdgeStress> stresses_;      // likewise, of a liquid that yields, once Newton has gone a step
   std::vector<double> cosine_, sine_;        // of the edges' angles
 };
 

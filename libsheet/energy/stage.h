@@ -5,13 +5,15 @@
 // The unknowns are one vector: three coordinates [m] a vertex, then, if the sheet bends by directors, one angle [rad]
 // an edge.
 #pragma once
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "libsheet/energy/state.h"
 #include "libsheet/geometry/director.h"
 #include "libsheet/geometry/metric.h"
-#include "libsheet/material/liquid.h"
+#include "libsheet/material/flow_curve.h"
+#include "libsheet/material/wall_flow.h"
 
 namespace sheet {
 
@@ -56,18 +58,20 @@ struct Stage {
   std::vector<char> clamped;          // of each edge: whether its director is held; empty where none is
   std::vector<RaisedMetric> raised;   // for each triangle: the metric that raises indices and weighs by area
   Liquid liquid;
-  std::vector<double> viscosity;         // of each triangle, strained as the stage predicts [Pa s]
-  std::vector<double> stiffened;         // of each triangle: by how much its viscosity is raised (films.h), or none
-  std::vector<double> vertex_volumes;    // of each vertex: a third of the volume of each triangle there [m³]
-  std::vector<Vector3> inertial;         // where the vertices would go without force [m]
-  std::vector<Vector3> predicted;        // the extrapolated end of the stage, for what is lagged [m]
-  std::vector<WallSite> sites;           // of what touches walls, ascending
-  std::vector<std::uint32_t> site_of;    // of each vertex, or no_index; empty without sites
-  std::vector<Channel> channels;         // of sites between two walls, ascending
-  double channel_area = 0;               // of the layer there [m²]
-  double channel_rate = 0;               // at which what is too thick there gives way [1/s]
-  std::vector<std::uint32_t> wall_edges; // whose directors stand as the wall lets them, ascending
-  std::vector<double> wall_turns;        // of these directors, by the predicted end of the stage [rad]
+  FlowCurve flow, lagged;                    // of the liquid; for `viscosity`
+  std::shared_ptr<const WallFlow> wall_flow; // likewise along walls, where anything touches; null: Newtonian, or none
+  std::vector<double> viscosity;             // of each triangle, strained as the stage predicts, lagged [Pa s]
+  std::vector<double> stiffened;             // of each triangle: by how much its viscosity is raised (films.h), or none
+  std::vector<double> vertex_volumes;        // of each vertex: a third of the volume of each triangle there [m³]
+  std::vector<Vector3> inertial;             // where the vertices would go without force [m]
+  std::vector<Vector3> predicted;            // the extrapolated end of the stage, for what is lagged [m]
+  std::vector<WallSite> sites;               // of what touches walls, ascending
+  std::vector<std::uint32_t> site_of;        // of each vertex, or no_index; empty without sites
+  std::vector<Channel> channels;             // of sites between two walls, ascending
+  double channel_area = 0;                   // of the layer there [m²]
+  double channel_rate = 0;                   // at which what is too thick there gives way [1/s]
+  std::vector<std::uint32_t> wall_edges;     // whose directors stand as the wall lets them, ascending
+  std::vector<double> wall_turns;            // of these directors, by the predicted end of the stage [rad]
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] double stiffening(std::size_t triangle) const { return stiffened.empty() ? 1 : stiffened[triangle]; }

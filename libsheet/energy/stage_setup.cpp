@@ -58,6 +58,8 @@ Stage first_stage(const State& state, const Liquid& liquid, double duration, dou
   const std::size_t n = state.positions.size();
   stage.start = &state;
   stage.liquid = liquid;
+  stage.flow = FlowCurve(liquid);
+  stage.lagged = soft_curve(liquid);
   stage.duration = duration;
   stage.inertial_time = duration;
   stage.end_time = end_time;
@@ -83,7 +85,7 @@ Stage first_stage(const State& state, const Liquid& liquid, double duration, dou
       change[k] = 2 * duration * (x[b] - x[a]).dot(v[b] - v[a]);
     }
     stage.raised[t] = predicted_metric(squared_lengths(x[c[0]], x[c[1]], x[c[2]]), change);
-    stage.viscosity[t] = viscosity_of(liquid, strain_rate(stage.raised[t], change, duration));
+    stage.viscosity[t] = stage.lagged.viscosity(strain_rate(stage.raised[t], change, duration));
   });
   return stage;
 }
@@ -110,7 +112,7 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
     const Vector3 end =
         squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
     stage.raised[t] = predicted_metric(start, (end - start) / gamma);
-    stage.viscosity[t] = viscosity_of(stage.liquid, strain_rate(stage.raised[t], end - start, stage.duration));
+    stage.viscosity[t] = stage.lagged.viscosity(strain_rate(stage.raised[t], end - start, stage.duration));
     if (!(Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= least_ratio - 1))
       possible.store(false, std::memory_order_relaxed);
   });

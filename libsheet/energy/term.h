@@ -23,6 +23,10 @@ public:
   [[nodiscard]] virtual std::array<std::uint32_t, 4> nodes(std::size_t i) const = 0; // hinge and four only
   virtual void begin(const Stage& stage) = 0;
   virtual void prepare(const Unknowns& u) = 0;
+  // Newton goes from u by a step, or by a part of it: what its next Hessian needs of that.
+  virtual void follow(const Unknowns&, const Unknowns&) {}
+  // From now on what yields does so at this rest rate (flow_curve.h) [1/s].
+  virtual void rest_at(double) {}
   // Elements first to last-1; u: their unknowns, `stride` apart.
   [[nodiscard]] virtual EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const = 0;
   // Adds to gradients (`stride` apart), or sets those of its own unknowns.
@@ -75,6 +79,16 @@ public:
   void prepare(const Unknowns& u) override {
     if constexpr (requires { element_.prepare(u); })
       element_.prepare(u);
+  }
+
+  void follow(const Unknowns& u, const Unknowns& step) override {
+    if constexpr (requires { element_.follow(u, step); })
+      element_.follow(u, step);
+  }
+
+  void rest_at(double rate) override {
+    if constexpr (requires { element_.rest_at(rate); })
+      element_.rest_at(rate);
   }
 
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const override {

@@ -8,9 +8,17 @@
 // stands, of its edges there whose both ends touch, of the length l: belts carry along what stands on them. Where
 // another wall faces it across the gap g, 1/(ĥ + 3 b) becomes (1 - f)/(g + 3 b) + f/D, f the part filled, and x̄ the
 // mean with these weights of where the one wall and both carry it (channels.h).
+//
+// A liquid that is not Newtonian has the potential Ψ of its own flow curve (wall_flow.h, curved_drag.h):
+//   W = (cos²φ Â/3 + sin²φ F) τ Ψ(u),   u² = |P (x - x̄)|²/τ² + (ε ĥ/3)²,
+// ε its rest rate, or one below which it is Newtonian.
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "libsheet/base/each.h"
 #include "libsheet/energy/channels.h"
+#include "libsheet/energy/curved_drag.h"
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/walls.h"
 
@@ -28,6 +36,11 @@ public:
     for (const WallSite& site : stage.sites)
       walls_.push_back(touched(stage, site));
     corners_.assign(walls_.empty() ? 0 : triangles_, {});
+    duration_ = stage.duration;
+    flow_ = stage.wall_flow;
+    yields_ = stage.liquid.law.yields();
+    rest_rate_ = flow_ ? std::max(rest_rate(stage.liquid), flow_->newtonian_below()) : 0;
+    own_force_.clear();
     each_in_parallel(corners_.size(), [&](std::size_t i) {
       const Corners& corners = mesh_->triangles[i];
       const double area = stage.raised[i].area(), thickness = stage.start->volumes[i] / area;
@@ -36,8 +49,11 @@ public:
           const double between = walls_[stage.site_of[corners[c]]].depth;
           const double depth = between > 0 ? between : thickness + 3 * site->slip_length;
           const double lies = lying(stage, i, *site), foot = thickness / 2 * length_on_wall(stage, corners, c);
-          corners_[i][c].stiffness =
-              (lies * area + (1 - lies) * 3 * foot) * stage.viscosity[i] / (stage.duration * depth);
+          const double trebled = lies * area + (1 - lies) * 3 * foot;
+          corners_[i][c].stiffness = trebled * stage.viscosity[i] / (stage.duration * depth);
+          corners_[i][c].area = trebled / 3;
+          corners_[i][c].depth = between > 0 ? between : thickness;
+          corners_[i][c].slip_length = between > 0 ? 0 : site->slip_length;
           corners_[i][c].site = stage.site_of[corners[c]];
         }
     });
@@ -45,8 +61,8 @@ public:
 
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     double sum = 0;
-    each_corner(i, u, [&](int, const Vector3& slid, const Vector3&, double stiffness) {
-      sum += 0.5 * stiffness * slid.squaredNorm();
+    each_corner(i, u, [&](int c, const Vector3& slid, const Vector3&) {
+      sum += potential(corners_[i][static_cast<std::size_t>(c)], slid);
     });
     return sum;
   }
@@ -54,19 +70,51 @@ public:
   double gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
     double sum = 0;
     gradient.setZero();
-    each_corner(i, u, [&](int c, const Vector3& slid, const Vector3&, double stiffness) {
-      gradient.segment<3>(3 * c) = stiffness * slid;
-      sum += 0.5 * stiffness * slid.squaredNorm();
+    each_corner(i, u, [&](int c, const Vector3& slid, const Vector3&) {
+      const Corner& corner = corners_[i][static_cast<std::size_t>(c)];
+      if (!flow_) {
+        gradient.segment<3>(3 * c) = corner.stiffness * slid;
+        sum += 0.5 * corner.stiffness * slid.squaredNorm();
+        return;
+      }
+      const CurvedDrag slide = slide_of(corner, slid);
+      gradient.segment<3>(3 * c) = slide.stiffness * slid;
+      sum += slide.potential;
     });
     return sum;
   }
 
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& g, MatrixN<9>& hessian, bool) const {
     hessian.setZero();
-    each_corner(i, u, [&](int c, const Vector3&, const Vector3& normal, double stiffness) {
-      hessian.block<3, 3>(3 * c, 3 * c) = stiffness * (Matrix3::Identity() - normal * normal.transpose());
+    each_corner(i, u, [&](int c, const Vector3& slid, const Vector3& normal) {
+      const Corner& corner = corners_[i][static_cast<std::size_t>(c)];
+      const CurvedDrag slide = flow_ ? slide_of(corner, slid) : CurvedDrag{.stiffness = corner.stiffness};
+      const Vector3* own = own_force_.empty() ? nullptr : &own_force_[i][static_cast<std::size_t>(c)];
+      hessian.block<3, 3>(3 * c, 3 * c) = slide.hessian(slid, Matrix3::Identity() - normal * normal.transpose(), own);
     });
     return gradient(i, u, g);
+  }
+
+  // See term.h.
+  void rest_at(double rate) { rest_rate_ = rate; }
+  void follow(const Unknowns& u, const Unknowns& step) {
+    if (!flow_ || !yields_ || corners_.empty())
+      return;
+    std::vector<std::array<Vector3, 3>> next(triangles_, {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()});
+    each_in_parallel(triangles_, [&](std::size_t t) {
+      VectorN<9> at, by;
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        at.segment<3>(3 * c) = Stage::position(u, mesh_->triangles[t][static_cast<std::size_t>(c)]);
+        by.segment<3>(3 * c) = Stage::position(step, mesh_->triangles[t][static_cast<std::size_t>(c)]);
+      }
+      each_corner(t, at, [&](int c, const Vector3& slid, const Vector3& normal) {
+        const auto at_corner = static_cast<std::size_t>(c);
+        const Vector3 d = by.segment<3>(3 * c), along = d - normal.dot(d) * normal;
+        next[t][at_corner] = slide_of(corners_[t][at_corner], slid)
+                                 .followed(slid, along, own_force_.empty() ? nullptr : &own_force_[t][at_corner]);
+      });
+    });
+    own_force_ = std::move(next);
   }
 
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
@@ -89,9 +137,24 @@ private:
   };
 
   struct Corner {
-    double stiffness = 0; // [N/m]; 0: it is not dragged
+    double stiffness = 0;                        // of a Newtonian liquid [N/m]; 0: it is not dragged
+    double area = 0, depth = 0, slip_length = 0; // for a flow curve [m²], [m], [m]
     std::uint32_t site = 0;
   };
+
+  // Of a flow curve.
+  [[nodiscard]] CurvedDrag slide_of(const Corner& corner, const Vector3& slid) const {
+    const double still = rest_rate_ * corner.depth / 3;
+    const double u = std::sqrt(slid.squaredNorm() / (duration_ * duration_) + still * still);
+    const WallFlow::Drag drag = flow_->drag(u, corner.depth, corner.slip_length);
+    const double stiffness = corner.area * drag.stress / (duration_ * u);
+    const double change = corner.area * (drag.slope - drag.stress / u) / (duration_ * duration_ * duration_ * u * u);
+    return {corner.area * duration_ * drag.potential, stiffness, change};
+  }
+
+  [[nodiscard]] double potential(const Corner& corner, const Vector3& slid) const {
+    return flow_ ? slide_of(corner, slid).potential : 0.5 * corner.stiffness * slid.squaredNorm();
+  }
 
   static Touched touched(const Stage& stage, const WallSite& site) {
     const Channel* channel = channel_of(stage, site);
@@ -117,19 +180,24 @@ private:
 
   template <class Visit> void each_corner(std::size_t i, const VectorN<9>& u, Visit&& visit) const {
     for (std::size_t c = 0; c < 3 && !corners_.empty(); ++c) {
-      const auto [stiffness, site] = corners_[i][c];
-      if (stiffness == 0)
+      const Corner& corner = corners_[i][static_cast<std::size_t>(c)];
+      if (corner.stiffness == 0)
         continue;
-      const auto& [normal, carried, depth] = walls_[site];
+      const auto& [normal, carried, depth] = walls_[corner.site];
       const Vector3 moved = u.segment<3>(3 * static_cast<Eigen::Index>(c)) - carried;
-      visit(static_cast<int>(c), Vector3(moved - normal.dot(moved) * normal), normal, stiffness);
+      visit(static_cast<int>(c), Vector3(moved - normal.dot(moved) * normal), normal);
     }
   }
 
   std::shared_ptr<const Connectivity> mesh_;
   std::size_t triangles_ = 0;
-  std::vector<Touched> walls_;                 // of what touches
-  std::vector<std::array<Corner, 3>> corners_; // of each triangle; empty where nothing touches
+  double duration_ = 0;                  // [s]
+  std::shared_ptr<const WallFlow> flow_; // of a liquid that is not Newtonian
+  bool yields_ = false;
+  double rest_rate_ = 0;                          // [1/s]
+  std::vector<std::array<Vector3, 3>> own_force_; // of what yields, once Newton has gone a step [N]
+  std::vector<Touched> walls_;                    // of what touches
+  std::vector<std::array<Corner, 3>> corners_;    // of each triangle; empty where nothing touches
 };
 
 } // namespace sheet

@@ -8,6 +8,8 @@
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 
+#include "libsheet/material/flow_curve.h"
+
 namespace sheet::remesh {
 
 namespace {
@@ -54,10 +56,11 @@ struct Wave {
   double number = 0, growth = 0; // [1/m], [1/s]
 };
 
-Wave fastest_wave(const Scene& scene, const TriangleRates& r) {
+Wave fastest_wave(const Scene& scene, const FlowCurve& flow, const TriangleRates& r) {
   const Liquid& liquid = scene.material;
-  const double viscosity = viscosity_of(liquid, strain_rate(r.stretching));
-  const double h = r.thickness, modulus = viscosity * h * h * h / 3;
+  const StrainRate rate = strain_rate(r.stretching);
+  const double viscosity = flow.viscosity(rate);
+  const double h = r.thickness, modulus = flow.tangent_viscosity(rate) * h * h * h / 3;
   const double stretching = least_eigenvalue(r.stretching) + r.stretching.trace();
   const double load = -2 * viscosity * h * stretching - 2 * liquid.surface_tension;
   Wave fastest;
@@ -97,9 +100,10 @@ double fast_growth(const std::vector<Wave>& waves, const std::vector<TriangleRat
 } // namespace
 
 std::vector<double> buckling_wavenumbers(const Scene& scene, const std::vector<TriangleRates>& rates) {
+  const FlowCurve flow(scene.material);
   std::vector<Wave> waves;
   for (const TriangleRates& r : rates)
-    waves.push_back(fastest_wave(scene, r));
+    waves.push_back(fastest_wave(scene, flow, r));
   const double least = std::max(over_rate * rate_scale(rates), of_fastest * fast_growth(waves, rates));
   std::vector<double> numbers;
   for (const Wave& wave : waves)

@@ -82,6 +82,31 @@ density = "1300 kg/m^3"?
 
 #surface_tension = "40 mN/m"?
 
+# Viscosity may depend on the rate of strain. It is a power of it, and `viscosity` at reference_rate (polymers, ice, batter);
+#law = "power"?
+#flow_index = 0.5?
+#reference_rate = "1 s^-1"?
+
+# or nothing flows below a yield stress (toothpaste; "herschel_bulkley" takes flow_index, too; "casson" is chocolate);
+#law = "bingham"
+#yield_stress = "30 Pa"?
+#rest_rate = "1e-5 s^-1"?
+
+# or it thins from one viscosity to another ("cross" likewise, without transition);
+#law = "carreau"
+#zero_viscosity = "80 Pa*s"?
+#infinite_viscosity = "2 Pa*s"?
+#time_constant = "0.1 s"?
+#flow_index = 0.4
+#transition = 1.5?
+#density = "1300 kg/m^3"
+
+# or it is as measured.
+#law = "table"
+#rates = ["0.1 s^-1", 1, 10, 100]?
+#viscosities = ["90 Pa*s", 80, 30, 9]?
+#density = "1300 kg/m^3"
+
 [environment] # ---------------------------------------------------------- what acts on it from outside; may be absent
 
 gravity = [0, "-9.81 m/s^2", 0]

@@ -110,8 +110,19 @@ constexpr KeyTable sheet_table{"sheet", sheet_keys};
 constexpr std::array material_keys{
     number_key("viscosity", quantity::viscosity, "resists stretching and bending; also \"800 P\" or \"2 cP\""),
     number_key("density", quantity::density, "or \"1.3 g/cm^3\"; needed for inertia and gravity"),
-    number_key("surface_tension", quantity::surface_tension,
-               "of each of the two surfaces (absent or 0: no such term)")};
+    number_key("surface_tension", quantity::surface_tension, "of each of the two surfaces (absent or 0: no such term)"),
+    word_key("law", words::flow_laws, "how viscosity depends on the rate of strain (default: newtonian, not at all)"),
+    number_key("flow_index", quantity::number, "n: stress grows as the rate to this power; below 1 it thins"),
+    number_key("yield_stress", quantity::pressure, "below which nothing flows"),
+    number_key("reference_rate", quantity::strain_rate, "at which power law and table have `viscosity` (default 1/s)"),
+    number_key("zero_viscosity", quantity::viscosity, "of carreau and cross, at low rates, in place of viscosity"),
+    number_key("infinite_viscosity", quantity::viscosity, "of the same, at high rates (default 0)"),
+    number_key("time_constant", quantity::time, "of the same: from its inverse on it thins"),
+    number_key("transition", quantity::number, "of carreau: how sharply it begins to thin (default 2)"),
+    list_key("rates", quantity::strain_rate, "[]", "of a table, ascending"),
+    list_key("viscosities", quantity::viscosity, "[]", "of a table, at its rates"),
+    number_key("rest_rate", quantity::strain_rate,
+               "below which it is Newtonian (default: 1e-5 of the rate at which it yields, or of reference_rate)")};
 constexpr KeyTable material_table{"material", material_keys};
 
 constexpr std::array pressure_keys{

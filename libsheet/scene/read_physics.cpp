@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [material], [environment], [model]
+#include "libsheet/scene/read_flow_law.h"
 #include "libsheet/scene/tables.h"
 #include "libsheet/scene/words.h"
 
@@ -62,8 +63,7 @@ std::optional<Pressure> read_pressure(TableReader& parent, std::string& sheet) {
 } // namespace
 
 Liquid read_material(TableReader table) {
-  Liquid material;
-  material.viscosity = table.required("viscosity", Bound::not_negative);
+  Liquid material = read_flow_law(table);
   material.density = table.quantity_or("density", 0, Bound::positive);
   material.surface_tension = table.quantity_or("surface_tension", 0, Bound::not_negative);
   table.finish();

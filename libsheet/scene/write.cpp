@@ -263,6 +263,32 @@ void write_solid(Writer& out, const Solid& solid) {
     out.line("receding", flag(true));
 }
 
+// As read_flow_law.cpp reads it.
+void write_flow_law(Writer& out, const Liquid& liquid) {
+  const FlowLaw &law = liquid.law, absent;
+  const bool plateaus = law.kind == FlowLawKind::carreau || law.kind == FlowLawKind::cross;
+  if (!law.newtonian())
+    out.line("law", word(words::flow_laws, static_cast<std::size_t>(law.kind)));
+  if (law.kind != FlowLawKind::table)
+    out.line(plateaus ? "zero_viscosity" : "viscosity", liquid.viscosity);
+  const auto unless_absent = [&](std::string_view key, double FlowLaw::*member) {
+    if (law.*member != absent.*member)
+      out.line(key, law.*member);
+  };
+  unless_absent("yield_stress", &FlowLaw::yield_stress);
+  if (plateaus || law.kind == FlowLawKind::power || law.kind == FlowLawKind::herschel_bulkley)
+    out.line("flow_index", law.flow_index);
+  unless_absent("reference_rate", &FlowLaw::reference_rate);
+  unless_absent("infinite_viscosity", &FlowLaw::infinite_viscosity);
+  unless_absent("time_constant", &FlowLaw::time_constant);
+  unless_absent("transition", &FlowLaw::transition);
+  if (!law.rates.empty()) {
+    out.line("rates", items(law.rates, number));
+    out.line("viscosities", items(law.viscosities, number));
+  }
+  out.line("rest_rate", law.rest_rate);
+}
+
 } // namespace
 
 std::string to_toml(const Scene& scene) {
@@ -271,7 +297,7 @@ std::string to_toml(const Scene& scene) {
   for (const SheetTable& sheet : scene.sheets)
     write_sheet(out, sheet, several ? "[[sheet]]" : "[sheet]");
   out.open("[material]");
-  out.line("viscosity", scene.material.viscosity);
+  write_flow_law(out, scene.material);
   if (scene.material.density > 0)
     out.line("density", scene.material.density);
   if (scene.material.surface_tension > 0)

@@ -257,6 +257,8 @@ private:
   void take_direction(const Eigen::VectorXd& rows) {
     step_ = system_.to_unknowns(rows);
     slope_ = gradient_.dot(step_);
+    for (const auto& term : terms_)
+      term->follow(u_, step_);
     report_.last_step = greatest(step_, scale_, step_.size());
     report_.gained = start_ - energy_.value;
     report_.promised = -slope_;

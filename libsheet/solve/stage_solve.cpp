@@ -14,6 +14,7 @@ namespace {
 constexpr double unfinished_gain = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
 constexpr double far_behind = 0.1;       // of an edge: held unknowns that are this far from where inertia takes them
 constexpr double as_extrapolated = 1e-6; // of an edge: held unknowns that are where inertia takes them
+constexpr double of_next = 0.01;         // rest rate: each one over that before
 
 // How far what is held is from where inertia takes it, in edges. What a vertex overshot (energy/overshoot.h) does not
 // count: that the sheet lags behind it is no sign of another start.
@@ -65,6 +66,25 @@ void StageSolve::place(const Stage& stage, Unknowns& u) const {
   place_on_walls(stage, system_.constraints().held, u);
 }
 
+// What yields is begun as if it did so softly, an iteration each at rest rates that fall to its own: a sheet at rest is
+// so stiff under a load that its first direction is shorter than any rule for stopping, though it flows in the end.
+void StageSolve::come_from_softer(const Stage& stage, const Unknowns& guess, NewtonReport& report, Unknowns& u) {
+  const auto rest_at = [&](double rate) {
+    for (const auto& term : terms_)
+      term->rest_at(rate);
+  };
+  const double rest = rest_rate(stage.liquid);
+  NewtonOptions once = options_;
+  once.iterations = 1;
+  for (double rate = softest * yield_rate(stage.liquid); rate > rest; rate *= of_next) {
+    rest_at(rate);
+    system_.forget_factor();
+    report += minimize(system_, terms_, scale_, guess, once, evaluate_first(system_, terms_, u), u);
+  }
+  rest_at(rest);
+  system_.forget_factor();
+}
+
 bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns& safe, int iterations,
                        NewtonReport& report, Unknowns& u) {
   NewtonOptions newton = options_;
@@ -91,6 +111,11 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
     other = {};
   }
   report.seconds_assembly += watch.lap();
+  if (stage.liquid.law.yields()) {
+    come_from_softer(stage, guess, report, u);
+    first = evaluate_first(system_, terms_, u);
+    other = {};
+  }
   NewtonReport r = minimize(system_, terms_, scale_, guess, newton, std::move(first), u, other);
   report += r;
   if (r.converged || demand_ == Demand::converged)

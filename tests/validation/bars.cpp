@@ -222,6 +222,19 @@ TEST(Validation, LayersOnWalls) {
     EXPECT_GE(order_in_time("V24", settings("V24", 0.1, 80, set), Scheme::sdirk2), 1.9) << "set " << set;
 }
 
+// Power laws and what yields, at the rates of flow and at rest.
+TEST(Validation, LiquidsThatAreNotNewtonian) {
+  for (int set = 1; set <= 16; ++set) {
+    const Settings s = settings("V30", 0.1, 64, set);
+    EXPECT_LT(error("V30", s), set > 12 ? 1.2e-3 : 1e-3) << "set " << set; // of balloons: edges
+    EXPECT_GE(order_in_time("V30", settings("V30", 0.25, 16, set), Scheme::sdirk2), 1.9) << "set " << set;
+  }
+  for (const int set : {1, 2, 3})
+    EXPECT_LT(error("V31", settings("V31", 0.1, 40, set)), 1e-5) << "set " << set;
+  EXPECT_LT(error("V31", settings("V31", 0.1, 60, 4)), 0.02); // slumps to rest
+  EXPECT_LT(error("V31", settings("V31", 0.1, 60, 5)), 0.02);
+}
+
 // What is too thick for its gap by the pressure there is of the model, and no error of steps.
 TEST(Validation, LayersBetweenWalls) {
   EXPECT_LT(error("V29", settings("V29", 0.1, 40, 1)), 1e-9);  // that slide past each other

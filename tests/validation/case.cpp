@@ -81,6 +81,14 @@ const std::vector<Case>& cases() {
        "a layer between two walls (set 1: that slide past each other, one with slip; 2: round plates that close; 3: a "
        "slider bearing)",
        "1: way; 2: radius; 3: flux", "", 3, at(0.1, 40), true, false, v29},
+      {"V30",
+       "liquids that are not Newtonian: power law 1/3, 1/2, 3/2, Bingham (sets 1-4: strip pulled, sides free; 5-8: "
+       "width held; 9-12: tube, 13-16: balloon under pressure)",
+       "length or radius", "", 16, at(0.1, 32), true, false, v30},
+      {"V31",
+       "liquids that are not Newtonian on walls (set 1: Herschel-Bulkley down an incline; 2: with slip; 3: power law "
+       "1/3; 4: Bingham slumps in a plane until it rests; 5: as a disk)",
+       "1 to 3: way; 4: length; 5: radius", "", 5, at(0.1, 40), true, false, v31},
   };
   return list;
 }

@@ -2,6 +2,7 @@
 // V5, V6: a strip pulled by a constant force. V13: the viscous catenary. V15: a strip compressed on a bath.
 #include "tests/support/holds.h"
 #include "tests/validation/instant.h"
+#include "tests/validation/liquids.h"
 
 namespace sheet::validation {
 
@@ -28,12 +29,15 @@ Hold sides_across(const State& s) {
 }
 
 // The load is a very long, soft spring k (d - L) between each vertex of the moving end and one of the held end, in
-// proportion to the edges beside it; the reference is told so: L' = k (d - L) L²/(c μ V), c = 3 free, 4 planar.
-Result pulled(const Settings& s, bool planar) {
-  constexpr double mu = 100, h = 0.01, rest = 1e3, pull = 1.2;                                     // N
-  const double c = planar ? 4 : 3, volume = strip_width * h, until = 0.5 * c * mu * volume / pull; // the length doubles
+// proportion to the edges beside it; the reference is told so: L' = L γ̇(τ)/c, τ = k (d - L) L/(c V), c = √3 with the
+// sides free, 2 planar, γ̇(τ) = τ/μ of a Newtonian liquid.
+Result pulled(const Settings& s, bool planar, const Liquid& liquid, const std::function<double(double)>& rate,
+              double pull, double until) {
+  constexpr double h = 0.01, rest = 1e3;
+  const double c = planar ? 2 : std::numbers::sqrt3, volume = strip_width * h;
   State start = film(strip_mesh(s, 1, strip_width), h);
-  Model m = viscous(mu, s);
+  Model m = viscous(1, s);
+  m.liquid = liquid;
   m.bending = Bending::none;
   m.holds.push_back(hold(
       start, [](const Vector3& x) { return near(x.x(), 0); }, axis_bit(0), false));
@@ -69,7 +73,7 @@ Result pulled(const Settings& s, bool planar) {
   using Y = Eigen::Matrix<double, 1, 1>;
   const double k = pull / (rest - 1);
   const double exact = runge_kutta(Y(1.0), 0, until, 20000, [&](double, const Y& y) {
-    return Y(k * (rest - y[0]) * y[0] * y[0] / (c * mu * volume));
+    return Y(y[0] / c * rate(k * (rest - y[0]) * y[0] / (c * volume)));
   })[0];
   Run run(std::move(start), m, s, 1);
   run.advance(until, s.steps);
@@ -79,10 +83,26 @@ Result pulled(const Settings& s, bool planar) {
   return run.result(length / exact);
 }
 
+// The length doubles.
+Result pulled_newtonian(const Settings& s, bool planar) {
+  constexpr double mu = 100, pull = 1.2; // [Pa s], [N]
+  const double trouton = planar ? 4 : 3, volume = strip_width * 0.01;
+  return pulled(
+      s, planar, {.viscosity = mu}, [](double stress) { return stress / mu; }, pull,
+      0.5 * trouton * mu * volume / pull);
+}
+
 } // namespace
 
-Result v5(const Settings& s) { return pulled(s, false); } // sides free: Trouton's 3 μ
-Result v6(const Settings& s) { return pulled(s, true); }  // width held: 4 μ
+Result pulled_strip(const Settings& s, bool width_held, const TestedLiquid& liquid, double end) {
+  const double c = width_held ? 2 : std::numbers::sqrt3, volume = strip_width * 0.01;
+  const Growth growth{tested_stress, 1, c};
+  return pulled(s, width_held, liquid.liquid, liquid.rate, c * volume * tested_stress,
+                time_of_growth(liquid, growth, end));
+}
+
+Result v5(const Settings& s) { return pulled_newtonian(s, false); } // sides free: Trouton's 3 μ
+Result v6(const Settings& s) { return pulled_newtonian(s, true); }  // width held: 4 μ
 
 // V13: stretching holds the weight: tension q L²/(8 s) = 4 μ h d/dt(8 s²/(3 L²)), so s³ = 9 ρ g L⁴ t/(512 μ): a
 // parabola that sags from 0.25 to 0.5 % of the span (the formula neglects terms of order (s/L)², below 1e-4). Pinned

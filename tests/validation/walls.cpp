@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// V22 to V24: liquid that flows along walls. Lubrication theory has neither the sheet's own viscosity along the wall
-// nor, at a wall of radius R, anything of the order of h/R: layers are a thousandth as thick as they are long.
+// V22 to V24, V31: liquid that flows along walls. Lubrication theory has neither the sheet's own viscosity along the
+// wall nor, at a wall of radius R, anything of the order of h/R: layers are a thousandth as thick as they are long.
 #include <algorithm>
 
 #include "libsheet/energy/walls.h"
@@ -152,6 +152,64 @@ Result down_an_incline(const Settings& s, double slip_length) {
   return run.result((run.state().positions.front() - start).x() / (speed * until));
 }
 
+// Of a liquid that is not Newtonian: the speed that its law has.
+Result curved_down_an_incline(const Settings& s, const Liquid& liquid, double slip_length, double exact) {
+  Channel c = channel(s, radius, thin);
+  Model m = layer(s, {gravity, 0, 0});
+  m.liquid = liquid;
+  m.liquid.density = density;
+  hold_channel(c, 0, m);
+  m.walls.push_back(floor_under(c.state));
+  m.walls.back().slip_length = slip_length;
+  const double until = 2 * radius / exact;
+  const Vector3 start = c.state.positions.front();
+  Run run(std::move(c.state), m, s, radius);
+  run.advance(until, s.steps);
+  return run.result((run.state().positions.front() - start).x() / (exact * until));
+}
+
+// τ = τ_y + K γ̇^n, s = τ_w - τ_y, m = 1/n: u = h K^-m s^(m+1)/τ_w² (s/(m+2) + τ_y/(m+1)) + b (s/K)^m.
+Result herschel_bulkley_down_an_incline(const Settings& s, double yield_part, double n, double slip_length) {
+  const double stress = density * gravity * thin, yield = yield_part * stress, above = stress - yield, m = 1 / n;
+  const Liquid liquid{.viscosity = kinematic * density,
+                      .law = {.kind = FlowLawKind::herschel_bulkley, .flow_index = n, .yield_stress = yield}};
+  const double consistency = liquid.viscosity; // at 1/s
+  const double exact = thin * std::pow(consistency, -m) * std::pow(above, m + 1) / (stress * stress) *
+                           (above / (m + 2) + yield / (m + 1)) +
+                       slip_length * std::pow(above / consistency, m);
+  return curved_down_an_incline(s, liquid, slip_length, exact);
+}
+
+// n/(2n + 1) h (τ_w/K)^(1/n).
+Result power_law_down_an_incline(const Settings& s, double n) {
+  const double rate = std::pow(density * gravity * thin / (kinematic * density), 1 / n);
+  return curved_down_an_incline(
+      s, {.viscosity = kinematic * density, .law = {.kind = FlowLawKind::power, .flow_index = n, .rest_rate = 1e-12}},
+      0, n / (2 * n + 1) * thin * rate);
+}
+
+// A Bingham liquid slumps until its weight no longer overcomes the yield stress at the wall: ρ g h h' = -τ_y, so in a
+// plane x_N = (3 q/(2 a))^(2/3), about an axis r_N = (15 Q/(8π a))^(2/5), a = sqrt(2 τ_y/(ρ g)), of a half q or all Q.
+// The yield stress is such that the layer becomes 1.5 times as long. It comes near that algebraically.
+Result slumping(const Settings& s, bool axis) {
+  constexpr double end = 1.5;
+  Channel c = axis ? Channel{film(make_disk(radius, mesh_options(s, radius)), thin), 0} : channel(s, radius, thin);
+  const double amount = axis ? pi * thin : thin;
+  const double a = axis ? 15 * amount / (8 * pi * std::pow(end, 2.5)) : 3 * amount / (2 * std::pow(end, 1.5));
+  Model m = layer(s, {0, 0, -gravity});
+  m.liquid.law = {.kind = FlowLawKind::bingham, .yield_stress = density * gravity * a * a / 2};
+  m.liquid.law.rest_rate = 1e-6 * m.liquid.law.yield_stress / m.liquid.viscosity;
+  if (!axis)
+    hold_channel(c, axis_bit(0), m);
+  m.walls.push_back(floor_under(c.state));
+  const double time = 3 * kinematic * radius * radius / (gravity * std::pow(thin, 3)), width = c.width;
+  Run run(std::move(c.state), m, s, radius);
+  run.advance(1e-3 * time, 4);
+  advance_in_ratio(run, 1e-3 * time, 1e3 * time, s.steps);
+  const double area = sheet_area(run.state());
+  return run.result((axis ? std::sqrt(area / pi) : area / width) / (radius * end));
+}
+
 // A plug of speed U comes to rest after U h²/(3 ν).
 Result stopping(const Settings& s) {
   Channel c = channel(s, radius, thin);
@@ -275,6 +333,19 @@ Result v24(const Settings& s) {
     return puddle(s);
   default:
     return floating(s);
+  }
+}
+
+Result v31(const Settings& s) {
+  switch (s.set) {
+  case 1:
+    return herschel_bulkley_down_an_incline(s, 0.4, 0.5, 0);
+  case 2:
+    return herschel_bulkley_down_an_incline(s, 0.4, 0.5, 0.3 * thin);
+  case 3:
+    return power_law_down_an_incline(s, 1.0 / 3);
+  default:
+    return slumping(s, s.set == 5);
   }
 }
 

@@ -80,6 +80,8 @@ State leaning(Random& random) {
 void touch_walls(Stage& stage, Random& random) {
   stage.sites.clear();
   stage.site_of.assign(stage.vertices(), no_index);
+  if (!stage.liquid.law.newtonian())
+    stage.wall_flow = std::make_shared<const WallFlow>(stage.liquid);
   for (std::uint32_t v = 0; v < stage.vertices(); ++v) {
     if (v % 3 == 0)
       continue;
@@ -189,6 +191,7 @@ Eigen::VectorXd eigenvalues_of(const Eigen::MatrixXd& symmetric) {
 struct Properties {
   bool translations = true, rotations = true; // the energy does not change with them
   double viscosity = 2;
+  FlowLaw law = {};
 };
 
 template <int n>
@@ -198,7 +201,7 @@ void check_all(Elements<n>& elements, Properties properties, bool second_stage_t
   Random random;
   for (int round = 0; round < 5; ++round) {
     const State s = state(random);
-    const Liquid liquid{.viscosity = properties.viscosity, .density = 3, .surface_tension = 0.7};
+    const Liquid liquid{.viscosity = properties.viscosity, .density = 3, .surface_tension = 0.7, .law = properties.law};
     Stage stage = first_stage(s, liquid, 0.05, 0.05, elements.stencil() == Stencil::triangle_edges);
     Unknowns first = stage.begin;
     if (second_stage_too && round % 2) {
@@ -265,9 +268,30 @@ void check(E element, Properties properties, bool second_stage_too = true, State
 }
 
 TEST(Derivatives, Membrane) { check(Membrane(), {}); }
+
+// Laws that vary within the rates of strain here, some 1/s.
+const std::vector<FlowLaw>& flow_laws() {
+  using enum FlowLawKind;
+  static const std::vector<FlowLaw> laws{
+      {.kind = power, .flow_index = 1.0 / 3, .rest_rate = 2.0},
+      {.kind = power, .flow_index = 1.5, .rest_rate = 2.0},
+      {.kind = carreau, .flow_index = 0.2, .infinite_viscosity = 0.1, .time_constant = 0.3},
+      {.kind = cross, .flow_index = 0.2, .infinite_viscosity = 0.1, .time_constant = 0.05},
+      {.kind = bingham, .yield_stress = 12, .rest_rate = 3.0},
+      {.kind = casson, .yield_stress = 12, .rest_rate = 3.0}};
+  return laws;
+}
+TEST(Derivatives, MembraneOfFlowCurves) {
+  for (const FlowLaw& law : flow_laws())
+    check(Membrane(), {.law = law});
+}
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(), {}, true, crumpled, touch_walls); }
 TEST(Derivatives, WallDrag) { check(WallDrag(), {false, false}, true, crumpled, touch_walls); }
+TEST(Derivatives, WallDragOfFlowCurves) {
+  for (const FlowLaw& law : flow_laws())
+    check(WallDrag(), {false, false, 2, law}, true, crumpled, touch_walls);
+}
 TEST(Derivatives, DragOfTwoWalls) { check(WallDrag(), {false, false}, true, crumpled, touch_two_walls); }
 TEST(Derivatives, ChannelPressure) { check(ChannelPressure(), {false, false}, true, crumpled, touch_two_walls); }
 TEST(Derivatives, WallWeight) { check(WallWeight({0.3, -9, 2}, no_bath), {}, true, crumpled, touch_walls); }
@@ -414,6 +438,67 @@ TEST(Derivatives, MidEdgeLeaningDirectors) { check(MidEdgeShell(false), {true, f
 TEST(Derivatives, MidEdgeArcsAndLeaningDirectors) { check(MidEdgeShell(true), {true, false}, true, leaning); }
 TEST(Derivatives, MidEdgeArcs) { check(MidEdgeShell(true), {true, false}); }
 
+TEST(Derivatives, MidEdgeArcsOfFlowCurves) {
+  for (const FlowLaw& law : flow_laws())
+    check(MidEdgeShell(true), {.rotations = false, .law = law});
+  check(MidEdgeShell(true), {.rotations = false, .law = flow_laws()[0]}, true, leaning);
+  check(MidEdgeShell(AreaLoads{.tension = SurfaceTension()}), {.rotations = false, .law = flow_laws()[4]});
+}
+
+// A stress of Newton's own: where a direction ends it is that of the flow, and the Hessian the exact one, if the
+// direction is nothing; of any stress the positive form is positive semidefinite.
+template <class E> void check_stress() {
+  constexpr int n = stencil_unknowns(E::stencil);
+  Random random;
+  const State s = crumpled(random);
+  const Liquid liquid{.viscosity = 2, .density = 3, .law = {.kind = FlowLawKind::bingham, .yield_stress = 30}};
+  const Stage stage = first_stage(s, liquid, 0.05, 0.05, n == 12);
+  E element = [] {
+    if constexpr (n == 12)
+      return MidEdgeShell(true);
+    else
+      return Membrane();
+  }();
+  element.begin(stage);
+  Unknowns u = stage.begin, step = u;
+  for (double& x : u)
+    x += 0.02 * random();
+  for (double& x : step)
+    x = 0.5 * random();
+  const auto local = [&](std::size_t i) {
+    VectorN<n> own;
+    for (std::size_t k = 0; k < 3; ++k) {
+      own.template segment<3>(static_cast<Eigen::Index>(3 * k)) = Stage::position(u, s.mesh->triangles[i][k]);
+      if constexpr (n == 12)
+        own[static_cast<Eigen::Index>(9 + k)] =
+            u[static_cast<Eigen::Index>(3 * s.positions.size()) + s.mesh->triangle_edges[i][k]];
+    }
+    return own;
+  };
+  const auto hessian = [&](std::size_t i, bool definite) {
+    VectorN<n> g;
+    MatrixN<n> h;
+    element.derivatives(i, local(i), g, h, definite);
+    return h;
+  };
+  std::vector<MatrixN<n>> exact;
+  for (std::size_t i = 0; i < element.size(); ++i)
+    exact.push_back(hessian(i, false));
+  element.follow(u, Unknowns::Zero(u.size()));
+  for (std::size_t i = 0; i < element.size(); ++i)
+    EXPECT_LT((hessian(i, false) - exact[i]).norm(), 1e-12 * exact[i].norm());
+  element.follow(u, step);
+  for (std::size_t i = 0; i < element.size(); ++i) {
+    EXPECT_GT((hessian(i, false) - exact[i]).norm(), 1e-3 * exact[i].norm());
+    const Eigen::VectorXd eigenvalues = eigenvalues_of(hessian(i, true));
+    EXPECT_GE(eigenvalues[0], -1e-12 * eigenvalues[n - 1]);
+  }
+}
+TEST(Derivatives, StressOfWhatYields) {
+  check_stress<Membrane>();
+  check_stress<MidEdgeShell>();
+}
+
 // What works on the arcs' area: viscosity small beside it, so that errors of it are seen.
 AreaLoads tension() { return {.tension = SurfaceTension()}; }
 TEST(Derivatives, TensionOfArcs) {
@@ -460,6 +545,11 @@ TEST(Derivatives, ContactDamping) {
 TEST(Derivatives, ContactShear) {
   check(ContactShear(springs), {true, false});
   check(ContactShear(springs), {false, false}, true, crumpled, touch_walls); // walls take a part
+}
+
+TEST(Derivatives, ContactShearOfFlowCurves) {
+  for (const FlowLaw& law : flow_laws())
+    check(ContactShear(springs), {true, false, 2, law}, true, crumpled, touch_walls);
 }
 
 TEST(Derivatives, SqueezeOfArcs) {

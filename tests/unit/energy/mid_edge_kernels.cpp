@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/geometry/metric.h"
+#include "libsheet/material/flow_curve.h"
 
 namespace sheet {
 extern const MidEdgeKernels avx512_mid_edge, avx2_mid_edge, plain_mid_edge;
@@ -89,12 +90,42 @@ TEST(MidEdgeKernels, NothingIsToBeDoneAtTheStart) {
         EXPECT_EQ(b.reference.folded, lean > 1);
         EXPECT_GT(b.reference.stiffness[2][2] + b.reference.stiffness[0][2] + b.reference.stiffness[1][2], 0);
         MidEdgeResult result;
-        kernels->hessian(b.reference, b.state, true, nullptr, result);
+        kernels->hessian(b.reference, b.state, true, nullptr, {}, result);
         const double stiffness = greatest(result.hessian, 78);
         EXPECT_GT(stiffness, 0);
         EXPECT_LT(greatest(result.gradient, 12), 1e-13 * stiffness);
         EXPECT_LT(greatest(&result.value, 1), 1e-26 * stiffness);
       }
+}
+
+// The flow curve of a Newtonian liquid, summed through the thickness, is the closed form.
+TEST(MidEdgeKernels, FlowCurvesOfNewtonianLiquids) {
+  const FlowCurve curve(Liquid{.viscosity = 6});
+  for (const MidEdgeKernels* kernels : versions()) {
+    Batch b(0.1);
+    b.start.duration = 1;
+    for (double& stiffening : b.start.stiffening)
+      stiffening = 1;
+    kernels->reference(b.start, b.state, b.reference);
+    for (auto& row : b.reference.stiffness) // caps are not summed
+      std::ranges::fill(row, 0);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-0.1, 0.1);
+    for (LaneNumbers& numbers : b.state.x)
+      for (double& v : numbers)
+        v += uniform(random);
+    MidEdgeResult closed, summed;
+    kernels->hessian(b.reference, b.state, true, nullptr, {}, closed);
+    kernels->hessian(b.reference, b.state, true, nullptr, {.curve = &curve}, summed);
+    const double stiffness = greatest(closed.hessian, 78);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      EXPECT_NEAR(summed.value[lane], closed.value[lane], 1e-13 * stiffness);
+      for (int i = 0; i < 12; ++i)
+        EXPECT_NEAR(summed.gradient[i][lane], closed.gradient[i][lane], 1e-13 * stiffness);
+      for (int i = 0; i < 78; ++i)
+        EXPECT_NEAR(summed.hessian[i][lane], closed.hessian[i][lane], 1e-13 * stiffness);
+    }
+  }
 }
 
 TEST(MidEdgeKernels, AllVersionsAgree) {
@@ -124,7 +155,7 @@ TEST(MidEdgeKernels, AllVersionsAgree) {
     b.start.ratio = 2.4;
     kernels->reference(b.start, moved, b.reference);
     MidEdgeResult result;
-    kernels->hessian(b.reference, b.state, true, &loads, result);
+    kernels->hessian(b.reference, b.state, true, &loads, {}, result);
     if (kernels == &plain_mid_edge)
       plain = result;
     const double stiffness = greatest(plain.hessian, 78);

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "libsheet/material/liquid.h"
-
 namespace sheet {
 namespace {
 
@@ -34,12 +32,6 @@ TEST(StrainRate, OfStretchingAndShear) {
   sheared(0, 1) = sheared(1, 0) = 2.5;
   EXPECT_DOUBLE_EQ(strain_rate(drawn).squared, 12 * 9);
   EXPECT_DOUBLE_EQ(strain_rate(sheared).squared, 25);
-}
-
-TEST(Liquid, IsNewtonian) {
-  const Liquid liquid{.viscosity = 3};
-  EXPECT_EQ(viscosity_of(liquid, {0}), 3);
-  EXPECT_EQ(viscosity_of(liquid, {1e6}), 3);
 }
 
 } // namespace

@@ -329,6 +329,48 @@ TEST(Read, ProblemsOfTheOtherTables) {
     EXPECT_EQ(problem(disk + liquid + text), expected) << text;
 }
 
+TEST(Read, ProblemsOfFlowLaws) {
+  const auto of = [](const std::string& material) {
+    return problem(disk + "[material]\ndensity = 1000\n" + material + "\n");
+  };
+  for (const char* good : {"viscosity = 3\nlaw = \"newtonian\"", "viscosity = 3\nlaw = \"power\"\nflow_index = 0.3",
+                           "zero_viscosity = 3\ntime_constant = 1\nlaw = \"cross\"\nflow_index = 0.3",
+                           "viscosity = 3\nlaw = \"casson\"\nyield_stress = \"2 kPa\"",
+                           "law = \"table\"\nrates = [1, 2, 3, 4]\nviscosities = [3, 2, 2, 2]"})
+    EXPECT_EQ(of(good), "fine");
+  for (const auto& [material, expected] : std::vector<Case>{
+           {"law = \"power\"\nviscosity = 1",
+            "s:6:1: missing key \"flow_index\" in [material], such as flow_index = \"0.5\""},
+           {"viscosity = 1\nyield_stress = 3",
+            "s:9:1: key \"yield_stress\" has no meaning in [material]: law \"newtonian\" takes viscosity alone"},
+           {"law = \"bingham\"\nviscosity = 0\nyield_stress = \"3 Pa*s\"",
+            "s:9:13: viscosity must be positive, got 0 Pa*s\n"
+            "s:10:16: yield_stress: expected a pressure such as \"10 Pa\", got a viscosity (Pa*s)"},
+           {"law = \"carreau\"\nviscosity = 1\nzero_viscosity = 1\ninfinite_viscosity = 1\ntime_constant = "
+            "1\nflow_index = 0.5",
+            "s:9:1: key \"viscosity\" has no meaning in [material]: law \"carreau\" takes zero_viscosity, "
+            "infinite_viscosity, time_constant, flow_index, transition\n"
+            "s:11:22: infinite_viscosity: expected less than zero_viscosity: the liquid thins from that to this"},
+           {"law = \"cross\"\nzero_viscosity = 1\ntime_constant = 1\nflow_index = 1.5",
+            "s:11:14: flow_index: expected less than 1"},
+           {"law = \"table\"\nrates = [1, 2, 2, 3]\nviscosities = [3, 2, 2, 2]",
+            "s:9:9: rates: they must increase from each row to the next"},
+           {"law = \"table\"\nrates = [1, 2, 3, 4]\nviscosities = [3, 2, 2]",
+            "s:10:15: viscosities: 3 viscosities, but 4 rates"},
+           {"law = \"table\"\nrates = [1, 2, 3]\nviscosities = [3, 2, 2]",
+            "s:9:9: rates: a table takes four rows or more"},
+           {"law = \"table\"\nrates = [1, 2, 3, 4]\nviscosities = [3, 2, 0.5, 0.4]",
+            "s:10:15: viscosities: the stress falls as the rate grows, at 2 1/s: the viscosity must not fall faster "
+            "than 1/rate"},
+           {"law = \"table\"\nrates = 3",
+            "s:6:1: missing key \"viscosities\" in [material], such as viscosities = [\"20 Pa*s\", 8, 3, 1.5]\n"
+            "s:9:9: rates: expected a list, got a number"},
+           {"law = \"glass\"\nviscosity = 1",
+            "s:8:7: law: \"glass\" is none of \"newtonian\", \"power\", \"carreau\", \"cross\", \"bingham\", "
+            "\"herschel_bulkley\", \"casson\", \"table\""}})
+    EXPECT_EQ(of(material), expected) << material;
+}
+
 TEST(Read, WhatTheModelNeeds) {
   EXPECT_EQ(problem(disk + "[material]\nviscosity = 1\n[model]\ninertia = false\n"), "fine");
   EXPECT_EQ(

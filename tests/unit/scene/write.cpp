@@ -154,7 +154,8 @@ public:
       sheet.rotation = Rotation{direction(), number()};
     sheet.velocity = maybe(vector());
     sheet.angular_velocity = maybe(vector());
-    s.material = {positive(), positive(), below(2) ? positive() : 0};
+    s.material = {.viscosity = positive(), .density = positive(), .surface_tension = below(2) ? positive() : 0};
+    s.material.law = law();
     if (below(3) == 0) { // another one like it, which enters
       sheet.name = "first \"one\"";
       SheetTable other = sheet;
@@ -293,6 +294,31 @@ private:
     for (double& time : times_)
       time = std::exchange(t, t + std::max(1.0, std::abs(t)) * (0.1 + unit()));
     return times_;
+  }
+
+  FlowLaw law() {
+    FlowLaw law;
+    switch (below(4)) {
+    case 0:
+      law.kind = FlowLawKind::power;
+      law.flow_index = positive();
+      law.reference_rate = positive();
+      break;
+    case 1:
+      law.kind = FlowLawKind::carreau;
+      law.flow_index = positive();
+      law.time_constant = positive();
+      law.transition = positive();
+      break;
+    case 2:
+      law.kind = FlowLawKind::casson;
+      law.yield_stress = positive();
+      law.rest_rate = positive();
+      break;
+    default:
+      break;
+    }
+    return law;
   }
 
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/read_flow_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "libsheet/material/flow_curve.h"
+#include "libsheet/scene/words.h"
+
+namespace sheet::scene {
+namespace {
+
+constexpr int looked_at_between = 8; // places between two rows of a table
+
+std::vector<double> read_positive(TableReader& table, std::string_view key, std::string_view example) {
+  std::vector<double> numbers;
+  const Node* list = table.take(key);
+  if (list == nullptr) {
+    table.missing(key, example);
+    return numbers;
+  }
+  if (list->type != Node::Type::list) {
+    table.wrong(key, fmt::format("expected a list, got {}", describe(list->type)));
+    return numbers;
+  }
+  for (const Node& item : list->items)
+    if (const auto number = table.quantity(item, key, Bound::positive))
+      numbers.push_back(*number);
+  return numbers.size() == list->items.size() ? numbers : std::vector<double>{};
+}
+
+// The first rate from which on the stress falls, if there is one: no steady flow is stable there.
+std::optional<double> falls_from(const Liquid& liquid) {
+  const FlowCurve curve(liquid);
+  const std::vector<double>& rates = liquid.law.rates;
+  for (std::size_t i = 0; i + 1 < rates.size(); ++i)
+    for (int k = 0; k < looked_at_between; ++k) {
+      const double rate = rates[i] * std::pow(rates[i + 1] / rates[i], k / double{looked_at_between});
+      if (curve.tangent_viscosity({rate * rate}) < 0)
+        return rate;
+    }
+  return {};
+}
+
+void read_table(TableReader& table, Liquid& liquid) {
+  FlowLaw& law = liquid.law;
+  law.rates = read_positive(table, "rates", "[0.1, 1, 10, 100]");
+  law.viscosities = read_positive(table, "viscosities", "[\"20 Pa*s\", 8, 3, 1.5]");
+  liquid.viscosity = std::numeric_limits<double>::quiet_NaN();
+  if (law.rates.empty() || law.viscosities.empty())
+    return; // reported
+  if (law.rates.size() < 4)
+    table.wrong("rates", "a table takes four rows or more");
+  else if (law.viscosities.size() != law.rates.size())
+    table.wrong("viscosities", fmt::format("{} viscosities, but {} rates", law.viscosities.size(), law.rates.size()));
+  else if (std::ranges::adjacent_find(law.rates, std::greater_equal<>()) != law.rates.end())
+    table.wrong("rates", "they must increase from each row to the next");
+  else if (const auto rate = falls_from(liquid))
+    table.wrong("viscosities", fmt::format("the stress falls as the rate grows, at {:.3g} 1/s: the viscosity must not "
+                                           "fall faster than 1/rate",
+                                           *rate));
+  else
+    liquid.viscosity = viscosity_of(liquid, {law.reference_rate * law.reference_rate});
+}
+
+double read_index(TableReader& table, double below) {
+  const double index = table.required("flow_index");
+  if (index >= below)
+    table.wrong("flow_index", fmt::format("expected less than {:g}", below));
+  return index;
+}
+
+// Those of carreau and cross.
+void read_plateaus(TableReader& table, Liquid& liquid, double index_below) {
+  liquid.viscosity = table.required("zero_viscosity");
+  liquid.law.infinite_viscosity = table.quantity_or("infinite_viscosity", 0, Bound::not_negative);
+  liquid.law.time_constant = table.required("time_constant");
+  liquid.law.flow_index = read_index(table, index_below);
+  if (liquid.law.infinite_viscosity >= liquid.viscosity)
+    table.wrong("infinite_viscosity", "expected less than zero_viscosity: the liquid thins from that to this");
+}
+
+void read_power(TableReader& table, Liquid& liquid) {
+  liquid.law.flow_index = read_index(table, std::numeric_limits<double>::infinity());
+  liquid.law.reference_rate = table.quantity_or("reference_rate", 1, Bound::positive);
+}
+
+constexpr std::array<std::string_view, words::flow_laws.size()> keys_of_laws{
+    "viscosity alone",
+    "viscosity, flow_index, reference_rate, rest_rate",
+    "zero_viscosity, infinite_viscosity, time_constant, flow_index, transition",
+    "zero_viscosity, infinite_viscosity, time_constant, flow_index",
+    "viscosity, yield_stress, rest_rate",
+    "viscosity, yield_stress, flow_index, reference_rate, rest_rate",
+    "viscosity, yield_stress, rest_rate",
+    "rates, viscosities, reference_rate"};
+
+} // namespace
+
+Liquid read_flow_law(TableReader& table) {
+  Liquid liquid;
+  FlowLaw& law = liquid.law;
+  const std::size_t choice = table.choice("law").value_or(0);
+  law.kind = static_cast<FlowLawKind>(choice);
+  switch (law.kind) {
+  case FlowLawKind::newtonian:
+    liquid.viscosity = table.required("viscosity", Bound::not_negative);
+    break;
+  case FlowLawKind::carreau:
+    read_plateaus(table, liquid, std::numeric_limits<double>::infinity());
+    law.transition = table.quantity_or("transition", 2, Bound::positive);
+    break;
+  case FlowLawKind::cross:
+    read_plateaus(table, liquid, 1);
+    break;
+  case FlowLawKind::table:
+    law.reference_rate = table.quantity_or("reference_rate", 1, Bound::positive);
+    read_table(table, liquid);
+    break;
+  default:
+    liquid.viscosity = table.required("viscosity");
+    if (law.yields())
+      law.yield_stress = table.required("yield_stress");
+    if (law.kind == FlowLawKind::power || law.kind == FlowLawKind::herschel_bulkley)
+      read_power(table, liquid);
+    law.rest_rate = table.quantity("rest_rate", Bound::positive);
+  }
+  table.has_no_meaning({"viscosity", "flow_index", "yield_stress", "reference_rate", "zero_viscosity",
+                        "infinite_viscosity", "time_constant", "transition", "rates", "viscosities", "rest_rate"},
+                       fmt::format("law \"{}\" takes {}", words::flow_laws[choice], keys_of_laws[choice]));
+  return liquid;
+}
+
+} // namespace sheet::scene

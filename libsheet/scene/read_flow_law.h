@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The part of [material] that says how viscosity depends on the rate of strain.
+#pragma once
+#include "libsheet/material/liquid.h"
+#include "libsheet/scene/reader.h"
+
+namespace sheet::scene {
+
+// A liquid with its viscosity and law; what is wrong is reported by the table.
+[[nodiscard]] Liquid read_flow_law(TableReader& table);
+
+} // namespace sheet::scene
