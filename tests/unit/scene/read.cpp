@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "libsheet/scene/write.h"
 #include "scenes.h"
 
 namespace sheet::scene {
@@ -475,6 +476,29 @@ TEST(Read, ProblemsOfSeveralSheets) {
            {"[[sheet]]\nshape = \"mesh\"\nfile = \"a.off\"\nthickness = 1\nenters = 1",
             "s:22:10: enters: a sheet from a mesh file is there from the start; a shape can enter"}})
     EXPECT_EQ(problem(two_sheets + text), expected) << text;
+}
+
+TEST(Read, ArraysOfAMeshGoAlongAndChooseWhatIsHeld) {
+  const std::string mesh = "[sheet]\nshape = \"mesh\"\nfile = \"a.ply\"\nthickness = 0.02\n";
+  const Scene s = parse_scene(mesh + "arrays = [\"blender.uv\", \"material\"]\n" + liquid +
+                                  "[[hold]]\nregion = {array = \"painted\"}\n[inflow]\nregion = {array = \"in\"}\nvelocity "
+                                  "= [0, 0, -1]\n",
+                              "s");
+  EXPECT_EQ(s.sheets[0].arrays, (std::vector<std::string>{"blender.uv", "material"}));
+  EXPECT_EQ(std::get<ArrayRegion>(s.holds[0].region).array, "painted");
+  EXPECT_EQ(std::get<ArrayRegion>(s.inflows[0].region).array, "in");
+  EXPECT_EQ(parse_scene(to_toml(s), "again"), s);
+  const auto wrong = [&](const std::string& line) { return problem(mesh + line + "\n" + liquid); };
+  for (const char* name : {"position", "tear.volume", "thickness", "Capital", "", "a b"})
+    EXPECT_NE(wrong("arrays = [\"" + std::string(name) + "\"]").find("cannot be the name"), std::string::npos) << name;
+  EXPECT_NE(wrong("arrays = [\"a\", \"a\"]").find("twice"), std::string::npos);
+  EXPECT_NE(wrong("arrays = \"a\"").find("expected names"), std::string::npos);
+  EXPECT_NE(problem(disk + "arrays = [\"a\"]\n" + liquid).find("shape \"mesh\""), std::string::npos);
+  EXPECT_NE(problem(disk + liquid + "[[hold]]\nregion = {array = \"a\"}\n").find("shape \"mesh\""), std::string::npos);
+  EXPECT_NE(problem(mesh + liquid + "[[hold]]\nregion = {array = \"a\"}\nroll = true\nmotion = {kind = \"translating\", "
+                                    "velocity = [1, 0, 0]}\n")
+                .find("a part of space"),
+            std::string::npos);
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/mesh_file.h"
 
+#include <array>
 #include <cstdio>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -51,6 +53,29 @@ TEST(MeshFile, ErrorsHaveTheirExitCodes) {
   EXPECT_EQ(code_of(path), ExitCode::bad_input);
   std::remove(path.c_str());
   EXPECT_THROW(save_mesh("/nonexistent/a.ply", mesh), Error);
+}
+
+TEST(MeshFile, AnArrayThatIsAskedForMustBeThereAndFinite) {
+  const std::string path = testing::TempDir() + "mesh_file_test_arrays.ply";
+  const auto write = [&](const char* value) {
+    std::ofstream(path) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double "
+                           "z\nproperty double dye\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                        << "0 0 0 1\n1 0 0 " << value << "\n0 1 0 3\n3 0 1 2\n";
+  };
+  const auto message = [&](const std::string& name) -> std::string {
+    try {
+      (void)load_mesh(path, std::array{name});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "fine";
+  };
+  write("2");
+  EXPECT_EQ(load_mesh(path, std::array{std::string("dye")}).mesh.arrays.at(0).values, (std::vector<double>{1, 2, 3}));
+  EXPECT_NE(message("uv").find(path + ": there is no array \"uv\""), std::string::npos);
+  write("nan");
+  EXPECT_NE(message("dye").find("not a finite number at vertex 1"), std::string::npos) << message("dye");
+  std::remove(path.c_str());
 }
 
 } // namespace
