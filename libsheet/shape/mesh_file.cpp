@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/mesh_file.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "formats/cpp/mesh_export.h"
 #include "libsheet/base/error.h"
 #include "libsheet/base/named_files.h"
@@ -40,10 +37,6 @@ MeshArray array_of(const formats::ForeignMesh& mesh, const std::string& name, co
          "{}: there is no array \"{}\": a PLY file has it as the property {} of its vertices or faces, or, with several "
          "components, as {}_0, {}_1, ... or {}_x, {}_y, {}_z",
          path, name, name, name, name, name, name, name);
-  const auto bad = std::ranges::find_if(array->values, [](double x) { return !std::isfinite(x); });
-  if (bad != array->values.end())
-    fail(ExitCode::bad_input, "{}: array \"{}\" is not a finite number at {} {}", path, name,
-         array->place == MeshPlace::point ? "vertex" : "triangle", (bad - array->values.begin()) / array->components);
   return *array;
 }
 

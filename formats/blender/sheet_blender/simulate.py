@@ -324,7 +324,8 @@ class SHEET_OT_free(bpy.types.Operator):
 
 
 def _find_again() -> None:
-    """A timer, once after a file is open: looks at its run if that goes on, and has a look for one that has ended."""
+    """A timer, once after a file is open: watches its run if that goes on, and shows what has come in the meantime of
+    one that has ended."""
     window = bpy.context.window_manager.windows[0] if bpy.context.window_manager.windows else None
     for scene in bpy.data.scenes:
         try:
@@ -334,13 +335,15 @@ def _find_again() -> None:
         if cache.process_of(folder) is not None and window is not None and str(folder) not in _watched:
             with bpy.context.temp_override(window=window, scene=scene):
                 bpy.ops.sheet.watch("INVOKE_DEFAULT")
+        else:
+            result_of(scene)
 
 
 @persistent
 def on_load(*_: Any) -> None:
     _watched.clear()
     if not bpy.app.background:
-        bpy.app.timers.register(_find_again, first_interval=0.5)
+        bpy.app.timers.register(_find_again, first_interval=0.5, persistent=True)
 
 
 CLASSES = (SHEET_OT_simulate, SHEET_OT_resume, SHEET_OT_watch, SHEET_OT_stop, SHEET_OT_free)

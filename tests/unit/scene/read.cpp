@@ -268,8 +268,8 @@ TEST(Read, ProblemsOfTheOtherTables) {
            {"[[hold]]\nregion = {box = [[0, 0, 0], [1, -1, 1]]}",
             "s:10:17: box: the first corner must not exceed the second in any coordinate"},
            {"[[hold]]\nregion = {box = 3}", "s:10:17: box: expected two corners such as [[0, 0, 0], [1, 1, 1]]"},
-           {"[[hold]]\nregion = {}", "s:10:10: region: expected \"rim\", {box = [[0, 0, 0], [1, 1, 1]]} or {sphere = "
-                                     "{center = [0, 0, 0], radius = 1}}"},
+           {"[[hold]]\nregion = {}", "s:10:10: region: expected \"rim\", {box = [[0, 0, 0], [1, 1, 1]]}, {sphere = "
+                                     "{center = [0, 0, 0], radius = 1}} or {array = \"pinned\"}"},
            {"[[hold]]\nregion = \"rim\"\naxes = \"yy\"",
             "s:11:8: axes: expected some of the letters x, y, z, such as \"y\" or \"xz\""},
            {"[[hold]]\nregion = \"rim\"\naxes = \"y\"\nkind = \"clamped\"",

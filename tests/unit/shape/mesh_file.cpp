@@ -2,12 +2,13 @@
 #include "libsheet/shape/mesh_file.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "formats/cpp/mesh_export.h"
 #include "libsheet/base/error.h"
 #include "libsheet/shape/perturb.h"
 #include "libsheet/shape/shapes.h"
@@ -57,10 +58,12 @@ TEST(MeshFile, ErrorsHaveTheirExitCodes) {
 
 TEST(MeshFile, AnArrayThatIsAskedForMustBeThereAndFinite) {
   const std::string path = testing::TempDir() + "mesh_file_test_arrays.ply";
-  const auto write = [&](const char* value) {
-    std::ofstream(path) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double "
-                           "z\nproperty double dye\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                        << "0 0 0 1\n1 0 0 " << value << "\n0 1 0 3\n3 0 1 2\n";
+  const auto write = [&](double value) {
+    formats::ForeignMesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.arrays.push_back({"dye", formats::MeshPlace::point, 1, {1, value, 3}});
+    formats::export_mesh(path, mesh);
   };
   const auto message = [&](const std::string& name) -> std::string {
     try {
@@ -70,11 +73,11 @@ TEST(MeshFile, AnArrayThatIsAskedForMustBeThereAndFinite) {
     }
     return "fine";
   };
-  write("2");
+  write(2);
   EXPECT_EQ(load_mesh(path, std::array{std::string("dye")}).mesh.arrays.at(0).values, (std::vector<double>{1, 2, 3}));
   EXPECT_NE(message("uv").find(path + ": there is no array \"uv\""), std::string::npos);
-  write("nan");
-  EXPECT_NE(message("dye").find("not a finite number at vertex 1"), std::string::npos) << message("dye");
+  write(std::nan(""));
+  EXPECT_NE(message("dye").find("array 'dye' has a value that is not finite"), std::string::npos) << message("dye");
   std::remove(path.c_str());
 }
 
