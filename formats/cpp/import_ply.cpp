@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Stanford PLY: a text header that declares elements and their properties, then the elements as text or as numbers in
 // either byte order. Read: element vertex (x, y, z, thickness, velocity_x.. or vx..) and element face (the list
-// vertex_indices or vertex_index, thickness, velocity), and the arrays that are asked for; other elements and properties
-// are passed over.
+// vertex_indices or vertex_index, thickness, velocity), and the arrays that are asked for; other elements and
+// properties are passed over.
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -4,10 +4,10 @@
 // Polygons become triangles (polygon.h); those that are not flat or cross themselves are refused. Vertices that no face
 // uses are dropped, so are repeated corners of faces; both are told in the notes. A byte order mark of UTF-8 is
 // skipped. Arrays "thickness" (1 component) and "velocity" (3 components; PLY: velocity_x, _y, _z or vx, vy, vz), per
-// vertex or per face, are picked up from PLY and VTU. Of PLY files those come, too, that are asked for by name: an array
-// NAME is the property NAME, or the properties NAME_x, NAME_y and NAME_z, or NAME_0, NAME_1, ... as Sheet writes them;
-// "uv" is also s and t, u and v, or texture_u and texture_v, as other programs do. Other arrays are passed over. Numbers
-// are read the same in every locale.
+// vertex or per face, are picked up from PLY and VTU. Of PLY files those come, too, that are asked for by name: an
+// array NAME is the property NAME, or the properties NAME_x, NAME_y and NAME_z, or NAME_0, NAME_1, ... as Sheet writes
+// them; "uv" is also s and t, u and v, or texture_u and texture_v, as other programs do. Other arrays are passed over.
+// Numbers are read the same in every locale.
 //
 // The readers trust nothing: counts are held against the size of the file before memory is asked for, indices against
 // the number of vertices, numbers must be finite. Every error is a MeshFileError that names file, place and remedy.

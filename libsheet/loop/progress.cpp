@@ -94,9 +94,7 @@ void Progress::show(double time, std::uint64_t step, std::uint64_t frames_kept) 
     return;
   shown_ = now;
   visible_ = true;
-  const std::string text =
-      fmt::format("\r\x1b[K{}: {}", log::program(),
-                  line(time, step, frames_kept, elapsed()));
+  const std::string text = fmt::format("\r\x1b[K{}: {}", log::program(), line(time, step, frames_kept, elapsed()));
   [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text.data(), text.size());
 }
 

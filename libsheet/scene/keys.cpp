@@ -33,7 +33,9 @@ constexpr Key file_key(std::span<const std::string_view> endings, std::string_vi
   return {"file", Form::file, help, nullptr, "", endings};
 }
 constexpr Key text_key(std::string_view name, std::string_view help) { return {name, Form::text, help}; }
-constexpr Key texts_key(std::string_view name, std::string_view help) { return {name, Form::text, help, nullptr, "[]"}; }
+constexpr Key texts_key(std::string_view name, std::string_view help) {
+  return {name, Form::text, help, nullptr, "[]"};
+}
 constexpr Key boolean_key(std::string_view name, std::string_view help) { return {name, Form::boolean, help}; }
 constexpr Key integer_key(std::string_view name, std::string_view dimensions, std::string_view help) {
   return {name, Form::integer, help, nullptr, dimensions};
@@ -164,8 +166,8 @@ constexpr KeyTable inlet_region_table{"region", inlet_region_keys};
 
 constexpr std::array hold_keys{
     text_key("sheet", "whose vertices are held (default: of all)"),
-    word_key("region", words::borders, "what is held: a border as the sheet lies before its rotation, a box, a sphere, an array",
-             &region_table),
+    word_key("region", words::borders,
+             "what is held: a border as the sheet lies before its rotation, a box, a sphere, an array", &region_table),
     word_key("kind", words::holds, "the position, or the slope too"),
     text_key("axes", "letters of the coordinates that are held (default xyz)"),
     table_key("motion", motion_table),

@@ -178,7 +178,7 @@ void read_thickness(TableReader& table, SheetTable& sheet) {
 // Whether a user's array may have this name: frames can have it, and nobody else does. The programs' own begin with one
 // of these words.
 bool is_free_name(std::string_view name) {
-  constexpr std::array<std::string_view, 9> taken{"emit.",   "gas.",  "merge.", "outflow.", "remesh.",
+  constexpr std::array<std::string_view, 9> taken{"emit.", "gas.",  "merge.",    "outflow.", "remesh.",
                                                   "step.", "tear.", "enclosure", "thickness"};
   return formats::is_array_name(name) && !formats::is_standard_array(name) &&
          std::ranges::none_of(taken, [&](std::string_view word) { return name.starts_with(word); });
@@ -198,9 +198,10 @@ void read_arrays(TableReader& table, SheetTable& sheet) {
     if (item.type != Node::Type::text)
       return table.wrong("arrays", std::string(expected));
     if (!is_free_name(item.text))
-      table.wrong("arrays", fmt::format("\"{}\" cannot be the name of an array that goes along: it has at most 47 of the "
-                                        "characters a to z, 0 to 9, _ . : -, and is none that Sheet has itself",
-                                        item.text));
+      table.wrong("arrays",
+                  fmt::format("\"{}\" cannot be the name of an array that goes along: it has at most 47 of the "
+                              "characters a to z, 0 to 9, _ . : -, and is none that Sheet has itself",
+                              item.text));
     else if (std::ranges::find(sheet.arrays, item.text) != sheet.arrays.end())
       table.wrong("arrays", fmt::format("\"{}\" stands there twice", item.text));
     else

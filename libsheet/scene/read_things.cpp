@@ -178,8 +178,7 @@ void put_at_keyframes(const TableReader& table, Solid& solid) {
 Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Model& model, const Files& files) {
   Hold hold;
   const Node* region = table.take("region");
-  const bool in_space =
-      region != nullptr && region->type == Node::Type::table && region->find("array") == nullptr;
+  const bool in_space = region != nullptr && region->type == Node::Type::table && region->find("array") == nullptr;
   const auto [name, sheet] = read_which_sheet(table, sheets, in_space);
   hold.sheet = name;
   hold.region = read_region(table, sheet).value_or(Border::rim);

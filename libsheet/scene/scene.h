@@ -111,7 +111,7 @@ struct SheetTable {
   Pattern pattern = Pattern::irregular;
   std::int64_t seed = 0;                         // of the irregular pattern
   std::variant<double, ThicknessData> thickness; // [m]
-  std::vector<std::string> arrays; // names of the mesh file's that go along in the frames
+  std::vector<std::string> arrays;               // names of the mesh file's that go along in the frames
   std::vector<Perturbation> perturbations;
   Plane plane = Plane::xz;
   Vector3d center = Vector3d::Zero(); // of the shape (cap: of its sphere; mesh: where the file's origin goes)

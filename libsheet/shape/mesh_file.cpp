@@ -33,10 +33,11 @@ MeshArray array_of(const formats::ForeignMesh& mesh, const std::string& name, co
   if (!array)
     array = mesh.find(name, MeshPlace::cell);
   if (!array)
-    fail(ExitCode::bad_input,
-         "{}: there is no array \"{}\": a PLY file has it as the property {} of its vertices or faces, or, with several "
-         "components, as {}_0, {}_1, ... or {}_x, {}_y, {}_z",
-         path, name, name, name, name, name, name, name);
+    fail(
+        ExitCode::bad_input,
+        "{}: there is no array \"{}\": a PLY file has it as the property {} of its vertices or faces, or, with several "
+        "components, as {}_0, {}_1, ... or {}_x, {}_y, {}_z",
+        path, name, name, name, name, name, name, name);
   return *array;
 }
 

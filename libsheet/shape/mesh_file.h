@@ -15,8 +15,8 @@ struct LoadedMesh {
 };
 
 // Reads OBJ, OFF, PLY, STL or VTU with thickness and velocity where the file has them, and the arrays of these names.
-// Throws Error: io if the file cannot be read, bad_input if its content is wrong, a thickness is not positive, or it has
-// not all of the arrays, a finite number everywhere.
+// Throws Error: io if the file cannot be read, bad_input if its content is wrong, a thickness is not positive, or it
+// has not all of the arrays, a finite number everywhere.
 [[nodiscard]] LoadedMesh load_mesh(const std::string& path, formats::WantedArrays arrays = {});
 
 // Arrays "thickness" (per vertex, per triangle) and "velocity", as far as the mesh has them.

@@ -358,12 +358,13 @@ class AddOn(unittest.TestCase):
 class Page(unittest.TestCase):
     def test_commands_run_and_the_picture_shows_the_sheet(self):
         commands = re.findall(r"^    \$ (.+)$", (root / "docs/blender.md").read_text(), re.M)
-        self.assertEqual(len(commands), 7)
+        self.assertEqual(len(commands), 8)
         os.makedirs("page/build/share")
         os.symlink(archive, "page/build/share/sheet-blender.zip")
         os.symlink(root / "formats", "page/formats")
         for command in commands:
             small = command.replace("--until 1", "--until 0.01").replace("--blur", "--blur --size 96x54 --samples 4")
+            small = small.replace("drape.png", "drape.png --frames 3 --size 64x48 --samples 1")
             shell("cd page; cp -n ../scene.toml ../run.sheet .; " + small)
         image = bpy.data.images.load(os.path.abspath("page/picture.png"))
         pixels = np.array(image.pixels[:]).reshape(54, 96, 4)

@@ -478,7 +478,7 @@ class Simulating(unittest.TestCase):
         compat, said = self.add_on.compat, []
         compat.progress(types.SimpleNamespace(label=lambda **k: said.append(k["text"])), 0.25, "a")
         compat.progress(types.SimpleNamespace(progress=lambda **k: said.append(k["factor"])), 0.5, "b")
-        self.assertEqual(said, ["25 %: a", 0.5])
+        self.assertEqual(said, ["25 %, a", 0.5])
 
 
 with tempfile.TemporaryDirectory() as folder:

@@ -6,8 +6,10 @@ resume, look, render.
 
 PICTURES: a folder for panel.png (the window) and result.png (the picture).
 """
+import importlib.util
 import os
 import pathlib
+import shutil
 import sys
 import tempfile
 import time
@@ -20,55 +22,22 @@ archive = sys.argv[sys.argv.index("--") + 1]
 rest = sys.argv[sys.argv.index("--") + 2:]
 work = pathlib.Path(tempfile.mkdtemp())
 pictures = pathlib.Path(rest[0]).resolve() if rest else work
+example = pathlib.Path(__file__).resolve().parents[2] / "formats/blender/example_simulate.py"
+specification = importlib.util.spec_from_file_location("example_simulate", example)  # not the add-on beside it
+example_simulate = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(example_simulate)
 LONG, SHORT = 2000, 30  # frames: to be cancelled, to be gone on with
-
-
-def look_at(thing, target):
-    thing.rotation_euler = (target - thing.location).to_track_quat("-Z", "Y").to_euler()
-
-
-def material(name, colour, texture=None):
-    made = bpy.data.materials.new(name)
-    made.use_nodes = True
-    made.diffuse_color = (*colour, 1)
-    surface = made.node_tree.nodes["Principled BSDF"]
-    surface.inputs["Base Color"].default_value, surface.inputs["Roughness"].default_value = (*colour, 1), 0.3
-    if texture is not None:
-        node = made.node_tree.nodes.new("ShaderNodeTexImage")
-        node.image = texture
-        made.node_tree.links.new(node.outputs["Color"], surface.inputs["Base Color"])
-    return made
-
-
-def model():
-    """A cloth of liquid with a texture on its left half and a plain colour on its right one, above a ball."""
-    for old in list(bpy.data.objects):
-        if old.type == "MESH":
-            bpy.data.objects.remove(old)
-    bpy.ops.mesh.primitive_uv_sphere_add(radius=0.08, location=(0, 0, 0.02), segments=48, ring_count=24)
-    bpy.ops.object.shade_smooth()
-    ball = bpy.context.object
-    ball.name = "Ball"
-    ball.data.materials.append(material("Porcelain", (0.8, 0.8, 0.75)))
-    bpy.ops.mesh.primitive_grid_add(x_subdivisions=20, y_subdivisions=20, size=0.3, location=(0, 0, 0.11))
-    cloth = bpy.context.object
-    cloth.name = "Cloth"
-    grid = bpy.data.images.new("Grid", 512, 512)
-    grid.generated_type = "COLOR_GRID"
-    cloth.data.materials.append(material("Printed", (0.2, 0.4, 0.8), grid))
-    cloth.data.materials.append(material("Plain", (0.7, 0.15, 0.05)))
-    for face in cloth.data.polygons:
-        face.material_index = int(face.center.x > 0.03)
-    return cloth, ball
 
 
 def show_physics(window):
     area = next(area for area in window.screen.areas if area.type == "PROPERTIES")
     area.spaces.active.context = "PHYSICS"
+    if area.width < 400:
+        bpy.ops.screen.area_move(x=area.x - 1, y=area.y + area.height // 2, delta=-150)
     view = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     view.spaces.active.shading.type = "MATERIAL"
     region = view.spaces.active.region_3d
-    region.view_location, region.view_distance = (0, 0, 0.03), 0.75
+    region.view_location, region.view_distance = (0, 0, 0.03), 0.5
 
 
 def newest_is_shown(scene, cloth):
@@ -84,16 +53,10 @@ def steps():
     cache = sheet_blender.cache
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "tea.blend"))
     window, scene = bpy.context.window_manager.windows[0], bpy.context.scene
-    scene.render.fps, scene.frame_start, scene.frame_end = 50, 1, LONG
     with bpy.context.temp_override(window=window):
-        cloth, ball = model()
+        cloth, ball = example_simulate.model()
+        example_simulate.choose(scene, cloth, ball, LONG)
         show_physics(window)
-    # the panel
-    cloth.sheet_part.role, ball.sheet_part.role = "SHEET", "SOLID"
-    cloth.sheet_part.thickness, cloth.sheet_part.edges = 0.006, 0.008
-    scene.sheet_run.liquid = "honey"
-    scene.sheet_run.viscosity, scene.sheet_run.liquid = 600, "own"
-    with bpy.context.temp_override(window=window):
         assert bpy.ops.sheet.check("EXEC_DEFAULT") == {"FINISHED"}
         assert bpy.ops.sheet.simulate("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
     folder = cache.folder_of(scene, cloth)
@@ -126,30 +89,12 @@ def steps():
     for _ in range(10):
         yield lambda: True
     bpy.ops.screen.screenshot(filepath=str(pictures / "panel.png"))
-    render(scene)
+    example_simulate.render(scene, pictures / "result.png")
     picture = bpy.data.images.load(str(pictures / "result.png"))
     pixels = np.array(picture.pixels[:]).reshape(-1, 4)[:, :3]
     red = (pixels[:, 0] > 1.8 * pixels[:, 1]) & (pixels[:, 0] > 0.15)
     gaudy = pixels.max(axis=1) > 1.5 * pixels.min(axis=1)
     assert red.mean() > 0.03 and (gaudy & ~red).mean() > 0.02, (red.mean(), gaudy.mean())
-
-
-def render(scene):
-    from mathutils import Vector
-    camera = scene.camera
-    camera.data.lens = 60
-    camera.location = (0.3, -0.5, 0.4)
-    look_at(camera, Vector((0, 0, -0.01)))
-    lamp = next(thing for thing in scene.objects if thing.type == "LIGHT")
-    lamp.data.type, lamp.data.energy, lamp.location = "SUN", 3, (1, -1, 2)
-    look_at(lamp, Vector((0, 0, 0)))
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.5, 0.55, 0.6, 1)
-    scene.render.engine, scene.cycles.samples = "CYCLES", 32
-    scene.cycles.use_denoising = False
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 480, 360, 100
-    scene.view_settings.view_transform = "Standard"
-    scene.render.filepath = str(pictures / "result.png")
-    bpy.ops.render.render(write_still=True)
 
 
 state = {"steps": None, "until": None, "since": 0.0}
@@ -168,12 +113,20 @@ def advance():
             raise TimeoutError(f"waited in vain in line {state['steps'].gi_frame.f_lineno}")
     except StopIteration:
         print("window: ok", flush=True)
-        os._exit(0)  # Blender's own end needs a hand that says what to do with the file
+        end(0)
     except BaseException:
         traceback.print_exc()
-        sys.stdout.flush()
-        os._exit(1)
+        end(1)
     return 0.1
+
+
+def end(code):
+    """Blender's own end needs a hand that says what to do with the file."""
+    if "sheet_blender" in sys.modules:
+        sys.modules["sheet_blender"].cache.stop(work / "tea_sheet/Cloth")
+    shutil.rmtree(work, ignore_errors=True)
+    sys.stdout.flush()
+    os._exit(code)
 
 
 bpy.app.timers.register(advance, first_interval=1.0, persistent=True)

@@ -71,7 +71,7 @@ def progress(layout: Any, part: float, text: str) -> None:
     if hasattr(layout, "progress"):  # since 4.0
         layout.progress(factor=part, type="BAR", text=text)
     else:
-        layout.label(text=f"{100 * part:.0f} %: {text}", icon="TIME")
+        layout.label(text=f"{100 * part:.0f} %" + (f", {text}" if text else ""), icon="TIME")
 
 
 def confirm(operator: Any, event: Any, message: str) -> Any:

@@ -94,7 +94,7 @@ class SHEET_PT_held(bpy.types.Panel):
         for kind in ("pinned", "clamped", "inlet"):
             row.operator("sheet.from_selection", text=kind.capitalize()).kind = kind
         if not row.enabled:
-            layout.label(text="of what is selected in Edit Mode", icon="BLANK1")
+            layout.label(text="(selected, in Edit Mode)", icon="BLANK1")
 
 
 class SHEET_PT_liquid(bpy.types.Panel):
@@ -109,8 +109,14 @@ class SHEET_PT_liquid(bpy.types.Panel):
     def draw(self, context: Any) -> None:
         layout, run = self.layout, context.scene.sheet_run
         layout.use_property_split, layout.use_property_decorate = True, False
-        for name in ("liquid", "viscosity", "density", "surface_tension", "look", "self_contact"):
-            layout.prop(run, name)
+        layout.prop(run, "liquid")
+        for name, label, unit in (("viscosity", "Viscosity", "Pa s"), ("density", "Density", "kg/m³"),
+                                  ("surface_tension", "Tension", "N/m")):
+            row = layout.row()
+            row.prop(run, name, text=label)
+            row.label(text=unit)
+        layout.prop(run, "look")
+        layout.prop(run, "self_contact")
 
 
 class SHEET_PT_run(bpy.types.Panel):
@@ -143,8 +149,8 @@ class SHEET_PT_run(bpy.types.Panel):
 
     def draw_buttons(self, layout: Any, state: cache.Progress) -> None:
         if state.alive:
-            left = "" if state.left is None else f", {duration(state.left)} left"
-            progress(layout, state.part, (state.message or "ends the run") + left)
+            progress(layout, state.part, "" if state.left is None else f"{duration(state.left)} left")
+            layout.label(text=state.message or "ends the run", icon="BLANK1")
             layout.operator("sheet.stop", icon="CANCEL")
             return
         row = layout.row(align=True)

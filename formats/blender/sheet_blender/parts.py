@@ -83,7 +83,7 @@ class SheetRun(bpy.types.PropertyGroup):
     quality: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Quality", items=QUALITIES, default="normal")
     follow: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Show Frames as They Come", description="The scene goes to the newest frame of the run", default=True)
+        name="Show Newest Frame", description="The scene goes to the newest frame of the run", default=True)
     cache: bpy.props.StringProperty(  # type: ignore[valid-type]
         name="Cache", subtype="DIR_PATH", description="Folder of the run; empty: beside the .blend")
 

@@ -241,7 +241,7 @@ def _size_of(file: pathlib.Path) -> int:
 def _redraw(context: Any) -> None:
     for window in context.window_manager.windows:
         for area in window.screen.areas:
-            if area.type in ("PROPERTIES", "VIEW_3D"):
+            if area.type in ("PROPERTIES", "VIEW_3D", "DOPESHEET_EDITOR"):
                 area.tag_redraw()
 
 

@@ -480,10 +480,11 @@ TEST(Read, ProblemsOfSeveralSheets) {
 
 TEST(Read, ArraysOfAMeshGoAlongAndChooseWhatIsHeld) {
   const std::string mesh = "[sheet]\nshape = \"mesh\"\nfile = \"a.ply\"\nthickness = 0.02\n";
-  const Scene s = parse_scene(mesh + "arrays = [\"blender.uv\", \"material\"]\n" + liquid +
-                                  "[[hold]]\nregion = {array = \"painted\"}\n[inflow]\nregion = {array = \"in\"}\nvelocity "
-                                  "= [0, 0, -1]\n",
-                              "s");
+  const Scene s =
+      parse_scene(mesh + "arrays = [\"blender.uv\", \"material\"]\n" + liquid +
+                      "[[hold]]\nregion = {array = \"painted\"}\n[inflow]\nregion = {array = \"in\"}\nvelocity "
+                      "= [0, 0, -1]\n",
+                  "s");
   EXPECT_EQ(s.sheets[0].arrays, (std::vector<std::string>{"blender.uv", "material"}));
   EXPECT_EQ(std::get<ArrayRegion>(s.holds[0].region).array, "painted");
   EXPECT_EQ(std::get<ArrayRegion>(s.inflows[0].region).array, "in");
@@ -495,8 +496,9 @@ TEST(Read, ArraysOfAMeshGoAlongAndChooseWhatIsHeld) {
   EXPECT_NE(wrong("arrays = \"a\"").find("expected names"), std::string::npos);
   EXPECT_NE(problem(disk + "arrays = [\"a\"]\n" + liquid).find("shape \"mesh\""), std::string::npos);
   EXPECT_NE(problem(disk + liquid + "[[hold]]\nregion = {array = \"a\"}\n").find("shape \"mesh\""), std::string::npos);
-  EXPECT_NE(problem(mesh + liquid + "[[hold]]\nregion = {array = \"a\"}\nroll = true\nmotion = {kind = \"translating\", "
-                                    "velocity = [1, 0, 0]}\n")
+  EXPECT_NE(problem(mesh + liquid +
+                    "[[hold]]\nregion = {array = \"a\"}\nroll = true\nmotion = {kind = \"translating\", "
+                    "velocity = [1, 0, 0]}\n")
                 .find("a part of space"),
             std::string::npos);
 }

@@ -64,10 +64,15 @@ TEST(Solidify, EveryTriangleSaysWhereItComesFrom) {
   std::vector<std::uint32_t> origin;
   const TriangleMesh solid = solidify(mesh, std::vector<double>(4, 0.1), &origin);
   ASSERT_EQ(origin.size(), solid.triangles.size());
-  for (std::size_t t = 0; t < solid.triangles.size(); ++t) // it shares two vertices with the one it comes from, or three
-    EXPECT_GE(std::ranges::count_if(mesh.triangles[origin[t]], [&](std::uint32_t v) {
-                return std::ranges::any_of(solid.triangles[t], [&](std::uint32_t w) { return w % 4 == v; });
-              }), t < 4 ? 3 : 2) << t;
+  for (std::size_t t = 0; t < solid.triangles.size();
+       ++t) // it shares two vertices with the one it comes from, or three
+    EXPECT_GE(std::ranges::count_if(mesh.triangles[origin[t]],
+                                    [&](std::uint32_t v) {
+                                      return std::ranges::any_of(solid.triangles[t],
+                                                                 [&](std::uint32_t w) { return w % 4 == v; });
+                                    }),
+              t < 4 ? 3 : 2)
+        << t;
 }
 
 } // namespace
