@@ -414,6 +414,18 @@ class Simulating(unittest.TestCase):
         self.assertEqual(self.told(), "")
         self.assertIn('kind = "clamped"', (self.folder / "told/scene.toml").read_text())
 
+    def test_what_blender_does_not_evaluate_is_refused_or_evaluated(self):
+        cloth, ball = self.cloth(), self.ball()
+        ball.modifiers.new("Finer", "SUBSURF")
+        ball.hide_viewport = True
+        self.told()
+        fine = self.add_on.body_files.read_body(self.folder / "told/scene_solid_0.ply")
+        self.assertGreater(len(fine.position), 3 * len(ball.data.vertices))
+        self.assertTrue(ball.hide_viewport)
+        bpy.context.view_layer.layer_collection.children["Liquid"].exclude = True
+        with self.assertRaisesRegex(self.add_on.SheetError, '"Cloth" is in no collection of this view layer'):
+            self.told()
+
     def test_force_fields_are_told(self):
         self.cloth()
         bpy.ops.object.effector_add(type="WIND")
@@ -445,18 +457,20 @@ class Simulating(unittest.TestCase):
         data = types.SimpleNamespace(action=action, action_slot="own")
         self.assertEqual(compat.fcurves_of(types.SimpleNamespace(animation_data=data)), ["x", "y"])
 
-    def test_sockets_are_set_in_every_blender(self):
+    def test_sockets_are_shown_in_every_blender(self):
         compat = self.add_on.compat
         cube = self.ball()
-        modifier = self.add_on.slab.add_slab(cube)
-        compat.set_socket(modifier, "Factor", 2.0)
-        self.assertEqual(modifier[modifier.node_group.inputs["Factor"].identifier], 2.0)
+        modifier, drawn = self.add_on.slab.add_slab(cube), []
+        layout = types.SimpleNamespace(prop=lambda data, name, text: drawn.append((data, name, text)))
+        compat.draw_socket(layout, modifier, "Thickness Factor")
+        self.assertEqual(drawn[0][1:], (f'["{modifier.node_group.inputs[1].identifier}"]', "Thickness Factor"))
+        self.assertEqual(modifier.path_resolve(drawn[0][1]), 1.0)
         socket = types.SimpleNamespace(name="Factor", identifier="Socket_1", in_out="INPUT")
         tree = types.SimpleNamespace(interface=types.SimpleNamespace(items_tree=[socket]))
         inputs = types.SimpleNamespace(Socket_1=types.SimpleNamespace(value=1.0))
         newer = types.SimpleNamespace(node_group=tree, properties=types.SimpleNamespace(inputs=inputs))
-        compat.set_socket(newer, "Factor", 3.0)
-        self.assertEqual(inputs.Socket_1.value, 3.0)
+        compat.draw_socket(layout, newer, "Factor")
+        self.assertEqual(drawn[1], (inputs.Socket_1, "value", "Factor"))
 
     def test_texts_in_toml_are_read_in_every_python(self):
         compat = self.add_on.compat

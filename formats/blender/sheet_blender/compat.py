@@ -20,7 +20,7 @@ except ImportError:
         raise ImportError("Sheet's add-on needs the package sheetstream: install sheet-blender.zip, which has it, or"
                           " put the folder formats/python on PYTHONPATH") from error
 
-__all__ = ["add_socket", "confirm", "fcurves_of", "progress", "read_toml", "set_polygon_sizes", "set_socket",
+__all__ = ["add_socket", "confirm", "draw_socket", "fcurves_of", "progress", "read_toml", "set_polygon_sizes",
            "sheetstream"]
 
 
@@ -43,16 +43,16 @@ def add_socket(tree: Any, name: str, side: str, kind: str) -> Any:
     return (tree.inputs if side == "INPUT" else tree.outputs).new(kind, name)
 
 
-def set_socket(modifier: Any, name: str, value: Any) -> None:
-    """Sets an input of a modifier of geometry nodes by the name of its socket."""
+def draw_socket(layout: Any, modifier: Any, name: str) -> None:
+    """An input of a modifier of geometry nodes, by the name of its socket, for the user to change."""
     tree = modifier.node_group
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
     identifier = next(s.identifier for s in sockets if s.name == name and getattr(s, "in_out", "INPUT") == "INPUT")
     inputs = getattr(getattr(modifier, "properties", None), "inputs", None)
     if inputs is not None and hasattr(inputs, identifier):  # since 5.2
-        getattr(inputs, identifier).value = value
+        layout.prop(getattr(inputs, identifier), "value", text=name)
     else:
-        modifier[identifier] = value
+        layout.prop(modifier, f'["{identifier}"]', text=name)
 
 
 def fcurves_of(thing: Any) -> list[Any]:

@@ -32,6 +32,9 @@ def surface_of(thing: bpy.types.Object, edges: float = 0.0) -> Iterator[bpy.type
     none."""
     if thing.type not in WITH_SURFACE:
         raise SheetError(f'"{thing.name}" has no surface: a {thing.type.lower()} is neither a sheet nor a solid')
+    if thing.name not in bpy.context.view_layer.objects:
+        raise SheetError(f'"{thing.name}" is in no collection of this view layer, so Blender does not evaluate it: tick'
+                         " its collection in the outliner, or give it the role None")
     evaluated = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
     split = None

@@ -9,12 +9,13 @@ import bmesh
 import bpy
 
 from . import cache
-from .compat import progress
+from .compat import draw_socket, progress
 from .errors import SheetError
 from .evaluated import WITH_SURFACE
 from .parts import role_of, the_sheet, times_of
 from .scene_file import told_of_scene, holds_by_name
 from .simulate import duration, words_of
+from .slab import FACTOR, GROUP
 
 COLUMNS = 46  # of a message in a panel of the usual width [characters]
 
@@ -37,6 +38,10 @@ class SHEET_PT_object(bpy.types.Panel):
     def draw(self, context: Any) -> None:
         for name in ("file", "start", "speed", "between"):
             self.layout.prop(context.object.sheet, name)
+        slab = next((m for m in context.object.modifiers if m.type == "NODES" and m.node_group and
+                     m.node_group.name == GROUP), None)
+        if slab is not None:
+            draw_socket(self.layout, slab, FACTOR)
         message = context.object.sheet.message
         self.layout.label(text=message, icon="ERROR" if message.startswith("Error") else "INFO")
 

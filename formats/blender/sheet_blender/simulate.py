@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pathlib
-import shutil
 import tempfile
 import time
 from typing import Any
@@ -30,13 +29,15 @@ def write_here(folder: pathlib.Path, scene: bpy.types.Scene) -> Written:
     """Writes what the panels say, at the scene's first frame. Raises SheetError, OSError."""
     folder.mkdir(parents=True, exist_ok=True)
     plan, now = plan_of(scene), scene.frame_current
-    hidden = plan.sheet.hide_viewport
+    hidden = [thing for thing in (plan.sheet, *(solid for solid, _ in plan.solids)) if thing.hide_viewport]
     try:
-        plan.sheet.hide_viewport = False  # what is hidden is not evaluated
+        for thing in hidden:
+            thing.hide_viewport = False  # what is disabled in viewports is not evaluated
         scene.frame_set(scene.frame_start)
         return write_scene(str(folder / cache.SCENE), plan)
     finally:
-        plan.sheet.hide_viewport = hidden
+        for thing in hidden:
+            thing.hide_viewport = True
         scene.frame_set(now)
 
 

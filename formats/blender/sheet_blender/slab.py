@@ -12,25 +12,27 @@ import bpy
 
 from .compat import add_socket
 
+SLAB, FACTOR = "Sheet slab", "Thickness Factor"  # the modifier, and its input
+GROUP = "Sheet slab of two sides"
+
 
 def add_slab(thing: bpy.types.Object) -> bpy.types.Modifier:
     """Gives the object the modifiers that show both sides of the sheet and its rim, at half the thickness from it;
     returns the second one, which does it."""
     twice = thing.modifiers.new("Sheet sides", "ARRAY")
     twice.count, twice.use_relative_offset, twice.show_expanded = 2, False, False
-    modifier = thing.modifiers.new("Sheet slab", "NODES")
+    modifier = thing.modifiers.new(SLAB, "NODES")
     modifier.node_group = slab_group()
     return modifier
 
 
 def slab_group() -> bpy.types.NodeTree:
-    """The node group of the slab, made once a file. Its input "Factor" makes the slab thicker than it is."""
-    name = "Sheet slab"
-    if name in bpy.data.node_groups:
-        return bpy.data.node_groups[name]
-    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    """The node group of the slab, made once a file. Its input FACTOR makes the slab thicker than it is."""
+    if GROUP in bpy.data.node_groups:
+        return bpy.data.node_groups[GROUP]
+    tree = bpy.data.node_groups.new(GROUP, "GeometryNodeTree")
     add_socket(tree, "Geometry", "INPUT", "NodeSocketGeometry")
-    factor = add_socket(tree, "Factor", "INPUT", "NodeSocketFloat")
+    factor = add_socket(tree, FACTOR, "INPUT", "NodeSocketFloat")
     factor.default_value, factor.min_value = 1.0, 0.0
     add_socket(tree, "Geometry", "OUTPUT", "NodeSocketGeometry")
     link = tree.links.new
@@ -59,7 +61,7 @@ def slab_group() -> bpy.types.NodeTree:
         place, scale = tree.nodes.new("GeometryNodeSetPosition"), tree.nodes.new("ShaderNodeVectorMath")
         scale.operation = "SCALE"
         link(slab, scale.inputs[0])
-        link(node("ShaderNodeMath", "MULTIPLY", entry.outputs["Factor"], by), scale.inputs["Scale"])
+        link(node("ShaderNodeMath", "MULTIPLY", entry.outputs[FACTOR], by), scale.inputs["Scale"])
         link(geometry, place.inputs["Geometry"])
         link(scale.outputs["Vector"], place.inputs["Offset"])
         if selection is not None:
