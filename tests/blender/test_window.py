@@ -95,6 +95,17 @@ def steps():
     red = (pixels[:, 0] > 1.8 * pixels[:, 1]) & (pixels[:, 0] > 0.15)
     gaudy = pixels.max(axis=1) > 1.5 * pixels.min(axis=1)
     assert red.mean() > 0.03 and (gaudy & ~red).mean() > 0.02, (red.mean(), gaudy.mean())
+    with bpy.context.temp_override(window=window):
+        bpy.ops.sheet.free("INVOKE_DEFAULT")
+    for _ in range(5):
+        yield lambda: True
+    assert (folder / "run/run.sheet").exists() and cloth.hide_get()  # it asks, and nobody has said yes
+    window.event_simulate(type="ESC", value="PRESS")
+    window.event_simulate(type="ESC", value="RELEASE")
+    yield lambda: True
+    assert (folder / "run/run.sheet").exists()
+    assert bpy.ops.sheet.free("EXEC_DEFAULT") == {"FINISHED"}
+    assert not folder.exists() and not cloth.hide_get() and "Cloth sheet" not in bpy.data.objects
 
 
 state = {"steps": None, "until": None, "since": 0.0}

@@ -188,7 +188,7 @@ class Carried:
                 values = self._values_of(i, frame, triangle) if REST in frame else None
             if values is not None:
                 _put_layer(mesh, layer, values.reshape(-1, values.shape[2]))
-        if MATERIAL in frame:
+        if MATERIAL in frame and len(mesh.materials) > 1:  # else a preset's, which the whole sheet has
             mesh.polygons.foreach_set("material_index", np.asarray(frame[MATERIAL]).astype(np.int32).ravel())
 
     def _values_of(self, i: int, frame: Any, triangle: Any) -> Any:

@@ -91,10 +91,10 @@ def result_of(scene: bpy.types.Scene) -> bpy.types.Object | None:
     if shown is None or shown.name not in scene.objects:
         shown = _make_result(thing, scene)
         thing.sheet_part.result = shown
-    settings = shown.sheet
-    settings.start, settings.first_time, settings.mesh_file = scene.frame_start, 0.0, str(folder / "scene.ply")
-    if settings.file != str(file):
-        settings.file = str(file)
+    wanted = {"first_time": 0.0, "mesh_file": str(folder / "scene.ply"), "start": scene.frame_start, "file": str(file)}
+    for name, value in wanted.items():
+        if getattr(shown.sheet, name) != value:  # each change shows the run anew
+            setattr(shown.sheet, name, value)
     return shown
 
 
