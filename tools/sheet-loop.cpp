@@ -50,6 +50,12 @@ int main(int argc, char** argv) {
       "newer than the stream's last frame",
       Provenance::omit);
   tool.option("--checkpoint-every", o.checkpoint_every, "SECONDS", "of the clock on the wall", Provenance::omit);
+  tool.option(
+      "--progress", o.progress, "FILE",
+      "tell other programs how far the run is: FILE is replaced as a whole, five times a second at most, by a line of "
+      "JSON with state (running, done or interrupted; a run that fails leaves running), time and until [s], step and "
+      "steps, frames, elapsed and left [s of the clock on the wall]; null is what is not known",
+      Provenance::omit);
   tool.option("-i,--input", o.input, "FILE", "stream to start from; - for standard input", Provenance::omit);
   tool.option("-o,--output", o.output, "FILE",
               "stream to write; - for standard output. A file that is there is kept as FILE~", Provenance::omit);

@@ -21,6 +21,7 @@ struct MeshArray {
   MeshPlace place = MeshPlace::point;
   int components = 1;
   std::vector<double> values; // tuple after tuple
+  bool whole = false;         // the file has whole numbers
 };
 
 struct ForeignMesh {
@@ -33,6 +34,15 @@ struct ForeignMesh {
   [[nodiscard]] const MeshArray* find(std::string_view name, MeshPlace place) const {
     for (const MeshArray& array : arrays)
       if (array.name == name && array.place == place)
+        return &array;
+    return nullptr;
+  }
+
+  // The texture coordinates: the first array of two components at points that is called "uv", or NAME.uv. Or nullptr.
+  [[nodiscard]] const MeshArray* texture() const {
+    for (const MeshArray& array : arrays)
+      if (array.place == MeshPlace::point && array.components == 2 &&
+          (array.name == "uv" || array.name.ends_with(".uv")))
         return &array;
     return nullptr;
   }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Stanford PLY: a text header that declares elements and their properties, then the elements as text or as numbers in
 // either byte order. Read: element vertex (x, y, z, thickness, velocity_x.. or vx..) and element face (the list
-// vertex_indices or vertex_index, thickness, velocity); other elements and properties are passed over.
+// vertex_indices or vertex_index, thickness, velocity), and the arrays that are asked for; other elements and
+// properties are passed over.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "formats/cpp/byte_scan.h"
 #include "formats/cpp/mesh_assembler.h"
@@ -204,15 +207,51 @@ struct Target {
   int component = 0;
 };
 
+// The names of the properties of an array that somebody asks for, one a component; empty if the element has none.
+std::vector<std::string> properties_of(const std::string& array, const Element& element) {
+  const auto has = [&](const std::string& name) {
+    return std::any_of(element.properties.begin(), element.properties.end(),
+                       [&](const Property& p) { return p.name == name && !p.list_count; });
+  };
+  std::vector<std::vector<std::string>> known = {{array}, {array + "_x", array + "_y", array + "_z"}};
+  if (array == "uv")
+    known.insert(known.end(), {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}});
+  for (std::vector<std::string>& names : known)
+    if (std::all_of(names.begin(), names.end(), has))
+      return std::move(names);
+  std::vector<std::string> numbered;
+  while (has(array + "_" + std::to_string(numbered.size())))
+    numbered.push_back(array + "_" + std::to_string(numbered.size()));
+  return numbered;
+}
+
 struct Wanted {
   MeshArray thickness{"thickness", MeshPlace::point, 1, {}};
   MeshArray velocity{"velocity", MeshPlace::point, 3, {}};
+  std::vector<MeshArray> others;
+  std::vector<std::vector<std::string>> other_names; // their properties
 
-  explicit Wanted(MeshPlace place) { thickness.place = velocity.place = place; }
+  Wanted(MeshPlace place, const Element& element, WantedArrays names) {
+    thickness.place = velocity.place = place;
+    for (const std::string& name : names)
+      if (std::vector<std::string> properties = properties_of(name, element); !properties.empty()) {
+        MeshArray array{name, place, static_cast<int>(properties.size()), {}};
+        array.values.resize(properties.size() * element.count);
+        array.whole = true; // unless a property is not
+        others.push_back(std::move(array));
+        other_names.push_back(std::move(properties));
+      }
+  }
 
   Target target(const Property& property) {
     if (property.list_count)
       return {};
+    for (std::size_t i = 0; i < others.size(); ++i)
+      for (std::size_t k = 0; k < other_names[i].size(); ++k)
+        if (other_names[i][k] == property.name) {
+          others[i].whole = others[i].whole && !is_real(property.type);
+          return {&others[i], static_cast<int>(k)};
+        }
     if (property.name == "thickness")
       return {&thickness, 0};
     for (int d = 0; d < 3; ++d) {
@@ -251,6 +290,7 @@ struct Wanted {
     for (MeshArray* array : {&thickness, &velocity})
       if (!array->values.empty())
         arrays.push_back(std::move(*array));
+    std::move(others.begin(), others.end(), std::back_inserter(arrays));
   }
 };
 
@@ -259,7 +299,7 @@ void store(const Target& target, std::uint64_t row, double value) {
     target.array->values[row * target.array->components + target.component] = value;
 }
 
-void read_vertices(const Element& element, Body& body, const std::string& file, MeshAssembler& mesh,
+void read_vertices(const Element& element, Body& body, const std::string& file, WantedArrays names, MeshAssembler& mesh,
                    std::vector<MeshArray>& arrays) {
   std::vector<int> axis; // of each property, -1 for none
   std::array<int, 3> seen{};
@@ -273,7 +313,7 @@ void read_vertices(const Element& element, Body& body, const std::string& file, 
   if (seen != std::array<int, 3>{1, 1, 1})
     mesh_fail(file, "line " + std::to_string(element.line),
               "element 'vertex' needs the properties x, y and z, once each");
-  Wanted wanted(MeshPlace::point);
+  Wanted wanted(MeshPlace::point, element, names);
   const std::vector<Target> targets = wanted.prepare(element, file);
   mesh.points.resize(element.count);
   for (std::uint64_t row = 0; row < element.count; ++row)
@@ -295,7 +335,7 @@ void read_vertices(const Element& element, Body& body, const std::string& file, 
   wanted.move_to(arrays);
 }
 
-void read_faces(const Element& element, Body& body, const std::string& file, MeshAssembler& mesh,
+void read_faces(const Element& element, Body& body, const std::string& file, WantedArrays names, MeshAssembler& mesh,
                 std::vector<MeshArray>& arrays) {
   const auto is_corner_list = [](const Property& p) {
     return p.list_count && (p.name == "vertex_indices" || p.name == "vertex_index") && !is_real(p.type);
@@ -306,7 +346,7 @@ void read_faces(const Element& element, Body& body, const std::string& file, Mes
   if (lists != 1)
     mesh_fail(file, "line " + std::to_string(element.line),
               "element 'face' needs one list of whole numbers called vertex_indices or vertex_index");
-  Wanted wanted(MeshPlace::cell);
+  Wanted wanted(MeshPlace::cell, element, names);
   const std::vector<Target> targets = wanted.prepare(element, file);
   std::vector<std::int64_t> corners;
   for (std::uint64_t row = 0; row < element.count; ++row)
@@ -339,7 +379,7 @@ void skip_element(const Element& element, Body& body) {
 
 } // namespace
 
-MeshImport import_ply(std::string_view bytes, const std::string& name) {
+MeshImport import_ply(std::string_view bytes, const std::string& name, WantedArrays names) {
   TextScan text(bytes, name, 0);
   const Header header = read_header(text, name);
   Body body(bytes, text, header.encoding, name);
@@ -353,12 +393,12 @@ MeshImport import_ply(std::string_view bytes, const std::string& name) {
       if (has_vertices)
         mesh_fail(name, line, "a second element 'vertex'");
       has_vertices = true;
-      read_vertices(element, body, name, mesh, arrays);
+      read_vertices(element, body, name, names, mesh, arrays);
     } else if (element.name == "face") {
       if (!has_vertices || has_faces)
         mesh_fail(name, line, "element 'face' must come once, after element 'vertex'");
       has_faces = true;
-      read_faces(element, body, name, mesh, arrays);
+      read_faces(element, body, name, names, mesh, arrays);
     } else {
       if (element.name == "tristrips" && element.count > 0)
         mesh_fail(name, line, "triangle strips are not supported; save the mesh with faces");

@@ -31,10 +31,22 @@ void write_file(const std::string& path, const std::string& bytes) {
     fail("write");
 }
 
-void append_point(std::string& text, const std::array<double, 3>& point) {
+void append_point(std::string& text, std::span<const double> point) {
   for (const double x : point) {
     text += ' ';
     append_real(text, x);
+  }
+}
+
+// A line for each tuple of an array, if there is one.
+void append_lines(std::string& text, const char* keyword, const MeshArray* array) {
+  if (!array)
+    return;
+  const auto width = static_cast<std::size_t>(array->components);
+  for (std::size_t i = 0; i < array->values.size(); i += width) {
+    text += keyword;
+    append_point(text, std::span(array->values).subspan(i, width));
+    text += '\n';
   }
 }
 
@@ -57,15 +69,29 @@ void check_export(const ForeignMesh& mesh) {
 
 std::string encode_obj(const ForeignMesh& mesh) {
   check_export(mesh);
+  const MeshArray *texture = mesh.texture(), *normal = mesh.find("normal", MeshPlace::point);
+  if (normal && normal->components != 3)
+    normal = nullptr;
   std::string text = "# written by Sheet\n";
   for (const auto& point : mesh.points) {
     text += 'v';
     append_point(text, point);
     text += '\n';
   }
-  for (const auto& [a, b, c] : mesh.triangles)
-    text += "f " + std::to_string(a + std::uint64_t{1}) + " " + std::to_string(b + std::uint64_t{1}) + " " +
-            std::to_string(c + std::uint64_t{1}) + "\n";
+  append_lines(text, "vt", texture);
+  append_lines(text, "vn", normal);
+  for (const auto& triangle : mesh.triangles) {
+    text += 'f';
+    for (const std::uint32_t corner : triangle) {
+      const std::string number = std::to_string(corner + std::uint64_t{1});
+      text += " " + number;
+      if (texture || normal)
+        text += "/" + (texture ? number : "");
+      if (normal)
+        text += "/" + number;
+    }
+    text += '\n';
+  }
   return text;
 }
 

@@ -4,7 +4,10 @@
 //   VTU   points and all arrays as 64-bit reals, appended raw data, little endian
 //   PLY   binary little endian, 64-bit reals; arrays become properties: name, or name_x, _y, _z for 3 components, or
 //         name_0, name_1, ... for other numbers; spaces in names become underscores; the time as "comment time 0.5"
-//   OBJ, OFF   points and triangles only, shortest text that reads back as the same double
+//   OBJ   points and triangles, shortest text that reads back as the same double; vt of ForeignMesh::texture and vn of
+//   an
+//         array "normal" of three components at points, if the mesh has them
+//   OFF   points and triangles only, as in OBJ
 //   STL   binary; 32-bit coordinates (the format has no others), triangles only
 //
 // Arrays must have one tuple a point or a triangle, indices must be in range: std::invalid_argument otherwise.

@@ -52,15 +52,15 @@ std::optional<MeshFormat> mesh_format_of(std::string_view path) {
   return std::nullopt;
 }
 
-MeshImport import_mesh(const std::string& path) {
+MeshImport import_mesh(const std::string& path, WantedArrays arrays) {
   const std::optional<MeshFormat> format = mesh_format_of(path);
   if (!format)
     throw MeshFileError(MeshFileError::Kind::content,
                         path + ": unknown kind of mesh file; its name must end in .obj, .off, .ply, .stl or .vtu");
-  return import_mesh(read_file(path), *format, path);
+  return import_mesh(read_file(path), *format, path, arrays);
 }
 
-MeshImport import_mesh(std::string_view bytes, MeshFormat format, const std::string& name) {
+MeshImport import_mesh(std::string_view bytes, MeshFormat format, const std::string& name, WantedArrays arrays) {
   if (format != MeshFormat::stl) { // which may be binary and begin with anything
     bytes = without_mark(bytes);
     if (is_utf16(bytes))
@@ -72,7 +72,7 @@ MeshImport import_mesh(std::string_view bytes, MeshFormat format, const std::str
   case MeshFormat::off:
     return import_off(bytes, name);
   case MeshFormat::ply:
-    return import_ply(bytes, name);
+    return import_ply(bytes, name, arrays);
   case MeshFormat::stl:
     return import_stl(bytes, name);
   case MeshFormat::vtu:

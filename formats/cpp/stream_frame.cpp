@@ -28,13 +28,6 @@ template <class Table, class Enum> typename Table::value_type lookup(const Table
 
 bool is_floating(Type type) { return type == Type::float32 || type == Type::float64; }
 
-bool good_name(std::string_view name) {
-  const auto good = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == ':' || c == '-';
-  };
-  return !name.empty() && name.size() < sizeof(layout::ArrayEntry::name) && std::all_of(name.begin(), name.end(), good);
-}
-
 bool good_unit(std::string_view unit) {
   const auto good = [](char c) { return c > ' ' && c < 0x7f; };
   return !unit.empty() && unit.size() < sizeof(layout::ArrayEntry::unit) && std::all_of(unit.begin(), unit.end(), good);
@@ -74,6 +67,13 @@ std::size_t size_of(Type type) noexcept { return lookup(type_sizes, type); }
 std::string_view name_of(Place place) noexcept { return lookup(place_names, place); }
 std::string_view name_of(Type type) noexcept { return lookup(type_names, type); }
 std::string_view name_of(Transfer transfer) noexcept { return lookup(transfer_names, transfer); }
+
+bool is_array_name(std::string_view name) {
+  const auto good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == ':' || c == '-';
+  };
+  return !name.empty() && name.size() < sizeof(layout::ArrayEntry::name) && std::all_of(name.begin(), name.end(), good);
+}
 
 Array* Frame::find(std::string_view name) noexcept {
   const auto it = std::find_if(arrays.begin(), arrays.end(), [&](const Array& a) { return a.name == name; });
@@ -141,7 +141,7 @@ std::string find_header_error(const Frame& frame) {
 }
 
 std::string find_entry_error(const Array& a, const Frame& frame) {
-  if (!good_name(a.name))
+  if (!is_array_name(a.name))
     return "its name is not 1 to 47 characters of [a-z0-9_.:-]";
   if (!good_unit(a.unit))
     return "its unit is not 1 to 23 printable characters without blanks (\"1\" for none)";

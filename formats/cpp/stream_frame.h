@@ -108,6 +108,10 @@ struct Frame {
 // leaves open. The name must be a standard one.
 [[nodiscard]] Array make_standard_array(std::string_view name, std::uint64_t rows, std::uint32_t components = 1);
 
+// Whether an array may have this name, and whether it is that of a standard one.
+[[nodiscard]] bool is_array_name(std::string_view name);
+[[nodiscard]] bool is_standard_array(std::string_view name);
+
 // What a reader or writer throws: `kind` decides the exit code of a tool.
 class StreamError : public std::runtime_error {
 public:

@@ -202,6 +202,8 @@ std::string find_value_error(const Frame& frame) {
   return {};
 }
 
+bool is_standard_array(std::string_view name) { return find_standard(name) != nullptr; }
+
 Array make_standard_array(std::string_view name, std::uint64_t rows, std::uint32_t components) {
   const Standard* s = find_standard(name);
   if (s == nullptr)

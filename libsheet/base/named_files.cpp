@@ -123,9 +123,9 @@ std::string find_named_file(const std::string& name, const std::string& checksum
        name);
 }
 
-formats::MeshImport import_named_mesh(const std::string& path) try {
+formats::MeshImport import_named_mesh(const std::string& path, formats::WantedArrays arrays) try {
   check_named_file(path);
-  return formats::import_mesh(path);
+  return formats::import_mesh(path, arrays);
 } catch (const formats::MeshFileError& error) {
   fail(error.kind() == formats::MeshFileError::Kind::io ? ExitCode::io : ExitCode::bad_input, "{}", error.what());
 }

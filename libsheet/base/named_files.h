@@ -28,6 +28,6 @@ void look_beside(const std::string& stream);
 inline constexpr const char* stream_folder_variable = "SHEET_STREAM_FOLDER";
 
 // The mesh of such a file. Throws Error: io, bad_input (content, or a kind that is not known).
-[[nodiscard]] formats::MeshImport import_named_mesh(const std::string& path);
+[[nodiscard]] formats::MeshImport import_named_mesh(const std::string& path, formats::WantedArrays arrays = {});
 
 } // namespace sheet

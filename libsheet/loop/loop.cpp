@@ -92,7 +92,7 @@ public:
     Pipeline pipeline(options_.pipeline);
     StreamReader returned(pipeline.output(), "the pipeline's output");
     StreamWriter sent(pipeline.input(), "the pipeline's input");
-    Progress progress(frame_.time, frame_.step, options_.until, options_.steps);
+    Progress progress(frame_.time, frame_.step, options_.until, options_.steps, options_.progress);
     const auto begin = Clock::now();
     auto checkpointed = begin;
     std::uint64_t rounds = 0;
@@ -107,6 +107,7 @@ public:
         const int signal = signals.take();
         interrupted(pipeline, signals, sent, returned, rounds,
                     std::chrono::duration<double>(Clock::now() - begin).count());
+        progress.end(frame_.time, frame_.step, output_->frames(), "interrupted");
         return signal;
       }
       ++rounds;
@@ -136,6 +137,7 @@ public:
     save_state();
     finish(pipeline, sent, returned, rounds, elapsed);
     output_->end();
+    progress.end(frame_.time, frame_.step, output_->frames(), "done");
     if (stop_)
       log::note("stopped at step {}, t = {} s, as --stop-when says: {}", frame_.step, frame_.time, *stop_);
     tell_of_health();

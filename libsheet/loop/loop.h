@@ -21,6 +21,7 @@ struct LoopOptions {
   std::string keep;             // "output" | "last" | a number n, for every n-th step; "" is output with fps, else 1
   std::string checkpoint;       // file that always holds the newest frame as a stream of its own
   double checkpoint_every = 60; // [s] of the clock on the wall
+  std::string progress;         // file that tells other programs how far the run is; "": none
   bool provenance = true;       // record the ring in the frames
 };
 

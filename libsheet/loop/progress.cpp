@@ -2,11 +2,15 @@
 #include "libsheet/loop/progress.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "libsheet/base/error.h"
+#include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
+#include "libsheet/base/whole_file.h"
 
 namespace sheet {
 
@@ -19,18 +23,36 @@ std::string duration_text(double seconds) {
   return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
 }
 
-Progress::Progress(double time, std::uint64_t step, std::optional<double> until, std::optional<std::int64_t> steps)
-    : first_time_(time), first_step_(step), until_(until), steps_(steps), start_(Clock::now()),
+Progress::Progress(double time, std::uint64_t step, std::optional<double> until, std::optional<std::int64_t> steps,
+                   std::string file)
+    : first_time_(time), first_step_(step), until_(until), steps_(steps), file_(std::move(file)), start_(Clock::now()),
       terminal_(::isatty(STDERR_FILENO) != 0 && log::level() != log::Level::quiet) {}
 
 Progress::~Progress() { clear(); }
 
-std::string Progress::line(double time, std::uint64_t step, std::uint64_t frames_kept, double elapsed) const {
-  double done = 0; // the share of the run that lies behind us
+double Progress::elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+double Progress::share(double time, std::uint64_t step) const {
+  double done = 0;
   if (until_ && *until_ > first_time_)
     done = (time - first_time_) / (*until_ - first_time_);
   if (steps_ && static_cast<std::uint64_t>(*steps_) > first_step_)
     done = std::max(done, static_cast<double>(step - first_step_) / static_cast<double>(*steps_ - first_step_));
+  return done;
+}
+
+std::string Progress::json(double time, std::uint64_t step, std::uint64_t frames_kept, double elapsed,
+                           std::string_view state) const {
+  const double done = share(time, step);
+  const auto known = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string("null"); };
+  return fmt::format("{{\"state\": \"{}\", \"time\": {}, \"until\": {}, \"step\": {}, \"steps\": {}, \"frames\": {}, "
+                     "\"elapsed\": {:.3f}, \"left\": {}}}\n",
+                     state, time, known(until_), step, known(steps_), frames_kept, elapsed,
+                     done > 0 ? fmt::format("{:.3f}", elapsed * std::max(0.0, 1 - done) / done) : "null");
+}
+
+std::string Progress::line(double time, std::uint64_t step, std::uint64_t frames_kept, double elapsed) const {
+  const double done = share(time, step);
   std::string text = fmt::format("step {}", step);
   if (steps_)
     text += fmt::format(" of {}", *steps_);
@@ -45,15 +67,34 @@ std::string Progress::line(double time, std::uint64_t step, std::uint64_t frames
   return text;
 }
 
+void Progress::write(double time, std::uint64_t step, std::uint64_t frames_kept, std::string_view state) {
+  if (file_.empty())
+    return;
+  written_ = Clock::now();
+  try {
+    write_whole_file(file_, [&](OutputFile& file) { file.write(json(time, step, frames_kept, elapsed(), state)); });
+  } catch (const Error& error) { // the run is worth more
+    log::warning("--progress: {}", error.what());
+    file_.clear();
+  }
+}
+
+void Progress::end(double time, std::uint64_t step, std::uint64_t frames_kept, std::string_view state) {
+  clear();
+  write(time, step, frames_kept, state);
+}
+
 void Progress::show(double time, std::uint64_t step, std::uint64_t frames_kept) {
+  if (file_.empty() && !terminal_)
+    return;
   const auto now = Clock::now();
+  if (now - written_ >= std::chrono::milliseconds(200))
+    write(time, step, frames_kept, "running");
   if (!terminal_ || (visible_ && now - shown_ < std::chrono::seconds(1)))
     return;
   shown_ = now;
   visible_ = true;
-  const std::string text =
-      fmt::format("\r\x1b[K{}: {}", log::program(),
-                  line(time, step, frames_kept, std::chrono::duration<double>(now - start_).count()));
+  const std::string text = fmt::format("\r\x1b[K{}: {}", log::program(), line(time, step, frames_kept, elapsed()));
   [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text.data(), text.size());
 }
 

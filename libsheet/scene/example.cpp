@@ -57,6 +57,7 @@ thickness = "10 mm"?
 #file = "leaf.ply"?
 #scale = 0.001?
 #thickness = {data = "thickness", place = "vertex", scale = 0.001}
+#arrays = ["uv", "material"]?
 
 # Small deviations, to let wrinkles begin: a wave of the position (along the normal) or of the thickness, along x, y, z or
 # "radial" (outwards), or noise at each vertex. Several may be given in a list. Those of the position go on in what an
@@ -166,7 +167,8 @@ static constexpr std::string_view things = R"toml(
 # ------------------------------------------------------------------------ what is held in place: any number of [[hold]]
 
 # region: "rim" (all of the border), "inner_rim", "outer_rim", or the side "x_min", "x_max", ... "z_max" (as the sheet lies
-# before `rotation`), or what is in a part of space at the start. "pinned" holds the position, "clamped" the slope too.
+# before `rotation`), what is in a part of space at the start, or, {array = "painted"}, where an array of the sheet's PLY
+# file is above 0.5. "pinned" holds the position, "clamped" the slope too.
 #[[hold]]
 #region = "x_min"
 #kind = "pinned"
@@ -270,7 +272,8 @@ center = [0, "-0.3 m", 0]
 
 # ------------------------------------------------------------------------ new liquid that flows in at a border
 
-# A velocity at an angle to the border makes a slanted curtain.
+# A velocity at an angle to the border makes a slanted curtain. The border may also be one that an array of the sheet's PLY
+# file has above 0.5: {array = "painted"}.
 #[inflow]
 #region = "z_max"?
 #velocity = [0, 0, "-0.1 m/s"]?

@@ -33,6 +33,9 @@ constexpr Key file_key(std::span<const std::string_view> endings, std::string_vi
   return {"file", Form::file, help, nullptr, "", endings};
 }
 constexpr Key text_key(std::string_view name, std::string_view help) { return {name, Form::text, help}; }
+constexpr Key texts_key(std::string_view name, std::string_view help) {
+  return {name, Form::text, help, nullptr, "[]"};
+}
 constexpr Key boolean_key(std::string_view name, std::string_view help) { return {name, Form::boolean, help}; }
 constexpr Key integer_key(std::string_view name, std::string_view dimensions, std::string_view help) {
   return {name, Form::integer, help, nullptr, dimensions};
@@ -96,6 +99,7 @@ constexpr std::array sheet_keys{
     word_key("pattern", words::patterns, "of the triangles"),
     integer_key("seed", "", "of the irregular pattern"),
     Key{"thickness", Form::quantity, "at the start", &quantity::length, "", {}, &thickness_table},
+    texts_key("arrays", "of a PLY file, that go along: real numbers change with the mesh, whole ones stay"),
     table_key("perturbation", perturbation_table),
     word_key("plane", words::planes, "of flat shapes; caps and tubes stand on it (default: horizontal)"),
     list_key("center", quantity::length, "[3]", "where its middle is (a cap's: that of its sphere)"),
@@ -164,13 +168,17 @@ constexpr std::array ball_keys{list_key("center", quantity::length, "[3]", "of t
 constexpr KeyTable ball_table{"sphere", ball_keys};
 constexpr std::array region_keys{
     list_key("box", quantity::length, "[2][3]", "lowest and highest corner of what is held at the start"),
-    table_key("sphere", ball_table)};
+    table_key("sphere", ball_table),
+    text_key("array", "of the sheet's PLY file: what is held is where it is above 0.5 at vertices")};
 constexpr KeyTable region_table{"region", region_keys};
+constexpr std::array inlet_region_keys{
+    text_key("array", "of the sheet's PLY file: the border where it is above 0.5 at vertices")};
+constexpr KeyTable inlet_region_table{"region", inlet_region_keys};
 
 constexpr std::array hold_keys{
     text_key("sheet", "whose vertices are held (default: of all)"),
-    word_key("region", words::borders, "what is held: a border as the sheet lies before its rotation, a box, a sphere",
-             &region_table),
+    word_key("region", words::borders,
+             "what is held: a border as the sheet lies before its rotation, a box, a sphere, an array", &region_table),
     word_key("kind", words::holds, "the position, or the slope too"),
     text_key("axes", "letters of the coordinates that are held (default xyz)"),
     table_key("motion", motion_table),
@@ -205,7 +213,7 @@ constexpr KeyTable solid_table{"solid", solid_keys};
 
 constexpr std::array inflow_keys{
     text_key("sheet", "whose border (default: of the only one)"),
-    word_key("region", words::borders, "border at which liquid enters"),
+    word_key("region", words::borders, "border at which liquid enters", &inlet_region_table),
     timed_key("velocity", quantity::velocity, "[3]", "of what enters; rows are [time, x, y, z]"),
     number_key("thickness", quantity::length, "of what enters (default: that of the sheet)"),
     number_key("until", quantity::time, "when it stops (default: never)")};
@@ -308,7 +316,7 @@ std::string kind_of(const Key& key) {
     case Form::timed:
       return fmt::format("{}{} or rows", plain(), key.dimensions);
     case Form::text:
-      return "text";
+      return fmt::format("text{}", key.dimensions);
     case Form::word:
       return fmt::format("{}", fmt::join(key.words, "|"));
     case Form::file:

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [sheet]
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/tables.h"
 #include "libsheet/scene/words.h"
 
@@ -172,6 +175,40 @@ void read_thickness(TableReader& table, SheetTable& sheet) {
   sheet.thickness = std::move(data);
 }
 
+// Whether a user's array may have this name: frames can have it, and nobody else does. The programs' own begin with one
+// of these words.
+bool is_free_name(std::string_view name) {
+  constexpr std::array<std::string_view, 9> taken{"emit.", "gas.",  "merge.",    "outflow.", "remesh.",
+                                                  "step.", "tear.", "enclosure", "thickness"};
+  return formats::is_array_name(name) && !formats::is_standard_array(name) &&
+         std::ranges::none_of(taken, [&](std::string_view word) { return name.starts_with(word); });
+}
+
+// Names of arrays that go along.
+void read_arrays(TableReader& table, SheetTable& sheet) {
+  const Node* value = table.take("arrays");
+  if (!value)
+    return;
+  constexpr std::string_view expected = "expected names such as [\"uv\", \"material\"]";
+  if (!std::holds_alternative<SheetMesh>(sheet.shape))
+    return table.wrong("arrays", "only a sheet of shape \"mesh\" has some, from its PLY file");
+  if (value->type != Node::Type::list)
+    return table.wrong("arrays", std::string(expected));
+  for (const Node& item : value->items) {
+    if (item.type != Node::Type::text)
+      return table.wrong("arrays", std::string(expected));
+    if (!is_free_name(item.text))
+      table.wrong("arrays",
+                  fmt::format("\"{}\" cannot be the name of an array that goes along: it has at most 47 of the "
+                              "characters a to z, 0 to 9, _ . : -, and is none that Sheet has itself",
+                              item.text));
+    else if (std::ranges::find(sheet.arrays, item.text) != sheet.arrays.end())
+      table.wrong("arrays", fmt::format("\"{}\" stands there twice", item.text));
+    else
+      sheet.arrays.push_back(item.text);
+  }
+}
+
 Perturbation read_perturbation(TableReader table, const SheetTable& sheet) {
   Perturbation result{};
   result.of_thickness = table.choice("of").value_or(0) == 1;
@@ -239,6 +276,7 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
   const auto plane = table.choice("plane");
   sheet.plane = plane ? static_cast<Plane>(*plane) : horizontal(environment);
   read_thickness(table, sheet);
+  read_arrays(table, sheet);
   read_perturbations(table, sheet);
   sheet.center = table.vector("center").value_or(Vector3d::Zero());
   sheet.rotation = read_rotation(table);

@@ -11,7 +11,17 @@ namespace sheet::scene {
 namespace {
 
 constexpr std::string_view region_example =
-    "\"rim\", {box = [[0, 0, 0], [1, 1, 1]]} or {sphere = {center = [0, 0, 0], radius = 1}}";
+    "\"rim\", {box = [[0, 0, 0], [1, 1, 1]]}, {sphere = {center = [0, 0, 0], radius = 1}} or {array = \"pinned\"}";
+
+// {array = "NAME"}, which a sheet from a mesh file may have.
+ArrayRegion read_array_region(TableReader& parent, TableReader& table, const SheetTable& sheet) {
+  if (!std::holds_alternative<SheetMesh>(sheet.shape))
+    parent.wrong("region", "only a sheet of shape \"mesh\" has arrays, from its PLY file");
+  ArrayRegion region{table.text("array").value_or("")};
+  if (region.array.empty() && !table.absent("array"))
+    table.wrong("array", "expected the name of a property of the PLY file");
+  return region;
+}
 
 std::optional<Region> read_box_region(TableReader& parent) {
   const Node* box = parent.take("box");
@@ -45,9 +55,10 @@ std::optional<Region> read_region(TableReader& hold, const SheetTable& sheet) {
   }
   auto table = *hold.table("region");
   std::optional<Region> result;
-  if (table.absent("box") == table.absent("sphere")) {
+  if (table.absent("box") + table.absent("sphere") + table.absent("array") != 2)
     hold.wrong("region", fmt::format("expected {}", region_example));
-  }
+  if (!table.absent("array"))
+    result = read_array_region(hold, table, sheet);
   if (!table.absent("box"))
     result = read_box_region(table);
   if (auto sphere = table.table("sphere")) {
@@ -167,7 +178,7 @@ void put_at_keyframes(const TableReader& table, Solid& solid) {
 Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Model& model, const Files& files) {
   Hold hold;
   const Node* region = table.take("region");
-  const bool in_space = region != nullptr && region->type == Node::Type::table;
+  const bool in_space = region != nullptr && region->type == Node::Type::table && region->find("array") == nullptr;
   const auto [name, sheet] = read_which_sheet(table, sheets, in_space);
   hold.sheet = name;
   hold.region = read_region(table, sheet).value_or(Border::rim);
@@ -176,7 +187,7 @@ Hold read_hold(TableReader table, std::span<const SheetTable> sheets, const Mode
   hold.motion = read_motion(table, sheet.center, files);
   hold.until = table.quantity("until", Bound::positive);
   hold.roll = table.boolean("roll").value_or(false);
-  if (hold.roll && std::holds_alternative<Border>(hold.region))
+  if (hold.roll && (std::holds_alternative<Border>(hold.region) || std::holds_alternative<ArrayRegion>(hold.region)))
     table.wrong("roll",
                 "a roll takes what enters a part of space: region = {box = [[0, 0, 0], [1, 1, 1]]}, or a sphere");
   if (hold.roll && std::holds_alternative<Fixed>(hold.motion))
@@ -220,16 +231,33 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
   return solid;
 }
 
+namespace {
+
+std::variant<Border, ArrayRegion> read_inlet_region(TableReader& inflow, const SheetTable& sheet) {
+  const Node* value = inflow.take("region");
+  if (value && value->type == Node::Type::table) {
+    auto table = *inflow.table("region");
+    if (table.absent("array"))
+      table.missing("array", "\"inlet\"");
+    ArrayRegion region = read_array_region(inflow, table, sheet);
+    table.finish();
+    return region;
+  }
+  const auto border = read_border(inflow, "region", sheet);
+  if (border == Border::rim && borders_of(sheet).size() > 2)
+    inflow.wrong("region", "liquid enters at one side or ring only; \"rim\" is all of the border");
+  return border.value_or(Border::rim);
+}
+
+} // namespace
+
 Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets) {
   Inflow inflow;
   const auto [name, sheet] = read_which_sheet(table, sheets, false);
   inflow.sheet = name;
   if (table.absent("region"))
     table.missing("region", "\"y_max\"");
-  const auto region = read_border(table, "region", sheet);
-  inflow.region = region.value_or(Border::rim);
-  if (region == Border::rim && borders_of(sheet).size() > 2)
-    table.wrong("region", "liquid enters at one side or ring only; \"rim\" is all of the border");
+  inflow.region = read_inlet_region(table, sheet);
   if (table.absent("velocity"))
     table.missing("velocity", "[0, \"-0.1 m/s\", 0]");
   inflow.velocity = table.timed_velocity("velocity").value_or(Timed<Vector3d>{});

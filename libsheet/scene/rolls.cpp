@@ -14,7 +14,8 @@ namespace {
 
 // Signed distance, negative inside [m].
 double outside(const Region& region, const Vector3& x) {
-  return std::visit(Overloaded{[](Border) { return 0.0; }, // which a roll never has
+  return std::visit(Overloaded{[](Border) { return 0.0; }, // which a roll never has, nor an array
+                               [](const ArrayRegion&) { return 0.0; },
                                [&](const BoxRegion& box) {
                                  const Vector3 d = (x - box.high).cwiseMax(box.low - x);
                                  return d.cwiseMax(0).norm() + std::min(0.0, d.maxCoeff());

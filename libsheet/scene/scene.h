@@ -111,6 +111,7 @@ struct SheetTable {
   Pattern pattern = Pattern::irregular;
   std::int64_t seed = 0;                         // of the irregular pattern
   std::variant<double, ThicknessData> thickness; // [m]
+  std::vector<std::string> arrays;               // names of the mesh file's that go along in the frames
   std::vector<Perturbation> perturbations;
   Plane plane = Plane::xz;
   Vector3d center = Vector3d::Zero(); // of the shape (cap: of its sphere; mesh: where the file's origin goes)
@@ -187,7 +188,12 @@ struct SphereRegion {
   double radius;
   bool operator==(const SphereRegion&) const = default;
 };
-using Region = std::variant<Border, BoxRegion, SphereRegion>;
+// Vertices where an array of the sheet's mesh file, one number a vertex, is above a half.
+struct ArrayRegion {
+  std::string array;
+  bool operator==(const ArrayRegion&) const = default;
+};
+using Region = std::variant<Border, BoxRegion, SphereRegion, ArrayRegion>;
 
 struct Hold {
   std::string sheet; // whose vertices; "": of all that there are
@@ -249,7 +255,7 @@ struct Solid {
 // is not perpendicular to the border gives a slanted curtain.
 struct Inflow {
   std::string sheet; // whose border; "": of the only one
-  Border region = Border::y_max;
+  std::variant<Border, ArrayRegion> region = Border::y_max;
   Timed<Vector3d> velocity; // [m/s]
   double thickness = 0;     // [m]
   std::optional<double> until;

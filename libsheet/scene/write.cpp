@@ -11,6 +11,9 @@ namespace {
 
 // -0 and 0 are equal, so they read the same.
 std::string number(double value) { return shortest(value == 0 ? 0 : value); }
+constexpr auto array_region = [](const ArrayRegion& region) {
+  return fmt::format("{{array = {}}}", toml_text(region.array));
+};
 std::string list(const Vector3d& v) { return fmt::format("[{}, {}, {}]", number(v[0]), number(v[1]), number(v[2])); }
 std::string_view flag(bool value) { return value ? "true" : "false"; }
 template <class Words> std::string word(const Words& words, std::size_t index) { return toml_text(words[index]); }
@@ -156,6 +159,8 @@ void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) 
                                                word(words::places, t.per_face ? 1UL : 0UL), number(t.scale)));
                         }},
              sheet.thickness);
+  if (!sheet.arrays.empty())
+    out.line("arrays", items(sheet.arrays, toml_text));
   write_perturbations(out, sheet);
   out.line("plane", word(words::planes, sheet.plane));
   out.line_unless_zero("center", sheet.center);
@@ -209,7 +214,8 @@ void write_hold(Writer& out, const Hold& hold) {
                                            [](const SphereRegion& sphere) {
                                              return fmt::format("{{sphere = {{center = {}, radius = {}}}}}",
                                                                 list(sphere.center), number(sphere.radius));
-                                           }},
+                                           },
+                                           array_region},
                                 hold.region));
   out.line("kind", word(words::holds, hold.clamped ? 1UL : 0UL));
   if (hold.axes != all_axes) {
@@ -316,7 +322,8 @@ std::string to_toml(const Scene& scene) {
     out.open(scene.inflows.size() > 1 ? "[[inflow]]" : "[inflow]");
     if (!inflow.sheet.empty())
       out.line("sheet", toml_text(inflow.sheet));
-    out.line("region", word(words::borders, inflow.region));
+    out.line("region", std::visit(Overloaded{[](Border border) { return word(words::borders, border); }, array_region},
+                                  inflow.region));
     out.line("velocity", timed(inflow.velocity));
     out.line("thickness", inflow.thickness);
     out.line("until", inflow.until);

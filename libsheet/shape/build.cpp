@@ -40,8 +40,8 @@ MeshOptions mesh_options(const scene::SheetTable& table) {
   return options;
 }
 
-TriangleMesh load_scaled(const scene::SheetMesh& file, Notes notes) {
-  LoadedMesh loaded = load_mesh(file.file);
+TriangleMesh load_scaled(const scene::SheetMesh& file, const std::vector<std::string>& arrays, Notes notes) {
+  LoadedMesh loaded = load_mesh(file.file, arrays);
   if (notes == Notes::told)
     for (const std::string& note : loaded.notes)
       log::warning("{}", note);
@@ -50,8 +50,23 @@ TriangleMesh load_scaled(const scene::SheetMesh& file, Notes notes) {
   return std::move(loaded.mesh);
 }
 
+// The arrays of a sheet's file that the scene names: those that go along, then those of its regions.
+std::vector<std::string> arrays_of(const Scene& scene, const scene::SheetTable& table) {
+  std::vector<std::string> names = table.arrays;
+  const auto add = [&](const std::string& sheet, const auto& region) {
+    const auto* array = std::get_if<scene::ArrayRegion>(&region);
+    if (array && &sheet_named(scene, sheet) == &table && std::ranges::find(names, array->array) == names.end())
+      names.push_back(array->array);
+  };
+  for (const scene::Hold& hold : scene.holds)
+    add(hold.sheet, hold.region);
+  for (const scene::Inflow& inflow : scene.inflows)
+    add(inflow.sheet, inflow.region);
+  return names;
+}
+
 // In the shape's local frame (shapes.h).
-TriangleMesh local_mesh(const scene::SheetTable& table, Notes notes) {
+TriangleMesh local_mesh(const Scene& scene, const scene::SheetTable& table, Notes notes) {
   const MeshOptions options = mesh_options(table);
   return std::visit(Overloaded{
                         [&](const scene::Rectangle& r) { return make_rectangle(r.size_first, r.size_second, options); },
@@ -60,7 +75,7 @@ TriangleMesh local_mesh(const scene::SheetTable& table, Notes notes) {
                         [&](const scene::Sphere& s) { return make_sphere(s.radius, options); },
                         [&](const scene::Cap& c) { return make_cap(c.radius, c.angle, options, c.opening); },
                         [&](const scene::Tube& t) { return make_tube(t.radius, t.height, options); },
-                        [&](const scene::SheetMesh& m) { return load_scaled(m, notes); },
+                        [&](const scene::SheetMesh& m) { return load_scaled(m, arrays_of(scene, table), notes); },
                     },
                     table.shape);
 }
@@ -130,12 +145,64 @@ std::string_view name_of(scene::Border border) {
   return names[static_cast<std::size_t>(border)];
 }
 
+// Vertices where an array of the file is above a half.
+VertexSet in_array(const TriangleMesh& mesh, const scene::ArrayRegion& region) {
+  const auto array = std::ranges::find(mesh.arrays, region.array, &formats::MeshArray::name);
+  if (array == mesh.arrays.end() || array->place != formats::MeshPlace::point || array->components != 1)
+    fail(ExitCode::bad_input, "region: the array \"{}\" of the mesh file must have one number at each vertex",
+         region.array);
+  VertexSet vertices;
+  for (std::uint32_t v = 0; v < array->values.size(); ++v)
+    if (array->values[v] > 0.5)
+      vertices.push_back(v);
+  return vertices;
+}
+
+// Likewise, of the mesh's border.
+VertexSet inlet_in_array(const TriangleMesh& mesh, const scene::ArrayRegion& region) {
+  VertexSet vertices = in_array(mesh, region);
+  if (vertices.empty())
+    fail(ExitCode::bad_input, "inflow.region: the array \"{}\" is nowhere above 0.5, so nothing can flow in",
+         region.array);
+  const VertexSet border = rim(mesh);
+  for (const std::uint32_t v : vertices)
+    if (!std::ranges::binary_search(border, v))
+      fail(ExitCode::bad_input,
+           "inflow.region: the array \"{}\" is above 0.5 at vertex {}, which is not on the border of the sheet, where "
+           "alone liquid can enter",
+           region.array, v);
+  return vertices;
+}
+
+// What goes along: real numbers change with the mesh, whole ones are those of the nearest.
+void put_arrays(const TriangleMesh& mesh, const scene::SheetTable& table, formats::Frame& frame) {
+  for (const std::string& name : table.arrays) {
+    const formats::MeshArray& from = *std::ranges::find(mesh.arrays, name, &formats::MeshArray::name);
+    const bool at_vertices = from.place == formats::MeshPlace::point;
+    formats::Array& to = frame.put(formats::make_array(
+        name, at_vertices ? formats::Place::vertex : formats::Place::triangle,
+        from.whole ? formats::Type::int64 : formats::Type::float64, static_cast<std::uint32_t>(from.components), "1",
+        from.whole ? formats::Transfer::copy : formats::Transfer::interpolate,
+        at_vertices ? mesh.positions.size() : mesh.triangles.size()));
+    if (from.whole)
+      std::ranges::transform(from.values, to.values<std::int64_t>().begin(),
+                             [](double x) { return static_cast<std::int64_t>(x); });
+    else
+      std::ranges::copy(from.values, to.values<double>().begin());
+  }
+}
+
 // The borders where liquid enters.
 std::vector<std::uint64_t> inlets_of(const TriangleMesh& mesh, const Scene& scene, const scene::SheetTable& table) {
   std::vector<std::uint64_t> bits(mesh.positions.size());
   for (std::size_t i = 0; i < scene.inflows.size(); ++i)
     if (&sheet_named(scene, scene.inflows[i].sheet) == &table)
-      for (const std::uint32_t v : named_region(mesh, name_of(scene.inflows[i].region)))
+      for (const std::uint32_t v :
+           std::visit(Overloaded{
+                          [&](scene::Border border) { return named_region(mesh, name_of(border)); },
+                          [&](const scene::ArrayRegion& region) { return inlet_in_array(mesh, region); },
+                      },
+                      scene.inflows[i].region))
         bits[v] |= (in_inlet | at_inlet_border) << (bits_of_an_inlet * i);
   return bits;
 }
@@ -160,6 +227,7 @@ void add_holds(const TriangleMesh& mesh, const Scene& scene, const scene::SheetT
                        [&](scene::Border b) { return named_region(mesh, name_of(b)); },
                        [&](const scene::BoxRegion& b) { return in_box(mesh, b.low, b.high); },
                        [&](const scene::SphereRegion& s) { return in_sphere(mesh, s.center, s.radius); },
+                       [&](const scene::ArrayRegion& a) { return in_array(mesh, a); },
                    },
                    table[i].region);
     for (const std::uint32_t v : held)
@@ -171,7 +239,7 @@ void add_holds(const TriangleMesh& mesh, const Scene& scene, const scene::SheetT
 
 formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) {
   const scene::SheetTable& table = scene.sheets[number];
-  TriangleMesh mesh = local_mesh(table, notes);
+  TriangleMesh mesh = local_mesh(scene, table, notes);
   if (!std::holds_alternative<scene::SheetMesh>(table.shape)) // a file's coordinates are taken as they are
     place_mesh(mesh, {plane_of(table.plane), Eigen::Matrix3d::Identity(), Vector3d::Zero()});
   std::vector<std::uint64_t> holds(mesh.positions.size());
@@ -203,6 +271,7 @@ formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) 
   if (!scene.inflows.empty())
     put_inlets(mesh, inlets, frame);
   number_enclosures(scene, table, frame);
+  put_arrays(mesh, table, frame);
   return frame;
 }
 

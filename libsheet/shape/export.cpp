@@ -10,6 +10,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/quantities/fields.h"
+#include "libsheet/shape/mesh_measure.h"
 #include "libsheet/shape/solidify.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -113,6 +114,16 @@ void add_arrays(const Frame& frame, formats::Place from, MeshPlace to, ForeignMe
   }
 }
 
+// The tuples of these numbers, in their order.
+void take_rows(MeshArray& array, const std::vector<std::uint32_t>& rows) {
+  const auto width = static_cast<std::size_t>(array.components);
+  std::vector<double> values;
+  for (const std::uint32_t row : rows)
+    for (std::size_t c = 0; c < width; ++c)
+      values.push_back(array.values[row * width + c]);
+  array.values = std::move(values);
+}
+
 std::array<double, 3> coordinates(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
 
 } // namespace
@@ -136,7 +147,8 @@ ForeignMesh to_solid_mesh(const Frame& frame) {
   middle.positions.assign(positions(frame).begin(), positions(frame).end());
   middle.triangles.assign(triangles(frame).begin(), triangles(frame).end());
   const Thickness h = thickness(frame);
-  const TriangleMesh solid = solidify(middle, h.of_vertices);
+  std::vector<std::uint32_t> origin;
+  const TriangleMesh solid = solidify(middle, h.of_vertices, &origin);
   ForeignMesh mesh;
   mesh.time = frame.time;
   for (const Eigen::Vector3d& x : solid.positions)
@@ -148,7 +160,27 @@ ForeignMesh to_solid_mesh(const Frame& frame) {
     const std::vector<double> once = array.values;
     array.values.insert(array.values.end(), once.begin(), once.end());
   }
+  const std::size_t at_vertices = mesh.arrays.size();
+  add_arrays(frame, formats::Place::triangle, MeshPlace::cell, mesh);
+  std::erase_if(mesh.arrays, [&](const MeshArray& array) {
+    const formats::Array* from = array.place == MeshPlace::cell ? frame.find(array.name) : nullptr;
+    return from && from->transfer == formats::Transfer::conserve;
+  });
+  for (std::size_t i = at_vertices; i < mesh.arrays.size(); ++i)
+    take_rows(mesh.arrays[i], origin);
   return mesh;
+}
+
+void add_normals(ForeignMesh& mesh) {
+  TriangleMesh shape;
+  for (const auto& point : mesh.points)
+    shape.positions.emplace_back(point[0], point[1], point[2]);
+  shape.triangles = mesh.triangles;
+  MeshArray normal{"normal", MeshPlace::point, 3, {}};
+  for (const Eigen::Vector3d& n : vertex_normals(shape))
+    normal.values.insert(normal.values.end(), n.begin(), n.end());
+  std::erase_if(mesh.arrays, [](const MeshArray& a) { return a.name == "normal" && a.place == MeshPlace::point; });
+  mesh.arrays.push_back(std::move(normal));
 }
 
 } // namespace sheet

@@ -12,8 +12,13 @@ namespace sheet {
 // Precondition: the frame obeys the format's rules (StreamReader::Values::check).
 [[nodiscard]] formats::ForeignMesh to_foreign_mesh(const formats::Frame& frame);
 
-// The closed outer surface (solidify.h); arrays at vertices go to both sides, those at triangles are left out.
+// The closed outer surface (solidify.h); arrays at vertices go to both sides, those at triangles too, and to the rim
+// beside them, but for sums (rule conserve), which are left out.
 // Throws Error (bad_input) unless the frame is an oriented manifold.
 [[nodiscard]] formats::ForeignMesh to_solid_mesh(const formats::Frame& frame);
+
+// Adds an array "normal" of unit vectors at points, in place of one that there is: triangles weighted by their angles;
+// 0 without triangles.
+void add_normals(formats::ForeignMesh& mesh);
 
 } // namespace sheet

@@ -40,13 +40,17 @@ ExportFormat format_by_name(const std::string& name) {
        name);
 }
 
-std::string encode(const formats::ForeignMesh& mesh, ExportFormat format, const Scene* scene) {
+std::string encode(formats::ForeignMesh mesh, ExportFormat format, const Scene* scene) {
   switch (format) {
   case ExportFormat::vtu:
     return encode_vtu(mesh);
   case ExportFormat::ply:
     return encode_ply(mesh);
   case ExportFormat::obj:
+    if (mesh.texture()) // a textured surface is to be drawn smooth
+      add_normals(mesh);
+    else
+      std::erase_if(mesh.arrays, [](const formats::MeshArray& array) { return array.name == "normal"; });
     return encode_obj(mesh);
   case ExportFormat::off:
     return encode_off(mesh);

@@ -111,6 +111,7 @@ tinygltf::Primitive pack(const ForeignMesh& mesh, Writer& writer) {
   primitive.material = 0;
   primitive.attributes["POSITION"] = writer.floats(flat(shape.positions, "the coordinate"), TINYGLTF_TYPE_VEC3);
   primitive.attributes["NORMAL"] = writer.floats(flat(normals_of(shape), "the normal"), TINYGLTF_TYPE_VEC3);
+  const MeshArray* texture = mesh.texture();
   if (const MeshArray* thickness = mesh.find("thickness", MeshPlace::point)) {
     std::vector<float> values, as_texture;
     for (const double h : thickness->values) {
@@ -118,7 +119,15 @@ tinygltf::Primitive pack(const ForeignMesh& mesh, Writer& writer) {
       as_texture.insert(as_texture.end(), {values.back(), 0});
     }
     primitive.attributes["_THICKNESS"] = writer.floats(values, TINYGLTF_TYPE_SCALAR);
-    primitive.attributes["TEXCOORD_0"] = writer.floats(as_texture, TINYGLTF_TYPE_VEC2);
+    primitive.attributes[texture ? "TEXCOORD_1" : "TEXCOORD_0"] = writer.floats(as_texture, TINYGLTF_TYPE_VEC2);
+  }
+  if (texture) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < texture->values.size(); i += 2) { // v points down in glTF
+      values.push_back(single(texture->values[i], "the texture coordinate", i / 2));
+      values.push_back(single(1 - texture->values[i + 1], "the texture coordinate", i / 2));
+    }
+    primitive.attributes["TEXCOORD_0"] = writer.floats(values, TINYGLTF_TYPE_VEC2);
   }
   primitive.indices = writer.indices(corners);
   return primitive;

@@ -27,6 +27,20 @@ std::vector<double> thickness_of(const formats::ForeignMesh& mesh, MeshPlace pla
   return array->values;
 }
 
+// An array that was asked for, at vertices or else at triangles.
+MeshArray array_of(const formats::ForeignMesh& mesh, const std::string& name, const std::string& path) {
+  const MeshArray* array = mesh.find(name, MeshPlace::point);
+  if (!array)
+    array = mesh.find(name, MeshPlace::cell);
+  if (!array)
+    fail(
+        ExitCode::bad_input,
+        "{}: there is no array \"{}\": a PLY file has it as the property {} of its vertices or faces, or, with several "
+        "components, as {}_0, {}_1, ... or {}_x, {}_y, {}_z",
+        path, name, name, name, name, name, name, name);
+  return *array;
+}
+
 void add_thickness(formats::ForeignMesh& mesh, MeshPlace place, const std::vector<double>& values) {
   if (!values.empty())
     mesh.arrays.push_back({"thickness", place, 1, values});
@@ -34,8 +48,8 @@ void add_thickness(formats::ForeignMesh& mesh, MeshPlace place, const std::vecto
 
 } // namespace
 
-LoadedMesh load_mesh(const std::string& path) {
-  formats::MeshImport import = import_named_mesh(path);
+LoadedMesh load_mesh(const std::string& path, formats::WantedArrays arrays) {
+  formats::MeshImport import = import_named_mesh(path, arrays);
   LoadedMesh loaded;
   loaded.notes = std::move(import.notes);
   for (const auto& p : import.mesh.points)
@@ -48,6 +62,8 @@ LoadedMesh load_mesh(const std::string& path) {
   if (import.mesh.find("velocity", MeshPlace::cell))
     loaded.notes.push_back(path + ": velocity per triangle passed over; a sheet has it per vertex");
   loaded.mesh.triangles = std::move(import.mesh.triangles);
+  for (const std::string& name : arrays)
+    loaded.mesh.arrays.push_back(array_of(import.mesh, name, path));
   return loaded;
 }
 

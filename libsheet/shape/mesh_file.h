@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/cpp/foreign_mesh.h"
+#include "formats/cpp/mesh_import.h"
 #include "libsheet/shape/triangle_mesh.h"
 
 namespace sheet {
@@ -14,9 +14,10 @@ struct LoadedMesh {
   std::vector<std::string> notes; // what was dropped, merged or passed over
 };
 
-// Reads OBJ, OFF, PLY, STL or VTU with thickness and velocity where the file has them. Throws Error: io if the file
-// cannot be read, bad_input if its content is wrong or a thickness is not positive.
-[[nodiscard]] LoadedMesh load_mesh(const std::string& path);
+// Reads OBJ, OFF, PLY, STL or VTU with thickness and velocity where the file has them, and the arrays of these names.
+// Throws Error: io if the file cannot be read, bad_input if its content is wrong, a thickness is not positive, or it
+// has not all of the arrays, a finite number everywhere.
+[[nodiscard]] LoadedMesh load_mesh(const std::string& path, formats::WantedArrays arrays = {});
 
 // Arrays "thickness" (per vertex, per triangle) and "velocity", as far as the mesh has them.
 [[nodiscard]] formats::ForeignMesh to_foreign(const TriangleMesh& mesh);

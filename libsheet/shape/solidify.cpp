@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/solidify.h"
 
+#include <array>
+#include <map>
+
 #include <Eigen/Geometry>
 
 #include "libsheet/base/error.h"
@@ -25,7 +28,21 @@ std::vector<double> thickness_at_vertices(const TriangleMesh& mesh) {
   return thickness_around(mesh.positions.size(), mesh.triangles, volume, [&](std::uint32_t t) { return area[t]; });
 }
 
-TriangleMesh solidify(const TriangleMesh& mesh, const std::vector<double>& vertex_thickness) {
+namespace {
+
+// The triangle to the left of each side a -> b of a rim.
+std::map<std::array<std::uint32_t, 2>, std::uint32_t> triangles_of_sides(const TriangleMesh& mesh) {
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      triangles[{mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]}] = t;
+  return triangles;
+}
+
+} // namespace
+
+TriangleMesh solidify(const TriangleMesh& mesh, const std::vector<double>& vertex_thickness,
+                      std::vector<std::uint32_t>* origin) {
   const std::size_t n = mesh.positions.size();
   if (vertex_thickness.size() != n)
     fail(ExitCode::internal, "solidify: {} thicknesses for {} vertices", vertex_thickness.size(), n);
@@ -46,6 +63,15 @@ TriangleMesh solidify(const TriangleMesh& mesh, const std::vector<double>& verte
       solid.triangles.push_back({b, a, below + a});
       solid.triangles.push_back({b, below + a, below + b});
     }
+  if (origin) {
+    const auto m = static_cast<std::uint32_t>(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < 2 * m; ++t)
+      origin->push_back(t % m);
+    const auto beside = triangles_of_sides(mesh);
+    for (const auto& loop : loops)
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        origin->insert(origin->end(), 2, beside.at({loop[i], loop[(i + 1) % loop.size()]}));
+  }
   return solid;
 }
 

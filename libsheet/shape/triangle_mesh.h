@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "formats/cpp/foreign_mesh.h"
+
 namespace sheet {
 
 using TriangleIndices = std::array<std::uint32_t, 3>;
@@ -17,6 +19,7 @@ struct TriangleMesh {
   std::vector<double> vertex_thickness;    // [m], empty or one a vertex
   std::vector<double> triangle_thickness;  // [m], empty or one a triangle
   std::vector<Eigen::Vector3d> velocities; // [m/s], empty or one a vertex
+  std::vector<formats::MeshArray> arrays;  // of a file, those that were asked for
 };
 
 } // namespace sheet

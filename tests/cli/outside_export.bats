@@ -182,3 +182,44 @@ END
   refused '--voxel: expected a length such as "2.5 mm"' --union --voxel 3s -o a.ply
   refused '--voxel: 1e-07 m makes some' --union --voxel 0.1um -o a.ply
 }
+
+@test "what a PLY brings along is in every exported surface: at points, at faces, as texture" {
+  source=$BATS_TEST_DIRNAME/../features
+  cp "$source/painted.ply" .
+  sed '/inflow/,$d' "$source/painted.toml" > painted.toml
+  sheet-init painted.toml | sheet-loop -q --steps 3 -o run.sheet -- 'sheet-remesh --edge-length 0.012 | sheet-step --dt 0.01'
+  sheet-select --last run.sheet > end.sheet
+  sheet-export end.sheet -o flat.ply
+  sheet-export --solidify end.sheet -o thick.ply
+  sheet-export --union --voxel 1.5mm --close 0 end.sheet -o body.ply
+  sheet-export --solidify end.sheet -o thick.obj
+  sheet-export --solidify end.sheet -o thick.vtu
+  /usr/bin/python3 - "$BATS_TEST_DIRNAME/../.." << 'END'
+import os, pathlib, sys
+import numpy as np
+sys.path.insert(0, os.path.join(sys.argv[1], "formats/blender/sheet_blender"))
+import body_files
+def rows(name, element):
+    head = body_files._read_header(pathlib.Path(name))
+    with open(name, "rb") as file:
+        file.seek(head.size)
+        vertex = np.fromfile(file, head.vertex, head.vertices)
+        return vertex if element == "vertex" else np.fromfile(file, head.triangle, head.triangles)
+flat = rows("flat.ply", "vertex")
+assert len(flat) > 60, len(flat) # it has been remeshed, and the map is that of the start
+for name in ("flat.ply", "thick.ply", "body.ply"):
+    at, of = rows(name, "vertex"), rows(name, "face")
+    assert {"uv_0", "uv_1"} <= set(at.dtype.names) and {"material"} <= set(of.dtype.names), name
+    assert set(np.unique(of["material"])) == {0, 1}, name
+    assert at["uv_0"].min() >= -1e-9 and at["uv_0"].max() <= 1 + 1e-9, name
+    assert np.corrcoef(at["x"], at["uv_0"])[0, 1] > 0.99, name
+    middle = at["uv_0"][of[[n for n in of.dtype.names if "ind" in n][0]]].mean(axis=1)
+    clear = abs(middle - 0.6) > 0.25
+    assert ((middle > 0.6) == (of["material"] == 1))[clear].all(), name
+thick = rows("thick.ply", "face")
+assert "volume" not in thick.dtype.names
+obj = open("thick.obj").read().split("\n")
+count = [sum(line.startswith(word + " ") for line in obj) for word in ("v", "vt", "vn", "f")]
+assert count[0] == count[1] == count[2] == 2 * len(flat) and count[3] == len(thick), count
+END
+}

@@ -162,3 +162,39 @@ make_slow() {
     [[ -s $BATS_TEST_TMPDIR/$scene/film.mp4 && -s $BATS_TEST_TMPDIR/$scene/health.txt ]]
   done
 }
+
+@test "other programs are told how far it is, and may show the stream themselves" {
+  sheet-run -q 'my scene.toml' --quality draft --until 0.1 --fps 40 --stream-only
+  cd 'my scene-draft'
+  [[ -s run.sheet && -s run.csv && -s health.txt && ! -e picture.png && ! -e film.mp4 ]]
+  python3 - << 'END'
+import json
+said = json.load(open("progress.json"))
+assert said["state"] == "done" and said["time"] == said["until"] == 0.1, said
+assert said["frames"] == 5 and said["step"] > 4 and said["steps"] is None and said["elapsed"] > 0 and said["left"] == 0, said
+END
+  cd ..
+  code=0
+  sheet-run -q 'my scene.toml' --stream-only --film no 2> log || code=$?
+  [[ $code == 2 ]]
+  grep -q 'exclude each other' log
+}
+
+@test "a run that is interrupted says so to other programs; a file that cannot be written does not end it" {
+  make_slow
+  sheet-init 'my scene.toml' > first.sheet
+  PATH=$PWD/slow:$PATH sheet-loop -q -i first.sheet --until 1 -o run.sheet --progress progress.json -- 'sheet-remesh | sheet-step --dt 1e-3' 2> log &
+  whole=$!
+  for _ in {1..200}; do
+    [[ ! -e progress.json ]] || break
+    sleep 0.1
+  done
+  grep -q '"state": "running"' progress.json
+  kill -TERM $whole
+  wait $whole || true
+  grep -q '"state": "interrupted"' progress.json
+  sheet-loop -i first.sheet --steps 2 -o short.sheet --progress no/such/folder/progress.json -- 'sheet-step --dt 1e-3' 2> log
+  grep -q -- '--progress: ' log
+  sheet-loop -q -i first.sheet --steps 2 -o same.sheet -- 'sheet-step --dt 1e-3'
+  cmp short.sheet same.sheet
+}

@@ -111,5 +111,20 @@ TEST(MeshExport, WritesFilesForReadback) {
   export_pvd(folder + "/mesh.pvd", std::vector<PvdEntry>{{0.0, "mesh.vtu"}, {0.25, "mesh.vtu"}});
 }
 
+TEST(MeshExport, ObjHasTextureAndNormals) {
+  ForeignMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_NE(encode_obj(mesh).find("\nf 1 2 3\n"), std::string::npos);
+  mesh.arrays.push_back({"normal", MeshPlace::point, 3, {0, 0, 1, 0, 0, 1, 0, 1, 0}});
+  EXPECT_NE(encode_obj(mesh).find("\nvn 0 1 0\nf 1//1 2//2 3//3\n"), std::string::npos);
+  mesh.arrays.push_back({"blender.uv", MeshPlace::point, 2, {0, 0.5, 1, 0.5, 0.25, 1}});
+  EXPECT_EQ(encode_obj(mesh), "# written by Sheet\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.5\nvt 1 0.5\nvt 0.25 1\nvn 0 0 1\n"
+                              "vn 0 0 1\nvn 0 1 0\nf 1/1/1 2/2/2 3/3/3\n");
+  EXPECT_EQ(import_mesh(encode_obj(mesh), MeshFormat::obj, "file").mesh.points, mesh.points);
+  mesh.arrays.erase(mesh.arrays.begin());
+  EXPECT_NE(encode_obj(mesh).find("\nf 1/1 2/2 3/3\n"), std::string::npos);
+}
+
 } // namespace
 } // namespace sheet::formats

@@ -327,5 +327,30 @@ TEST(MeshImport, RealMeshes) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(MeshImport, ArraysOfPlyThatAreAskedFor) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+      "property float s\nproperty float t\nproperty double lab.dye\nproperty double n_x\nproperty "
+      "double n_y\nproperty double n_z\nproperty uchar c_0\nproperty uchar c_1\nelement face 1\n"
+      "property list uchar int vertex_indices\nproperty int material\nend_header\n"
+      "0 0 0 0.5 1 7 1 2 3 4 5\n1 0 0 0.25 2 8 4 5 6 6 7\n0 1 0 0.125 3 9 7 8 9 8 9\n3 0 1 2 -2\n";
+  const std::vector<std::string> names{"uv", "lab.dye", "n", "c", "material", "none"};
+  const ForeignMesh mesh = import_mesh(text, MeshFormat::ply, "file", names).mesh;
+  ASSERT_EQ(mesh.arrays.size(), 5);
+  const auto expect = [&](const char* name, MeshPlace place, int components, bool whole, std::vector<double> values) {
+    const MeshArray* array = mesh.find(name, place);
+    ASSERT_NE(array, nullptr) << name;
+    EXPECT_EQ(array->components, components) << name;
+    EXPECT_EQ(array->whole, whole) << name;
+    EXPECT_EQ(array->values, values) << name;
+  };
+  expect("uv", MeshPlace::point, 2, false, {0.5, 1, 0.25, 2, 0.125, 3});
+  expect("lab.dye", MeshPlace::point, 1, false, {7, 8, 9});
+  expect("n", MeshPlace::point, 3, false, {1, 2, 3, 4, 5, 6, 7, 8, 9});
+  expect("c", MeshPlace::point, 2, true, {4, 5, 6, 7, 8, 9});
+  expect("material", MeshPlace::cell, 1, true, {-2});
+  EXPECT_TRUE(import_mesh(text, MeshFormat::ply, "file").mesh.arrays.empty());
+}
+
 } // namespace
 } // namespace sheet::formats

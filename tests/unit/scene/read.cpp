@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "libsheet/scene/write.h"
 #include "scenes.h"
 
 namespace sheet::scene {
@@ -267,8 +268,8 @@ TEST(Read, ProblemsOfTheOtherTables) {
            {"[[hold]]\nregion = {box = [[0, 0, 0], [1, -1, 1]]}",
             "s:10:17: box: the first corner must not exceed the second in any coordinate"},
            {"[[hold]]\nregion = {box = 3}", "s:10:17: box: expected two corners such as [[0, 0, 0], [1, 1, 1]]"},
-           {"[[hold]]\nregion = {}", "s:10:10: region: expected \"rim\", {box = [[0, 0, 0], [1, 1, 1]]} or {sphere = "
-                                     "{center = [0, 0, 0], radius = 1}}"},
+           {"[[hold]]\nregion = {}", "s:10:10: region: expected \"rim\", {box = [[0, 0, 0], [1, 1, 1]]}, {sphere = "
+                                     "{center = [0, 0, 0], radius = 1}} or {array = \"pinned\"}"},
            {"[[hold]]\nregion = \"rim\"\naxes = \"yy\"",
             "s:11:8: axes: expected some of the letters x, y, z, such as \"y\" or \"xz\""},
            {"[[hold]]\nregion = \"rim\"\naxes = \"y\"\nkind = \"clamped\"",
@@ -517,6 +518,31 @@ TEST(Read, ProblemsOfSeveralSheets) {
            {"[[sheet]]\nshape = \"mesh\"\nfile = \"a.off\"\nthickness = 1\nenters = 1",
             "s:22:10: enters: a sheet from a mesh file is there from the start; a shape can enter"}})
     EXPECT_EQ(problem(two_sheets + text), expected) << text;
+}
+
+TEST(Read, ArraysOfAMeshGoAlongAndChooseWhatIsHeld) {
+  const std::string mesh = "[sheet]\nshape = \"mesh\"\nfile = \"a.ply\"\nthickness = 0.02\n";
+  const Scene s =
+      parse_scene(mesh + "arrays = [\"blender.uv\", \"material\"]\n" + liquid +
+                      "[[hold]]\nregion = {array = \"painted\"}\n[inflow]\nregion = {array = \"in\"}\nvelocity "
+                      "= [0, 0, -1]\n",
+                  "s");
+  EXPECT_EQ(s.sheets[0].arrays, (std::vector<std::string>{"blender.uv", "material"}));
+  EXPECT_EQ(std::get<ArrayRegion>(s.holds[0].region).array, "painted");
+  EXPECT_EQ(std::get<ArrayRegion>(s.inflows[0].region).array, "in");
+  EXPECT_EQ(parse_scene(to_toml(s), "again"), s);
+  const auto wrong = [&](const std::string& line) { return problem(mesh + line + "\n" + liquid); };
+  for (const char* name : {"position", "tear.volume", "thickness", "Capital", "", "a b"})
+    EXPECT_NE(wrong("arrays = [\"" + std::string(name) + "\"]").find("cannot be the name"), std::string::npos) << name;
+  EXPECT_NE(wrong("arrays = [\"a\", \"a\"]").find("twice"), std::string::npos);
+  EXPECT_NE(wrong("arrays = \"a\"").find("expected names"), std::string::npos);
+  EXPECT_NE(problem(disk + "arrays = [\"a\"]\n" + liquid).find("shape \"mesh\""), std::string::npos);
+  EXPECT_NE(problem(disk + liquid + "[[hold]]\nregion = {array = \"a\"}\n").find("shape \"mesh\""), std::string::npos);
+  EXPECT_NE(problem(mesh + liquid +
+                    "[[hold]]\nregion = {array = \"a\"}\nroll = true\nmotion = {kind = \"translating\", "
+                    "velocity = [1, 0, 0]}\n")
+                .find("a part of space"),
+            std::string::npos);
 }
 
 } // namespace

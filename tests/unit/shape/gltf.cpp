@@ -90,5 +90,16 @@ TEST(Gltf, RefusesWhatSinglePrecisionDoesNotHold) {
   EXPECT_THROW((void)encode_gltf(mesh, Eigen::Vector3d::UnitY()), Error);
 }
 
+TEST(Gltf, TextureCoordinatesComeFirstAndPointDown) {
+  ForeignMesh mesh = two_triangles();
+  mesh.arrays.push_back({"uv", MeshPlace::point, 2, {0, 0.25, 1, 0.5, 0.5, 1, 0.75, 0, 0, 0}});
+  const tinygltf::Model model = read(encode_gltf(mesh, Eigen::Vector3d::UnitY()));
+  const tinygltf::Primitive& primitive = model.meshes.at(0).primitives.at(0);
+  EXPECT_EQ(values<float>(model, primitive.attributes.at("TEXCOORD_0")),
+            (std::vector<float>{0, 0.75F, 1, 0.5F, 0.5F, 0, 0.75F, 1, 0, 1}));
+  EXPECT_EQ(values<float>(model, primitive.attributes.at("TEXCOORD_1")),
+            (std::vector<float>{0.1F, 0, 0.2F, 0, 0.3F, 0, 0.4F, 0, 0, 0}));
+}
+
 } // namespace
 } // namespace sheet

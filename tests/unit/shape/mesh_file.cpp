@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/mesh_file.h"
 
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "formats/cpp/mesh_export.h"
 #include "libsheet/base/error.h"
 #include "libsheet/shape/perturb.h"
 #include "libsheet/shape/shapes.h"
@@ -51,6 +54,31 @@ TEST(MeshFile, ErrorsHaveTheirExitCodes) {
   EXPECT_EQ(code_of(path), ExitCode::bad_input);
   std::remove(path.c_str());
   EXPECT_THROW(save_mesh("/nonexistent/a.ply", mesh), Error);
+}
+
+TEST(MeshFile, AnArrayThatIsAskedForMustBeThereAndFinite) {
+  const std::string path = testing::TempDir() + "mesh_file_test_arrays.ply";
+  const auto write = [&](double value) {
+    formats::ForeignMesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.arrays.push_back({"dye", formats::MeshPlace::point, 1, {1, value, 3}});
+    formats::export_mesh(path, mesh);
+  };
+  const auto message = [&](const std::string& name) -> std::string {
+    try {
+      (void)load_mesh(path, std::array{name});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "fine";
+  };
+  write(2);
+  EXPECT_EQ(load_mesh(path, std::array{std::string("dye")}).mesh.arrays.at(0).values, (std::vector<double>{1, 2, 3}));
+  EXPECT_NE(message("uv").find(path + ": there is no array \"uv\""), std::string::npos);
+  write(std::nan(""));
+  EXPECT_NE(message("dye").find("array 'dye' has a value that is not finite"), std::string::npos) << message("dye");
+  std::remove(path.c_str());
 }
 
 } // namespace

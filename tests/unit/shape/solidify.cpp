@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/solidify.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -54,6 +55,24 @@ TEST(Solidify, ThicknessOfTrianglesBecomesThatOfVertices) {
   mesh.triangle_thickness.assign(mesh.triangles.size(), 0.25);
   for (const double thickness : thickness_at_vertices(mesh))
     EXPECT_NEAR(thickness, 0.25, 1e-15);
+}
+
+TEST(Solidify, EveryTriangleSaysWhereItComesFrom) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  std::vector<std::uint32_t> origin;
+  const TriangleMesh solid = solidify(mesh, std::vector<double>(4, 0.1), &origin);
+  ASSERT_EQ(origin.size(), solid.triangles.size());
+  for (std::size_t t = 0; t < solid.triangles.size();
+       ++t) // it shares two vertices with the one it comes from, or three
+    EXPECT_GE(std::ranges::count_if(mesh.triangles[origin[t]],
+                                    [&](std::uint32_t v) {
+                                      return std::ranges::any_of(solid.triangles[t],
+                                                                 [&](std::uint32_t w) { return w % 4 == v; });
+                                    }),
+              t < 4 ? 3 : 2)
+        << t;
 }
 
 } // namespace

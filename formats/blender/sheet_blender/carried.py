@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an artist's mesh has beside its shape (UV maps, colours, materials) on its way through a run and back.
+
+A layer that has one value at each vertex goes as an array at vertices, which remeshing interpolates ("blender.uv"). One
+that has seams, where the corners at a vertex differ, cannot: there each vertex carries where it was in the mesh at the
+start ("blender.rest"), and the layer is looked up there, in the island (faces joined without a seam) in which the
+middle of the face was. Materials are numbers of triangles, which remeshing copies ("blender.material").
+"""
+from __future__ import annotations
+
+import json
+import pathlib
+from typing import Any, NamedTuple
+
+import bpy
+import numpy as np
+from mathutils.bvhtree import BVHTree
+
+from .evaluated import Triangles
+
+ENDING = "_carried.npz"  # behind the name of the sheet's mesh file, beside the scene
+MATERIAL, REST = "blender.material", "blender.rest"
+SEAM = 1e-6  # corners of a vertex that differ by more stand at a seam
+
+
+class Layer(NamedTuple):
+    """kind: uv, color; array: the frames' array, "" if it is looked up; values: at the corners of the triangles at the
+    start (m x 3 x components)."""
+    kind: str
+    name: str
+    array: str
+    values: Any
+
+
+def _uv_layers(mesh: bpy.types.Mesh, corner: Any) -> list[tuple[str, str, Any]]:
+    """The active one first."""
+    found = []
+    for layer in sorted(mesh.uv_layers, key=lambda layer: not layer.active_render):
+        values = np.empty(2 * len(mesh.loops), np.float32)
+        layer.data.foreach_get("uv", values)
+        found.append(("uv", layer.name, values.reshape(-1, 2)[corner].astype(float)))
+    return found
+
+
+def _color_layers(mesh: bpy.types.Mesh, triangle: Any, corner: Any) -> list[tuple[str, str, Any]]:
+    found = []
+    for layer in mesh.color_attributes:
+        values = np.empty(4 * len(layer.data), np.float32)
+        layer.data.foreach_get("color", values)
+        rows = {"POINT": triangle, "CORNER": corner}.get(layer.domain)
+        if rows is not None:
+            found.append(("color", layer.name, values.reshape(-1, 4)[rows].astype(float)))
+    return found
+
+
+def _at_vertices(values: Any, triangle: Any, vertices: int) -> Any:
+    """Corner values as those of vertices (n x components); None if they have seams."""
+    result = np.zeros((vertices, values.shape[2]))
+    result[triangle.ravel()] = values.reshape(-1, values.shape[2])
+    return None if len(triangle) and np.abs(result[triangle] - values).max() > SEAM else result
+
+
+def collect(mesh: bpy.types.Mesh, shape: Triangles) -> tuple[dict[str, Any], dict[str, Any], list[Layer]]:
+    """Arrays at vertices and at triangles for the scene's mesh file, and the layers that they are."""
+    at_vertices: dict[str, Any] = {}
+    layers = []
+    count = {"uv": 0, "color": 0}
+    for kind, name, values in _uv_layers(mesh, shape.corner) + _color_layers(mesh, shape.triangle, shape.corner):
+        smooth = _at_vertices(values, shape.triangle, len(shape.position))
+        number = f".{count[kind]}" if count[kind] else ""
+        array = "" if smooth is None else f"blender{number}.{kind}"
+        count[kind] += 1
+        if smooth is not None:
+            at_vertices[array] = smooth
+        layers.append(Layer(kind, name, array, values))
+    if any(not layer.array for layer in layers):
+        at_vertices[REST] = shape.position
+    slots = np.zeros(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("material_index", slots)
+    at_triangles = {MATERIAL: slots[shape.face]} if slots.any() else {}
+    return at_vertices, at_triangles, layers
+
+
+def file_of(mesh_file: pathlib.Path) -> pathlib.Path:
+    return mesh_file.with_name(mesh_file.stem + ENDING)
+
+
+def keep(mesh_file: pathlib.Path, layers: list[Layer], shape: Triangles) -> None:
+    """Writes what looking up takes, and what the arrays of the run are, beside the mesh file."""
+    said = [{"kind": layer.kind, "name": layer.name, "array": layer.array} for layer in layers]
+    looked_up = {f"values_{i}": layer.values for i, layer in enumerate(layers) if not layer.array}
+    if looked_up:
+        looked_up |= {"position": shape.position, "triangle": shape.triangle}
+    np.savez(file_of(mesh_file), layers=np.array(json.dumps(said)), **looked_up)
+
+
+class _Islands:
+    """The faces of the mesh at the start, by those that a layer joins without a seam."""
+
+    def __init__(self, position: Any, triangle: Any, values: Any) -> None:
+        self.position, self.triangle, self.values = position, triangle, values
+        self.whole = BVHTree.FromPolygons(position.tolist(), triangle.tolist())
+        self.island = self._joined()
+        self.trees: dict[int, tuple[BVHTree, Any]] = {}
+
+    def _joined(self) -> Any:
+        """The number of each triangle's island: the least of its triangles. Sides with the same two vertices and values
+        at them join."""
+        n = len(self.triangle)
+        keys = []
+        for i in range(3):
+            a, b = self.triangle[:, i], self.triangle[:, (i + 1) % 3]
+            u, v = self.values[:, i], self.values[:, (i + 1) % 3]
+            swap = (a > b)[:, None]
+            ends = np.sort(np.stack([a, b], 1), 1)
+            keys.append(np.concatenate([ends, np.round(np.where(swap, v, u) / SEAM),
+                                        np.round(np.where(swap, u, v) / SEAM)], 1))
+        _, side = np.unique(np.concatenate(keys), axis=0, return_inverse=True)
+        side = side.reshape(3, n)
+        label = np.arange(n)
+        while True:
+            least = np.full(side.max() + 1, n)
+            for i in range(3):
+                np.minimum.at(least, side[i], label)
+            after = np.minimum(label, least[side].min(0))
+            after = np.minimum(after, after[after])
+            if np.array_equal(after, label):
+                return label
+            label = after
+
+    def _tree(self, island: int) -> tuple[BVHTree, Any]:
+        if island not in self.trees:
+            rows = np.flatnonzero(self.island == island)
+            self.trees[island] = (BVHTree.FromPolygons(self.position.tolist(), self.triangle[rows].tolist()), rows)
+        return self.trees[island]
+
+    def _value(self, face: int, point: Any) -> Any:
+        """The layer's value at the place of the face that is nearest to the point; exact to rounding on the face."""
+        a, b, c = self.position[self.triangle[face]]
+        u, v, w = b - a, c - a, point - a
+        uu, uv, vv, wu, wv = u @ u, u @ v, v @ v, w @ u, w @ v
+        scale = uu * vv - uv * uv
+        if scale <= 0:
+            return self.values[face, 0]
+        weights = np.array([0.0, (vv * wu - uv * wv) / scale, (uu * wv - uv * wu) / scale])
+        weights[0] = 1 - weights[1] - weights[2]
+        weights = np.clip(weights, 0, 1)
+        return weights / weights.sum() @ self.values[face]
+
+    def look_up(self, rest: Any, triangle: Any) -> Any:
+        """Values at the corners of triangles (m x 3 x components) whose vertices were at `rest` (n x 3) then."""
+        middles = rest[triangle].mean(axis=1)
+        known: dict[tuple[int, int], Any] = {}
+        result = np.empty((len(triangle), 3, self.values.shape[2]))
+        for i, (corners, middle) in enumerate(zip(triangle.tolist(), middles)):
+            island = int(self.island[self.whole.find_nearest(middle)[2]])
+            for k, vertex in enumerate(corners):
+                value = known.get((vertex, island))
+                if value is None:
+                    tree, rows = self._tree(island)
+                    value = self._value(int(rows[tree.find_nearest(rest[vertex])[2]]), rest[vertex])
+                    known[vertex, island] = value
+                result[i, k] = value
+        return result
+
+
+class Carried:
+    """What the frames of a run carry of the artist's mesh."""
+
+    def __init__(self, file: pathlib.Path) -> None:
+        self.layers: list[Layer] = []
+        self.islands: dict[int, _Islands] = {}
+        self.looked_up: dict[int, tuple[bytes, Any]] = {}
+        with np.load(file) as kept:
+            for i, said in enumerate(json.loads(str(kept["layers"]))):
+                values = None if said["array"] else kept[f"values_{i}"]
+                self.layers.append(Layer(said["kind"], said["name"], said["array"], values))
+                if values is not None:
+                    self.islands[i] = _Islands(kept["position"], kept["triangle"], values)
+
+    def put(self, mesh: bpy.types.Mesh, frame: Any) -> None:
+        """Gives the frame's mesh its layers and the materials of its faces."""
+        triangle = np.asarray(frame["triangle"])
+        for i, layer in enumerate(self.layers):
+            if layer.array:
+                values = np.asarray(frame[layer.array])[triangle] if layer.array in frame else None
+            else:
+                values = self._values_of(i, frame, triangle) if REST in frame else None
+            if values is not None:
+                _put_layer(mesh, layer, values.reshape(-1, values.shape[2]))
+        if MATERIAL in frame and len(mesh.materials) > 1:  # else a preset's, which the whole sheet has
+            mesh.polygons.foreach_set("material_index", np.asarray(frame[MATERIAL]).astype(np.int32).ravel())
+
+    def _values_of(self, i: int, frame: Any, triangle: Any) -> Any:
+        rest = np.asarray(frame[REST])
+        key = rest.tobytes() + triangle.tobytes()
+        if i not in self.looked_up or self.looked_up[i][0] != key:  # the same as long as the mesh is
+            self.looked_up[i] = (key, self.islands[i].look_up(rest, triangle))
+        return self.looked_up[i][1]
+
+
+def _put_layer(mesh: bpy.types.Mesh, layer: Layer, values: Any) -> None:
+    flat = np.ascontiguousarray(values, np.float32).ravel()
+    if layer.kind == "uv":
+        target = mesh.uv_layers.get(layer.name) or mesh.uv_layers.new(name=layer.name, do_init=False)
+        target.data.foreach_set("uv", flat)
+        return
+    target = mesh.color_attributes.get(layer.name)
+    if target is None:
+        target = mesh.color_attributes.new(layer.name, "FLOAT_COLOR", "CORNER")
+    target.data.foreach_set("color", flat)
+
+
+_kept: dict[pathlib.Path, tuple[int, Carried | None]] = {}
+
+
+def beside(run: str, mesh_file: str) -> Carried | None:
+    """What is carried by the run of a file, whose scene names this mesh file, if the add-on has written that: it is in
+    the folder of the run, the one above, or where the scene says."""
+    folder = pathlib.Path(bpy.path.abspath(run)).resolve().parent
+    name = file_of(pathlib.Path(mesh_file)) if mesh_file else pathlib.Path(ENDING)
+    file = next((place for place in (folder / name.name, folder.parent / name.name, folder / name) if place.is_file()),
+                None)
+    if file is None:
+        return None
+    stamp = file.stat().st_mtime_ns
+    if file not in _kept or _kept[file][0] != stamp:
+        try:
+            _kept[file] = (stamp, Carried(file))
+        except (OSError, ValueError, KeyError) as error:
+            print(f"Sheet: {file}: UV maps and colours do not come back: {error}")
+            _kept[file] = (stamp, None)
+    return _kept[file][1]
