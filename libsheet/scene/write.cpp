@@ -277,17 +277,17 @@ void write_flow_law(Writer& out, const Liquid& liquid) {
     out.line("law", word(words::flow_laws, static_cast<std::size_t>(law.kind)));
   if (law.kind != FlowLawKind::table)
     out.line(plateaus ? "zero_viscosity" : "viscosity", liquid.viscosity);
-  const auto unless_absent = [&](std::string_view key, double FlowLaw::*member) {
-    if (law.*member != absent.*member)
+  const auto unless_newtonian = [&](std::string_view key, double FlowLaw::*member) {
+    if (law.*member != newtonian.*member)
       out.line(key, law.*member);
   };
-  unless_absent("yield_stress", &FlowLaw::yield_stress);
+  unless_newtonian("yield_stress", &FlowLaw::yield_stress);
   if (plateaus || law.kind == FlowLawKind::power || law.kind == FlowLawKind::herschel_bulkley)
     out.line("flow_index", law.flow_index);
-  unless_absent("reference_rate", &FlowLaw::reference_rate);
-  unless_absent("infinite_viscosity", &FlowLaw::infinite_viscosity);
-  unless_absent("time_constant", &FlowLaw::time_constant);
-  unless_absent("transition", &FlowLaw::transition);
+  unless_newtonian("reference_rate", &FlowLaw::reference_rate);
+  unless_newtonian("infinite_viscosity", &FlowLaw::infinite_viscosity);
+  unless_newtonian("time_constant", &FlowLaw::time_constant);
+  unless_newtonian("transition", &FlowLaw::transition);
   if (!law.rates.empty()) {
     out.line("rates", items(law.rates, number));
     out.line("viscosities", items(law.viscosities, number));
