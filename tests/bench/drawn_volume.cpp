@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much liquid a picture shows, over what the stream has: bench_drawn_volume RUN.sheet, of each frame. CSV: time [s];
-// what the surface of the layers encloses over the stream's volume, with the beads of rims; the same of one body, whose
-// surfaces are round where layers touch. What layers have in common counts twice in either.
+// How much liquid a picture shows, over what the stream has: bench_drawn_volume RUN.sheet, of each frame. CSV: time
+// [s]; what the surface of the layers encloses over the stream's volume, with the beads of rims; the same of one body,
+// whose surfaces are round where layers touch. What layers have in common counts twice in either.
 #include <cstdio>
 
 #include <fmt/core.h>

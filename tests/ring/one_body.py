@@ -4,7 +4,7 @@
 
 Checked of `sheet-export --union`: every edge has two faces, one on either side (so none has four); with voids the volume
 is that of the frame within 0.1 %; one thread and two give the same bytes. Voxels are half the median thickness, or up to
-all of it where there would be very many.
+all of it where there would be very many; what is some thousand times as wide as it is thick is passed over.
 """
 import pathlib
 import subprocess
@@ -18,10 +18,12 @@ import sheetstream  # noqa: E402
 
 
 def read_off(file):
-    words = file.read_text().split()
-    points, faces = int(words[1]), int(words[2])
-    x = np.array(words[4:4 + 3 * points], dtype=float).reshape(-1, 3)
-    return x, np.array(words[4 + 3 * points:], dtype=int).reshape(faces, 4)[:, 1:]
+    with open(file) as text:
+        text.readline()  # OFF
+        points, faces, _ = map(int, text.readline().split())
+        numbers = np.fromfile(text, sep=" ")
+    x = numbers[:3 * points].reshape(points, 3)
+    return x, numbers[3 * points:].reshape(faces, 4)[:, 1:].astype(int)
 
 
 def export(run, out, *options):
@@ -45,6 +47,9 @@ def main():
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
     volume = frame["volume"].ravel()
     median = float(np.median(volume / np.maximum(area, 1e-300)))
+    if area.sum() > 5e6 * median ** 2:
+        print(f"{run}: too thin for its width to be divided into voxels")
+        return
     voxel = str(min(median, max(median / 2, float(area.sum() / 2e5) ** 0.5)))
     with tempfile.TemporaryDirectory() as folder:
         files = [pathlib.Path(folder) / f"{i}.off" for i in range(3)]
