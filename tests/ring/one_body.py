@@ -4,7 +4,7 @@
 
 Checked of `sheet-export --union`: every edge has two faces, one on either side (so none has four); with voids the volume
 is that of the frame within 0.1 %; one thread and two give the same bytes. Voxels are half the median thickness, or up to
-all of it where there would be very many; what is some thousand times as wide as it is thick is passed over.
+all of it where there would be very many; what is 800 times as wide as it is thick is passed over.
 """
 import pathlib
 import subprocess
@@ -47,10 +47,10 @@ def main():
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
     volume = frame["volume"].ravel()
     median = float(np.median(volume / np.maximum(area, 1e-300)))
-    if area.sum() > 5e6 * median ** 2:
+    if area.sum() > 6e5 * median ** 2:
         print(f"{run}: too thin for its width to be divided into voxels")
         return
-    voxel = str(min(median, max(median / 2, float(area.sum() / 2e5) ** 0.5)))
+    voxel = str(min(median, max(median / 2, float(area.sum() / 1e5) ** 0.5)))
     with tempfile.TemporaryDirectory() as folder:
         files = [pathlib.Path(folder) / f"{i}.off" for i in range(3)]
         export(run, files[0], "--voxel", voxel, "--keep-voids", "--threads", "1")
