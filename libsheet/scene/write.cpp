@@ -271,7 +271,7 @@ void write_solid(Writer& out, const Solid& solid) {
 
 // As read_flow_law.cpp reads it.
 void write_flow_law(Writer& out, const Liquid& liquid) {
-  const FlowLaw &law = liquid.law, absent;
+  const FlowLaw &law = liquid.law, newtonian;
   const bool plateaus = law.kind == FlowLawKind::carreau || law.kind == FlowLawKind::cross;
   if (!law.newtonian())
     out.line("law", word(words::flow_laws, static_cast<std::size_t>(law.kind)));
