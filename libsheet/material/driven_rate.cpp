@@ -22,4 +22,8 @@ double driven_rate(const Liquid& liquid, double stress) {
   return std::exp(0.5 * (low + high));
 }
 
+double stretching_rate(const Liquid& liquid, double tension, double borne) {
+  return liquid.law.newtonian() || tension > borne * liquid.law.yield_stress ? driven_rate(liquid, tension) : 0;
+}
+
 } // namespace sheet

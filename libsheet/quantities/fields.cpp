@@ -141,7 +141,7 @@ const std::array<Field, 7> all_fields = {{
     {"contacts", "contacts", "1", Place::vertex, contacts, contact_kinds, false},
     {"strain_rate", "rate of strain", "1/s", Place::triangle, strain_rates, amounts, true, true},
     {"viscosity", "viscosity", "Pa s", Place::triangle, viscosity, amounts, true, true},
-    {"log_viscosity", "log10 viscosity in Pa s", "1", Place::triangle, log_viscosity, amounts, false, true},
+    {"log_viscosity", "viscosity log10 Pa s", "1", Place::triangle, log_viscosity, amounts, false, true},
 }};
 
 // The frame's array of one number a row; null if it has none.

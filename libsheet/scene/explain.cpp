@@ -29,16 +29,18 @@ std::vector<Scale> scale_list(const Scene& scene, const Scales& scales) {
   const double L = scales.length.value_or(0), h = scales.thickness.value_or(0), g = scales.gravity;
   const double rho = scene.material.density, gamma = scene.material.surface_tension;
   // In which a stress strains it by 1: mu over the stress, mu at that rate. What yields is not strained below.
-  const auto time_under = [&](double stress) { return 1 / driven_rate(scene.material, stress); };
+  const auto time_under = [&](double stress, double borne) {
+    return 1 / stretching_rate(scene.material, stress, borne);
+  };
   add("L", "length", L, "m", "the shape's shortest side, radius or width");
   add("h", "thickness", h, "m", "the sheet's, at the start");
   add("V", "speed", scales.speed, "m/s", "the fastest drive: " + scales.speed_source);
   add("t_V", "time of the flow", L / scales.speed, "s", "L / V");
   std::ranges::move(scales_of_law(scene, scales), std::back_inserter(list));
   if (rho > 0)
-    add("t_g", "time in which gravity stretches it", time_under(rho * g * L), "s", "mu / (rho g L)");
+    add("t_g", "time in which gravity stretches it", time_under(rho * g * L, std::numbers::sqrt3), "s", "mu / (rho g L)");
   add("t_f", "time of free fall", std::sqrt(L / g), "s", "sqrt(L / g)");
-  add("t_c", "time in which surface tension contracts it", time_under(gamma / h), "s", "mu h / gamma");
+  add("t_c", "time in which surface tension contracts it", time_under(gamma / h, 1), "s", "mu h / gamma");
   if (const auto layer = layer_scales_of(scene, scales)) {
     add("U", "speed of a layer along the steepest solid", layer->speed, "m/s",
         std::string(scene.material.law.newtonian() ? "rho h (h + 3 b) (g_t + g h / L) / (3 mu)"
@@ -47,7 +49,7 @@ std::vector<Scale> scale_list(const Scene& scene, const Scales& scales) {
     add("t_U", "time in which it spreads by its length", layer->time, "s", "L / U");
     add("l_c", "capillary length", layer->capillary_length, "m", "sqrt(gamma / (rho g))");
   }
-  add("t_p", "time in which pressure stretches it", time_under(scales.pressure * L / h), "s", "mu h / (p L)");
+  add("t_p", "time in which pressure stretches it", time_under(scales.pressure * L / h, 2), "s", "mu h / (p L)");
   if (const auto& bath = scene.environment.bath) {
     const double excess = 4 * scales.viscosity * h * scales.speed / L - 2 * gamma;
     add("lambda", "wavelength of the fastest wrinkles on the bath",

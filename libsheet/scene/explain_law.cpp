@@ -74,14 +74,17 @@ DimensionlessNumber weight_against_yield(const Scene& scene, const Scales& scale
 
 DimensionlessNumber layer_against_yield(const Scene& scene, const Scales& scales, const LayerScales& layer) {
   const double yield = scene.material.law.yield_stress, weight = scene.material.density * scales.gravity;
-  const bool inclined = layer.along > 1e-6 * scales.gravity;
-  const double stays = inclined ? yield / (scene.material.density * layer.along)
-                                : std::sqrt(yield * *scales.length / weight);
-  const bool flows = layer.stress > yield;
-  return {"layer against yield", "rho h (g_t + g h / L) / tau_y", layer.stress / yield,
-          fmt::format("On the steepest solid a layer of {} m {}; below {} = {} m it stands.", brief(*scales.thickness),
-                      flows ? "flows" : "stands",
-                      inclined ? "tau_y / (rho g_t)" : "sqrt(tau_y L / (rho g))", brief(stays))};
+  const double h = *scales.thickness;
+  if (layer.along > 1e-6 * scales.gravity) {
+    const double stays = yield / (scene.material.density * layer.along);
+    return {"layer against yield", "rho g_t h / tau_y", h / stays,
+            fmt::format("Down the steepest solid a layer of {} m {}; below tau_y / (rho g_t) = {} m it stands.",
+                        brief(h), h > stays ? "flows" : layer.stress > yield ? "stands, but for its rim" : "stands",
+                        brief(stays))};
+  }
+  return {"layer against yield", "rho g h² / (L tau_y)", layer.stress / yield,
+          fmt::format("A layer of {} m and this length {}; below sqrt(tau_y L / (rho g)) = {} m it stands.", brief(h),
+                      layer.stress > yield ? "spreads" : "stands", brief(std::sqrt(yield * *scales.length / weight)))};
 }
 
 DimensionlessNumber tension_against_yield(const Scene& scene, double thickness) {

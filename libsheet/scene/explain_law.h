@@ -24,7 +24,7 @@ namespace sheet::scene {
 //   Bingham                  tau_y L/(mu V), of Herschel-Bulkley tau_y/(K (V/L)^n): 1 where both parts are alike
 //   weight against yield     rho g L/tau_y; a strip hung up flows where more than sqrt(3) tau_y/(rho g) hangs
 //                            (its stress in tension is sqrt(3) tau_y [von Mises 1913])
-//   layer against yield      rho h (g_t + g h/L)/tau_y; on an incline it stands below h = tau_y/(rho g_t)
+//   layer against yield      rho g_t h/tau_y on an incline, where it stands below 1; rho g h²/(L tau_y) on the level
 //   tension against yield    gamma/(tau_y h); above 1 a rim is drawn back
 [[nodiscard]] std::vector<DimensionlessNumber> numbers_of_law(const Scene& scene, const Scales& scales);
 

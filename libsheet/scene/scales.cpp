@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "libsheet/base/overloaded.h"
 #include "libsheet/material/driven_rate.h"
@@ -45,18 +46,19 @@ void offer_forces(Scales& scales, const Scene& scene) {
   const double tension = scene.material.surface_tension;
   const double L = scales.length.value_or(0), h = scales.thickness.value_or(0);
   const bool inertia = scene.model.inertia && density > 0;
-  const auto least = [&](double stress, double inertial) {
-    const double viscous = scene.material.viscous() ? L * driven_rate(scene.material, stress) : unlimited;
+  const auto least = [&](double stress, double borne, double inertial) {
+    const double viscous =
+        scene.material.viscous() ? L * stretching_rate(scene.material, stress, borne) : unlimited;
     return std::min(viscous, inertia ? inertial : unlimited);
   };
   if (L <= 0)
     return;
   if (!scene.environment.bath) // which carries the weight
-    offer(scales, least(density * scales.gravity * L, std::sqrt(scales.gravity * L)), "gravity");
+    offer(scales, least(density * scales.gravity * L, std::numbers::sqrt3, std::sqrt(scales.gravity * L)), "gravity");
   if (h <= 0)
     return;
-  offer(scales, least(2 * tension / h, std::sqrt(2 * tension / (density * h))), "surface tension");
-  offer(scales, least(scales.pressure * L / h, std::sqrt(scales.pressure * L / (density * h))),
+  offer(scales, least(2 * tension / h, 2, std::sqrt(2 * tension / (density * h))), "surface tension");
+  offer(scales, least(scales.pressure * L / h, 2, std::sqrt(scales.pressure * L / (density * h))),
         "pressure");
 }
 

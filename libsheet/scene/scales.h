@@ -33,7 +33,7 @@ struct Scales {
 //   surface tension  2 gamma L/(mu h)   sqrt(2 gamma/(rho h))  [Taylor 1959, Culick 1960]
 //   pressure         p L²/(mu h)        sqrt(p L/(rho h))
 // Of a liquid that is not Newtonian the rate of each balance, V/L, is that of its stress, rho g L, 2 gamma/h or p L/h
-// (material/driven_rate.h): none below its yield stress.
+// (material/driven_rate.h): none where it is borne by the yield stress.
 [[nodiscard]] Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& measured);
 
 // Of each sheet; measured: likewise, or of none.
