@@ -83,22 +83,30 @@ std::vector<double> contacts(const Frame& frame) {
   return result;
 }
 
-// The liquid of the frame's scene; null if it is Newtonian or there is no scene that can be read. Remembers the last.
-const Liquid* liquid_with_law(const Frame& frame) {
+struct Law {
+  double rest_rate = 0; // [1/s]
+  FlowCurve curve;
+};
+
+// Of the liquid of the frame's scene; null if that is Newtonian or there is no scene that can be read. Remembers the
+// last.
+const Law* law_of(const Frame& frame) {
   thread_local std::string text;
-  thread_local std::optional<Liquid> liquid;
+  thread_local std::optional<Law> law;
   const formats::Array* scene = frame.find("scene");
   if (scene == nullptr)
     return nullptr;
   if (scene->text() != text) {
-    liquid.reset();
+    law.reset();
     text = scene->text();
     try {
-      liquid = scene::parse_scene(text, "the frame's scene").material;
+      const Liquid liquid = scene::parse_scene(text, "the frame's scene").material;
+      if (!liquid.law.newtonian())
+        law = Law{rest_rate(liquid), FlowCurve(liquid)};
     } catch (const Error&) { // that of another version of these programs: others say so
     }
   }
-  return liquid && !liquid->law.newtonian() ? &*liquid : nullptr;
+  return law ? &*law : nullptr;
 }
 
 // 0 where nothing moves yet.
@@ -117,13 +125,12 @@ std::vector<double> strain_rates(const Frame& frame) {
   return rates;
 }
 
+// These two: precondition: there is a law.
 std::vector<double> viscosity(const Frame& frame) {
   std::vector<double> values = strain_rates(frame);
-  if (const Liquid* liquid = liquid_with_law(frame)) {
-    const FlowCurve curve(*liquid);
-    for (double& value : values)
-      value = curve.viscosity({value * value});
-  }
+  const FlowCurve& curve = law_of(frame)->curve;
+  for (double& value : values)
+    value = curve.viscosity({value * value});
   return values;
 }
 
@@ -159,19 +166,19 @@ std::span<const Field> fields() { return all_fields; }
 const Field& field_named(std::string_view name) { return *std::ranges::find(all_fields, name, &Field::name); }
 
 bool has(const Frame& frame, const Field& field) {
-  return field.of_laws ? liquid_with_law(frame) != nullptr : field.get != nullptr || array_of(frame, field) != nullptr;
+  return field.of_laws ? law_of(frame) != nullptr : field.get != nullptr || array_of(frame, field) != nullptr;
 }
 
 double part_at_rest(const Frame& frame) {
   constexpr double moves = 10; // times the rest rate
-  const Liquid* liquid = liquid_with_law(frame);
-  if (liquid == nullptr)
+  const Law* law = law_of(frame);
+  if (law == nullptr)
     return std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> rates = strain_rates(frame);
   double all = 0, rests = 0;
   for (std::size_t t = 0; t < rates.size(); ++t) {
     all += volumes(frame)[t];
-    rests += rates[t] < moves * rest_rate(*liquid) ? volumes(frame)[t] : 0;
+    rests += rates[t] < moves * law->rest_rate ? volumes(frame)[t] : 0;
   }
   return rests / all;
 }
