@@ -32,7 +32,6 @@ void ContactShear::begin(const Stage& stage) {
   liquid_ = stage.liquid;
   flow_ = stage.flow;
   duration_ = stage.duration;
-  yields_ = stage.liquid.law.yields();
   own_force_.clear();
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
@@ -69,7 +68,7 @@ void ContactShear::begin(const Stage& stage) {
 }
 
 void ContactShear::follow(const Unknowns& u, const Unknowns& step) {
-  if (!yields_)
+  if (flow_.newtonian())
     return;
   std::vector<Vector3> next(springs_.size(), Vector3::Zero());
   for (std::size_t i = 0; i < springs_.size(); ++i) {

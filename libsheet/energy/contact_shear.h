@@ -88,9 +88,8 @@ private:
   std::vector<Link> links_;
   Liquid liquid_;
   FlowCurve flow_;
-  double duration_ = 0; // [s]
-  bool yields_ = false;
-  std::vector<Vector3> own_force_; // of what yields, once Newton has gone a step [N]
+  double duration_ = 0;            // [s]
+  std::vector<Vector3> own_force_; // of what is not Newtonian, once Newton has gone a step [N]
 };
 
 } // namespace sheet

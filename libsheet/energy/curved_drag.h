@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What slides along something by the way s and is dragged by a liquid that is not Newtonian: the force is k s, with k a
-// function of |s| and ∂k/∂s = k' s. If the liquid yields, Newton's Hessian has a force p of its own, as the stress in
+// function of |s| and ∂k/∂s = k' s. Where the liquid thins, Newton's Hessian has a force p of its own, as the stress in
 // mid_edge_shell.h: in ∂(k s) = k + k' s sᵀ the second s becomes p/k once, and a direction δ takes p to
 // k (s + δ) + (k'/k) (s·δ) p.
 #pragma once
@@ -15,7 +15,7 @@ struct CurvedDrag {
 
   // ∂(k s) along the slide, with p if there is one.
   [[nodiscard]] Matrix3 hessian(const Vector3& s, const Matrix3& along, const Vector3* p) const {
-    const Vector3 other = p != nullptr ? shortened(*p / stiffness, s) : s;
+    const Vector3 other = p != nullptr && change < 0 ? shortened(*p / stiffness, s) : s;
     return stiffness * along + 0.5 * change * (s * other.transpose() + other * s.transpose());
   }
   [[nodiscard]] Vector3 followed(const Vector3& s, const Vector3& step, const Vector3* p) const {

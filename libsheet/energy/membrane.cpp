@@ -24,7 +24,6 @@ void Membrane::begin(const Stage& stage) {
   liquid_ = stage.liquid;
   flow_ = stage.flow;
   duration_ = stage.duration;
-  yields_ = stage.liquid.law.yields();
   stress_.clear();
   mesh_ = stage.start->mesh;
   const auto& triangles = stage.start->mesh->triangles;
@@ -62,7 +61,8 @@ double Membrane::curved_derivatives(std::size_t i, const VectorN<9>& u, VectorN<
   const Vector3 c = a.dissipated(m) / (2 * duration_), s = volume * flow.viscosity * c;
   springs.gradient(s, gradient);
   if (hessian != nullptr) {
-    const Vector3 other = stress_.empty() ? c : dual_factor(a, flow, strain_rate(a, m, duration_), stress_[i]);
+    const Vector3 other =
+        stress_.empty() || flow.slope >= 0 ? c : dual_factor(a, flow, strain_rate(a, m, duration_), stress_[i]);
     const Matrix3 product = 0.5 * (c * other.transpose() + other * c.transpose());
     const Matrix3 qq = (volume / duration_) * (0.5 * flow.viscosity * a.dissipation() + flow.slope * product);
     springs.hessian(qq, definite ? a.positive_part(s) : s, *hessian);
@@ -71,7 +71,7 @@ double Membrane::curved_derivatives(std::size_t i, const VectorN<9>& u, VectorN<
 }
 
 void Membrane::follow(const Unknowns& u, const Unknowns& step) {
-  if (!yields_)
+  if (flow_.newtonian())
     return;
   const auto& triangles = mesh_->triangles;
   std::vector<Vector3> next(triangles.size());

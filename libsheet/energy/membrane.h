@@ -4,7 +4,7 @@
 // a: first fundamental form, ā: its reference, â: the metric that raises indices (Stage::raised), V: the triangle's
 // volume [m³], μ: viscosity [Pa s]. A liquid that is not Newtonian has, with the potential φ of its flow curve,
 //   W = V τ φ(γ̇²),   γ̇² = 2 (tr(E²) + tr(E)²)/τ²,
-// and if it yields, Newton's Hessian has a stress of its own as mid_edge_shell.h says. With â the metric at the stage's
+// and Newton's Hessian has a stress of its own as mid_edge_shell.h says. With â the metric at the stage's
 // end the weight μ V = μ h A couples thickness and area exactly; with â the metric at the start it is the paper's
 // explicit thickness.
 #pragma once
@@ -36,9 +36,8 @@ private:
   std::vector<double> weight_;       // V μ/(2τ) [J]; of a liquid that is not Newtonian V/(2τ)
   Liquid liquid_;
   FlowCurve flow_;
-  double duration_ = 0; // τ [s]
-  bool yields_ = false;
-  std::vector<Vector3> stress_; // of a liquid that yields, once Newton has gone a step [Pa m²]
+  double duration_ = 0;         // τ [s]
+  std::vector<Vector3> stress_; // of a liquid that is not Newtonian, once Newton has gone a step [Pa m²]
   std::shared_ptr<const Connectivity> mesh_;
 };
 

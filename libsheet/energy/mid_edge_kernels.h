@@ -35,12 +35,12 @@ struct alignas(64) MidEdgeReference {
 // At points through the thickness, in each half two of Gauss [z/h, from the middle outwards].
 inline constexpr int flow_points_through = 4;
 
-// Of liquids that yield: a stress p at each point (mid_edge_shell.h), as a form on edges [Pa m²].
+// Of liquids that are not Newtonian: a stress p at each point (mid_edge_shell.h), as a form on edges [Pa m²].
 struct alignas(64) MidEdgeStress {
   LaneNumbers at[flow_points_through][3];
 };
 
-// What a liquid does that is not Newtonian (curve: null if it is) and, with a stress, yields.
+// What a liquid does that is not Newtonian (curve: null if it is); the stress, once Newton has gone a step.
 struct MidEdgeFlow {
   const FlowCurve* curve = nullptr;
   const MidEdgeStress* stress = nullptr;

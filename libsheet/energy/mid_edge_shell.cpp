@@ -51,7 +51,6 @@ void MidEdgeShell::begin(const Stage& stage) {
     prepare(*stage.previous);
   area_loads_.begin(stage);
   curved_ = arcs_ && !stage.flow.newtonian();
-  yields_ = curved_ && stage.liquid.law.yields();
   liquid_ = stage.liquid;
   flow_ = stage.flow;
   stresses_.clear();
@@ -128,7 +127,7 @@ void MidEdgeShell::prepare(const Unknowns& u) {
 }
 
 void MidEdgeShell::follow(const Unknowns& u, const Unknowns& step) {
-  if (!yields_)
+  if (!curved_)
     return;
   prepare(u);
   std::vector<MidEdgeStress> next(references_.size());

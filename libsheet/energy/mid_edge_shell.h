@@ -28,8 +28,9 @@
 // forces and Hessians follow from a = 𝔇 r(0), b = 𝔇 (β - β̄)/τ and moments over z of η and d (flow_curve.h). Caps,
 // leaning directors, and bending without arcs have the viscosity that the stage predicts.
 //
-// If it yields, plain Newton fails as the rest rate goes to 0. Its stress is then an unknown of Newton's, eliminated at
-// each point [Chan, Golub and Mulet 1999; Rudi, Shih and Stadler 2020]: in the Hessian d c cᵀ, c = 𝔇 r, becomes
+// Where rates change by orders of magnitude plain Newton is slow, and fails as the rest rate of what yields goes to 0.
+// So where it thins, d < 0, the stress is an unknown of Newton's, eliminated at each point [Chan, Golub and Mulet 1999;
+// Rudi, Shih and Stadler 2020]: in the Hessian d c cᵀ, c = 𝔇 r, becomes
 //   (d/η) (c (𝔇p)ᵀ + (𝔇p) cᵀ)/2,   (2 pᵀ𝔇p)^½ <= η²/|dη/dγ̇|,
 // and a direction δ takes p to η (r + δr) + (d/η) (2 rᵀ𝔇δr) p. At the solution p = η r, where this is the Hessian.
 #pragma once
@@ -89,8 +90,7 @@ private:
   }
 
   bool arcs_;
-  bool curved_ = false; // the liquid is not Newtonian,
-  bool yields_ = false; // and yields
+  bool curved_ = false; // the liquid is not Newtonian
   Liquid liquid_;
   FlowCurve flow_;
   AreaLoads area_loads_;
@@ -98,7 +98,7 @@ private:
   std::size_t triangles_ = 0;
   std::vector<MidEdgeReference> references_; // of lane_count triangles each
   std::vector<MidEdgeLoads> loads_;          // likewise; empty: none
-  std::vector<MidEdgeStress> stresses_;      // likewise, of a liquid that yields, once Newton has gone a step
+  std::vector<MidEdgeStress> stresses_;      // likewise, where the liquid is not Newtonian, once Newton has gone a step
   std::vector<double> cosine_, sine_;        // of the edges' angles
 };
 

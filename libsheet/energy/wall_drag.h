@@ -38,7 +38,6 @@ public:
     corners_.assign(walls_.empty() ? 0 : triangles_, {});
     duration_ = stage.duration;
     flow_ = stage.wall_flow;
-    yields_ = stage.liquid.law.yields();
     rest_rate_ = flow_ ? std::max(rest_rate(stage.liquid), flow_->newtonian_below()) : 0;
     own_force_.clear();
     each_in_parallel(corners_.size(), [&](std::size_t i) {
@@ -98,7 +97,7 @@ public:
   // See term.h.
   void rest_at(double rate) { rest_rate_ = rate; }
   void follow(const Unknowns& u, const Unknowns& step) {
-    if (!flow_ || !yields_ || corners_.empty())
+    if (!flow_ || corners_.empty())
       return;
     std::vector<std::array<Vector3, 3>> next(triangles_, {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()});
     each_in_parallel(triangles_, [&](std::size_t t) {
@@ -191,11 +190,10 @@ private:
 
   std::shared_ptr<const Connectivity> mesh_;
   std::size_t triangles_ = 0;
-  double duration_ = 0;                  // [s]
-  std::shared_ptr<const WallFlow> flow_; // of a liquid that is not Newtonian
-  bool yields_ = false;
+  double duration_ = 0;                           // [s]
+  std::shared_ptr<const WallFlow> flow_;          // of a liquid that is not Newtonian
   double rest_rate_ = 0;                          // [1/s]
-  std::vector<std::array<Vector3, 3>> own_force_; // of what yields, once Newton has gone a step [N]
+  std::vector<std::array<Vector3, 3>> own_force_; // once Newton has gone a step [N]
   std::vector<Touched> walls_;                    // of what touches
   std::vector<std::array<Corner, 3>> corners_;    // of each triangle; empty where nothing touches
 };

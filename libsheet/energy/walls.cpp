@@ -162,7 +162,7 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   if (std::ranges::all_of(walls, [](const Wall& w) { return w.vertices.empty(); }))
     return;
   if (!stage.liquid.law.newtonian() && !stage.wall_flow)
-    stage.wall_flow = std::make_shared<const WallFlow>(stage.liquid);
+    stage.wall_flow = wall_flow_of(stage.liquid);
   stage.site_of.assign(stage.vertices(), no_index);
   for (std::uint32_t w = 0; w < walls.size(); ++w)
     for (const auto v : walls[w].vertices) {

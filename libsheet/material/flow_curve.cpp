@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libsheet/material/integrated_curve.h"
+#include "libsheet/material/kept.h"
 
 namespace sheet {
 
@@ -45,7 +46,8 @@ FlowCurve::FlowCurve(const Liquid& liquid) : FlowCurve(liquid, rest_rate(liquid)
 FlowCurve::FlowCurve(const Liquid& liquid, double rest_rate) {
   const FlowLaw& law = liquid.law;
   if (!law.elementary()) {
-    integrated_ = std::make_shared<const IntegratedCurve>(log_curve(liquid));
+    static Kept<IntegratedCurve> kept;
+    integrated_ = kept.of(liquid, [&] { return IntegratedCurve(log_curve(liquid)); });
     return;
   }
   const double rest = rest_rate * rest_rate, power = (law.flow_index - 1) / 2;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "libsheet/material/kept.h"
+
 namespace sheet {
 
 namespace {
@@ -63,6 +65,11 @@ WallFlow::WallFlow(const Liquid& liquid) : curve_(liquid) {
     rise_.push_back(here.f * here.rise / conjugate);
     before = here;
   }
+}
+
+std::shared_ptr<const WallFlow> wall_flow_of(const Liquid& liquid) {
+  static Kept<WallFlow> kept;
+  return kept.of(liquid, [&] { return WallFlow(liquid); });
 }
 
 WallFlow::Place WallFlow::place(double log_rate) const {

@@ -7,6 +7,7 @@
 // f and ∫ f dτ depend on the liquid alone and are summed up once, over ln G, to 1e-9.
 #pragma once
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "libsheet/material/flow_curve.h"
@@ -47,5 +48,8 @@ private:
   double first_ = 0;                                 // ln G of the first row
   std::vector<double> f_, slope_, conjugate_, rise_; // ln f, d ln f/d ln G, and of ∫ f dτ likewise
 };
+
+// The same, kept for as long as one liquid is asked for: to sum it up takes as long as a small step. Thread-safe.
+[[nodiscard]] std::shared_ptr<const WallFlow> wall_flow_of(const Liquid& liquid);
 
 } // namespace sheet

@@ -231,6 +231,8 @@ TEST(Validation, LiquidsThatAreNotNewtonian) {
   }
   for (const int set : {1, 2, 3})
     EXPECT_LT(error("V31", settings("V31", 0.1, 40, set)), 1e-5) << "set " << set;
+  for (const int set : {1, 2, 3, 4})
+    EXPECT_LT(error("V32", settings("V32", 0.0625, 40, set)), 2e-3) << "set " << set;
   EXPECT_LT(error("V31", settings("V31", 0.1, 60, 4)), 0.02); // slumps to rest
   EXPECT_LT(error("V31", settings("V31", 0.1, 60, 5)), 0.02);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// V5, V6: a strip pulled by a constant force. V13: the viscous catenary. V15: a strip compressed on a bath.
+// V5, V6: a strip pulled by a constant force. V13, V32: the viscous catenary. V15: a strip compressed on a bath.
 #include "tests/support/holds.h"
 #include "tests/validation/instant.h"
 #include "tests/validation/liquids.h"
@@ -104,23 +104,27 @@ Result pulled_strip(const Settings& s, bool width_held, const TestedLiquid& liqu
 Result v5(const Settings& s) { return pulled_newtonian(s, false); } // sides free: Trouton's 3 μ
 Result v6(const Settings& s) { return pulled_newtonian(s, true); }  // width held: 4 μ
 
-// V13: stretching holds the weight: tension q L²/(8 s) = 4 μ h d/dt(8 s²/(3 L²)), so s³ = 9 ρ g L⁴ t/(512 μ): a
-// parabola that sags from 0.25 to 0.5 % of the span (the formula neglects terms of order (s/L)², below 1e-4). Pinned
-// ends, plane strain.
-Result v13(const Settings& s) {
-  constexpr double mu = 100, rho = 1000, g = 9.81, h = 2.5e-5, first = 0.0025, last = 0.005;
-  const auto when = [](double sag) { return 512 * mu * sag * sag * sag / (9 * rho * g); };
+namespace {
+
+constexpr double catenary_density = 1000, catenary_gravity = 9.81;
+
+// Pinned ends, plane strain; `when` it has a sag, how fast it grows then. A parabola that sags from 0.25 % of the span
+// (the formulas neglect terms of order (s/L)², below 1e-4).
+Result catenary(const Settings& s, const Liquid& liquid, double last, const std::function<double(double)>& when,
+                const std::function<double(double)>& speed) {
+  constexpr double h = 2.5e-5, first = 0.0025;
   State start = film(strip_mesh(s, 1, strip_width), h);
   for (std::size_t v = 0; v < start.positions.size(); ++v) {
     Vector3& x = start.positions[v];
     const double shape = -4 * x.x() * (1 - x.x());
     x.z() = first * shape;
-    start.velocities[v].z() = first / (3 * when(first)) * shape; // ds/dt = s/(3 t)
+    start.velocities[v].z() = speed(first) * shape;
   }
   start.time = when(first);
-  Model m = viscous(mu, s);
-  m.liquid.density = rho;
-  m.gravity = {0, 0, -g};
+  Model m = viscous(1, s);
+  m.liquid = liquid;
+  m.liquid.density = catenary_density;
+  m.gravity = {0, 0, -catenary_gravity};
   m.holds.push_back(sides_across(start));
   m.holds.push_back(hold(
       start, [](const Vector3& x) { return near(x.x(), 0) || near(x.x(), 1); }, all_axes, false));
@@ -133,6 +137,46 @@ Result v13(const Settings& s) {
     up -= shape * x.z(), down += shape * shape;
   }
   return run.result(up / down / last);
+}
+
+// Of a power law: tension q L²/(8 s) = 2 K h (2 d/dt(8 s²/(3 L²)))^n, so s^(2 + 1/n) = (2 + 1/n) c t with
+// c = (3 L²/32) (ρ g L²/(16 K))^(1/n); from 0.25 to 0.5 % of the span.
+Result power_law_catenary(const Settings& s, double consistency, double n, Liquid liquid) {
+  const double power = 2 + 1 / n;
+  const double c = 3.0 / 32 * std::pow(catenary_density * catenary_gravity / (16 * consistency), 1 / n);
+  liquid.viscosity = consistency;
+  return catenary(
+      s, liquid, 0.005, [=](double sag) { return std::pow(sag, power) / (power * c); },
+      [=](double sag) { return c * std::pow(sag, 1 - power); });
+}
+
+// Of a Bingham liquid: s² s' = c (1 - s/s_f), c = 3 ρ g L⁴/(512 μ), which ends at s_f = ρ g L²/(16 τ_y).
+Result bingham_catenary(const Settings& s) {
+  constexpr double mu = 100, end = 0.006, c = 3 * catenary_density * catenary_gravity / (512 * mu);
+  const Liquid liquid{
+      .viscosity = mu,
+      .law = {.kind = FlowLawKind::bingham, .yield_stress = catenary_density * catenary_gravity / (16 * end)}};
+  return catenary(
+      s, liquid, 0.005,
+      [=](double sag) {
+        const double part = sag / end;
+        return -end * end * end * (std::log1p(-part) + part + part * part / 2) / c;
+      },
+      [=](double sag) { return c * (1 - sag / end) / (sag * sag); });
+}
+
+} // namespace
+
+// V13: stretching holds the weight: tension q L²/(8 s) = 4 μ h d/dt(8 s²/(3 L²)), so s³ = 9 ρ g L⁴ t/(512 μ).
+Result v13(const Settings& s) { return power_law_catenary(s, 100, 1, {}); }
+
+// V32: the same of liquids that are not Newtonian; K such that the first sag grows about as fast.
+Result v32(const Settings& s) {
+  if (s.set == 4)
+    return bingham_catenary(s);
+  constexpr double indices[3] = {1.0 / 3, 0.5, 1.5};
+  const double n = indices[s.set - 1];
+  return power_law_catenary(s, 100 * std::pow(0.5, 1 - n), n, {.law = {.kind = FlowLawKind::power, .flow_index = n}});
 }
 
 // V15: growth rate of a perturbation a cos(k x) of a strip that is shortened at the rate e, P = 4 μ h e, on a bath:

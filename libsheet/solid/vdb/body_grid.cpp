@@ -10,15 +10,14 @@
 
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/FastSweeping.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/ValueTransformer.h>
 #include <openvdb/tools/VolumeToMesh.h>
-#include <openvdb/tree/LeafManager.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "libsheet/solid/vdb/closing.h"
 #include "libsheet/solid/vdb/slab_field.h"
 
 namespace sheet::solid {
@@ -91,12 +90,19 @@ DepthCount BodyGrid::depths(double last_iso) const {
 }
 
 void BodyGrid::close(float length) {
-  grid_->field = openvdb::tools::sdfToSdf(*grid_->field, length);
-  openvdb::tree::LeafManager<FloatTree> leaves(grid_->field->tree());
-  leaves.foreach ([&](Leaf& leaf, std::size_t) {
-    float* const values = leaf.buffer().data();
-    for (openvdb::Index i = 0; i < Leaf::SIZE; ++i)
-      values[i] = std::max(values[i] + length, -depth_);
+  FloatTree& tree = grid_->field->tree();
+  std::vector<Leaf*> leaves;
+  tree.getNodes(leaves);
+  std::vector<FieldBlock> blocks;
+  blocks.reserve(leaves.size());
+  for (Leaf* const leaf : leaves)
+    blocks.push_back({Voxel(leaf->origin().x(), leaf->origin().y(), leaf->origin().z()), leaf->buffer().data()});
+  close_field(
+      blocks, [&](const Voxel& x) { return tree.getValue(openvdb::Coord(x.x(), x.y(), x.z())); }, length, depth_);
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
+    for (openvdb::Index k = 0; k < Leaf::SIZE; ++k)
+      if (leaves[i]->getValue(k) <= -depth_)
+        leaves[i]->setValueOff(k);
   });
 }
 

@@ -24,9 +24,7 @@ public:
   [[nodiscard]] std::size_t voxels() const;               // that carry a value of their own
   [[nodiscard]] DepthCount depths(double last_iso) const; // depth_count.h
 
-  // Adds all that is within `length` of the body, and then takes away all that is within `length` of the outside: a
-  // closing [Serra 1982]. The distance from the surface of what was added is found by fast sweeping [Zhao 2005].
-  // `reach` must have been two voxels or more beyond the length.
+  // closing.h. `reach` must have been beyond the length by closing_margin or more.
   void close(float length);
 
   // The isosurface, triangles counter-clockwise seen from outside. Quadrangles are cut along their shorter diagonal.

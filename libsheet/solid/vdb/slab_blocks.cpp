@@ -11,22 +11,23 @@
 #include <tbb/parallel_sort.h>
 
 #include "libsheet/geometry/box.h"
+#include "libsheet/solid/vdb/lanes.h"
 
 namespace sheet::solid {
 namespace {
 
-constexpr std::int32_t bits_of_axis = 21, middle = 1 << (bits_of_axis - 1);
+constexpr std::int32_t middle = 1 << (block_key_bits - 1);
 const float half_diagonal =
     std::sqrt(3.0F) * SlabBlocks::side / 2; // of a block with all that lies nearest to its voxels
-
-std::uint64_t key_of(std::int32_t x, std::int32_t y, std::int32_t z) {
-  return static_cast<std::uint64_t>(x + middle) << 2 * bits_of_axis |
-         static_cast<std::uint64_t>(y + middle) << bits_of_axis | static_cast<std::uint64_t>(z + middle);
-}
 
 std::int32_t block_of(double x) { return static_cast<std::int32_t>(std::floor((x + 0.5) / SlabBlocks::side)); }
 
 } // namespace
+
+std::uint64_t block_key(const Voxel& block) {
+  const auto axis = [&](int i) { return static_cast<std::uint64_t>(block[i] + middle); };
+  return axis(0) << 2 * block_key_bits | axis(1) << block_key_bits | axis(2);
+}
 
 VoxelSpace::VoxelSpace(const Slabs& slabs, double voxel_size) : voxel(voxel_size) {
   Box3 box;
@@ -61,8 +62,8 @@ SlabBlocks::SlabBlocks(const Slabs& slabs, const VoxelSpace& space, double reach
   keep_nearest(std::move(pairs));
 }
 
-void SlabBlocks::add_blocks_of(std::uint32_t triangle, const Vector3& low, const Vector3& high, double reach,
-                               std::vector<Pair>& pairs) const {
+SHEET_FOR_EACH_PROCESSOR void SlabBlocks::add_blocks_of(std::uint32_t triangle, const Vector3& low, const Vector3& high,
+                                                        double reach, std::vector<Pair>& pairs) const {
   const SlabTriangle& slab = slabs_[triangle];
   const float farthest = static_cast<float>(reach) + slab.steepness() * half_diagonal;
   const std::int32_t first = block_of(low.z()), last = block_of(high.z());
@@ -79,7 +80,7 @@ void SlabBlocks::add_blocks_of(std::uint32_t triangle, const Vector3& low, const
         slab.field_at(place, f);
         for (std::int32_t lane = 0; lane < std::min(lane_count, last - z + 1); ++lane)
           if (f[lane] <= farthest)
-            pairs.push_back({key_of(x, y, z + lane), triangle, f[lane]});
+            pairs.push_back({block_key({x, y, z + lane}), triangle, f[lane]});
       }
 }
 
@@ -105,14 +106,15 @@ void SlabBlocks::keep_nearest(std::vector<Pair> pairs) {
 
 Voxel SlabBlocks::origin(std::size_t block) const {
   const auto axis = [&](int number) {
-    const auto value = static_cast<std::int32_t>(keys_[block] >> number * bits_of_axis & ((1U << bits_of_axis) - 1));
+    const auto value =
+        static_cast<std::int32_t>(keys_[block] >> number * block_key_bits & ((1U << block_key_bits) - 1));
     return side * (value - middle);
   };
   return {axis(2), axis(1), axis(0)};
 }
 
 std::optional<std::size_t> SlabBlocks::find(const Voxel& voxel) const {
-  const std::uint64_t key = key_of(voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3);
+  const std::uint64_t key = block_key({voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3});
   const auto found = std::lower_bound(keys_.begin(), keys_.end(), key);
   if (found == keys_.end() || *found != key)
     return {};

@@ -23,6 +23,10 @@ struct VoxelSpace {
   [[nodiscard]] Vector3 in_metres(const Vector3& x) const { return center + voxel * x; }
 };
 
+// A number for a block, counted in blocks along each axis, by which they are in order.
+inline constexpr int block_key_bits = 21; // of an axis
+std::uint64_t block_key(const Voxel& block);
+
 class SlabBlocks {
 public:
   // All blocks where the field is below `reach` voxels somewhere.

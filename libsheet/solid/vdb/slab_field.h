@@ -18,14 +18,11 @@ public:
   void fill(std::size_t block, float reach, std::array<float, SlabBlocks::voxels>& values);
 
 private:
-  struct Parts {
-    Lanes at_centers; // the field in the middles of the eight parts of a block
-  };
   void fill_part(const Voxel& first, const Voxel& part, std::array<float, SlabBlocks::voxels>& values) const;
 
   const SlabBlocks& blocks_;
-  std::vector<Parts> parts_;        // for each triangle of the block
-  std::vector<std::uint32_t> near_; // the triangles that matter in a part
+  std::vector<KeptLanes> at_middles_; // of each triangle of the block: its field in the middles of the eight parts
+  std::vector<std::uint32_t> near_;   // the triangles that matter in a part
 };
 
 } // namespace sheet::solid

@@ -11,15 +11,9 @@
 #include <limits>
 
 #include "libsheet/geometry/types.h"
+#include "libsheet/solid/vdb/lanes.h"
 
 namespace sheet::solid {
-
-inline constexpr int lane_count = 8;
-using Lanes = float __attribute__((vector_size(4 * lane_count)));
-
-struct LanePlace {
-  Lanes x, y, z;
-};
 
 class SlabTriangle {
 public:

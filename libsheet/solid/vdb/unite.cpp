@@ -16,6 +16,7 @@
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/solid/vdb/body_grid.h"
 #include "libsheet/solid/vdb/body_surface.h"
+#include "libsheet/solid/vdb/lanes.h"
 #include "libsheet/solid/vdb/slab_blocks.h"
 
 namespace sheet::solid {
@@ -27,7 +28,8 @@ Voxel voxel_of(const Vector3& x) { return (x.array() + 0.5).floor().matrix().cas
 Voxel block_place(const Vector3& x) { return ((x.array() + 0.5) / SlabBlocks::side).floor().matrix().cast<int>(); }
 
 // The triangles where points of the surface come from; `count` points, all of one block, from the first on.
-void find_origins(const SlabBlocks& blocks, std::size_t block, const Vector3* points, SlabPoint* origins, int count) {
+SHEET_FOR_EACH_PROCESSOR void find_origins(const SlabBlocks& blocks, std::size_t block, const Vector3* points,
+                                           SlabPoint* origins, int count) {
   LanePlace place{};
   for (int i = 0; i < lane_count; ++i) {
     const Vector3& x = points[std::min(i, count - 1)];

@@ -548,8 +548,8 @@ TEST(Derivatives, ContactShear) {
 }
 
 TEST(Derivatives, ContactShearOfFlowCurves) {
-  for (const FlowLaw& law : flow_laws())
-    check(ContactShear(springs), {false, false, 2, law}, true, crumpled, touch_walls);
+  for (const std::size_t law : {0U, 1U, 4U, 5U}) // the others hardly vary at the rates between layers
+    check(ContactShear(springs), {false, false, 2, flow_laws()[law]}, true, crumpled, touch_walls);
 }
 
 TEST(Derivatives, SqueezeOfArcs) {

@@ -216,6 +216,38 @@ TEST(SlabUnion, ClosingChangesNothingOfASingleLayer) {
   EXPECT_NEAR(as_far, farthest, 0.05 * h);
 }
 
+// Where two faces meet, closing leaves the arc of a circle that touches both. The surface is shifted outward of it.
+TEST(SlabUnion, ClosingRoundsACornerByItsLength) {
+  for (const double close : {h / 2, h, 2 * h}) {
+    Layers layers;
+    layers.add_square(0.03, h, 0);
+    layers.add_square(0.03, h, 0);
+    const double tilt = 0.3, sine = std::sin(tilt), cosine = std::cos(tilt);
+    for (std::size_t i = 0; i < layers.points.size(); ++i) { // the second across the first, both askew to the voxels
+      Vector3& x = layers.points[i];
+      if (2 * i >= layers.points.size())
+        x = Vector3(0, x.y(), x.x());
+      x = Vector3(cosine * x.x() - sine * x.z(), x.y(), sine * x.x() + cosine * x.z());
+    }
+    const SlabUnion body = unite(layers.slabs(), options_for(layers, close));
+    double sum = 0, most = 0;
+    int count = 0;
+    for (const Vector3& x : body.surface.points) {
+      const double u = std::abs(cosine * x.x() + sine * x.z()) - h / 2 - close,
+                   w = std::abs(cosine * x.z() - sine * x.x()) - h / 2 - close, away = std::hypot(u, w);
+      if (std::abs(x.y()) > 0.01 || std::max(u, w) > -0.3 * away)
+        continue;                                                 // not on the middle of the arc
+      const double error = (close - body.shift - away) / (h / 4); // in voxels
+      sum += error;
+      most = std::max(most, std::abs(error));
+      ++count;
+    }
+    ASSERT_GT(count, 100);
+    EXPECT_LT(std::abs(sum / count), 0.3) << close;
+    EXPECT_LT(most, 0.4) << close;
+  }
+}
+
 TEST(SlabUnion, OfAShellHasAnInnerSurfaceIfVoidsAreKept) {
   Layers layers;
   const double radius = 0.02;
