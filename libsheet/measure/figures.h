@@ -27,6 +27,7 @@ struct Figure {
   bool printed = true;    // in text, JSON and CSV
   bool needs_density = false;
   std::size_t field = 0; // number of its field among those that are measured
+  bool of_laws = false;  // printed only of liquids that are not Newtonian
 
   // Of its values, in their order.
   [[nodiscard]] std::vector<std::string> columns() const;

@@ -96,6 +96,7 @@ void measure_fields(const formats::Frame& frame, const Range& thickness, Measure
     if (!field.in_figures)
       continue;
     Range& range = m.fields.emplace_back(&field).range;
+    m.of_laws = m.of_laws || (field.of_laws && has(frame, field));
     if (field.name == "thickness")
       range = thickness;
     if (field.name == "thickness" || frame.triangles == 0 || !has(frame, field))
@@ -151,6 +152,7 @@ Measurements measure(const formats::Frame& frame, std::optional<double> density)
     for (int i = 0; i < 3; ++i)
       widen(m.low[i], m.high[i], x[i]);
   measure_fields(frame, measure_triangles(frame, m), m);
+  m.part_at_rest = part_at_rest(frame);
   const std::vector<Side> sides = sorted_sides(triangles(frame), frame.vertices);
   measure_edges(frame, sides, m);
   if (density)

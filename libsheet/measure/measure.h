@@ -43,7 +43,9 @@ struct Measurements {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(absent);              // bounding box of all vertices [m]
   Eigen::Vector3d high = Eigen::Vector3d::Constant(absent);
   Range edge;                // lengths, each edge once [m]
-  double angle_min = absent; // of the triangles' corners [rad]
+  bool of_laws = false;         // the liquid is not Newtonian:
+  double part_at_rest = absent; // quantities/fields.h
+  double angle_min = absent;    // of the triangles' corners [rad]
   double angle_max = absent;
   double aspect_max = absent; // longest side over the altitude on it, 1 for an equilateral triangle; inf: degenerate
   Topology topology;

@@ -93,7 +93,7 @@ public:
       out += fmt::format("  {:<18} {}\n", name, text);
     };
     for (const Figure& figure : figures())
-      if (figure.printed && figure.name != "aspect_max") // that stands behind the angles
+      if (figure.printed && (m.of_laws || !figure.of_laws) && figure.name != "aspect_max") // that stands behind the angles
         if (const std::string told = told_of(figure, m); !told.empty())
           line(figure.caption, told);
     line("topology", fmt::format("{}, pieces {}, boundary loops {}, Euler characteristic {}",
@@ -164,8 +164,8 @@ constexpr std::array<std::string_view, 32> first_columns = {"frame",
                                                             "boundary_loops",
                                                             "euler_characteristic"};
 
-// A row's cells, in the order of the columns; forces stand last.
-std::vector<Cell> cells_of(const ReportEntry& e) {
+// A row's cells, in the order of the columns; forces stand last. of_laws: with what liquids have that are not Newtonian.
+std::vector<Cell> cells_of(const ReportEntry& e, bool of_laws) {
   const Frame& f = *e.frame;
   const Topology& t = e.measurements.topology;
   std::vector<Cell> cells = {{"frame", fmt::format("{}", e.index)},
@@ -178,7 +178,7 @@ std::vector<Cell> cells_of(const ReportEntry& e) {
                              {"euler_characteristic", fmt::format("{}", t.euler_characteristic)},
                              {"closed", t.closed ? "1" : "0"}};
   for (const Figure& figure : figures()) {
-    if (!figure.printed)
+    if (!figure.printed || (figure.of_laws && !of_laws))
       continue;
     const std::vector<std::string> columns = figure.columns();
     const std::vector<double> values = figure.values(e.measurements);
@@ -197,10 +197,11 @@ public:
     if (first_) {
       for (const NamedForce& force : m.forces)
         forces_.push_back(force.name);
+      of_laws_ = m.of_laws;
       out = header(e, forces_);
       first_ = false;
     }
-    for (const Cell& cell : cells_of(e))
+    for (const Cell& cell : cells_of(e, of_laws_))
       out += (cell.column == first_columns[0] ? "" : ",") + cell.text;
     for (std::size_t i = 0; i < forces_.size(); ++i)
       for (int axis = 0; axis < 3; ++axis)
@@ -220,9 +221,9 @@ public:
   }
 
 private:
-  static std::string header(const ReportEntry& entry, const std::vector<std::string>& forces) {
+  [[nodiscard]] std::string header(const ReportEntry& entry, const std::vector<std::string>& forces) const {
     std::string line;
-    for (const Cell& cell : cells_of(entry))
+    for (const Cell& cell : cells_of(entry, of_laws_))
       line += (line.empty() ? "" : ",") + cell.column;
     for (const std::string& name : forces)
       for (const char axis : {'x', 'y', 'z'})
@@ -231,7 +232,8 @@ private:
     return line + (entry.many_files ? ",file\n" : "\n");
   }
   bool first_ = true;
-  std::vector<std::string> forces_; // of the first frame's scene
+  bool of_laws_ = false;            // of the first frame's scene, as
+  std::vector<std::string> forces_;
 };
 
 class HealthReport : public Report {

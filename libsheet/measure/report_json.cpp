@@ -58,7 +58,7 @@ Json figure_json(const Figure& figure, const std::vector<double>& v) {
 Json measurements_json(const Measurements& m) {
   Json json = Json::object();
   for (const Figure& figure : figures())
-    if (figure.printed)
+    if (figure.printed && (m.of_laws || !figure.of_laws))
       json[figure.name] = figure_json(figure, figure.values(m));
   const Topology& t = m.topology;
   json["topology"] = {{"components", t.components},

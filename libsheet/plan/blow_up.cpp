@@ -2,7 +2,11 @@
 #include "libsheet/plan/blow_up.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "libsheet/material/driven_rate.h"
 
 namespace sheet {
 
@@ -20,6 +24,20 @@ std::optional<Pressing> pressing(const scene::Pressure& pressure, double radius)
   return {}; // a given amount of gas ends where its pressure does
 }
 
+// The integral of c/rate(s) over ln r from the start on, s = (tension/c) (r/r0)^k; none if it does not yield.
+std::optional<double> time_under(const Liquid& liquid, double tension, double c, double k) {
+  constexpr double step = 0.05, enough = 1e-4; // of ln r; of what is summed up
+  if (!(driven_rate(liquid, tension / c) > 0))
+    return {};
+  double time = 0, part = 0, at = 0.5 * step;
+  do {
+    part = c * step / driven_rate(liquid, tension / c * std::exp(k * at));
+    time += part;
+    at += step;
+  } while (part > enough * time);
+  return time;
+}
+
 // Of one that the pressure acts on, from when it is there.
 std::optional<double> blow_up_time_of(const scene::SheetTable& sheet, const Scene& scene) {
   const auto* thickness = std::get_if<double>(&sheet.thickness);
@@ -34,6 +52,10 @@ std::optional<double> blow_up_time_of(const scene::SheetTable& sheet, const Scen
   if (!law || !(law->value > tension) || (tube != nullptr && law->falls > 0))
     return {};
   // dr/dt = p r^n / c, h having thinned: with it r passes every bound at c / ((n - 1) p r^(n - 1)).
+  if (!scene.material.law.newtonian())
+    return tube != nullptr ? time_under(scene.material, law->value * radius / *thickness, 2, 2)
+                           : time_under(scene.material, law->value * radius / *thickness, 2 * std::numbers::sqrt3,
+                                        3 - law->falls);
   const double viscous = scene.material.viscosity * *thickness / (law->value * radius);
   return tube != nullptr ? 2 * viscous : 12 / (3 - law->falls) * viscous;
 }

@@ -13,6 +13,9 @@ namespace sheet {
 //   sphere, constant pressure p: dr/dt = p r²/(12 mu h), so 4 mu h/(p r); caps likewise, in about that time
 //   sphere, p = value (reference/r)²: 12 mu h/(p r)
 //   tube, constant pressure, its length kept or its ends free: 2 mu h/(p r)
+// In general the rate of strain c (dr/dt)/r is that of the stress tau (r/r0)^k, tau = p r/(c h) at the start, with c =
+// 2 sqrt(3), k = 3 or 1 for spheres and c = 2, k = 2 for tubes, and the time is the integral of c/rate over ln r. Where
+// tau is below a yield stress nothing is blown up.
 [[nodiscard]] std::optional<double> blow_up_time(const Scene& scene);
 
 } // namespace sheet

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/material/flow_curve.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
+#include "libsheet/scene/layer_scales.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -34,8 +36,9 @@ std::string warning_of_stuck_inflow(const Scene& scene, const solid::Solids& sol
   if (!landing || scene.solids[landing->solid].contact != SolidContact::stick || landing->there.velocity.norm() > 0)
     return {};
   const scene::Inflow& inflow = scene.inflows[number];
-  const double viscosity = scene.material.viscosity, density = scene.material.density;
-  const double q = inflow.thickness * scene::value_at(inflow.velocity, first.time).norm();
+  const double speed = scene::value_at(inflow.velocity, first.time).norm(), density = scene.material.density;
+  const double q = inflow.thickness * speed, rate = speed / inflow.thickness;
+  const double viscosity = viscosity_of(scene.material, {rate * rate});
   const double spread =
       std::pow(density * scene.environment.gravity->norm() * q * q * q / (3 * viscosity), 0.2) * std::pow(until, 0.8);
   if (!(spread > far_spread * inflow.thickness))
@@ -54,10 +57,9 @@ std::string warning_of_stuck_slope(const Scene& scene, const solid::Solids& soli
   for (const Landing& landing : all)
     if (landing.solid == number)
       slope += landing.there.normal.cross(down).norm() / static_cast<double>(all.size());
-  const double viscosity = scene.material.viscosity, density = scene.material.density;
-  const double way =
-      slope > 0 ? density * scene.environment.gravity->norm() * slope * thickness * thickness / (3 * viscosity) * until
-                : 0;
+  const double stress =
+      slope > 0 ? scene.material.density * scene.environment.gravity->norm() * slope * thickness : 0;
+  const double way = scene::speed_of_layer(scene.material, stress, thickness, 0) * until;
   if (!(way > far_down * thickness))
     return {};
   return question(solids.name(number),

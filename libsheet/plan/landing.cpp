@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libsheet/material/driven_rate.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -81,7 +82,7 @@ std::optional<Landing> landing_of_inflow(const Scene& scene, const Frame& first,
 
 double speed_after_fall(const Scene& scene, double v0, double fall) {
   const double g = scene.environment.gravity.value_or(Vector3d::Zero()).norm();
-  const double viscous = v0 + scene.material.density * g * fall * fall / (8 * scene.material.viscosity);
+  const double viscous = v0 + fall * driven_rate(scene.material, scene.material.density * g * fall / 8);
   return std::min(std::sqrt(v0 * v0 + 2 * g * fall), viscous);
 }
 

@@ -10,13 +10,15 @@
 
 #include "libsheet/base/overloaded.h"
 #include "libsheet/energy/term_table.h"
+#include "libsheet/scene/brief.h"
+#include "libsheet/scene/explain_law.h"
 #include "libsheet/solve/scene_model.h"
 
 namespace sheet {
 
 namespace {
 
-std::string brief(double value) { return fmt::format("{:.3g}", value); }
+using scene::brief;
 
 std::string count(std::size_t n, std::string_view one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
 
@@ -84,6 +86,8 @@ std::vector<scene::ModelledPart> modelled(const Scene& scene) {
   const auto part = [&](std::string_view name, bool is, std::string_view because, std::string_view because_not) {
     parts.push_back({name, is, std::string(is ? because : because_not)});
   };
+  if (!scene.material.law.newtonian())
+    part("flow law", true, scene::law_in_words(scene.material), "");
   part("holds", !scene.holds.empty(), count(scene.holds.size(), "hold"), "no [[hold]]");
   part("solids", !scene.solids.empty(), count(scene.solids.size(), "solid") + "; " + what_touches(scene.solids),
        "no [[solid]]");

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
 
 #include <Eigen/Geometry>
 
@@ -10,6 +14,8 @@
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/dihedral.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/material/flow_curve.h"
+#include "libsheet/scene/read.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -77,11 +83,72 @@ std::vector<double> contacts(const Frame& frame) {
   return result;
 }
 
-const std::array<Field, 4> all_fields = {{
+struct Law {
+  double rest_rate = 0; // [1/s]
+  FlowCurve curve;
+};
+
+// Of the liquid of the frame's scene; null if that is Newtonian or there is no scene that can be read. Remembers the
+// last.
+const Law* law_of(const Frame& frame) {
+  thread_local std::string text;
+  thread_local std::optional<Law> law;
+  const formats::Array* scene = frame.find("scene");
+  if (scene == nullptr)
+    return nullptr;
+  if (scene->text() != text) {
+    law.reset();
+    text = scene->text();
+    try {
+      const Liquid liquid = scene::parse_scene(text, "the frame's scene").material;
+      if (!liquid.law.newtonian())
+        law = Law{rest_rate(liquid), FlowCurve(liquid)};
+    } catch (const Error&) { // that of another version of these programs: others say so
+    }
+  }
+  return law ? &*law : nullptr;
+}
+
+// 0 where nothing moves yet.
+std::vector<double> strain_rates(const Frame& frame) {
+  const auto x = positions(frame);
+  const auto v = velocities(frame);
+  const auto corners = triangles(frame);
+  std::vector<double> rates(corners.size(), 0);
+  if (!v.empty())
+    for (std::size_t t = 0; t < corners.size(); ++t) {
+      const auto [a, b, c] = corners[t];
+      const Vector3 change = 2 * Vector3((x[c] - x[b]).dot(v[c] - v[b]), (x[a] - x[c]).dot(v[a] - v[c]),
+                                         (x[b] - x[a]).dot(v[b] - v[a]));
+      rates[t] = std::sqrt(strain_rate(RaisedMetric(squared_lengths(x[a], x[b], x[c])), change, 1).squared);
+    }
+  return rates;
+}
+
+// These two: precondition: there is a law.
+std::vector<double> viscosity(const Frame& frame) {
+  std::vector<double> values = strain_rates(frame);
+  const FlowCurve& curve = law_of(frame)->curve;
+  for (double& value : values)
+    value = curve.viscosity({value * value});
+  return values;
+}
+
+std::vector<double> log_viscosity(const Frame& frame) {
+  std::vector<double> values = viscosity(frame);
+  for (double& value : values)
+    value = std::log10(value);
+  return values;
+}
+
+const std::array<Field, 7> all_fields = {{
     {"thickness", "thickness", "m", Place::triangle, thickness, amounts, true},
     {"curvature", "mean curvature", "1/m", Place::vertex, mean_curvature, two_sided, false},
     {"speed", "speed", "m/s", Place::vertex, speed, amounts, false},
     {"contacts", "contacts", "1", Place::vertex, contacts, contact_kinds, false},
+    {"strain_rate", "rate of strain", "1/s", Place::triangle, strain_rates, amounts, true, true},
+    {"viscosity", "viscosity", "Pa s", Place::triangle, viscosity, amounts, true, true},
+    {"log_viscosity", "viscosity log10 Pa s", "1", Place::triangle, log_viscosity, amounts, false, true},
 }};
 
 // The frame's array of one number a row; null if it has none.
@@ -98,9 +165,28 @@ std::span<const Field> fields() { return all_fields; }
 
 const Field& field_named(std::string_view name) { return *std::ranges::find(all_fields, name, &Field::name); }
 
-bool has(const Frame& frame, const Field& field) { return field.get != nullptr || array_of(frame, field) != nullptr; }
+bool has(const Frame& frame, const Field& field) {
+  return field.of_laws ? law_of(frame) != nullptr : field.get != nullptr || array_of(frame, field) != nullptr;
+}
+
+double part_at_rest(const Frame& frame) {
+  constexpr double moves = 10; // times the rest rate
+  const Law* law = law_of(frame);
+  if (law == nullptr)
+    return std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> rates = strain_rates(frame);
+  double all = 0, rests = 0;
+  for (std::size_t t = 0; t < rates.size(); ++t) {
+    all += volumes(frame)[t];
+    rests += rates[t] < moves * law->rest_rate ? volumes(frame)[t] : 0;
+  }
+  return rests / all;
+}
 
 std::vector<double> values_of(const Frame& frame, const Field& field) {
+  if (field.of_laws && !has(frame, field))
+    fail(ExitCode::bad_input, "the frame's liquid is Newtonian, so it has no {} of its own: [material] law gives one",
+         field.caption);
   if (field.get != nullptr)
     return field.get(frame);
   const formats::Array* array = array_of(frame, field);

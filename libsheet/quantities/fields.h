@@ -20,6 +20,7 @@ struct Field {
   std::vector<double> (*get)(const formats::Frame&);
   const Palette& palette;
   bool in_figures; // least, mean and greatest value are among the figures of a frame (libsheet/measure/figures.h)
+  bool of_laws = false; // only of liquids that are not Newtonian
 };
 
 //   thickness  volume / area of each triangle [m]
@@ -28,12 +29,21 @@ struct Field {
 //              them, A a third of the area around the vertex [Cohen-Steiner and Morvan 2003]; at the rim 0
 //   speed      |velocity| at vertices [m/s]
 //   contacts   at vertices: 0 none, 1 touches a solid, 2 has a contact spring
+// Where the frame's scene has a law of viscosity (material/flow_law.h), of each triangle:
+//   strain_rate    sqrt(2 D:D) of the middle of the sheet, in its plane, by the frame's velocities [1/s]: what bending
+//                  and the shear along walls add is left out
+//   viscosity      the law's at that rate [Pa s]
+//   log_viscosity  its decimal logarithm, for pictures: it spans many decades
 [[nodiscard]] std::span<const Field> fields();
 
 // Precondition: there is one of this name.
 [[nodiscard]] const Field& field_named(std::string_view name);
 
 [[nodiscard]] bool has(const formats::Frame& frame, const Field& field);
+
+// Volume of what is strained by less than ten times the rest rate (material/flow_curve.h), over all volume. NaN where
+// the frame's scene has no law of viscosity, or there is no volume.
+[[nodiscard]] double part_at_rest(const formats::Frame& frame);
 
 // Throws Error (bad_input) where the frame does not have it.
 [[nodiscard]] std::vector<double> values_of(const formats::Frame& frame, const Field& field);

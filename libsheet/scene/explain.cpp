@@ -3,19 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "libsheet/base/overloaded.h"
+#include "libsheet/material/driven_rate.h"
+#include "libsheet/scene/brief.h"
+#include "libsheet/scene/explain_law.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/scene/scales.h"
 
 namespace sheet::scene {
 namespace {
-
-std::string brief(double value) { return fmt::format("{:.3g}", value); }
 
 std::vector<Scale> scale_list(const Scene& scene, const Scales& scales) {
   std::vector<Scale> list;
@@ -25,24 +27,31 @@ std::vector<Scale> scale_list(const Scene& scene, const Scales& scales) {
       list.push_back({symbol, name, value, unit, std::move(source)});
   };
   const double L = scales.length.value_or(0), h = scales.thickness.value_or(0), g = scales.gravity;
-  const double mu = scene.material.viscosity, rho = scene.material.density, gamma = scene.material.surface_tension;
+  const double rho = scene.material.density, gamma = scene.material.surface_tension;
+  // In which a stress strains it by 1: mu over the stress, mu at that rate. What yields is not strained below.
+  const auto time_under = [&](double stress, double borne) {
+    return 1 / stretching_rate(scene.material, stress, borne);
+  };
   add("L", "length", L, "m", "the shape's shortest side, radius or width");
   add("h", "thickness", h, "m", "the sheet's, at the start");
   add("V", "speed", scales.speed, "m/s", "the fastest drive: " + scales.speed_source);
   add("t_V", "time of the flow", L / scales.speed, "s", "L / V");
+  std::ranges::move(scales_of_law(scene, scales), std::back_inserter(list));
   if (rho > 0)
-    add("t_g", "time in which gravity stretches it", mu / (rho * g * L), "s", "mu / (rho g L)");
+    add("t_g", "time in which gravity stretches it", time_under(rho * g * L, std::numbers::sqrt3), "s", "mu / (rho g L)");
   add("t_f", "time of free fall", std::sqrt(L / g), "s", "sqrt(L / g)");
-  add("t_c", "time in which surface tension contracts it", mu * h / gamma, "s", "mu h / gamma");
+  add("t_c", "time in which surface tension contracts it", time_under(gamma / h, 1), "s", "mu h / gamma");
   if (const auto layer = layer_scales_of(scene, scales)) {
     add("U", "speed of a layer along the steepest solid", layer->speed, "m/s",
-        "rho h (h + 3 b) (g_t + g h / L) / (3 mu); steps are kept below half an edge over it");
+        std::string(scene.material.law.newtonian() ? "rho h (h + 3 b) (g_t + g h / L) / (3 mu)"
+                                                   : "from its weight rho h (g_t + g h / L) and the law") +
+            "; steps are kept below half an edge over it");
     add("t_U", "time in which it spreads by its length", layer->time, "s", "L / U");
     add("l_c", "capillary length", layer->capillary_length, "m", "sqrt(gamma / (rho g))");
   }
-  add("t_p", "time in which pressure stretches it", mu * h / (scales.pressure * L), "s", "mu h / (p L)");
+  add("t_p", "time in which pressure stretches it", time_under(scales.pressure * L / h, 2), "s", "mu h / (p L)");
   if (const auto& bath = scene.environment.bath) {
-    const double excess = 4 * mu * h * scales.speed / L - 2 * gamma;
+    const double excess = 4 * scales.viscosity * h * scales.speed / L - 2 * gamma;
     add("lambda", "wavelength of the fastest wrinkles on the bath",
         2 * std::numbers::pi * std::sqrt(excess / (2 * bath->density * g)), "m",
         "2 pi sqrt((P - 2 gamma) / (2 rho_bath g)), P = 4 mu h V / L, if it is compressed so fast");
@@ -59,7 +68,7 @@ std::vector<DimensionlessNumber> numbers_of(const Scene& scene, const Scales& sc
   if (!scales.length)
     return list;
   const double L = *scales.length, V = scales.speed, g = scales.gravity;
-  const double mu = scene.material.viscosity, rho = scene.material.density, gamma = scene.material.surface_tension;
+  const double mu = scales.viscosity, rho = scene.material.density, gamma = scene.material.surface_tension;
   if (scales.thickness) {
     const double slenderness = *scales.thickness / L;
     add("thickness to length", "h / L", slenderness, [](double x) {
@@ -104,6 +113,7 @@ std::vector<DimensionlessNumber> numbers_of(const Scene& scene, const Scales& sc
     add("density to the bath's", "rho / rho_bath", rho / bath->density,
         [](double x) { return x > 1 ? "The sheet is heavier than the bath and sinks." : "The sheet floats."; });
   }
+  std::ranges::move(numbers_of_law(scene, scales), std::back_inserter(list));
   return list;
 }
 
@@ -204,6 +214,8 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
                      brief(layer->reynolds)));
   for (std::string& warning : warnings_of_edges(scene, sheet, scales))
     warn(std::move(warning));
+  if (const auto rest = warning_of_rest_rate(scene, scales))
+    warn(*rest);
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
   constexpr double large = 20; // [m]

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/material/wall_flow.h"
+
 namespace sheet::scene {
 namespace {
 
@@ -18,6 +20,12 @@ double along(const Solid& solid, const Vector3d& gravity) {
 
 } // namespace
 
+double speed_of_layer(const Liquid& liquid, double stress, double h, double b) {
+  if (liquid.law.newtonian())
+    return stress * (h + 3 * b) / (3 * liquid.viscosity);
+  return stress > liquid.law.yield_stress ? WallFlow(liquid).velocity(stress, h, b) : 0;
+}
+
 std::optional<LayerScales> layer_scales_of(const Scene& scene, const Scales& scales) {
   if (!scene.environment.gravity || !scales.length || !scales.thickness)
     return {};
@@ -25,14 +33,17 @@ std::optional<LayerScales> layer_scales_of(const Scene& scene, const Scales& sca
   const Liquid& m = scene.material;
   LayerScales layer;
   for (const Solid& solid : scene.solids)
-    if (solid.contact == SolidContact::flow)
-      layer.speed =
-          std::max(layer.speed, m.density * h * (h + 3 * solid.slip_length) *
-                                    (along(solid, *scene.environment.gravity) + g * h / L) / (3 * m.viscosity));
-  if (!(layer.speed > 0) || !std::isfinite(layer.speed))
+    if (solid.contact == SolidContact::flow) {
+      const double down = along(solid, *scene.environment.gravity), stress = m.density * h * (down + g * h / L);
+      layer.along = std::max(layer.along, down);
+      layer.stress = std::max(layer.stress, stress);
+      layer.speed = std::max(layer.speed, speed_of_layer(m, stress, h, solid.slip_length));
+    }
+  if (!(layer.stress > 0) || !std::isfinite(layer.speed))
     return {};
+  layer.viscosity = viscosity_of(m, {layer.speed * layer.speed / (h * h)});
   layer.time = L / layer.speed;
-  layer.reynolds = layer.speed * h * h * m.density / (m.viscosity * L);
+  layer.reynolds = layer.speed * h * h * m.density / (layer.viscosity * L);
   layer.capillary_length = std::sqrt(m.surface_tension / (m.density * g));
   return layer;
 }

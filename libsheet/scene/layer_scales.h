@@ -9,11 +9,18 @@
 namespace sheet::scene {
 
 struct LayerScales {
-  double speed = 0;            // rho h (h + 3 b) (g_t + g h/L)/(3 mu), g_t gravity along the solid [m/s]
+  double along = 0;            // g_t: gravity along the solid [m/s²]
+  double stress = 0;           // of its weight at the wall, rho h (g_t + g h/L) [Pa]
+  double speed = 0;            // stress (h + 3 b)/(3 mu) [m/s]; in general that of wall_flow.h, 0 below a yield stress
+  double viscosity = 0;        // at the rate U/h [Pa s]
   double time = 0;             // to spread by L [s]
   double reynolds = 0;         // U h²/(nu L): how far inertia delays the drag
   double capillary_length = 0; // sqrt(gamma/(rho g)): below it tension levels, above it weight; 0 without tension [m]
 };
+
+// In the mean over a layer of thickness h and slip length b [m], under a stress at its wall [Pa]: [m/s]; 0 of what
+// stands there.
+[[nodiscard]] double speed_of_layer(const Liquid& liquid, double stress, double h, double b);
 
 // Nothing without such a solid, liquid that does not slip freely, gravity, length and thickness.
 [[nodiscard]] std::optional<LayerScales> layer_scales_of(const Scene& scene, const Scales& scales);

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "libsheet/base/overloaded.h"
+#include "libsheet/material/driven_rate.h"
+#include "libsheet/material/flow_curve.h"
 
 namespace sheet::scene {
 namespace {
@@ -39,21 +42,23 @@ void offer(Scales& scales, const Motion& motion, std::string_view source) {
 
 void offer_forces(Scales& scales, const Scene& scene) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
-  const double viscosity = scene.material.viscosity, density = scene.material.density;
+  const double density = scene.material.density;
   const double tension = scene.material.surface_tension;
   const double L = scales.length.value_or(0), h = scales.thickness.value_or(0);
   const bool inertia = scene.model.inertia && density > 0;
-  const auto least = [&](double viscous, double inertial) {
-    return std::min(viscosity > 0 ? viscous : unlimited, inertia ? inertial : unlimited);
+  const auto least = [&](double stress, double borne, double inertial) {
+    const double viscous =
+        scene.material.viscous() ? L * stretching_rate(scene.material, stress, borne) : unlimited;
+    return std::min(viscous, inertia ? inertial : unlimited);
   };
   if (L <= 0)
     return;
   if (!scene.environment.bath) // which carries the weight
-    offer(scales, least(density * scales.gravity * L * L / viscosity, std::sqrt(scales.gravity * L)), "gravity");
+    offer(scales, least(density * scales.gravity * L, std::numbers::sqrt3, std::sqrt(scales.gravity * L)), "gravity");
   if (h <= 0)
     return;
-  offer(scales, least(2 * tension * L / (viscosity * h), std::sqrt(2 * tension / (density * h))), "surface tension");
-  offer(scales, least(scales.pressure * L * L / (viscosity * h), std::sqrt(scales.pressure * L / (density * h))),
+  offer(scales, least(2 * tension / h, 2, std::sqrt(2 * tension / (density * h))), "surface tension");
+  offer(scales, least(scales.pressure * L / h, 2, std::sqrt(scales.pressure * L / (density * h))),
         "pressure");
 }
 
@@ -85,6 +90,8 @@ Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& me
     offer(scales, solid.surface_velocity.norm(), "a belt");
   }
   offer_forces(scales, scene);
+  const auto rate = scales.rate();
+  scales.viscosity = rate ? viscosity_of(scene.material, {*rate * *rate}) : scene.material.viscosity;
   return scales;
 }
 

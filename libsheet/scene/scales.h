@@ -19,6 +19,12 @@ struct Scales {
   double pressure = 0;             // |p|, where the scene states one [Pa]
   double speed = 0;                // V, the fastest that anything drives the sheet [m/s]
   std::string speed_source;
+  double viscosity = 0; // at the rate V/L; without length or speed that of the scene [Pa s]
+
+  // Of the flow; nothing without length or speed [1/s].
+  [[nodiscard]] std::optional<double> rate() const {
+    return length && *length > 0 && speed > 0 ? std::optional(speed / *length) : std::nullopt;
+  }
 };
 
 // V is the largest of: inflow, start, holds, solids and belts as the scene states them, and what the forces can drive,
@@ -26,6 +32,8 @@ struct Scales {
 //   gravity          rho g L²/mu        sqrt(g L)          not on a bath, which carries the weight
 //   surface tension  2 gamma L/(mu h)   sqrt(2 gamma/(rho h))  [Taylor 1959, Culick 1960]
 //   pressure         p L²/(mu h)        sqrt(p L/(rho h))
+// Of a liquid that is not Newtonian the rate of each balance, V/L, is that of its stress, rho g L, 2 gamma/h or p L/h
+// (material/driven_rate.h): none where it is borne by the yield stress.
 [[nodiscard]] Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& measured);
 
 // Of each sheet; measured: likewise, or of none.

@@ -139,6 +139,9 @@ ForeignMesh to_foreign_mesh(const Frame& frame) {
   mesh.arrays.push_back({"thickness", MeshPlace::cell, 1, std::move(h.of_triangles)});
   add_arrays(frame, formats::Place::vertex, MeshPlace::point, mesh);
   add_arrays(frame, formats::Place::triangle, MeshPlace::cell, mesh);
+  for (const Field& field : fields())
+    if (field.of_laws && has(frame, field) && frame.find(field.name) == nullptr)
+      mesh.arrays.push_back({std::string(field.name), MeshPlace::cell, 1, values_of(frame, field)});
   return mesh;
 }
 

@@ -101,6 +101,21 @@ prepare_files() {
   [[ $told -ge 30 ]]
 }
 
+@test "every liquid of docs/liquids.md is one that a scene may have" {
+  awk -v RS= '/^    \[material\]/ { print > ("liquid" ++n ".toml") }' "$SHEET_SOURCE/docs/liquids.md"
+  for liquid in liquid*.toml; do
+    {
+      printf '[sheet]\nshape = "disk"\nradius = "50 mm"\nedge_length = "10 mm"\nthickness = "5 mm"\n'
+      cat "$liquid"
+      printf '[environment]\ngravity = [0, "-9.81 m/s^2", 0]\n[[solid]]\nshape = "plane"\ncontact = "flow"\n'
+    } > scene.toml
+    sheet-init --check scene.toml > told
+    grep -q '^  V ' told
+    ! grep -q '^law = ' <(sed 's/^ *//' "$liquid") || grep -q '^  flow law  ' told
+  done
+  [[ -e liquid8.toml ]]
+}
+
 @test "23: the example's own command runs" {
   command=$(sed -n '/^    sheet-init/,/> windy.sheet$/p' formats/python/example_stage.py | tr -s ' \n' ' ' | sed 's#./example_stage.py#formats/python/example_stage.py#')
   bash -o pipefail -c "$command"

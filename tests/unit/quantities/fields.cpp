@@ -2,7 +2,9 @@
 #include "libsheet/quantities/fields.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +57,51 @@ TEST(ScaledUnits, FitTheLargestNumber) {
   EXPECT_EQ(fitting_unit("m^3", 0.02).name, "l");
   EXPECT_EQ(fitting_unit("K", 1e-9).name, "K");
   EXPECT_EQ(fitting_unit("1", 5).name, "");
+}
+
+// With velocities E x of a stretching E = diag(2, -0.5, 0) in its plane, and a scene.
+formats::Frame stretched(const std::string& law) {
+  formats::Frame frame = render::test::flat(3, 0.01);
+  for (std::size_t v = 0; v < frame.vertices; ++v) {
+    const Eigen::Vector3d& x = positions(frame)[v];
+    velocities(frame)[v] = {2 * x[0], 0, -0.5 * x[2]};
+  }
+  frame.put_text("scene", "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.02\n"
+                                        "[material]\ndensity = 1000\n" + law);
+  return frame;
+}
+
+TEST(Fields, OfLawsFollowFromPositionsAndVelocities) {
+  const double rate = std::sqrt(2 * (4 + 0.25 + 1.5 * 1.5)); // sqrt(2 (tr E² + (tr E)²))
+  const formats::Frame frame = stretched("law = \"bingham\"\nviscosity = 3\nyield_stress = 20\n");
+  for (const double value : values_of(frame, field_named("strain_rate")))
+    EXPECT_NEAR(value, rate, 1e-12);
+  for (const double value : values_of(frame, field_named("viscosity")))
+    EXPECT_NEAR(value, 3 + 20 / rate, 1e-6);
+  for (const double value : values_of(frame, field_named("log_viscosity")))
+    EXPECT_NEAR(value, std::log10(3 + 20 / rate), 1e-6);
+}
+
+TEST(Fields, OfLawsAreThereOnlyWhereThereIsOne) {
+  const formats::Frame newtonian = stretched("viscosity = 3\n"), without = render::test::flat(1, 0.01);
+  for (const std::string_view name : {"strain_rate", "viscosity", "log_viscosity"}) {
+    EXPECT_FALSE(has(newtonian, field_named(name)));
+    EXPECT_FALSE(has(without, field_named(name)));
+    EXPECT_THROW((void)values_of(newtonian, field_named(name)), Error);
+    EXPECT_TRUE(has(stretched("law = \"power\"\nviscosity = 3\nflow_index = 0.5\n"), field_named(name)));
+  }
+  EXPECT_TRUE(std::isnan(part_at_rest(newtonian)));
+}
+
+TEST(Fields, PartAtRestIsThatOfTheVolume) {
+  formats::Frame frame = stretched("law = \"bingham\"\nviscosity = 3\nyield_stress = 20\nrest_rate = 1e-3\n");
+  EXPECT_EQ(part_at_rest(frame), 0);
+  for (Eigen::Vector3d& v : velocities(frame))
+    v *= 1e-3; // rates of 3.6e-3 1/s, below ten times that at rest
+  EXPECT_EQ(part_at_rest(frame), 1);
+  const double moved = 1e3; // one corner: two triangles of 18 or one
+  velocities(frame)[0] *= moved;
+  EXPECT_NEAR(part_at_rest(frame), 16.0 / 18, 1e-9);
 }
 
 } // namespace
