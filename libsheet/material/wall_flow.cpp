@@ -59,6 +59,8 @@ WallFlow::WallFlow(const Liquid& liquid) : curve_(liquid) {
           interval / 6 * (before.f * before.rise + 4 * middle.f * middle.rise + here.f * here.rise); // [Simpson]
     }
     here.f = moment / (here.stress * here.stress);
+    rates_.push_back(here.rate);
+    values_.push_back(here.f);
     f_.push_back(std::log(here.f));
     slope_.push_back(here.rise / here.stress * (here.rate / here.f - 2));
     conjugate_.push_back(std::log(conjugate));
@@ -104,10 +106,7 @@ WallFlow::Point WallFlow::at(double log_rate) const {
 
 // ln G at the mean velocity u: the interval by halving, then Newton's method within it on ln u over ln G.
 double WallFlow::log_rate(double u, double h, double b) const {
-  const auto slower = [&](std::size_t row) {
-    const double s = first_ + interval * static_cast<double>(row);
-    return b * std::exp(s) + h * std::exp(f_[row]) <= u;
-  };
+  const auto slower = [&](std::size_t row) { return b * rates_[row] + h * values_[row] <= u; };
   if (!slower(0)) // Newtonian
     return std::log(u / (b + h * std::exp(f_.front() - first_)));
   std::size_t row = 0, end = f_.size();

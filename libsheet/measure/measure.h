@@ -42,7 +42,7 @@ struct Measurements {
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Constant(absent); // Σ m x × v, about the origin [kg m²/s]
   Eigen::Vector3d low = Eigen::Vector3d::Constant(absent);              // bounding box of all vertices [m]
   Eigen::Vector3d high = Eigen::Vector3d::Constant(absent);
-  Range edge;                // lengths, each edge once [m]
+  Range edge;                   // lengths, each edge once [m]
   bool of_laws = false;         // the liquid is not Newtonian:
   double part_at_rest = absent; // quantities/fields.h
   double angle_min = absent;    // of the triangles' corners [rad]

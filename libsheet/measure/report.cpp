@@ -93,7 +93,8 @@ public:
       out += fmt::format("  {:<18} {}\n", name, text);
     };
     for (const Figure& figure : figures())
-      if (figure.printed && (m.of_laws || !figure.of_laws) && figure.name != "aspect_max") // that stands behind the angles
+      if (figure.printed && (m.of_laws || !figure.of_laws) &&
+          figure.name != "aspect_max") // that stands behind the angles
         if (const std::string told = told_of(figure, m); !told.empty())
           line(figure.caption, told);
     line("topology", fmt::format("{}, pieces {}, boundary loops {}, Euler characteristic {}",
@@ -164,7 +165,8 @@ constexpr std::array<std::string_view, 32> first_columns = {"frame",
                                                             "boundary_loops",
                                                             "euler_characteristic"};
 
-// A row's cells, in the order of the columns; forces stand last. of_laws: with what liquids have that are not Newtonian.
+// A row's cells, in the order of the columns; forces stand last. of_laws: with what liquids have that are not
+// Newtonian.
 std::vector<Cell> cells_of(const ReportEntry& e, bool of_laws) {
   const Frame& f = *e.frame;
   const Topology& t = e.measurements.topology;
@@ -232,7 +234,7 @@ private:
     return line + (entry.many_files ? ",file\n" : "\n");
   }
   bool first_ = true;
-  bool of_laws_ = false;            // of the first frame's scene, as
+  bool of_laws_ = false; // of the first frame's scene, as
   std::vector<std::string> forces_;
 };
 

@@ -53,9 +53,9 @@ std::optional<double> blow_up_time_of(const scene::SheetTable& sheet, const Scen
     return {};
   // dr/dt = p r^n / c, h having thinned: with it r passes every bound at c / ((n - 1) p r^(n - 1)).
   if (!scene.material.law.newtonian())
-    return tube != nullptr ? time_under(scene.material, law->value * radius / *thickness, 2, 2)
-                           : time_under(scene.material, law->value * radius / *thickness, 2 * std::numbers::sqrt3,
-                                        3 - law->falls);
+    return tube != nullptr
+               ? time_under(scene.material, law->value * radius / *thickness, 2, 2)
+               : time_under(scene.material, law->value * radius / *thickness, 2 * std::numbers::sqrt3, 3 - law->falls);
   const double viscous = scene.material.viscosity * *thickness / (law->value * radius);
   return tube != nullptr ? 2 * viscous : 12 / (3 - law->falls) * viscous;
 }

@@ -57,8 +57,7 @@ std::string warning_of_stuck_slope(const Scene& scene, const solid::Solids& soli
   for (const Landing& landing : all)
     if (landing.solid == number)
       slope += landing.there.normal.cross(down).norm() / static_cast<double>(all.size());
-  const double stress =
-      slope > 0 ? scene.material.density * scene.environment.gravity->norm() * slope * thickness : 0;
+  const double stress = slope > 0 ? scene.material.density * scene.environment.gravity->norm() * slope * thickness : 0;
   const double way = scene::speed_of_layer(scene.material, stress, thickness, 0) * until;
   if (!(way > far_down * thickness))
     return {};

@@ -19,7 +19,7 @@ struct Field {
   // The values, one a row. Null: they are the frame's array of this name, which not every frame has.
   std::vector<double> (*get)(const formats::Frame&);
   const Palette& palette;
-  bool in_figures; // least, mean and greatest value are among the figures of a frame (libsheet/measure/figures.h)
+  bool in_figures;      // least, mean and greatest value are among the figures of a frame (libsheet/measure/figures.h)
   bool of_laws = false; // only of liquids that are not Newtonian
 };
 

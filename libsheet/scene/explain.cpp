@@ -38,7 +38,8 @@ std::vector<Scale> scale_list(const Scene& scene, const Scales& scales) {
   add("t_V", "time of the flow", L / scales.speed, "s", "L / V");
   std::ranges::move(scales_of_law(scene, scales), std::back_inserter(list));
   if (rho > 0)
-    add("t_g", "time in which gravity stretches it", time_under(rho * g * L, std::numbers::sqrt3), "s", "mu / (rho g L)");
+    add("t_g", "time in which gravity stretches it", time_under(rho * g * L, std::numbers::sqrt3), "s",
+        "mu / (rho g L)");
   add("t_f", "time of free fall", std::sqrt(L / g), "s", "sqrt(L / g)");
   add("t_c", "time in which surface tension contracts it", time_under(gamma / h, 1), "s", "mu h / gamma");
   if (const auto layer = layer_scales_of(scene, scales)) {

@@ -54,14 +54,15 @@ DimensionlessNumber thinning(const Liquid& liquid, const Rates& rates) {
 
 DimensionlessNumber bingham(const Liquid& liquid, double rate) {
   const bool power = liquid.law.kind == FlowLawKind::herschel_bulkley;
-  const double flowing = power ? liquid.viscosity * rate * std::pow(rate / liquid.law.reference_rate,
-                                                                    liquid.law.flow_index - 1)
-                               : liquid.viscosity * rate;
+  const double flowing =
+      power ? liquid.viscosity * rate * std::pow(rate / liquid.law.reference_rate, liquid.law.flow_index - 1)
+            : liquid.viscosity * rate;
   const double number = liquid.law.yield_stress / flowing;
   return {"Bingham", power ? "tau_y / (K (V / L)^n)" : "tau_y L / (mu V), mu the scene's viscosity", number,
-          number < 0.1  ? "So fast it flows as if there were no yield stress."
-          : number < 10 ? "Yield stress and viscosity both matter."
-                        : "The yield stress rules: it flows in few places, and what is between goes along like a solid."};
+          number < 0.1 ? "So fast it flows as if there were no yield stress."
+          : number < 10
+              ? "Yield stress and viscosity both matter."
+              : "The yield stress rules: it flows in few places, and what is between goes along like a solid."};
 }
 
 DimensionlessNumber weight_against_yield(const Scene& scene, const Scales& scales) {
@@ -79,7 +80,10 @@ DimensionlessNumber layer_against_yield(const Scene& scene, const Scales& scales
     const double stays = yield / (scene.material.density * layer.along);
     return {"layer against yield", "rho g_t h / tau_y", h / stays,
             fmt::format("Down the steepest solid a layer of {} m {}; below tau_y / (rho g_t) = {} m it stands.",
-                        brief(h), h > stays ? "flows" : layer.stress > yield ? "stands, but for its rim" : "stands",
+                        brief(h),
+                        h > stays              ? "flows"
+                        : layer.stress > yield ? "stands, but for its rim"
+                                               : "stands",
                         brief(stays))};
   }
   return {"layer against yield", "rho g h² / (L tau_y)", layer.stress / yield,

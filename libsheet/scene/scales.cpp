@@ -47,8 +47,7 @@ void offer_forces(Scales& scales, const Scene& scene) {
   const double L = scales.length.value_or(0), h = scales.thickness.value_or(0);
   const bool inertia = scene.model.inertia && density > 0;
   const auto least = [&](double stress, double borne, double inertial) {
-    const double viscous =
-        scene.material.viscous() ? L * stretching_rate(scene.material, stress, borne) : unlimited;
+    const double viscous = scene.material.viscous() ? L * stretching_rate(scene.material, stress, borne) : unlimited;
     return std::min(viscous, inertia ? inertial : unlimited);
   };
   if (L <= 0)
@@ -58,8 +57,7 @@ void offer_forces(Scales& scales, const Scene& scene) {
   if (h <= 0)
     return;
   offer(scales, least(2 * tension / h, 2, std::sqrt(2 * tension / (density * h))), "surface tension");
-  offer(scales, least(scales.pressure * L / h, 2, std::sqrt(scales.pressure * L / (density * h))),
-        "pressure");
+  offer(scales, least(scales.pressure * L / h, 2, std::sqrt(scales.pressure * L / (density * h))), "pressure");
 }
 
 } // namespace

@@ -13,9 +13,8 @@ namespace {
 
 TEST(Forecast, ALawTakesMoreTimeForTheSameSteps) {
   const auto foretold = [](const std::string& law) {
-    const Scene scene = scene::parse_scene(scene::disk + "[material]\ndensity = 1000\n" + law +
-                                               "[environment]\ngravity = [0, -9.81, 0]\n",
-                                           "s");
+    const Scene scene = scene::parse_scene(
+        scene::disk + "[material]\ndensity = 1000\n" + law + "[environment]\ngravity = [0, -9.81, 0]\n", "s");
     return forecast(scene, first_frame(scene), {.until = 1, .fps = 24, .stages = ""}, 0.01);
   };
   const Forecast newtonian = foretold("viscosity = 100\n");

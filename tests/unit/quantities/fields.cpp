@@ -67,7 +67,8 @@ formats::Frame stretched(const std::string& law) {
     velocities(frame)[v] = {2 * x[0], 0, -0.5 * x[2]};
   }
   frame.put_text("scene", "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.02\n"
-                                        "[material]\ndensity = 1000\n" + law);
+                          "[material]\ndensity = 1000\n" +
+                              law);
   return frame;
 }
 

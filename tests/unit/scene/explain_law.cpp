@@ -85,7 +85,8 @@ TEST(ExplainLaw, SaysWhatStandsAndWhatFlows) {
   EXPECT_NEAR(number(scene, "Bingham").value, 200 / (100 * 8.0), 1e-4);
   const Scene level = scene_with(bingham_liquid, "[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n");
   EXPECT_NEAR(number(level, "layer against yield").value, 10.0 / 200, 1e-9);
-  EXPECT_THAT(number(level, "layer against yield").meaning, HasSubstr("stands; below sqrt(tau_y L / (rho g)) = 0.0447"));
+  EXPECT_THAT(number(level, "layer against yield").meaning,
+              HasSubstr("stands; below sqrt(tau_y L / (rho g)) = 0.0447"));
   const Scene soft = scene_with("law = \"bingham\"\nviscosity = 100\nyield_stress = 2\n", slope);
   EXPECT_THAT(number(soft, "layer against yield").meaning, HasSubstr("a layer of 0.01 m flows"));
   EXPECT_THAT(number(soft, "tension against yield").meaning, HasSubstr("draws a rim back"));
