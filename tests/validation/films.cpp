@@ -6,6 +6,7 @@
 
 #include "tests/support/holds.h"
 #include "tests/validation/instant.h"
+#include "tests/validation/liquids.h"
 
 namespace sheet::validation {
 
@@ -42,22 +43,28 @@ double mean_ring(const State& s, const std::vector<std::uint32_t>& ring) {
 // V7: a tube under pressure, its ends held along the axis: hoop strain rate ṙ/r alone, N = 4 μ h ṙ/r = p r, h r = h0
 // r0: r⁻² = r0⁻² - p t/(2 μ h0 r0).
 Result v7(const Settings& s) {
-  constexpr double mu = 1, h = 0.05, p = 0.1, length = 2;
+  constexpr double mu = 1, h = 0.05, p = 0.1;
   const double until = 0.75 * 2 * mu * h / p; // the radius doubles
+  return blown_tube(s, {.viscosity = mu}, h, p, p / (4 * mu * h), until, 2);
+}
+
+Result blown_tube(const Settings& s, const Liquid& liquid, double h, double p, double rate, double until, double end) {
+  constexpr double length = 2;
   State start = film(make_tube(1, length, mesh_options(s, 1)), h);
-  Model m = viscous(mu, s);
+  Model m = viscous(1, s);
+  m.liquid = liquid;
   m.bending = Bending::none;
   m.pressures = {PressureLaw{PressureLaw::Kind::constant, p, 1, 1}};
   m.holds.push_back(hold(
       start, [](const Vector3& x) { return std::abs(x.z()) > length / 2 - 1e-9; }, axis_bit(2), false));
   for (std::size_t v = 0; v < start.positions.size(); ++v)
-    start.velocities[v] = p / (4 * mu * h) * Vector3(start.positions[v].x(), start.positions[v].y(), 0);
+    start.velocities[v] = rate * Vector3(start.positions[v].x(), start.positions[v].y(), 0);
   Run run(std::move(start), m, s, 1);
   run.advance(until, s.steps);
   double r = 0;
   for (const Vector3& x : run.state().positions)
     r += x.head<2>().norm();
-  return run.result(r / static_cast<double>(run.state().positions.size()) / 2);
+  return run.result(r / static_cast<double>(run.state().positions.size()) / end);
 }
 
 // V8: a free disk: isotropic stress 6 μ h Ṙ/R = -2 γ: R⁻² = R0⁻² + 2π γ t/(3 μ V), until R = R0/2.

@@ -10,23 +10,10 @@ constexpr double first_rate = 2; // [1/s]
 
 // As V7: N = 2 τ h, h r = h0 r0.
 Result tube(const Settings& s, const TestedLiquid& liquid, double end) {
-  constexpr double h = 0.05, length = 2;
+  constexpr double h = 0.05;
   const Growth growth{tested_stress, 2, 2};
-  State start = film(make_tube(1, length, mesh_options(s, 1)), h);
-  Model m = viscous(1, s);
-  m.liquid = liquid.liquid;
-  m.bending = Bending::none;
-  m.pressures = {PressureLaw{PressureLaw::Kind::constant, 2 * tested_stress * h, 1, 1}};
-  m.holds.push_back(hold(
-      start, [](const Vector3& x) { return std::abs(x.z()) > length / 2 - 1e-9; }, axis_bit(2), false));
-  for (std::size_t v = 0; v < start.positions.size(); ++v)
-    start.velocities[v] = first_rate / growth.rate * Vector3(start.positions[v].x(), start.positions[v].y(), 0);
-  Run run(std::move(start), m, s, 1);
-  run.advance(time_of_growth(liquid, growth, end), s.steps);
-  double r = 0;
-  for (const Vector3& x : run.state().positions)
-    r += x.head<2>().norm();
-  return run.result(r / static_cast<double>(run.state().positions.size()) / end);
+  return blown_tube(s, liquid.liquid, h, 2 * tested_stress * h, first_rate / growth.rate,
+                    time_of_growth(liquid, growth, end), end);
 }
 
 // As V1: N = √3 τ h, h r² = h0 r0².

@@ -27,4 +27,9 @@ struct Growth {
 // V5 and V6 of such a liquid, the length grows from 1 to `end`.
 [[nodiscard]] Result pulled_strip(const Settings& s, bool width_held, const TestedLiquid& liquid, double end);
 
+// V7 of any liquid: a tube of the radius 1 and thickness h under the pressure p, which grows at the rate `rate` at
+// first, to the radius `end`.
+[[nodiscard]] Result blown_tube(const Settings& s, const Liquid& liquid, double h, double p, double rate, double until,
+                                double end);
+
 } // namespace sheet::validation

@@ -184,7 +184,7 @@ Result herschel_bulkley_down_an_incline(const Settings& s, double yield_part, do
 Result power_law_down_an_incline(const Settings& s, double n) {
   const double rate = std::pow(density * gravity * thin / (kinematic * density), 1 / n);
   return curved_down_an_incline(
-      s, {.viscosity = kinematic * density, .law = {.kind = FlowLawKind::power, .flow_index = n, .rest_rate = 1e-12}},
+      s, {.viscosity = kinematic * density, .law = {.kind = FlowLawKind::power, .flow_index = n, .rest_rate = 1e-16}},
       0, n / (2 * n + 1) * thin * rate);
 }
 

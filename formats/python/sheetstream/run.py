@@ -12,9 +12,11 @@ import numpy.typing as npt
 from .quantities import QUANTITIES
 from .stream import Array, Floats, Frame, Header, Reader, StreamError, Writer, find_value_error, BAD_INPUT
 
-# Quantities that frames may have as an array, one number a triangle or vertex, and that sheet-info --csv sums up.
+# Quantities that frames may have as an array, one number a triangle or vertex, and that sheet-info --csv sums up; not
+# those that it reckons, of a liquid that is not Newtonian.
+_RECKONED = ("thickness", "strain_rate", "viscosity")
 _ARRAYS = tuple(name for name, quantity in QUANTITIES.items()
-                if quantity.where != "frame" and f"{name}_mean" in QUANTITIES and name != "thickness")
+                if quantity.where != "frame" and f"{name}_mean" in QUANTITIES and name not in _RECKONED)
 
 # Columns of Run.curves(), as sheet-info --csv calls them.
 CURVES = ("time", "step", "vertices", "triangles", "area", "volume", "thickness_min", "thickness_mean", "thickness_max",
