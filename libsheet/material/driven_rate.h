@@ -5,7 +5,8 @@
 
 namespace sheet {
 
-// γ̇ of τ(γ̇) = `stress` >= 0 [Pa] in [1/s]; 0 of what yields at or below its yield stress, infinity of what is inviscid.
+// γ̇ of τ(γ̇) = `stress` >= 0 [Pa] in [1/s]; 0 of what yields at or below its yield stress, infinity of what is
+// inviscid.
 [[nodiscard]] double driven_rate(const Liquid& liquid, double stress);
 // The same, by order of magnitude, of what is stretched by a tension, of which a liquid that yields bears
 // `borne` times its yield stress: sqrt(3) in a strip, 2 where a side is held [von Mises 1913].

@@ -6,7 +6,8 @@
 
 namespace sheet {
 
-// μ stands for the liquid's `viscosity`, n for flow_index, τ_y for yield_stress; K γ̇_r^(n-1) = μ at the reference rate.
+// μ stands for the liquid's `viscosity`, n for flow_index, τ_y for yield_stress; K γ̇_r^(n-1) = μ at the reference
+// rate.
 enum class FlowLawKind {
   newtonian, // η = μ
   power,     // η = K γ̇^(n-1) [Ostwald 1925]; ice: n = 1/3 [Glen 1955]
