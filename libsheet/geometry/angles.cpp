@@ -8,29 +8,24 @@
 
 #include <tbb/parallel_for.h>
 
+#include "libsheet/base/instruction_sets.h"
+
 namespace sheet {
 
 namespace {
 
-// Once for each instruction set, chosen at run time.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define FOR_EACH_PROCESSOR [[gnu::target_clones("avx512f", "avx2", "default")]]
-#else
-#define FOR_EACH_PROCESSOR
-#endif
-
 // Sine and cosine in loops of their own: together they become one call that has no vector form.
-FOR_EACH_PROCESSOR void sines(const double* angles, std::size_t count, double* sine) {
+SHEET_FOR_INSTRUCTION_SETS("avx512f", "avx2") void sines(const double* angles, std::size_t count, double* sine) {
   for (std::size_t i = 0; i < count; ++i)
     sine[i] = std::sin(angles[i]);
 }
 
-FOR_EACH_PROCESSOR void cosines(const double* angles, std::size_t count, double* cosine) {
+SHEET_FOR_INSTRUCTION_SETS("avx512f", "avx2") void cosines(const double* angles, std::size_t count, double* cosine) {
   for (std::size_t i = 0; i < count; ++i)
     cosine[i] = std::cos(angles[i]);
 }
 
-FOR_EACH_PROCESSOR void arctangents(const double* x, std::size_t count, double* y) {
+SHEET_FOR_INSTRUCTION_SETS("avx512f", "avx2") void arctangents(const double* x, std::size_t count, double* y) {
   for (std::size_t i = 0; i < count; ++i)
     y[i] = std::atan2(y[i], x[i]);
 }

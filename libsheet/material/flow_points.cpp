@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Many rates at once. Where the C library has logarithms and exponentials for vectors, the compiler takes those, for
 // each instruction set: to a few units in the last place.
+#include "libsheet/base/instruction_sets.h"
 #include "libsheet/material/power_sum.h"
 
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) &&                           \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__)
 extern "C" {
 __attribute__((simd("notinbranch"))) double exp(double) noexcept;
 __attribute__((simd("notinbranch"))) double log(double) noexcept;
 }
-#define SHEET_FOR_EACH_INSTRUCTION_SET __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define SHEET_FOR_EACH_INSTRUCTION_SET
 #endif
 
 namespace sheet {
@@ -32,7 +29,7 @@ template <int Count>
 
 } // namespace
 
-SHEET_FOR_EACH_INSTRUCTION_SET
+SHEET_FOR_INSTRUCTION_SETS("arch=x86-64-v4", "arch=x86-64-v3")
 void flow_points(const PowerSum& powers, int count, const double* squared_rates, double* potentials,
                  double* viscosities, double* slopes) {
   if (powers.terms == 1)

@@ -27,7 +27,7 @@ from sheetstream import Run, StreamError, checksum, make_frame, plot, write  # n
 root = pathlib.Path(__file__).resolve().parents[2]
 package = root / "formats/python"
 page = root / "docs/python.md"
-MODULES = ("", ".checksum", ".meshio", ".plot", ".run", ".stream")
+MODULES = ("", ".checksum", ".fit", ".meshio", ".plot", ".run", ".stream")
 
 
 def shell(command, **more):

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "libsheet/base/instruction_sets.h"
+
 namespace sheet::solid {
 
 inline constexpr int lane_count = 8;
@@ -22,11 +24,7 @@ using KeptLanes = std::array<float, lane_count>;
     kept[static_cast<std::size_t>(i)] = lanes[i];
 }
 
-// Before a function with loops over lanes: compiled once for each instruction set, chosen at run time.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define SHEET_FOR_EACH_PROCESSOR [[gnu::target_clones("avx2", "default")]]
-#else
-#define SHEET_FOR_EACH_PROCESSOR
-#endif
+// Before a function with loops over lanes.
+#define SHEET_FOR_EACH_PROCESSOR SHEET_FOR_INSTRUCTION_SETS("avx2")
 
 } // namespace sheet::solid
