@@ -5,7 +5,8 @@ what the measurements do not tell. scipy is needed.
 >>> from sheetstream.fit import Parameter, fit
 >>> def observe(many):
 ...     return [[3e6 / settings["material.viscosity"]] for settings in many]
->>> result = fit([Parameter("material.viscosity", 1e6, 1e8, log=True)], observe, values=[0.6], sigmas=0.03, difference=1e-4)
+>>> viscosity = Parameter("material.viscosity", 1e6, 1e8, log=True)
+>>> result = fit([viscosity], observe, values=[0.6], sigmas=0.03, difference=1e-4)
 >>> f"{result.values['material.viscosity']:.3g} +- {result.errors['material.viscosity']:.2g}"
 '5e+06 +- 2.5e+05'
 
