@@ -238,6 +238,21 @@ TEST(Validation, LiquidsThatAreNotNewtonian) {
   EXPECT_LT(error("V31", settings("V31", 0.1, 60, 5)), 0.02);
 }
 
+// The load from which on it flows, within 1 %. Where a part as short as an edge flows first, errors are of its order.
+TEST(Validation, ThresholdsOfFlow) {
+  const auto off = [](int set, double edge) { return error("V33", settings("V33", edge, 1, set)); };
+  for (const int set : {1, 2, 5, 7, 8, 9, 10}) // balloon, tube, rim, incline, spans
+    EXPECT_LT(off(set, 0.1), 0.01) << "set " << set;
+  for (const int set : {3, 4}) // hanging
+    EXPECT_LT(off(set, 0.00625), 0.01) << "set " << set;
+  EXPECT_LT(off(6, 0.03), 0.01);  // hole
+  EXPECT_LT(off(11, 0.05), 0.01); // round plate, supported
+  EXPECT_LT(off(12, 0.1), 0.05);  // clamped
+  EXPECT_LT(off(12, 0.05), 0.025);
+}
+
+TEST(Validation, LongThresholdOfAClampedPlate) { EXPECT_LT(error("V33", settings("V33", 0.025, 1, 12)), 0.01); }
+
 // What is too thick for its gap by the pressure there is of the model, and no error of steps.
 TEST(Validation, LayersBetweenWalls) {
   EXPECT_LT(error("V29", settings("V29", 0.1, 40, 1)), 1e-9);  // that slide past each other

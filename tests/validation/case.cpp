@@ -17,6 +17,13 @@ Settings at(double edge, int steps, Pattern pattern = Pattern::irregular) {
   return s;
 }
 
+Settings instant(double edge) { // of a sheet that bends
+  Settings s = at(edge, 1);
+  s.scheme = Scheme::backward_euler;
+  s.bending = Shell::arcs;
+  return s;
+}
+
 } // namespace
 
 const std::vector<Case>& cases() {
@@ -91,6 +98,11 @@ const std::vector<Case>& cases() {
        "1 to 3: way; 4: length; 5: radius", "", 5, at(0.1, 40), true, false, v31},
       {"V32", "viscous catenary, power law 1/3, 1/2, 3/2, Bingham (sets 1 to 4)", "sag", "", 4, at(1.0 / 16, 40), true,
        true, v32},
+      {"V33",
+       "load from which on a Bingham liquid flows (set 1: balloon; 2: tube; 3: hanging strip; 4: its width held; 5: "
+       "straight rim; 6: hole; 7: incline; 8: cantilever; 9, 10: span, supported and clamped; 11, 12: round plate, "
+       "supported and clamped)",
+       "load", "", 12, instant(0.05), false, true, v33},
   };
   return list;
 }
