@@ -253,6 +253,36 @@ TEST(Validation, ThresholdsOfFlow) {
 
 TEST(Validation, LongThresholdOfAClampedPlate) { EXPECT_LT(error("V33", settings("V33", 0.025, 1, 12)), 0.01); }
 
+// The draw ratio from which on power laws' films are unstable; how much one mesh says of it:
+// docs/scenes/film-casting.md.
+TEST(Validation, FilmCastingOfAPowerLaw) {
+  const Result film = run(find_case("V34"), settings("V34", 0.04, 4000, 2));
+  EXPECT_LT(std::abs(film.error), 0.02);
+  ASSERT_EQ(film.more[2].first, "frequency");
+  EXPECT_LT(std::abs(film.more[2].second), 0.01);
+}
+
+TEST(Validation, LongFilmCastingOfPowerLaws) {
+  for (const int set : {1, 2, 4}) {
+    const Result film = run(find_case("V34"), settings("V34", 0.01, 12000, set));
+    EXPECT_LT(std::abs(film.error), 0.01) << "set " << set;
+    EXPECT_LT(std::abs(film.more[2].second), 0.01) << "set " << set;
+  }
+}
+
+TEST(Validation, StartSpeedsOfPowerLaws) {
+  for (int set = 1; set <= 5; ++set) {
+    EXPECT_LT(error("V35", settings("V35", 0.1, 1, set)), 0.01) << "set " << set;
+    EXPECT_GE(space_order(find_case("V35"), settings("V35", 0.2, 1, set)).order, 1.9) << "set " << set;
+  }
+  for (int set = 1; set <= 6; ++set) {
+    const Result r = run(find_case("V36"), settings("V36", 0.025, 1, set));
+    EXPECT_LT(std::abs(r.error), 0.003) << "set " << set;
+    for (const auto& [name, other] : r.more)
+      EXPECT_LT(std::abs(other), 0.003) << "set " << set << ", " << name;
+  }
+}
+
 // What is too thick for its gap by the pressure there is of the model, and no error of steps.
 TEST(Validation, LayersBetweenWalls) {
   EXPECT_LT(error("V29", settings("V29", 0.1, 40, 1)), 1e-9);  // that slide past each other

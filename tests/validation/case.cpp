@@ -103,6 +103,14 @@ const std::vector<Case>& cases() {
        "straight rim; 6: hole; 7: incline; 8: cantilever; 9, 10: span, supported and clamped; 11, 12: round plate, "
        "supported and clamped)",
        "load", "", 12, instant(0.05), false, true, v33},
+      {"V34", "film casting of power laws 0.5, 0.8, 1, 1.2 (sets 1 to 4)", "draw ratio from which on disturbances grow",
+       "", 4, at(0.02, 4000), false, true, v34},
+      {"V35", "hole in an endless film of power laws 1/3, 1/2, 0.7, 1, 3/2 (sets 1 to 5)", "start speed of its rim", "",
+       5, instant(0.1), false, true, v35},
+      {"V36",
+       "films of power laws 1, 1/3, 0.1 in their plane (sets 1 to 3: half plane with a wave on its border; 4 to 6: "
+       "indenter of Houseman and England)",
+       "1 to 3: depth of half the speed; 4 to 6: speed within", "", 6, instant(0.05), false, true, v36},
   };
   return list;
 }
