@@ -283,6 +283,21 @@ TEST(Validation, StartSpeedsOfPowerLaws) {
   }
 }
 
+// Edges below 2.3 of its thickness buckle nothing that floats.
+TEST(Validation, IceOnTheSea) {
+  EXPECT_GE(order_in_time("V37", settings("V37", 0.1, 10, 1), Scheme::sdirk2), 1.9); // a slab
+  EXPECT_LT(error("V37", settings("V37", 0.1, 40, 1)), 1e-4);
+  for (const double edge : {0.1, 0.025})
+    EXPECT_LT(error("V37", settings("V37", edge, 1, 2)), 1e-4) << edge; // a disk, free all round
+  EXPECT_LT(error("V37", settings("V37", 0.00625, 1, 3)), 1e-3);        // a wedge
+  EXPECT_GE(space_order(find_case("V37"), settings("V37", 0.05, 1, 3)).order, 1.9);
+  const Result shelf = run(find_case("V37"), settings("V37", 0.01, 1200, 4)); // with inflow: after 300 years
+  EXPECT_LT(std::abs(shelf.error), 0.01);
+  ASSERT_EQ(shelf.more.size(), 3u);
+  for (const auto& [when, off] : shelf.more) // and after 50, 100, 200
+    EXPECT_LT(std::abs(off), 0.01) << when;
+}
+
 // What is too thick for its gap by the pressure there is of the model, and no error of steps.
 TEST(Validation, LayersBetweenWalls) {
   EXPECT_LT(error("V29", settings("V29", 0.1, 40, 1)), 1e-9);  // that slide past each other

@@ -111,6 +111,10 @@ const std::vector<Case>& cases() {
        "films of power laws 1, 1/3, 0.1 in their plane (sets 1 to 3: half plane with a wave on its border; 4 to 6: "
        "indenter of Houseman and England)",
        "1 to 3: depth of half the speed; 4 to 6: speed within", "", 6, instant(0.05), false, true, v36},
+      {"V37",
+       "ice on the sea (set 1: a slab, its width held; 2: a free disk; 3: a wedge; 4: a shelf with inflow, PISM's test "
+       "V)",
+       "1: thickness; 2: speed of the rim; 3: speed of the front; 4: front", "", 4, at(0.1, 40), true, false, v37},
   };
   return list;
 }
