@@ -66,9 +66,6 @@ TEST(Units, AsDataSheetsWriteThem) {
   EXPECT_EQ(read("2 in", quantity::length), 0.0508);
   EXPECT_EQ(read("0.5 inch", quantity::length), 0.0127);
   EXPECT_EQ(read("2 min", quantity::time), 120);
-  EXPECT_EQ(read("2 d", quantity::time), 172800);
-  EXPECT_EQ(read("10 a", quantity::time), 315576000);
-  EXPECT_EQ(read("31557.6 km/a", quantity::speed), 1);
   EXPECT_EQ(read("50 Pa\u22c5s", quantity::viscosity), 50);
   EXPECT_EQ(read("1300 kg·m\u207b³", quantity::density), 1300);
   EXPECT_EQ(read("1300\u00a0kg/m³", quantity::density), 1300);
@@ -92,7 +89,7 @@ TEST(Units, OtherFactors) {
   EXPECT_EQ(read("2 min", quantity::time), 120);
   EXPECT_EQ(read("2 d", quantity::time), 172800);
   EXPECT_EQ(read("10 a", quantity::time), 315576000);
-  EXPECT_EQ(read("31557.6 km/a", quantity::speed), 1);
+  EXPECT_EQ(read("31557.6 km/a", quantity::velocity), 1);
   EXPECT_EQ(read("0.1 h", quantity::time), 360);
   EXPECT_EQ(read("180 deg", quantity::angle), std::numbers::pi);
   EXPECT_EQ(read("45°", quantity::angle), std::numbers::pi / 4);
