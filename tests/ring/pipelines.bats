@@ -171,6 +171,10 @@ END
   interrupted KILL tongue ice-shelf 4000 200
 }
 
+@test "lithosphere: interrupted and resumed = straight" {
+  interrupted INT run lithosphere 3
+}
+
 @test "drape: interrupted and resumed = straight" {
   interrupted INT run drape 0.1 0.25
 }
