@@ -33,6 +33,8 @@ constexpr std::array units{
     NamedUnit{"s", {{0, 0, 1}}, true},
     NamedUnit{"min", {{0, 0, 1}, 0, 60}, false},
     NamedUnit{"h", {{0, 0, 1}, 2, 36}, false},
+    NamedUnit{"d", {{0, 0, 1}, 0, 86400}, false},
+    NamedUnit{"a", {{0, 0, 1}, 0, 31557600}, false}, // a year of 365.25 days
     NamedUnit{"Hz", {{0, 0, -1}}, true},
     NamedUnit{"N", {{1, 1, -2}}, true},
     NamedUnit{"dyn", {{1, 1, -2}, -5}, false},

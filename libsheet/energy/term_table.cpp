@@ -12,6 +12,7 @@
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
+#include "libsheet/energy/bath_thrust.h"
 #include "libsheet/energy/channel_pressure.h"
 #include "libsheet/energy/contact_damping.h"
 #include "libsheet/energy/contact_shear.h"
@@ -109,15 +110,12 @@ constexpr std::array table = {
               [](const Model&) -> std::string { return "what two solids close on flows out from between them"; },
               [](const Model& m) { return m.liquid.viscous() ? "fewer than two [[solid]]s" : inviscid(m); },
               [](const Model&, TermMaker& maker) { maker.add(ChannelPressure()); }},
-    TermEntry{"weight on walls", [](const Model& m) { return (!m.walls.empty() || spreads(m)) && m.has_weight(); },
+    TermEntry{"weight on walls", [](const Model& m) { return !m.walls.empty() && m.has_weight(); },
               [](const Model&) -> std::string { return "thick parts of a layer flow to thin ones by their weight"; },
               [](const Model& m) -> std::string {
-                return m.has_weight() ? "liquid flows along no [[solid]] and spreads on no bath"
-                                      : "no gravity in [environment]";
+                return m.has_weight() ? "liquid flows along no [[solid]]" : "no gravity in [environment]";
               },
-              [](const Model& m, TermMaker& maker) {
-                maker.add_load(&AreaLoads::weight, WallWeight(m.gravity, spreads(m) ? m.bath->level : no_bath));
-              }},
+              [](const Model& m, TermMaker& maker) { maker.add_load(&AreaLoads::weight, WallWeight(m.gravity)); }},
     TermEntry{"pressure", [](const Model& m) { return !m.pressures.empty(); },
               [](const Model&) -> std::string { return "the two sides differ in it"; },
               [](const Model&) -> std::string { return "no pressure in [environment]"; },
@@ -136,6 +134,12 @@ constexpr std::array table = {
               [](const Model& m, TermMaker& maker) {
                 maker.add(Bath(m.bath->density, m.gravity, m.bath->level, m.bath->clings));
               }},
+    TermEntry{"bath thrust", [](const Model& m) { return spreads(m) && m.has_weight(); },
+              [](const Model&) -> std::string { return "what floats spreads by its own weight"; },
+              [](const Model& m) -> std::string {
+                return m.bath ? "no spreads = true in the bath" : "no bath in [environment]";
+              },
+              [](const Model& m, TermMaker& maker) { maker.add(BathThrust(m.gravity, m.bath->level)); }},
     TermEntry{"drag of a bath", [](const Model& m) { return has_bath(m) && m.bath->drag > 0; },
               [](const Model& m) { return fmt::format("{:.3g} Pa s/m on what slides", m.bath->drag); },
               [](const Model& m) -> std::string { return m.bath ? "no drag in the bath" : "no bath in [environment]"; },

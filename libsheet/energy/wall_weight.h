@@ -5,12 +5,9 @@
 // for each triangle in the part of its corners that touch; g_n is gravity's part towards the wall, and never below 0:
 // layers that hang are unstable, at wavelengths that no such equation bounds.
 // The place of a layer across its wall is given, so Gravity (gravity.h) has no part in this.
-// The same thrust makes what floats on a bath spread: where the bath carries it, gravity.h and bath.h together are the
-// thrust -ρ² g h²/(2 ρ_b) of the depth to which it sinks, ρ_b the bath's density, so that the sum is that of a floating
-// layer, ρ (1 - ρ/ρ_b) g h²/2 [Pegler and Worster 2012]. Corners under the bath's surface count.
+// On a bath: bath_thrust.h.
 #pragma once
 #include <algorithm>
-#include <limits>
 
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/falls_with_area.h"
@@ -19,15 +16,11 @@
 
 namespace sheet {
 
-inline constexpr double no_bath = -std::numeric_limits<double>::infinity();
-
 class WallWeight {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
-  // bath_level: of a bath on which the sheet spreads, against gravity [m]; or no_bath.
-  WallWeight(const Vector3& gravity, double bath_level)
-      : gravity_(gravity), up_(-gravity.normalized()), bath_level_(bath_level) {}
+  explicit WallWeight(const Vector3& gravity) : gravity_(gravity) {} // [m/s²]
   [[nodiscard]] const char* name() const { return "weight on walls"; }
   [[nodiscard]] std::size_t size() const { return thrust_.size(); }
 
@@ -37,13 +30,11 @@ public:
     const Vector3 weight = stage.liquid.density * gravity_; // of a cubic metre [N/m³]
     thrust_.assign(triangles.size(), 0);
     start_area_.assign(triangles.size(), 1);
-    for (std::size_t t = 0; t < triangles.size() && (!stage.sites.empty() || bath_level_ != no_bath); ++t) {
+    for (std::size_t t = 0; t < triangles.size() && !stage.sites.empty(); ++t) {
       double towards = 0;
       for (const auto v : triangles[t])
         if (const WallSite* site = site_at(stage, v))
           towards += std::max(0.0, -weight.dot(site->normal)) / 3 * lying(stage, t, *site);
-        else if (up_.dot(x[v]) < bath_level_)
-          towards += weight.norm() / 3;
       const double volume = stage.start->volumes[t];
       thrust_[t] = towards * volume * volume / 2;
       start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
@@ -75,9 +66,7 @@ private:
     return thrust_[i] * (start_area_[i] - area) / (area * start_area_[i]);
   }
 
-  Vector3 gravity_; // [m/s²]
-  Vector3 up_;
-  double bath_level_;                       // [m]
+  Vector3 gravity_;                         // [m/s²]
   std::vector<double> thrust_, start_area_; // W A [J m²], [m²]
 };
 

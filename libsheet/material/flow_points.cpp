@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Many rates at once. Where the C library has logarithms and exponentials for vectors, the compiler takes those, for
+// Many rates at once. Where the C library has powers of vectors, the compiler takes those, for
 // each instruction set: to a few units in the last place.
 #include "libsheet/base/instruction_sets.h"
 #include "libsheet/material/power_sum.h"
 
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__)
 extern "C" {
-__attribute__((simd("notinbranch"))) double exp(double) noexcept;
-__attribute__((simd("notinbranch"))) double log(double) noexcept;
+__attribute__((simd("notinbranch"))) double pow(double, double) noexcept;
 }
 #endif
 

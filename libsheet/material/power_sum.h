@@ -38,11 +38,12 @@ struct PowerSum {
 
 // At x. `Count` is that of the terms. Without branches, so that compilers take several x at once.
 template <int Count> [[gnu::always_inline]] inline FlowPoint flow_point(const PowerSum& sum, double x) {
-  const double part = sum.slope * x / sum.shift, y = sum.shift + sum.slope * x, log_y = std::log(y);
+  const double part = sum.slope * x / sum.shift, y = sum.shift + sum.slope * x;
   FlowPoint point{0.5 * sum.infinite * x, sum.infinite, 0};
   for (int i = 0; i < Count; ++i) {
     const PowerSum::Term& term = sum.term[static_cast<std::size_t>(i)];
-    const double power = std::exp(term.exponent * log_y), viscosity = term.factor * power;
+    const double power = term.exponent == -0.5 ? 1 / std::sqrt(y) : std::pow(y, term.exponent),
+                 viscosity = term.factor * power;
     double series = 0;
     for (int k = PowerSum::series_terms - 1; k >= 0; --k)
       series = part * term.series[static_cast<std::size_t>(k)] * (1 + series);

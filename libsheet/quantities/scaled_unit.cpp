@@ -8,7 +8,7 @@ namespace sheet {
 
 std::vector<ScaledUnit> scaled_units(std::string_view unit) {
   static const std::map<std::string_view, std::vector<ScaledUnit>> known = {
-      {"m", {{"m", 1}, {"mm", 1e-3}, {"µm", 1e-6}, {"nm", 1e-9}}},
+      {"m", {{"km", 1e3}, {"m", 1}, {"mm", 1e-3}, {"µm", 1e-6}, {"nm", 1e-9}}},
       {"m/s", {{"m/s", 1}, {"mm/s", 1e-3}, {"µm/s", 1e-6}, {"nm/s", 1e-9}}},
       {"1/m", {{"1/mm", 1e3}, {"1/m", 1}, {"1/km", 1e-3}}},
       {"m^2", {{"m²", 1}, {"cm²", 1e-4}, {"mm²", 1e-6}}},

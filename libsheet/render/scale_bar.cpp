@@ -90,7 +90,8 @@ void draw_scale(Bitmap& bitmap, const Scale& scale, Look look, double time) {
     return;
   const int text = font_size(bitmap.width, bitmap.height), margin = edge * text,
             x0 = bitmap.width - margin - widest * text;
-  const std::string clock = fmt::format("t = {:.4g} s", time);
+  constexpr double year = 31557600; // as units.h has it
+  const std::string clock = time < year ? fmt::format("t = {:.4g} s", time) : fmt::format("t = {:.4g} a", time / year);
   write_text(bitmap, margin, bitmap.height - margin - 7 * text, clock, text, dark);
   if (!look.has_scale())
     return;

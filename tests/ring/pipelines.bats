@@ -167,6 +167,14 @@ END
   interrupted KILL free film-casting 0.02 1 0.5
 }
 
+@test "ice-shelf: killed and resumed = straight" {
+  interrupted KILL tongue ice-shelf 4000 200
+}
+
+@test "lithosphere: interrupted and resumed = straight" {
+  interrupted INT run lithosphere 3
+}
+
 @test "drape: interrupted and resumed = straight" {
   interrupted INT run drape 0.1 0.25
 }

@@ -17,6 +17,13 @@ Settings at(double edge, int steps, Pattern pattern = Pattern::irregular) {
   return s;
 }
 
+Settings instant(double edge) { // of a sheet that bends
+  Settings s = at(edge, 1);
+  s.scheme = Scheme::backward_euler;
+  s.bending = Shell::arcs;
+  return s;
+}
+
 } // namespace
 
 const std::vector<Case>& cases() {
@@ -91,6 +98,23 @@ const std::vector<Case>& cases() {
        "1 to 3: way; 4, 6: length; 5: radius", "", 6, at(0.1, 40), true, false, v31},
       {"V32", "viscous catenary, power law 1/3, 1/2, 3/2, Bingham (sets 1 to 4)", "sag", "", 4, at(1.0 / 16, 40), true,
        true, v32},
+      {"V33",
+       "load from which on a Bingham liquid flows (set 1: balloon; 2: tube; 3: hanging strip; 4: its width held; 5: "
+       "straight rim; 6: hole; 7: incline; 8: cantilever; 9, 10: span, supported and clamped; 11, 12: round plate, "
+       "supported and clamped)",
+       "load", "", 12, instant(0.05), false, true, v33},
+      {"V34", "film casting of power laws 0.5, 0.8, 1, 1.2 (sets 1 to 4)", "draw ratio from which on disturbances grow",
+       "", 4, at(0.02, 4000), false, true, v34},
+      {"V35", "hole in an endless film of power laws 1/3, 1/2, 0.7, 1, 3/2 (sets 1 to 5)", "start speed of its rim", "",
+       5, instant(0.1), false, true, v35},
+      {"V36",
+       "films of power laws 1, 1/3, 0.1 in their plane (sets 1 to 3: half plane with a wave on its border; 4 to 6: "
+       "indenter of Houseman and England)",
+       "1 to 3: depth of half the speed; 4 to 6: speed within", "", 6, instant(0.05), false, true, v36},
+      {"V37",
+       "ice on the sea (set 1: a slab, its width held; 2: a free disk; 3: a wedge; 4: a shelf with inflow, PISM's test "
+       "V)",
+       "1: thickness; 2: speed of the rim; 3: speed of the front; 4: front", "", 4, at(0.1, 40), true, false, v37},
   };
   return list;
 }

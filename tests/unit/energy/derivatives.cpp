@@ -12,6 +12,7 @@
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
+#include "libsheet/energy/bath_thrust.h"
 #include "libsheet/energy/channel_pressure.h"
 #include "libsheet/energy/contact.h"
 #include "libsheet/energy/contact_damping.h"
@@ -294,8 +295,8 @@ TEST(Derivatives, WallDragOfFlowCurves) {
 }
 TEST(Derivatives, DragOfTwoWalls) { check(WallDrag(), {false, false}, true, crumpled, touch_two_walls); }
 TEST(Derivatives, ChannelPressure) { check(ChannelPressure(), {false, false}, true, crumpled, touch_two_walls); }
-TEST(Derivatives, WallWeight) { check(WallWeight({0.3, -9, 2}, no_bath), {}, true, crumpled, touch_walls); }
-TEST(Derivatives, WeightOnABath) { check(WallWeight({0.3, -9, 2}, 0.1), {}); }
+TEST(Derivatives, WallWeight) { check(WallWeight({0.3, -9, 2}), {}, true, crumpled, touch_walls); }
+TEST(Derivatives, SpreadingOnABath) { check(BathThrust({0.3, -9, 2}, 0.1), {false, false}); }
 TEST(Derivatives, BathDrag) { check(BathDrag(3, {0.3, -9, 2}, 0.1), {false, false}); }
 TEST(Derivatives, Inertia) { check(Inertia(), {false, false}); }
 TEST(Derivatives, Gravity) { check(Gravity({0.3, -9, 2}), {false, false}); }
@@ -506,7 +507,7 @@ TEST(Derivatives, TensionOfArcs) {
   check(MidEdgeShell(tension()), {true, false, 0.01}, true, crumpled, touch_walls);
 }
 TEST(Derivatives, WeightOfArcs) {
-  check(MidEdgeShell(AreaLoads{.weight = WallWeight({0.3, -9, 2}, 0.1)}), {true, false, 0.01}, true, crumpled,
+  check(MidEdgeShell(AreaLoads{.weight = WallWeight({0.3, -9, 2})}), {true, false, 0.01}, true, crumpled,
         touch_walls);
 }
 // Directors that lean far: arcs that hardly close to triangles.

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What makes a sheet spread that floats: the hydrostatic pressure of its own weight, over the thickness h = V/A_z, is
+// the thrust ρ g h²/2 [N/m], whose potential for each triangle, in the part of its corners under the bath's surface, is
+//   W = ρ g V²/(2 A_z),
+// A_z its horizontal projection. Where the bath carries the sheet, gravity.h and bath.h together are the thrust
+// -ρ² g h²/(2 ρ_b) of the depth to which it sinks, ρ_b the bath's density, so that the sum is that of a floating layer,
+// ρ (1 - ρ/ρ_b) g h²/2 [Pegler and Worster 2012]. Pressure acts level, however a triangle leans: by its true area the
+// thrust would buckle what is meshed by edges below 2.3 h. What stands on edge, or lies on its face, is as far from
+// floating as can be: W rises beyond all bounds on the way there.
+#pragma once
+#include <limits>
+
+#include "libsheet/energy/element.h"
+
+namespace sheet {
+
+class BathThrust {
+public:
+  static constexpr Stencil stencil = Stencil::triangle;
+  static constexpr Kind kind = Kind::elastic;
+  // gravity [m/s²]; level: of the bath's surface, against gravity [m].
+  BathThrust(const Vector3& gravity, double level)
+      : gravity_(gravity.norm()), up_(-gravity.normalized()), level_(level) {}
+  [[nodiscard]] const char* name() const { return "bath thrust"; }
+  [[nodiscard]] std::size_t size() const { return thrust_.size(); }
+
+  void begin(const Stage& stage) {
+    const auto& triangles = stage.start->mesh->triangles;
+    const auto& x = stage.start->positions;
+    thrust_.assign(triangles.size(), 0);
+    start_.assign(triangles.size(), 1);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const double volume = stage.start->volumes[t];
+      for (const auto v : triangles[t])
+        if (up_.dot(x[v]) < level_)
+          thrust_[t] += stage.liquid.density * gravity_ / 3 * volume * volume / 2;
+      start_[t] = projection(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
+      if (!(start_[t] > 0)) // it does not float
+        thrust_[t] = 0;
+    }
+  }
+
+  [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
+    return thrust_[i] == 0 ? 0 : since_start(i, projection(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)));
+  }
+
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
+                     bool definite) const {
+    if (thrust_[i] == 0) {
+      gradient.setZero();
+      hessian.setZero();
+      return 0;
+    }
+    const double area = projection(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
+    const double slope = thrust_[i] / (area * area); // -dW/dA_z
+    for (int a = 0; a < 3; ++a)
+      gradient.segment<3>(3 * a) = 0.5 * up_.cross(u.segment<3>(3 * ((a + 2) % 3)) - u.segment<3>(3 * ((a + 1) % 3)));
+    hessian = 2 * slope / area * gradient * gradient.transpose();
+    if (!definite) {
+      const Matrix3 turn = 0.5 * slope * skew(up_);
+      for (int a = 0; a < 3; ++a) {
+        hessian.block<3, 3>(3 * a, 3 * ((a + 2) % 3)) -= turn;
+        hessian.block<3, 3>(3 * a, 3 * ((a + 1) % 3)) += turn;
+      }
+    }
+    gradient *= -slope;
+    return since_start(i, area);
+  }
+
+private:
+  [[nodiscard]] double projection(const Vector3& a, const Vector3& b, const Vector3& c) const {
+    return 0.5 * up_.dot((b - a).cross(c - a));
+  }
+  // W less that at the start, which only keeps round-off small.
+  [[nodiscard]] double since_start(std::size_t i, double area) const {
+    return area > 0 ? thrust_[i] * (start_[i] - area) / (area * start_[i]) : std::numeric_limits<double>::infinity();
+  }
+
+  double gravity_; // [m/s²]
+  Vector3 up_;
+  double level_;                       // [m]
+  std::vector<double> thrust_, start_; // W A_z [J m²], A_z at the start [m²]
+};
+
+} // namespace sheet
