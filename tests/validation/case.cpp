@@ -91,6 +91,13 @@ const std::vector<Case>& cases() {
        "1 to 3: way; 4: length; 5: radius", "", 5, at(0.1, 40), true, false, v31},
       {"V32", "viscous catenary, power law 1/3, 1/2, 3/2, Bingham (sets 1 to 4)", "sag", "", 4, at(1.0 / 16, 40), true,
        true, v32},
+      {"V33",
+       "tension of rims and slopes (set 1: a strip rests; 2: a disk; 3: a varicose wave; 4: with viscosity; 5: on a "
+       "wall; 6, 7: a rim retracts, Oh 0.05, 1; 8: a free thread; 9, 10, 11: it beads, k r = 0.25, 0.5, 0.7; 12, 13: a "
+       "hole of 0.3 and 0.5 h)",
+       "1 width over thickness; 2 radius; 3 frequency; 4, 5, 9 to 11 rate; 6, 7 thickness; 8 speed of its radius; 12, "
+       "13 radius over that at the start",
+       "", 13, at(0.2, 100), true, true, v33},
   };
   return list;
 }

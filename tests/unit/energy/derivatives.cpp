@@ -23,6 +23,8 @@
 #include "libsheet/energy/membrane.h"
 #include "libsheet/energy/mid_edge_shell.h"
 #include "libsheet/energy/pressure.h"
+#include "libsheet/energy/rim_tension.h"
+#include "libsheet/energy/slope_tension.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/energy/surface_tension.h"
 #include "libsheet/energy/wall_drag.h"
@@ -52,6 +54,16 @@ State crumpled(Random& random) {
     v = random.vector(1);
   for (double& v : s.volumes)
     v *= 1.5 + random();
+  return s;
+}
+
+// A dented sphere whose faces slope steeply.
+State steep(Random& random) {
+  State s = test::at_rest(test::icosphere(1), 0.3);
+  for (Vector3& x : s.positions)
+    x += random.vector(0.03);
+  for (double& v : s.volumes)
+    v *= std::exp(2 * random());
   return s;
 }
 
@@ -287,6 +299,28 @@ TEST(Derivatives, MembraneOfFlowCurves) {
 }
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(), {}, true, crumpled, touch_walls); }
+// A sphere has no rim: every third edge counts as one, in part.
+TEST(Derivatives, RimTension) {
+  const State sphere = test::at_rest(test::icosphere(1), 0.3);
+  const Connectivity& mesh = *sphere.mesh;
+  std::vector<double> rims(mesh.edges.size(), 0);
+  for (std::size_t e = 0; e < rims.size(); e += 3)
+    rims[e] = 0.25 * static_cast<double>(1 + e % 4);
+  check(RimTension(rims, mesh), {});
+}
+TEST(Derivatives, SlopeTension) {
+  const State sphere = test::at_rest(test::icosphere(1), 0.3);
+  const Connectivity& mesh = *sphere.mesh;
+  FreeFaces faces{std::vector<double>(mesh.edges.size(), 0), std::vector<char>(mesh.vertices, 0)};
+  for (std::size_t v = 0; v < mesh.vertices; v += 2)
+    faces.on_wall[v] = 1;
+  Random random;
+  const State s = steep(random);
+  const std::vector<SlopedEdge> edges = sloped_edges(mesh, s.positions, s.volumes, faces, 0);
+  EXPECT_GT(edges.size(), 20U);
+  check(SlopeTension(edges), {}, true, steep);
+  check(SlopeTension(edges), {}, true, steep, touch_two_walls);
+}
 TEST(Derivatives, WallDrag) { check(WallDrag(), {false, false}, true, crumpled, touch_walls); }
 TEST(Derivatives, WallDragOfFlowCurves) {
   for (const FlowLaw& law : flow_laws())

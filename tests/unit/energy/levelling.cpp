@@ -66,7 +66,7 @@ TEST(Levelling, KeepsVolumeAndMomentumAndMakesNoNewExtremes) {
     s.velocities[v] = {1 + 0.1 * static_cast<double>(v % 3), -0.5, 0};
   const State before = s;
   const auto [least, most] = std::ranges::minmax(before.volumes);
-  ASSERT_TRUE(level_layers(on_floor(before), {0, 0, -9}, {}, 1e6, s));
+  ASSERT_TRUE(level_layers(on_floor(before), {0, 0, -9}, {}, false, 1e6, s));
   const auto [low, high] = std::ranges::minmax(s.volumes);
   EXPECT_GE(low, least);
   EXPECT_LE(high, most);
@@ -82,7 +82,7 @@ TEST(Levelling, LeavesEvenSlopesAlone) {
     s.volumes[t] *= 1 + 0.5 * (s.positions[c[0]].x() + s.positions[c[1]].x() + s.positions[c[2]].x()) / 3;
   }
   const State before = s;
-  ASSERT_TRUE(level_layers(on_floor(before), {0, 0, -9}, {}, 1e6, s));
+  ASSERT_TRUE(level_layers(on_floor(before), {0, 0, -9}, {}, false, 1e6, s));
   double away_from_rim = 0;
   for (std::size_t t = 0; t < s.volumes.size(); ++t) {
     const Vector3& x = s.positions[s.mesh->triangles[t][0]];
@@ -97,12 +97,12 @@ TEST(Levelling, NeitherHangingNorFreelySlippingLayersLevel) {
   const std::vector<double> before = s.volumes;
   const State start = s;
   Stage stage = on_floor(start);
-  ASSERT_TRUE(level_layers(stage, {0, 0, 9}, {}, 1, s));
+  ASSERT_TRUE(level_layers(stage, {0, 0, 9}, {}, false, 1, s));
   EXPECT_EQ(s.volumes, before);
   for (WallSite& site : stage.sites)
     site.slip_length = free_slip;
   stage.liquid.surface_tension = 0.1;
-  ASSERT_TRUE(level_layers(stage, {0, 0, -9}, {}, 1, s));
+  ASSERT_TRUE(level_layers(stage, {0, 0, -9}, {}, false, 1, s));
   EXPECT_EQ(s.volumes, before);
 }
 
