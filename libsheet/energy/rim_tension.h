@@ -29,8 +29,10 @@ public:
         weights_[t][k] = rim_roundness * stage.liquid.surface_tension * stage.start->volumes[t] * parts_[t][k];
   }
 
+  [[nodiscard]] bool idle(std::size_t i) const { return weights_[i][0] + weights_[i][1] + weights_[i][2] == 0; }
+
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
-    if (!at_rim(i))
+    if (idle(i))
       return 0;
     const TriangleArea a(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
     double sum = 0;
@@ -39,13 +41,31 @@ public:
     return sum / a.area;
   }
 
+  double gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
+    gradient.setZero();
+    if (idle(i))
+      return 0;
+    const TriangleArea a(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double length = a.edge[k].norm(), part = weights_[i][static_cast<std::size_t>(k)] / a.area;
+      const Vector3 along = part / length * a.edge[k];
+      gradient.segment<3>(3 * ((k + 2) % 3)) += along;
+      gradient.segment<3>(3 * ((k + 1) % 3)) -= along;
+      sum += part * length;
+    }
+    for (int k = 0; k < 3; ++k)
+      gradient.segment<3>(3 * k) -= sum / a.area * a.gradient(k);
+    return sum;
+  }
+
   // With w = W of one side, d = ∇l/l - ∇A/A: ∇w = w d, and ∇∇w = w (d dᵀ + ∇∇l/l - ∇l ∇lᵀ/l² - ∇∇A/A + ∇A ∇Aᵀ/A²). The
   // positive form keeps w (d dᵀ + ∇∇l/l).
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const {
     gradient.setZero();
     hessian.setZero();
-    if (!at_rim(i))
+    if (idle(i))
       return 0;
     const TriangleArea a(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
     VectorN<9> of_area;
@@ -80,8 +100,6 @@ public:
   }
 
 private:
-  [[nodiscard]] bool at_rim(std::size_t i) const { return weights_[i][0] + weights_[i][1] + weights_[i][2] > 0; }
-
   std::vector<std::array<double, 3>> parts_, weights_; // of the sides of triangles; weights: w A/l [N m²]
 };
 

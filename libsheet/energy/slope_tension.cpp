@@ -19,13 +19,6 @@ TriangleArea triangle(const VectorN<12>& u, int side) {
   return {u.segment<3>(3 * c[0]), u.segment<3>(3 * c[1]), u.segment<3>(3 * c[2])};
 }
 
-VectorN<12> area_gradient(const TriangleArea& a, int side) {
-  VectorN<12> gradient = VectorN<12>::Zero();
-  for (int k = 0; k < 3; ++k)
-    gradient.segment<3>(3 * corners[side][k]) = a.gradient(k);
-  return gradient;
-}
-
 void add_area_hessian(const TriangleArea& a, int side, double factor, MatrixN<12>& hessian) {
   const MatrixN<9> h = factor * a.hessian(true);
   for (int i = 0; i < 3; ++i)
@@ -41,6 +34,40 @@ void add_length_hessian(const Vector3& along, double length, double factor, Matr
   hessian.block<3, 3>(0, 3) -= turn;
   hessian.block<3, 3>(3, 0) -= turn;
 }
+
+// Two triangles about an edge, with what the energy is made of, and its first derivatives.
+struct Pair {
+  Pair(const VectorN<12>& u, const std::array<double, 2>& volumes)
+      : triangles{triangle(u, 0), triangle(u, 1)}, edge(u.segment<3>(3) - u.segment<3>(0)), length(edge.norm()),
+        jump(volumes[0] / triangles[0].area - volumes[1] / triangles[1].area),
+        p(2 * (triangles[0].area + triangles[1].area) / 3), q(length * jump / 2) {
+    for (const int side : {0, 1})
+      falls[side] = (side == 0 ? 1 : -1) * volumes[static_cast<std::size_t>(side)] /
+                    (triangles[side].area * triangles[side].area);
+  }
+
+  TriangleArea triangles[2];
+  Vector3 edge;
+  double length, jump, p, q;
+  double falls[2]; // -∂jump/∂A
+};
+
+// W, and its derivatives by p and q; `curvature` is the factor of (q ∇p - p ∇q)² in the second ones.
+struct Energy {
+  Energy(double p, double q, const std::array<double, 2>& tensions) {
+    for (const int steeper : {1, 2}) {
+      const double tension = tensions[static_cast<std::size_t>(steeper - 1)], slope = steeper * q;
+      if (tension == 0)
+        continue;
+      const double r = std::sqrt(p * p + slope * slope), over = slant(p, slope);
+      value += tension * over;
+      by_p -= tension * over / r;
+      by_q += tension * steeper * slope / r;
+      curvature += tension * steeper * steeper / (r * r * r);
+    }
+  }
+  double value = 0, by_p = 0, by_q = 0, curvature = 0;
+};
 
 } // namespace
 
@@ -59,52 +86,52 @@ void SlopeTension::begin(const Stage& stage) {
 }
 
 double SlopeTension::value(std::size_t i, const VectorN<12>& u) const {
-  const auto& [volumes, tensions] = loads_[i];
-  const double one = triangle(u, 0).area, two = triangle(u, 1).area;
-  const double p = 2 * (one + two) / 3;
-  const double q = (u.segment<3>(3) - u.segment<3>(0)).norm() * (volumes[0] / one - volumes[1] / two) / 2;
-  return tensions[0] * slant(p, q) + tensions[1] * slant(p, 2 * q);
+  const Pair pair(u, loads_[i].volumes);
+  return loads_[i].tensions[0] * slant(pair.p, pair.q) + loads_[i].tensions[1] * slant(pair.p, 2 * pair.q);
+}
+
+double SlopeTension::gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const {
+  const Pair pair(u, loads_[i].volumes);
+  const Energy energy(pair.p, pair.q, loads_[i].tensions);
+  const Vector3 of_length = energy.by_q * pair.jump / (2 * pair.length) * pair.edge;
+  gradient << -of_length, of_length, Vector3::Zero(), Vector3::Zero();
+  for (int side = 0; side < 2; ++side) {
+    const double by_area = 2 * energy.by_p / 3 - energy.by_q * pair.length * pair.falls[side] / 2;
+    for (int k = 0; k < 3; ++k)
+      gradient.segment<3>(3 * corners[side][k]) += by_area * pair.triangles[side].gradient(k);
+  }
+  return energy.value;
 }
 
 double SlopeTension::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                                  bool definite) const {
-  const auto& [volumes, tensions] = loads_[i];
-  const TriangleArea triangles[2] = {triangle(u, 0), triangle(u, 1)};
-  const VectorN<12> of_area[2] = {area_gradient(triangles[0], 0), area_gradient(triangles[1], 1)};
-  const Vector3 edge = u.segment<3>(3) - u.segment<3>(0);
-  const double length = edge.norm();
-  const Vector3 along = edge / length;
-  VectorN<12> of_length = VectorN<12>::Zero();
+  const Pair pair(u, loads_[i].volumes);
+  const Energy energy(pair.p, pair.q, loads_[i].tensions);
+  VectorN<12> of_area[2] = {VectorN<12>::Zero(), VectorN<12>::Zero()};
+  for (int side = 0; side < 2; ++side)
+    for (int k = 0; k < 3; ++k)
+      of_area[side].segment<3>(3 * corners[side][k]) = pair.triangles[side].gradient(k);
+  const Vector3 along = pair.edge / pair.length;
+  VectorN<12> of_length;
   of_length << -along, along, Vector3::Zero(), Vector3::Zero();
-  const double h[2] = {volumes[0] / triangles[0].area, volumes[1] / triangles[1].area};
-  const double falls[2] = {h[0] / triangles[0].area, -h[1] / triangles[1].area}; // -∂(h1 - h2)/∂A
-  const double p = 2 * (triangles[0].area + triangles[1].area) / 3, jump = h[0] - h[1], q = length * jump / 2;
-  const VectorN<12> of_p = 2 * (of_area[0] + of_area[1]) / 3;
-  const VectorN<12> of_jump = -falls[0] * of_area[0] - falls[1] * of_area[1];
-  const VectorN<12> of_q = (jump * of_length + length * of_jump) / 2;
-
-  double value = 0, by_p = 0, by_q = 0, curvature = 0; // W, its derivatives, and the factor of (q ∇p - p ∇q)²
-  for (const int steeper : {1, 2}) {
-    const double tension = tensions[static_cast<std::size_t>(steeper - 1)], slope = steeper * q;
-    const double r = std::hypot(p, slope);
-    value += tension * slant(p, slope);
-    by_p -= tension * slant(p, slope) / r;
-    by_q += tension * steeper * slope / r;
-    curvature += tension * steeper * steeper / (r * r * r);
-  }
-  gradient = by_p * of_p + by_q * of_q;
-  const VectorN<12> across = q * of_p - p * of_q;
-  hessian = curvature * across * across.transpose();
+  const VectorN<12> of_p = 2.0 / 3 * (of_area[0] + of_area[1]);
+  const VectorN<12> of_jump = -pair.falls[0] * of_area[0] - pair.falls[1] * of_area[1];
+  const VectorN<12> of_q = (pair.jump * of_length + pair.length * of_jump) / 2;
+  gradient = energy.by_p * of_p + energy.by_q * of_q;
+  const VectorN<12> across = pair.q * of_p - pair.p * of_q;
+  hessian.noalias() = (energy.curvature * across) * across.transpose();
   if (definite)
-    return value;
+    return energy.value;
   for (int side = 0; side < 2; ++side) { // by_p ∇∇p, and of by_q ∇∇q what is of one area
-    const double by_jump = by_q * length * falls[side];
-    add_area_hessian(triangles[side], side, 2 * by_p / 3 - by_jump / 2, hessian);
-    hessian += by_jump / triangles[side].area * of_area[side] * of_area[side].transpose();
+    const double by_jump = energy.by_q * pair.length * pair.falls[side];
+    add_area_hessian(pair.triangles[side], side, 2 * energy.by_p / 3 - by_jump / 2, hessian);
+    hessian.noalias() += (by_jump / pair.triangles[side].area * of_area[side]) * of_area[side].transpose();
   }
-  hessian += by_q / 2 * (of_length * of_jump.transpose() + of_jump * of_length.transpose());
-  add_length_hessian(along, length, by_q * jump / 2, hessian);
-  return value;
+  const VectorN<12> half = energy.by_q / 2 * of_jump;
+  hessian.topRows<6>().noalias() += of_length.head<6>() * half.transpose();
+  hessian.leftCols<6>().noalias() += half * of_length.head<6>().transpose();
+  add_length_hessian(along, pair.length, energy.by_q * pair.jump / 2, hessian);
+  return energy.value;
 }
 
 } // namespace sheet

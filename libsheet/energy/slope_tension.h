@@ -20,6 +20,7 @@ public:
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return edges_[i].vertices; }
   void begin(const Stage& stage);
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const;
+  double gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const;
   // The positive form is that of √(P² + Q²) as a norm of (P, Q), without the second derivatives of the two.
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const;

@@ -55,17 +55,12 @@ SlopedEdge sloped_edge(const Connectivity& mesh, std::uint32_t edge, const FreeF
   return sloped;
 }
 
-// The vertices of free rims, and their neighbours.
-std::vector<char> near_rims(const Connectivity& mesh, const FreeFaces& faces) {
+std::vector<char> at_free_rims(const Connectivity& mesh, const FreeFaces& faces) {
   std::vector<char> on(mesh.vertices, 0);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (faces.rims[e] > 0)
       on[mesh.edges[e][0]] = on[mesh.edges[e][1]] = 1;
-  std::vector<char> near = on;
-  for (const auto& [a, b] : mesh.edges)
-    if (on[a] != 0 || on[b] != 0)
-      near[a] = near[b] = 1;
-  return near;
+  return on;
 }
 
 } // namespace
@@ -87,14 +82,14 @@ FreeFaces all_free(const Connectivity& mesh) {
 std::vector<SlopedEdge> sloped_edges(const Connectivity& mesh, std::span<const Vector3> positions,
                                      std::span<const double> volumes, const FreeFaces& faces, double least) {
   const Thickness thickness(mesh, positions, volumes);
-  const std::vector<char> near = near_rims(mesh, faces);
+  const std::vector<char> on_rim = at_free_rims(mesh, faces);
   std::vector<SlopedEdge> sloped;
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
     if (mesh.on_rim(e))
       continue;
     const auto [p, q] = thickness.slant_at(e); // the slope is 2 q/p
     const auto [a, b] = mesh.edges[e];
-    if (near[a] != 0 || near[b] != 0 || 2 * std::abs(q) > least * p)
+    if (on_rim[a] != 0 || on_rim[b] != 0 || 2 * std::abs(q) > least * p)
       sloped.push_back(sloped_edge(mesh, e, faces));
   }
   return sloped;

@@ -46,8 +46,7 @@ struct SlopedEdge {
   double on_wall = 0;
 };
 
-// Inner edges at which the thickness is not even, the slope being above `least`, and those within two rings of
-// triangles of a free rim.
+// Inner edges at which the thickness is not even, the slope being above `least`, and those that end on a free rim.
 [[nodiscard]] std::vector<SlopedEdge> sloped_edges(const Connectivity& mesh, std::span<const Vector3> positions,
                                                    std::span<const double> volumes, const FreeFaces& faces,
                                                    double least);

@@ -29,7 +29,8 @@ constexpr double grading = 0.4;           // growth of length over distance
 constexpr double widths_an_edge = 2;      // of a strip: up to split_above times that, no angle need be below 19 degrees
 constexpr double widths_an_edge_of_threads = 1.5; // which are as wide as π/4 of their thickness
 constexpr double thicknesses_an_edge_of_threads = 0.5;
-constexpr double finest_in_strips = 1.0 / 16; // of edge_length
+constexpr double least_wedge_of_threads = pi / 9; // a thread ends in no wedge, but tension shortens it
+constexpr double finest_in_strips = 1.0 / 16;     // of edge_length
 
 void check_length(const char* option, double value) {
   if (!(value > 0 && std::isfinite(value)))
@@ -233,7 +234,8 @@ void SizeField::fit_strips(const EditableSheet& sheet, const SizeOptions& option
   const double widths = round ? widths_an_edge_of_threads : widths_an_edge;
   const double thicknesses = round ? thicknesses_an_edge_of_threads : thicknesses_an_edge;
   const double floor = options.shortest_in_strips();
-  const std::vector<double> width = strip_widths(sheet), thickness = thickness_at_vertices(sheet);
+  const std::vector<double> width = strip_widths(sheet, round ? least_wedge_of_threads : 0),
+                            thickness = thickness_at_vertices(sheet);
   std::vector<double> fitted(width.size());
   bool any = false;
   for (std::uint32_t v = 0; v < width.size(); ++v) {

@@ -302,7 +302,7 @@ void put_of_gas(Frame& frame, std::string_view name, std::string_view unit, std:
 
 // As they are at the start of the step, so that a run that is gone on with has the same.
 ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& mesh) {
-  constexpr double least_slope = 0.002; // of a face: less pulls with a millionth of the tension
+  constexpr double least_slope = 0.02; // of a face: what is less adds 5e-5 to its area
   FreeFaces faces = scene::free_faces(scene, frame, mesh);
   std::vector<SlopedEdge> slopes = sloped_edges(mesh, positions(frame), volumes(frame), faces, least_slope);
   return {std::move(faces.rims), std::move(slopes)};

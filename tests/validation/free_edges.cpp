@@ -310,7 +310,7 @@ Result hole(const Settings& s, double over_thickness) {
 Result retracting_rim(const Settings& s, double ohnesorge, double thickest) {
   constexpr double rho = 1000, h = 1e-3, tension = 0.05, length = 0.035;
   const double width = 4 * s.edge * h, speed = std::sqrt(2 * tension / (rho * h)), until = 15 * h / speed;
-  const double mu = ohnesorge * std::sqrt(2 * tension * rho * h);
+  const double mu = ohnesorge * std::sqrt(tension * rho * h);
   const std::string scene = fmt::format(
       "[sheet]\nshape = \"rectangle\"\nplane = \"xy\"\nsize = [{}, {}]\nedge_length = {}\nthickness = {}\nseed = {}\n"
       "[material]\nviscosity = {}\ndensity = {}\nsurface_tension = {}\n[model]\nbending = false\nfaces = true\n"

@@ -138,6 +138,7 @@ public:
   [[nodiscard]] virtual std::array<std::uint32_t, 4> nodes(std::size_t i) const = 0; // hinge and four only
   virtual void begin(const Stage& stage) = 0;
   [[nodiscard]] virtual double value(std::size_t i, const VectorN<n>& u) const = 0;
+  virtual double gradient(std::size_t i, const VectorN<n>& u, VectorN<n>& g) const = 0;
   virtual double derivatives(std::size_t i, const VectorN<n>& u, VectorN<n>& g, MatrixN<n>& h, bool definite) const = 0;
 };
 
@@ -160,6 +161,12 @@ public:
       element_.prepare(stage.begin);
   }
   [[nodiscard]] double value(std::size_t i, const VectorN<n>& u) const override { return element_.value(i, u); }
+  double gradient(std::size_t i, const VectorN<n>& u, VectorN<n>& g) const override {
+    if constexpr (requires { element_.gradient(i, u, g); })
+      return element_.gradient(i, u, g);
+    MatrixN<n> unused;
+    return element_.derivatives(i, u, g, unused, true);
+  }
   double derivatives(std::size_t i, const VectorN<n>& u, VectorN<n>& g, MatrixN<n>& h, bool definite) const override {
     return element_.derivatives(i, u, g, h, definite);
   }
@@ -232,6 +239,8 @@ void check_all(Elements<n>& elements, Properties properties, bool second_stage_t
       VectorN<n> g, ignored;
       MatrixN<n> h, positive, scrap;
       const double w = elements.derivatives(i, u, g, h, false);
+      EXPECT_NEAR(elements.gradient(i, u, ignored), w, 1e-12 * std::abs(w) + 1e-300);
+      EXPECT_LE((ignored - g).norm(), 1e-12 * g.norm() + 1e-300) << elements.name();
       EXPECT_NEAR(w, elements.value(i, u), 1e-12 * std::abs(w) + 1e-300);
       double gradient_error[3], hessian_error[3];
       for (int k = 0; k < 3; ++k) {
