@@ -27,7 +27,10 @@ public:
     }
   }
 
-  [[nodiscard]] double of(std::uint32_t triangle) const { return height_[triangle]; }
+  [[nodiscard]] double rim_side(std::uint32_t edge, std::uint32_t triangle) const {
+    const double l = length(edge), h = height_[triangle];
+    return RimSide(2 * area_[triangle] / (l * h)).c * h * l;
+  }
   [[nodiscard]] double length(std::uint32_t edge) const {
     return (x_[mesh_.edges[edge][1]] - x_[mesh_.edges[edge][0]]).norm();
   }
@@ -102,7 +105,7 @@ double extra_area(const Connectivity& mesh, std::span<const Vector3> positions, 
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
     if (mesh.on_rim(e)) {
       const auto& sides = mesh.edge_triangles[e];
-      area += faces.rims[e] * rim_roundness * thickness.length(e) * thickness.of(std::min(sides[0], sides[1]));
+      area += faces.rims[e] * thickness.rim_side(e, std::min(sides[0], sides[1]));
       continue;
     }
     const auto [p, q] = thickness.slant_at(e);

@@ -125,7 +125,8 @@ struct Wave {
   Model model;
   double k = pi, width;
 
-  Wave(const Settings& s, double h, double mu, double rho) : width(4 * s.edge) {
+  Wave(const Settings& s, double h, double mu, double rho)
+      : width(2 * std::sqrt(3.0) * s.edge) { // of whole rows of equilateral triangles
     state = film(strip_mesh(s, 1, width), h);
     model = flat_film(state, s, mu, rho);
     model.holds.push_back(hold(state, ends(1), axis_bit(0), false));
@@ -234,31 +235,28 @@ Result free_thread(const Settings& s) {
   m.holds.push_back(hold(
       start, [](const Vector3& x) { return x.norm() < 1e-9; }, axis_bit(1), false));
   put_faces(start, faces_beyond(start, guided), m);
-  std::vector<std::uint32_t> near; // triangles of the half that is held
-  for (std::uint32_t t = 0; t < start.volumes.size(); ++t)
-    if (start.positions[start.mesh->triangles[t][0]].x() < length / 2)
-      near.push_back(t);
-  const auto radius = [&](const State& at) { // of the thread of their volume and length
-    double volume = 0, area = 0;
-    for (const auto t : near) {
-      const Corners& c = at.mesh->triangles[t];
-      volume += at.volumes[t];
-      area += TriangleArea(at.positions[c[0]], at.positions[c[1]], at.positions[c[2]]).area;
-    }
-    return volume / area / 2; // h = 2 r
+  const std::vector<std::uint32_t> middle =
+      hold(
+          start, [&](const Vector3& x) { return std::abs(x.x() / length - 0.5) < 0.1; }, 0, false)
+          .vertices;
+  const auto way = [&](const State& at) { // of its middle from the end that is held
+    double sum = 0;
+    for (const auto v : middle)
+      sum += at.positions[v].x();
+    return sum / static_cast<double>(middle.size());
   };
-  const double until = 1.2 * mu * r / gamma; // 20 %
+  const double from = way(start), until = 1.2 * mu * r / gamma; // 20 %
   Run run(std::move(start), m, s, r);
   run.advance(until / 2, s.steps / 2);
-  const double middle = radius(run.state());
+  const double half = std::sqrt(from / way(run.state()));
   run.advance(until / 2, s.steps / 2);
-  return run.result((radius(run.state()) - middle) / (gamma / (6 * mu) * until / 2));
+  return run.result(r * (std::sqrt(from / way(run.state())) - half) / (gamma / (6 * mu) * until / 2));
 }
 
 // A thread of r = 1 mm, 1 Pa s, 1000 kg/m³ grows beads of the wave number k r = 0.25, 0.5, 0.7, at the rate of slender
 // jets [Eggers and Dupont 1994]: σ = √(γ x² (1 - x²)/(2 ρ r³) + 9 ν² x⁴/(4 r⁴)) - 3 ν x²/(2 r²), x = k r.
 Result growing_beads(const Settings& s, double x) {
-  constexpr double r = 1e-3, mu = 1, rho = 1000, nu = mu / rho, a = 0.005;
+  constexpr double r = 1e-3, mu = 1, rho = 1000, nu = mu / rho, a = 0.001;
   const double k = x / r, length = pi / k, over = x * x / (r * r);
   const double rate =
       std::sqrt(gamma * x * x * (1 - x * x) / (2 * rho * r * r * r) + 2.25 * nu * nu * over * over) - 1.5 * nu * over;
@@ -283,7 +281,7 @@ Result growing_beads(const Settings& s, double x) {
   };
   Run run(std::move(start), m, s, width);
   const int half = s.steps / 2;
-  run.advance(0.5 / rate, half); // until the mode has found its velocities
+  run.advance(2 / rate, half); // until the section and the mode have found their shapes
   const double before = mode(run.state());
   run.advance(0.5 / rate, half);
   return run.result(std::log(mode(run.state()) / before) / 0.5);

@@ -12,7 +12,7 @@
 namespace sheet {
 namespace {
 
-// Equilateral triangles with edges of 1, a parallelogram of n x n pairs, whose thickness is 3 + slope·x.
+// Equilateral triangles with edges of 1, a parallelogram of n x n pairs, whose thickness is 1 + slope·x.
 struct Layer {
   std::vector<Vector3> x;
   Connectivity mesh;
@@ -34,7 +34,7 @@ struct Layer {
     mesh = connect(x.size(), triangles);
     for (const Corners& c : triangles) {
       const double own = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
-      volumes.push_back(own * (3 + slope.dot(x[c[0]] + x[c[1]] + x[c[2]]) / 3));
+      volumes.push_back(own * (1 + slope.dot(x[c[0]] + x[c[1]] + x[c[2]]) / 3));
       area += own;
     }
   }
@@ -52,10 +52,16 @@ TEST(Faces, EvenSlopesCostTheAreaOfBothFaces) {
   }
 }
 
-TEST(Faces, RimsAreHalfRound) {
-  const Layer layer(4, Vector3::Zero());
-  EXPECT_NEAR(extra_area(layer.mesh, layer.x, layer.volumes, all_free(layer.mesh)), std::numbers::pi / 4 * 3 * 16,
-              1e-12);
+TEST(Faces, RimsAreHalfRoundAndFlatWhereTrianglesResolveTheirRoundness) {
+  Layer layer(4, Vector3::Zero());
+  const auto of_thickness = [&](double h) {
+    for (double& volume : layer.volumes)
+      volume = h * std::numbers::sqrt3 / 4;
+    return extra_area(layer.mesh, layer.x, layer.volumes, all_free(layer.mesh)) / (16 * h);
+  };
+  EXPECT_NEAR(of_thickness(1), std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(of_thickness(1e4), 1, 1e-3);
+  EXPECT_LT(of_thickness(4), of_thickness(8));
 }
 
 TEST(Faces, EvenThicknessHasSlopesNearRimsOnly) {
