@@ -41,12 +41,6 @@ Layers layers_of(const State& state, std::span<const char> held, bool sloped) {
     layers.thickness.push_back(state.volumes[t] / layers.area[t]);
   }
   layers.rest = rest_of(state, layers.thickness, state.volumes, layers.area);
-  if (sloped) {
-    std::vector<double> volumes(layers.rest);
-    for (std::size_t t = 0; t < volumes.size(); ++t)
-      volumes[t] *= layers.area[t];
-    layers.rest = rest_of(state, std::move(layers.rest), volumes, layers.area);
-  }
   std::vector<char> on_rim(x.size(), 0);
   for (std::size_t e = 0; e < state.mesh->edges.size(); ++e)
     if (state.mesh->on_rim(e))
@@ -55,6 +49,14 @@ Layers layers_of(const State& state, std::span<const char> held, bool sloped) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Corners& c = triangles[t];
     layers.at_rim.push_back(on_rim[c[0]] != 0 || on_rim[c[1]] != 0 || on_rim[c[2]] != 0);
+  }
+  if (sloped) { // without what is at the rim, where means are of one side
+    std::vector<double> area(layers.area), volumes(layers.rest);
+    for (std::size_t t = 0; t < area.size(); ++t) {
+      area[t] *= layers.at_rim[t] != 0 ? 0 : 1;
+      volumes[t] *= area[t];
+    }
+    layers.rest = rest_of(state, std::move(layers.rest), volumes, area);
   }
   return layers;
 }
