@@ -61,7 +61,7 @@ public:
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     double sum = 0;
     each_corner(i, u, [&](int c, const Vector3& slid, const Vector3&) {
-      sum += potential(corners_[i][static_cast<std::size_t>(c)], slid);
+      sum += slide_of(corners_[i][static_cast<std::size_t>(c)], slid).potential;
     });
     return sum;
   }
@@ -70,28 +70,25 @@ public:
     double sum = 0;
     gradient.setZero();
     each_corner(i, u, [&](int c, const Vector3& slid, const Vector3&) {
-      const Corner& corner = corners_[i][static_cast<std::size_t>(c)];
-      if (!flow_) {
-        gradient.segment<3>(3 * c) = corner.stiffness * slid;
-        sum += 0.5 * corner.stiffness * slid.squaredNorm();
-        return;
-      }
-      const CurvedDrag slide = slide_of(corner, slid);
+      const CurvedDrag slide = slide_of(corners_[i][static_cast<std::size_t>(c)], slid);
       gradient.segment<3>(3 * c) = slide.stiffness * slid;
       sum += slide.potential;
     });
     return sum;
   }
 
-  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& g, MatrixN<9>& hessian, bool) const {
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian, bool) const {
+    double sum = 0;
+    gradient.setZero();
     hessian.setZero();
     each_corner(i, u, [&](int c, const Vector3& slid, const Vector3& normal) {
-      const Corner& corner = corners_[i][static_cast<std::size_t>(c)];
-      const CurvedDrag slide = flow_ ? slide_of(corner, slid) : CurvedDrag{.stiffness = corner.stiffness};
+      const CurvedDrag slide = slide_of(corners_[i][static_cast<std::size_t>(c)], slid);
       const Vector3* own = own_force_.empty() ? nullptr : &own_force_[i][static_cast<std::size_t>(c)];
+      gradient.segment<3>(3 * c) = slide.stiffness * slid;
       hessian.block<3, 3>(3 * c, 3 * c) = slide.hessian(slid, Matrix3::Identity() - normal * normal.transpose(), own);
+      sum += slide.potential;
     });
-    return gradient(i, u, g);
+    return sum;
   }
 
   // See term.h.
@@ -141,18 +138,15 @@ private:
     std::uint32_t site = 0;
   };
 
-  // Of a flow curve.
   [[nodiscard]] CurvedDrag slide_of(const Corner& corner, const Vector3& slid) const {
+    if (!flow_)
+      return {0.5 * corner.stiffness * slid.squaredNorm(), corner.stiffness, 0};
     const double still = rest_rate_ * corner.depth / 3;
     const double u = std::sqrt(slid.squaredNorm() / (duration_ * duration_) + still * still);
     const WallFlow::Drag drag = flow_->drag(u, corner.depth, corner.slip_length);
     const double stiffness = corner.area * drag.stress / (duration_ * u);
     const double change = corner.area * (drag.slope - drag.stress / u) / (duration_ * duration_ * duration_ * u * u);
     return {corner.area * duration_ * drag.potential, stiffness, change};
-  }
-
-  [[nodiscard]] double potential(const Corner& corner, const Vector3& slid) const {
-    return flow_ ? slide_of(corner, slid).potential : 0.5 * corner.stiffness * slid.squaredNorm();
   }
 
   static Touched touched(const Stage& stage, const WallSite& site) {

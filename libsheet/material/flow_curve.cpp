@@ -11,7 +11,6 @@ namespace sheet {
 namespace {
 
 constexpr double of_own_rate = 1e-5; // of the rest rate
-constexpr double small = 0.1;        // part of the shift below which powers would nearly cancel
 
 // K, of a power law.
 double consistency(const Liquid& liquid) {
@@ -50,58 +49,51 @@ FlowCurve::FlowCurve(const Liquid& liquid, double rest_rate) {
     integrated_ = kept.of(liquid, [&] { return IntegratedCurve(log_curve(liquid)); });
     return;
   }
-  const double rest = rest_rate * rest_rate, power = (law.flow_index - 1) / 2;
-  const double viscosity = liquid.viscosity, infinite = law.infinite_viscosity;
+  const double power = (law.flow_index - 1) / 2;
+  powers_.shift = rest_rate * rest_rate;
   switch (law.kind) {
   case FlowLawKind::cross:
   case FlowLawKind::table:
     break; // not elementary
   case FlowLawKind::newtonian:
-    newtonian_ = viscosity;
+    powers_.infinite = liquid.viscosity;
     break;
   case FlowLawKind::power:
-    add(consistency(liquid), rest, 1, power);
+    powers_.add(consistency(liquid), power);
     break;
   case FlowLawKind::carreau:
-    newtonian_ = infinite;
-    add(viscosity - infinite, 1, law.time_constant * law.time_constant, power);
+    powers_.infinite = law.infinite_viscosity;
+    powers_.shift = 1;
+    powers_.slope = law.time_constant * law.time_constant;
+    powers_.add(liquid.viscosity - law.infinite_viscosity, power);
     break;
   case FlowLawKind::bingham:
-    newtonian_ = viscosity;
-    add(law.yield_stress, rest, 1, -0.5);
+    powers_.infinite = liquid.viscosity;
+    powers_.add(law.yield_stress, -0.5);
     break;
   case FlowLawKind::herschel_bulkley:
-    add(law.yield_stress, rest, 1, -0.5);
-    add(consistency(liquid), rest, 1, power);
+    powers_.add(law.yield_stress, -0.5);
+    powers_.add(consistency(liquid), power);
     break;
   case FlowLawKind::casson:
-    newtonian_ = viscosity;
-    add(law.yield_stress, rest, 1, -0.5);
-    add(2 * std::sqrt(law.yield_stress * viscosity), rest, 1, -0.25);
+    powers_.infinite = liquid.viscosity;
+    powers_.add(law.yield_stress, -0.5);
+    powers_.add(2 * std::sqrt(law.yield_stress * liquid.viscosity), -0.25);
     break;
   }
-}
-
-void FlowCurve::add(double factor, double shift, double slope, double exponent) {
-  term_[terms_++] = {factor, shift, slope, exponent, std::pow(shift, exponent + 1)};
 }
 
 FlowPoint FlowCurve::at(double squared_rate) const {
   if (integrated_)
     return integrated_->at(squared_rate);
-  FlowPoint point{0.5 * newtonian_ * squared_rate, newtonian_, 0};
-  for (int i = 0; i < terms_; ++i) {
-    const auto [factor, shift, slope, exponent, at_rest] = term_[i];
-    const double y = shift + slope * squared_rate;
-    const double power = factor * (exponent == -0.5 ? 1 / std::sqrt(y) : std::pow(y, exponent));
-    const double part = slope * squared_rate / shift;
-    const double risen =
-        part < small ? factor * at_rest * std::expm1((exponent + 1) * std::log1p(part)) : power * y - factor * at_rest;
-    point.potential += risen / (2 * slope * (exponent + 1));
-    point.viscosity += power;
-    point.slope += 2 * exponent * slope * power / y;
+  switch (powers_.terms) {
+  case 0:
+    return {0.5 * powers_.infinite * squared_rate, powers_.infinite, 0};
+  case 1:
+    return flow_point<1>(powers_, squared_rate);
+  default:
+    return flow_point<2>(powers_, squared_rate);
   }
-  return point;
 }
 
 double viscosity_of(const Liquid& liquid, StrainRate rate) {
@@ -118,13 +110,15 @@ double FlowCurve::tangent_viscosity(StrainRate rate) const {
 
 void flow_points(const FlowCurve& curve, int count, const double* squared_rates, double* potentials,
                  double* viscosities, double* slopes) {
+  if (curve.powers_.terms > 0) {
+    flow_points(curve.powers_, count, squared_rates, potentials, viscosities, slopes);
+    return;
+  }
   for (int i = 0; i < count; ++i) {
     const FlowPoint point = curve.at(squared_rates[i]);
     potentials[i] = point.potential;
-    if (viscosities != nullptr)
-      viscosities[i] = point.viscosity;
-    if (slopes != nullptr)
-      slopes[i] = point.slope;
+    viscosities[i] = point.viscosity;
+    slopes[i] = point.slope;
   }
 }
 

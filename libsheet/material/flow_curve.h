@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A liquid's flow curve τ(γ̇) = η γ̇ as formulas need it: by x = γ̇², which needs no root of 0.
 //   φ(x) = ∫ τ dγ̇, the potential of dissipation;  η = 2 dφ/dx;  d = 2 dη/dx = (dη/dγ̇)/γ̇.
-// Most laws are sums of powers:
-//   η = η∞ + Σ a (s + t x)^m,   φ = η∞ x/2 + Σ a ((s + t x)^(m+1) - s^(m+1))/(2 t (m + 1)).
-// Powers of γ̇ itself have s = ε², ε the rest rate: below it the liquid is Newtonian, with τ_y = η ε [Bercovier and
-// Engelman 1980]. What has no such form is integrated once, over ln γ̇ [Gauss].
+// Most laws are sums of powers of s + t x (power_sum.h). Powers of γ̇ itself have s = ε², ε the rest rate: below it the
+// liquid is Newtonian, with τ_y = η ε [Bercovier and Engelman 1980]. What has no such form is integrated once, over ln
+// γ̇ [Gauss].
 #pragma once
 #include <memory>
 
+#include "libsheet/material/flow_point.h"
 #include "libsheet/material/liquid.h"
+#include "libsheet/material/power_sum.h"
 #include "libsheet/material/strain_rate.h"
 
 namespace sheet {
-
-struct FlowPoint {
-  double potential = 0; // φ [Pa/s]
-  double viscosity = 0; // η [Pa s]
-  double slope = 0;     // d [Pa s³]
-};
 
 class IntegratedCurve;
 
@@ -28,10 +23,10 @@ public:
   // The same with another rest rate.
   FlowCurve(const Liquid& liquid, double rest_rate);
 
-  [[nodiscard]] bool newtonian() const { return terms_ == 0 && !integrated_; }
+  [[nodiscard]] bool newtonian() const { return powers_.terms == 0 && !integrated_; }
   [[nodiscard]] FlowPoint at(double squared_rate) const;
   [[nodiscard]] double viscosity(StrainRate rate) const {
-    return newtonian() ? newtonian_ : at(rate.squared).viscosity;
+    return newtonian() ? powers_.infinite : at(rate.squared).viscosity;
   }
   // η + η' γ̇, by which the stress grows with the rate: what small disturbances of a flow feel [Pa s].
   [[nodiscard]] double tangent_viscosity(StrainRate rate) const;
@@ -39,15 +34,10 @@ public:
   [[nodiscard]] double stress(double rate) const { return at(rate * rate).viscosity * rate; }
 
 private:
-  struct Power {
-    double factor = 0, shift = 0, slope = 1, exponent = 0; // a, s, t, m
-    double at_rest = 0;                                    // s^(m+1)
-  };
-  void add(double factor, double shift, double slope, double exponent);
+  friend void flow_points(const FlowCurve& curve, int count, const double* squared_rates, double* potentials,
+                          double* viscosities, double* slopes);
 
-  double newtonian_ = 0; // η∞ [Pa s]
-  int terms_ = 0;
-  Power term_[2];
+  PowerSum powers_; // also of what is Newtonian
   std::shared_ptr<const IntegratedCurve> integrated_;
 };
 
@@ -67,7 +57,7 @@ inline constexpr double softest = 0.3;
 // The same as the curve's, for one rate.
 [[nodiscard]] double viscosity_of(const Liquid& liquid, StrainRate rate);
 
-// Of `count` squared rates at once; what is null is left out.
+// Of `count` squared rates at once.
 void flow_points(const FlowCurve& curve, int count, const double* squared_rates, double* potentials,
                  double* viscosities, double* slopes);
 

@@ -13,7 +13,7 @@ namespace sheet {
 
 namespace {
 
-constexpr double longest = 0.25;   // interval of ln γ̇
+constexpr double longest = 0.05;   // interval of ln γ̇
 constexpr double least_part = -35; // ln of the part by which the viscosity differs from that at an end
 
 LogCurve carreau_yasuda(const Liquid& liquid) {
@@ -64,37 +64,32 @@ LogCurve log_curve(const Liquid& liquid) {
                                                  : carreau_yasuda(liquid);
 }
 
-IntegratedCurve::IntegratedCurve(LogCurve curve) : curve_(std::move(curve)) {
-  const auto count = static_cast<std::size_t>(std::ceil((curve_.last - curve_.first) / longest));
-  interval_ = (curve_.last - curve_.first) / static_cast<double>(count);
-  sums_.resize(count + 1);
-  sums_[0] = 0.5 * std::exp(curve_.at(curve_.first).value + 2 * curve_.first);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double from = curve_.first + interval_ * static_cast<double>(i);
-    sums_[i + 1] = sums_[i] + integral(from, from + interval_);
-  }
-}
-
-double IntegratedCurve::integral(double from, double to) const {
-  return boost::math::quadrature::gauss<double, 7>::integrate(
-      [&](double s) { return std::exp(curve_.at(s).value + 2 * s); }, from, to);
+IntegratedCurve::IntegratedCurve(const LogCurve& curve)
+    : first_(curve.first), last_(curve.last), first_viscosity_(std::exp(curve.at(curve.first).value)),
+      last_viscosity_(std::exp(curve.at(curve.last).value)) {
+  const auto growth = [&](double s) { return std::exp(curve.at(s).value + 2 * s); };
+  double before = first_, sum = 0.5 * growth(first_);
+  potential_ = LogSpline(first_, last_, longest, [&](double rate) {
+    const double s = std::log(rate);
+    sum += boost::math::quadrature::gauss<double, 7>::integrate(growth, before, s);
+    before = s;
+    const LogViscosity here = curve.at(s);
+    const double viscosity = std::exp(here.value);
+    return LogSpline::Point{sum, viscosity * rate, viscosity * (1 + here.slope)};
+  });
+  last_potential_ = sum;
 }
 
 FlowPoint IntegratedCurve::at(double squared_rate) const {
   const double s = 0.5 * std::log(squared_rate); // -inf at rest
-  if (s <= curve_.first) {
-    const double viscosity = std::exp(curve_.at(curve_.first).value);
-    return {0.5 * viscosity * squared_rate, viscosity, 0};
-  }
-  if (s >= curve_.last) {
-    const double viscosity = std::exp(curve_.at(curve_.last).value);
-    return {sums_.back() + 0.5 * viscosity * (squared_rate - std::exp(2 * curve_.last)), viscosity, 0};
-  }
-  const auto i = std::min(static_cast<std::size_t>((s - curve_.first) / interval_), sums_.size() - 2);
-  const LogViscosity here = curve_.at(s);
-  const double viscosity = std::exp(here.value);
-  return {sums_[i] + integral(curve_.first + interval_ * static_cast<double>(i), s), viscosity,
-          viscosity * here.slope / squared_rate};
+  if (s <= first_)
+    return {0.5 * first_viscosity_ * squared_rate, first_viscosity_, 0};
+  if (s >= last_)
+    return {last_potential_ + 0.5 * last_viscosity_ * (squared_rate - std::exp(2 * last_)), last_viscosity_, 0};
+  const double rate = std::sqrt(squared_rate);
+  const LogSpline::Point point = potential_.at(rate, s);
+  const double viscosity = point.first / rate;
+  return {point.value, viscosity, (point.second - viscosity) / squared_rate};
 }
 
 } // namespace sheet

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Flow curves whose potential has no closed form: ln η is given over s = ln γ̇, the potential φ = ∫ η e^(2s) ds is
-// summed up once over short intervals and within one by Gauss' rule at every evaluation, so that φ and η agree to
-// round-off.
+// summed up once [Gauss], and from then on a spline of its logarithm, from which η and its slope follow.
 #pragma once
 #include <functional>
 #include <vector>
 
 #include "libsheet/material/flow_curve.h"
+#include "libsheet/material/log_spline.h"
 
 namespace sheet {
 
@@ -23,15 +23,14 @@ struct LogCurve {
 class IntegratedCurve {
 public:
   // Beyond its ends the viscosity is that of the end.
-  explicit IntegratedCurve(LogCurve curve);
+  explicit IntegratedCurve(const LogCurve& curve);
   [[nodiscard]] FlowPoint at(double squared_rate) const;
 
 private:
-  [[nodiscard]] double integral(double from, double to) const;
-
-  LogCurve curve_;
-  double interval_;
-  std::vector<double> sums_; // φ at the intervals' ends
+  double first_, last_;                     // ln γ̇ of the ends
+  double first_viscosity_, last_viscosity_; // there [Pa s]
+  double last_potential_ = 0;               // φ there [Pa/s]
+  LogSpline potential_;
 };
 
 // Of a liquid whose law needs it: [Carreau 1972; Yasuda 1979], [Cross 1965], and of a table a monotone cubic [Fritsch

@@ -11,11 +11,12 @@ namespace sheet {
 
 namespace {
 
-constexpr double interval = 0.02;      // of ln G
-constexpr double below = 1e-4;         // the first row, over the rest rate or another rate of the liquid's
-constexpr double above = 1e10;         // the last row, over the same or that at which it yields
-constexpr double close_enough = 1e-14; // of ln G
-constexpr double beyond = 200;         // of ln G, after the last row
+constexpr double interval = 0.01;         // of ln G
+constexpr double below = 1e-4;            // the first row, over the rest rate or another rate of the liquid's
+constexpr double above = 1e10;            // the last row, over the same or that at which it yields
+constexpr double velocity_interval = 0.1; // of ln(u/h)
+constexpr double close_enough = 1e-14;    // of ln G
+constexpr double beyond = 200;            // of ln G, after the last row
 constexpr int most_iterations = 60;
 
 // From where on the viscosity may change [1/s].
@@ -67,6 +68,10 @@ WallFlow::WallFlow(const Liquid& liquid) : curve_(liquid) {
     rise_.push_back(here.f * here.rise / conjugate);
     before = here;
   }
+  without_slip_ = LogSpline(f_.front(), f_.back(), velocity_interval, [&](double v) {
+    const Drag drag = summed_up(v, 1, 0);
+    return LogSpline::Point{drag.potential, drag.stress, drag.slope};
+  });
 }
 
 std::shared_ptr<const WallFlow> wall_flow_of(const Liquid& liquid) {
@@ -131,6 +136,15 @@ double WallFlow::log_rate(double u, double h, double b) const {
 }
 
 WallFlow::Drag WallFlow::drag(double u, double h, double b) const {
+  const double v = u / h, log_v = std::log(v);
+  if (b > 0 || !without_slip_.covers(log_v))
+    return summed_up(u, h, b);
+  const LogSpline::Point point = without_slip_.at(v, log_v);
+  return {h * point.value, point.first, point.second / h};
+}
+
+// From the sums over ln G.
+WallFlow::Drag WallFlow::summed_up(double u, double h, double b) const {
   const double s = log_rate(u, h, b), g = std::exp(s);
   const Point point = at(s);
   const FlowPoint flow = curve_.at(g * g);

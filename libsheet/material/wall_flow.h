@@ -4,13 +4,15 @@
 //   f(G) = (1/τ²) ∫ τ γ̇ dτ,   the mean velocity is  u = b G + h f(G)
 // [as Rabinowitsch 1929 for tubes]; of a Newtonian liquid f = G/3, of a power law n G/(2n + 1). Its potential is
 //   Ψ(u) = τ u - Ψ*,   Ψ* = b ∫ G dτ + h ∫ f dτ,   Ψ' = τ,   Ψ'' = τ'/u'(G).
-// f and ∫ f dτ depend on the liquid alone and are summed up once, over ln G, to 1e-9.
+// f and ∫ f dτ depend on the liquid alone and are summed up once, over ln G, to 1e-9; without slip Ψ/h depends on u/h
+// alone, and is a spline made from these (log_spline.h).
 #pragma once
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "libsheet/material/flow_curve.h"
+#include "libsheet/material/log_spline.h"
 
 namespace sheet {
 
@@ -37,6 +39,7 @@ private:
   };
   [[nodiscard]] Point at(double log_rate) const;
   [[nodiscard]] double log_rate(double u, double h, double b) const;
+  [[nodiscard]] Drag summed_up(double u, double h, double b) const;
 
   struct Place {
     double rate, stress, rise, f; // G, τ, dτ/d ln G, f
@@ -48,6 +51,7 @@ private:
   double first_ = 0;                                 // ln G of the first row
   std::vector<double> rates_, values_;               // G, f of the rows
   std::vector<double> f_, slope_, conjugate_, rise_; // ln f, d ln f/d ln G, and of ∫ f dτ likewise
+  LogSpline without_slip_;                           // Ψ/h over u/h
 };
 
 // The same, kept for as long as one liquid is asked for: to sum it up takes as long as a small step. Thread-safe.

@@ -95,9 +95,9 @@ std::string roughly(double value, int digits) {
 } // namespace
 
 Forecast forecast(const Scene& scene, const Frame& first, const ProposedRing& ring, double tolerance) {
-  constexpr double of_a_frame = 2500;      // names of arrays, the scene, what made it [bytes]
-  constexpr double on_one_thread = 2.5e-5; // for a vertex, in a step [s]
-  constexpr double with_a_law = 3;         // more iterations a step
+  constexpr double of_a_frame = 2500;              // names of arrays, the scene, what made it [bytes]
+  constexpr double on_one_thread = 2.5e-5;         // for a vertex, in a step [s]
+  constexpr double with_a_law = 3, with_yield = 5; // more iterations a step
   const double edge = mean_edge(first), start = static_cast<double>(first.vertices);
   const double area = std::pow(*measured(first).length, 2), until = std::max(0.0, ring.until - first.time);
   const double entered = entered_area(scene, first, until, edge) / area * start;
@@ -106,7 +106,11 @@ Forecast forecast(const Scene& scene, const Frame& first, const ProposedRing& ri
   run.vertices = start + entered / 2 + vertices_of_sheets_that_enter(scene, until);
   run.bytes = run.frames * (of_a_frame + run.vertices * bytes_of_a_vertex(scene));
   run.steps = run.frames - 1 + steps_of_motion(scene, first, until, edge, tolerance);
-  run.seconds = run.steps * run.vertices * on_one_thread * (scene.material.law.newtonian() ? 1 : with_a_law);
+  const FlowLaw& law = scene.material.law;
+  run.seconds = run.steps * run.vertices * on_one_thread *
+                (law.newtonian() ? 1
+                 : law.yields()  ? with_yield
+                                 : with_a_law);
   return run;
 }
 

@@ -102,7 +102,7 @@ density = "1300 kg/m^3"?
 #transition = 1.5?
 #density = "1300 kg/m^3"
 
-# or it is as measured.
+# or it is as measured; or file = "curve.csv", beside the scene: columns rate [1/s], viscosity [Pa*s], named in its first line.
 #law = "table"
 #rates = ["0.1 s^-1", 1, 10, 100]?
 #viscosities = ["90 Pa*s", 80, 30, 9]?

@@ -125,6 +125,7 @@ constexpr std::array material_keys{
     number_key("transition", quantity::number, "of carreau: how sharply it begins to thin (default 2)"),
     list_key("rates", quantity::strain_rate, "[]", "of a table, ascending"),
     list_key("viscosities", quantity::viscosity, "[]", "of a table, at its rates"),
+    file_key(row_files, "of a table, in place of the two: columns rate and viscosity"),
     number_key("rest_rate", quantity::strain_rate,
                "below which it is Newtonian (default: 1e-5 of the rate at which it yields, or of reference_rate)")};
 constexpr KeyTable material_table{"material", material_keys};

@@ -149,7 +149,7 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     problems.add(sheet->place, "sheet: an empty list; there must be a [sheet], or at least one [[sheet]]");
   const bool has_sheet = !sheets.empty(), has_material = required("material").has_value();
   if (has_material)
-    scene.material = read_material(named("material", *document.find("material")));
+    scene.material = read_material(named("material", *document.find("material")), files);
   if (auto table = optional("environment"))
     scene.environment = read_environment(*table);
   if (auto table = optional("model"))

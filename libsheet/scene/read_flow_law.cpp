@@ -2,20 +2,25 @@
 #include "libsheet/scene/read_flow_law.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "libsheet/base/error.h"
 #include "libsheet/material/flow_curve.h"
+#include "libsheet/scene/row_file.h"
 #include "libsheet/scene/words.h"
 
 namespace sheet::scene {
 namespace {
 
-constexpr int looked_at_between = 8; // places between two rows of a table
+constexpr int looked_at_between = 8;  // places between two rows of a table
+constexpr std::size_t least_rows = 4; // of it
 
 std::vector<double> read_positive(TableReader& table, std::string_view key, std::string_view example) {
   std::vector<double> numbers;
@@ -47,25 +52,74 @@ std::optional<double> falls_from(const Liquid& liquid) {
   return {};
 }
 
-void read_table(TableReader& table, Liquid& liquid) {
-  FlowLaw& law = liquid.law;
-  law.rates = read_positive(table, "rates", "[0.1, 1, 10, 100]");
+constexpr std::size_t most_rows = 1000; // of a table
+const std::array<RowColumn, 2> curve_columns{{{"rate", quantity::strain_rate}, {"viscosity", quantity::viscosity}}};
+
+// Rows of rate and viscosity from a CSV file; none if they are wrong, which is reported.
+void read_curve_file(TableReader& table, const Files& files, FlowLaw& law) {
+  table.has_no_meaning({"rates", "viscosities"}, "the rows are those of the file");
+  const std::string path = read_file(table, files);
+  if (!files.must_exist) {
+    table.wrong("file", "rows by file need a scene that is a file; here they stand in the scene: rates, viscosities");
+    return;
+  }
+  if (!std::filesystem::is_regular_file(path)) // reported
+    return;
+  try {
+    const RowFile file = read_row_file(path, curve_columns, "rate [1/s], viscosity [Pa*s]", most_rows,
+                                       "every frame of a run carries them, and a spline goes through them");
+    file.require(0);
+    file.require(1);
+    for (std::size_t i = 0; i < file.rows.size(); ++i) {
+      if (!(file.rows[i][0] > 0) || !(file.rows[i][1] > 0))
+        file.wrong(file.lines[i], "a rate and a viscosity are positive");
+      if (i > 0 && !(file.rows[i][0] > file.rows[i - 1][0]))
+        file.wrong(file.lines[i], "rates must increase from each row to the next");
+    }
+    if (file.rows.size() < least_rows)
+      file.wrong(file.header_line, "a table takes four rows or more");
+    for (const std::vector<double>& row : file.rows) {
+      law.rates.push_back(row[0]);
+      law.viscosities.push_back(row[1]);
+    }
+  } catch (const Error& error) {
+    table.wrong("file", error.what());
+  }
+}
+
+void read_curve_lists(TableReader& table, FlowLaw& law) {
+  law.rates = read_positive(table, "rates", "[0.1, 1, 10, 100], or file = \"curve.csv\"");
   law.viscosities = read_positive(table, "viscosities", "[\"20 Pa*s\", 8, 3, 1.5]");
-  liquid.viscosity = std::numeric_limits<double>::quiet_NaN();
   if (law.rates.empty() || law.viscosities.empty())
     return; // reported
-  if (law.rates.size() < 4)
+  if (law.rates.size() < least_rows)
     table.wrong("rates", "a table takes four rows or more");
   else if (law.viscosities.size() != law.rates.size())
     table.wrong("viscosities", fmt::format("{} viscosities, but {} rates", law.viscosities.size(), law.rates.size()));
   else if (std::ranges::adjacent_find(law.rates, std::greater_equal<>()) != law.rates.end())
     table.wrong("rates", "they must increase from each row to the next");
-  else if (const auto rate = falls_from(liquid))
-    table.wrong("viscosities", fmt::format("the stress falls as the rate grows, at {:.3g} 1/s: the viscosity must not "
-                                           "fall faster than 1/rate",
-                                           *rate));
   else
-    liquid.viscosity = viscosity_of(liquid, {law.reference_rate * law.reference_rate});
+    return;
+  law.rates.clear();
+}
+
+void read_table(TableReader& table, const Files& files, Liquid& liquid) {
+  const bool by_file = !table.absent("file");
+  if (by_file)
+    read_curve_file(table, files, liquid.law);
+  else
+    read_curve_lists(table, liquid.law);
+  liquid.viscosity = std::numeric_limits<double>::quiet_NaN();
+  if (liquid.law.rates.empty() || liquid.law.viscosities.empty())
+    return; // reported
+  if (const auto rate = falls_from(liquid))
+    table.wrong(
+        by_file ? "file" : "viscosities",
+        fmt::format(
+            "{}the stress falls as the rate grows, at {:.3g} 1/s: the viscosity must not fall faster than 1/rate",
+            by_file ? "in its rows " : "", *rate));
+  else
+    liquid.viscosity = viscosity_of(liquid, {liquid.law.reference_rate * liquid.law.reference_rate});
 }
 
 double read_index(TableReader& table, double below) {
@@ -98,11 +152,11 @@ constexpr std::array<std::string_view, words::flow_laws.size()> keys_of_laws{
     "viscosity, yield_stress, rest_rate",
     "viscosity, yield_stress, flow_index, reference_rate, rest_rate",
     "viscosity, yield_stress, rest_rate",
-    "rates, viscosities, reference_rate"};
+    "rates, viscosities, file, reference_rate"};
 
 } // namespace
 
-Liquid read_flow_law(TableReader& table) {
+Liquid read_flow_law(TableReader& table, const Files& files) {
   Liquid liquid;
   FlowLaw& law = liquid.law;
   const std::size_t choice = table.choice("law").value_or(0);
@@ -120,7 +174,7 @@ Liquid read_flow_law(TableReader& table) {
     break;
   case FlowLawKind::table:
     law.reference_rate = table.quantity_or("reference_rate", 1, Bound::positive);
-    read_table(table, liquid);
+    read_table(table, files, liquid);
     break;
   default:
     liquid.viscosity = table.required("viscosity");
@@ -131,7 +185,8 @@ Liquid read_flow_law(TableReader& table) {
     law.rest_rate = table.quantity("rest_rate", Bound::positive);
   }
   table.has_no_meaning({"viscosity", "flow_index", "yield_stress", "reference_rate", "zero_viscosity",
-                        "infinite_viscosity", "time_constant", "transition", "rates", "viscosities", "rest_rate"},
+                        "infinite_viscosity", "time_constant", "transition", "rates", "viscosities", "file",
+                        "rest_rate"},
                        fmt::format("law \"{}\" takes {}", words::flow_laws[choice], keys_of_laws[choice]));
   return liquid;
 }

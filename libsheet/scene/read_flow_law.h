@@ -2,11 +2,12 @@
 // The part of [material] that says how viscosity depends on the rate of strain.
 #pragma once
 #include "libsheet/material/liquid.h"
-#include "libsheet/scene/reader.h"
+#include "libsheet/scene/tables.h"
 
 namespace sheet::scene {
 
-// A liquid with its viscosity and law; what is wrong is reported by the table.
-[[nodiscard]] Liquid read_flow_law(TableReader& table);
+// A liquid with its viscosity and law; what is wrong is reported by the table. The rows of a `file` are the liquid's
+// own from then on.
+[[nodiscard]] Liquid read_flow_law(TableReader& table, const Files& files);
 
 } // namespace sheet::scene

@@ -2,26 +2,22 @@
 // The rows of a motion: lists in the scene, or a CSV file beside it.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "libsheet/base/error.h"
-#include "libsheet/base/files.h"
+#include "libsheet/scene/row_file.h"
 #include "libsheet/scene/tables.h"
-#include "libsheet/scene/words.h"
 
 namespace sheet::scene {
 namespace {
 
 using Eigen::Quaterniond;
 
-constexpr std::array<std::string_view, 8> column_names{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
 constexpr double norm_tolerance = 1e-3;
 constexpr double widest_turn = 175 * std::numbers::pi / 180; // beyond it, rounding decides which way round
 
@@ -32,138 +28,43 @@ struct Rows {
   std::vector<std::size_t> lines; // of a file
 };
 
-std::string_view trim(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && blank(text.back()))
-    text.remove_suffix(1);
-  return text;
-}
+const std::array<RowColumn, 8> motion_columns{{{"time", quantity::time},
+                                               {"x", quantity::length},
+                                               {"y", quantity::length},
+                                               {"z", quantity::length},
+                                               {"qw", quantity::number},
+                                               {"qx", quantity::number},
+                                               {"qy", quantity::number},
+                                               {"qz", quantity::number}}};
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(trim(line.substr(0, comma)));
-    if (comma == std::string_view::npos)
-      return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-// A CSV file of rows. Throws Error (bad_input), naming file and line.
-class RowFile {
-public:
-  explicit RowFile(const std::string& path) : path_(path) {}
-
-  Rows read() {
-    std::istringstream text(read_utf8_file(path_, std::size_t{1} << 26));
-    for (std::string line; std::getline(text, line);) {
-      ++line_;
-      const std::string_view content = trim(line);
-      if (content.empty() || content.front() == '#')
-        continue;
-      if (columns_.empty())
-        read_header(content);
-      else
-        read_row(content);
-    }
-    if (columns_.empty())
-      wrong("it holds no rows; the first line names the columns, such as time [s], x [m], y [m], z [m]");
-    return std::move(rows_);
-  }
-
-private:
-  struct Column {
-    std::size_t name;
-    double unit; // in SI
+// Of a CSV file. Throws Error (bad_input), naming file and line.
+Rows read_rows(const std::string& path) {
+  const RowFile file = read_row_file(path, motion_columns, "time [s], x [m], y [m], z [m]", most_keyframes,
+                                     "every frame of a run carries them; take every n-th; what stands between is found "
+                                     "by interpolation");
+  const auto all_or_none = [&](std::size_t first, std::size_t last) {
+    bool any = false;
+    for (std::size_t column = first; column <= last; ++column)
+      any = any || file.has(column);
+    for (std::size_t column = first; any && column <= last; ++column)
+      file.require(column);
+    return any;
   };
-
-  template <class... Args> [[noreturn]] void wrong(fmt::format_string<Args...> reason, Args&&... args) const {
-    fail(ExitCode::bad_input, "{}:{}: {}", path_, std::max<std::size_t>(line_, 1),
-         fmt::format(reason, std::forward<Args>(args)...));
+  file.require(0);
+  const bool has_places = all_or_none(1, 3), has_rotations = all_or_none(4, 7);
+  if (!has_places && !has_rotations)
+    file.wrong(file.header_line, "neither x, y, z nor qw, qx, qy, qz: nothing would move");
+  Rows rows;
+  rows.lines = file.lines;
+  for (const std::vector<double>& row : file.rows) {
+    rows.times.push_back(row[0]);
+    if (has_places)
+      rows.places.emplace_back(row[1], row[2], row[3]);
+    if (has_rotations)
+      rows.rotations.emplace_back(row[4], row[5], row[6], row[7]);
   }
-
-  [[nodiscard]] bool has(std::size_t name) const {
-    return std::any_of(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
-  }
-
-  // "x [mm]"
-  Column read_column(std::string_view cell) const {
-    const std::size_t bracket = cell.find('[');
-    const std::string_view name = trim(cell.substr(0, bracket));
-    const auto known = std::find(column_names.begin(), column_names.end(), name);
-    if (known == column_names.end())
-      wrong("unknown column \"{}\"{}", name.substr(0, 60), suggestion(name, column_names));
-    const Column column{static_cast<std::size_t>(known - column_names.begin()), 1};
-    if (has(column.name))
-      wrong("column \"{}\" stands there twice", name);
-    if (bracket == std::string_view::npos)
-      return column;
-    if (cell.back() != ']')
-      wrong("column \"{}\": a unit stands in brackets, such as {} [m]", cell.substr(0, 60), name);
-    const Quantity& kind = column.name == 0 ? quantity::time : column.name < 4 ? quantity::length : quantity::number;
-    const std::string_view unit = trim(cell.substr(bracket + 1, cell.size() - bracket - 2));
-    std::string problem;
-    const auto factor = read_quantity(fmt::format("1 {}", unit == "1" ? "" : unit), kind, problem);
-    if (!factor)
-      wrong("column \"{}\": {}", name, problem);
-    return {column.name, *factor};
-  }
-
-  void read_header(std::string_view line) {
-    for (const std::string_view cell : cells_of(line))
-      columns_.push_back(read_column(cell));
-    const auto all_or_none = [&](std::size_t first, std::size_t last) {
-      bool any = false;
-      for (std::size_t name = first; name <= last; ++name)
-        any = any || has(name);
-      for (std::size_t name = first; any && name <= last; ++name)
-        if (!has(name))
-          wrong("column \"{}\" is missing", column_names[name]);
-      return any;
-    };
-    (void)all_or_none(0, 0);
-    if (!has(0))
-      wrong("column \"time\" is missing");
-    has_places_ = all_or_none(1, 3);
-    has_rotations_ = all_or_none(4, 7);
-    if (!has_places_ && !has_rotations_)
-      wrong("neither x, y, z nor qw, qx, qy, qz: nothing would move");
-  }
-
-  void read_row(std::string_view line) {
-    const auto cells = cells_of(line);
-    if (cells.size() != columns_.size())
-      wrong("{} values, but the first line names {} columns", cells.size(), columns_.size());
-    std::array<double, column_names.size()> values{};
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      double& value = values[columns_[i].name];
-      const char* end = cells[i].data() + cells[i].size();
-      const auto [stop, error] = std::from_chars(cells[i].data() + cells[i].starts_with('+'), end, value);
-      value *= columns_[i].unit;
-      if (cells[i].empty() || error != std::errc{} || stop != end || !std::isfinite(value))
-        wrong("column \"{}\": \"{}\" is not a finite number", column_names[columns_[i].name], cells[i].substr(0, 60));
-    }
-    if (rows_.times.size() == most_keyframes)
-      wrong("more than {} rows: every frame of a run carries them; take every n-th; what stands between is found by "
-            "interpolation",
-            most_keyframes);
-    rows_.lines.push_back(line_);
-    rows_.times.push_back(values[0]);
-    if (has_places_)
-      rows_.places.emplace_back(values[1], values[2], values[3]);
-    if (has_rotations_)
-      rows_.rotations.emplace_back(values[4], values[5], values[6], values[7]);
-  }
-
-  const std::string& path_;
-  std::size_t line_ = 0;
-  std::vector<Column> columns_;
-  bool has_places_ = false, has_rotations_ = false;
-  Rows rows_;
-};
+  return rows;
+}
 
 // Nothing where a list is absent, or wrong, which is reported.
 template <class T, class ReadItem>
@@ -266,7 +167,7 @@ std::shared_ptr<const Keyframes> read_keyframes(TableReader& table, const Vector
     if (!std::filesystem::is_regular_file(path)) // reported
       return {};
     try {
-      rows = RowFile(path).read();
+      rows = read_rows(path);
     } catch (const Error& error) {
       table.wrong("file", error.what());
       return {};

@@ -62,8 +62,8 @@ std::optional<Pressure> read_pressure(TableReader& parent, std::string& sheet) {
 
 } // namespace
 
-Liquid read_material(TableReader table) {
-  Liquid material = read_flow_law(table);
+Liquid read_material(TableReader table, const Files& files) {
+  Liquid material = read_flow_law(table, files);
   material.density = table.quantity_or("density", 0, Bound::positive);
   material.surface_tension = table.quantity_or("surface_tension", 0, Bound::not_negative);
   table.finish();

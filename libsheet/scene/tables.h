@@ -19,7 +19,7 @@ struct Files {
 };
 
 SheetTable read_sheet(TableReader table, const Environment& environment, const Files& files);
-Liquid read_material(TableReader table);
+Liquid read_material(TableReader table, const Files& files);
 Environment read_environment(TableReader table);
 Model read_model(TableReader table);
 // `sheets`: those of the scene, at least one.

@@ -116,7 +116,7 @@ private:
       if (!std::isfinite(report_.last_step))
         return;
       if (report_.last_step <= lost_step) {
-        report_.converged = true;
+        report_.converged = options_.force_left == 0;
         return;
       }
       const bool was_fresh = fresh_;
@@ -199,6 +199,11 @@ private:
     const Eigen::Index positions = 3 * static_cast<Eigen::Index>(system_.assembly().vertices());
     remains_ = greatest(remainder_, scale_, remainder_.size());
     positions_remain_ = greatest(remainder_, scale_, positions);
+    if (options_.force_left > 0) {
+      greatest_force_ = force_.head(positions).lpNorm<Eigen::Infinity>();
+      if (steps() == 0)
+        first_force_ = greatest_force_;
+    }
     way_ = greatest(u_ - extrapolated_, scale_, positions);
     report_.seconds_solve += watch.lap();
   }
@@ -214,7 +219,8 @@ private:
     // A direction with the Hessian knows the soft modes too, of which the potential tells little.
     const bool nothing_to_gain =
         steps() > 0 && !followed_ && full_ && remains_ <= small_step && norm_ * norm_ <= energy_.noise();
-    report_.converged = remains_ <= lost_step || strict || lenient || nothing_to_gain;
+    const bool balanced = greatest_force_ <= options_.force_left * first_force_;
+    report_.converged = balanced && (remains_ <= lost_step || strict || lenient || nothing_to_gain);
     return report_.converged;
   }
 
@@ -329,6 +335,7 @@ private:
   double start_ = 0; // of the potential
   Eigen::VectorXd gradient_, trial_, force_, preconditioned_, remainder_, step_;
   double slope_ = 0, norm_ = 0, previous_norm_ = 0, first_norm_ = 0, remains_ = 0, positions_remain_ = 0, way_ = 0;
+  double greatest_force_ = 0, first_force_ = 0; // [N], where that is asked for
   int products_ = 0, near_ = 0;
   bool asked_ = false;      // for another start
   bool linearized_ = false; // the system has the exact Hessian at u

@@ -19,6 +19,8 @@ struct NewtonOptions {
   // of the potential and at every vertex: the error of a step of order two is a part of that way. At the vertices that
   // part of the error that the step may have, `step_error` [of an edge], is enough.
   double of_step_error = 0, step_error = 0;
+  // If positive, it does not end before the greatest force at a vertex is below this part of what it was at the start.
+  double force_left = 0;
   int iterations = 50; // with the Hessian; those by the factor alone end by themselves
 };
 

@@ -15,6 +15,8 @@ constexpr double unfinished_gain = 1e-2; // part of what it gained that an unfin
 constexpr double far_behind = 0.1;       // of an edge: held unknowns that are this far from where inertia takes them
 constexpr double as_extrapolated = 1e-6; // of an edge: held unknowns that are where inertia takes them
 constexpr double of_next = 0.01;         // rest rate: each one over that before
+constexpr double force_left = 0.1;       // of the greatest force, where what yields has been solved for at once
+constexpr int at_once = 5;               // iterations, of such an attempt
 
 // How far what is held is from where inertia takes it, in edges. What a vertex overshot (energy/overshoot.h) does not
 // count: that the sheet lags behind it is no sign of another start.
@@ -85,6 +87,18 @@ void StageSolve::come_from_softer(const Stage& stage, const Unknowns& guess, New
   system_.forget_factor();
 }
 
+// What yields and rests, or flows on much as before, needs no more than other liquids. That the forces have fallen,
+// too, tells rest from a sheet that is about to flow: by the theorem of the lower bound of limit analysis what balances
+// the load below yield rests [Hill 1950, chapter III].
+bool StageSolve::solve_at_once(const Unknowns& guess, FirstEvaluation first, NewtonOptions options,
+                               NewtonReport& report, Unknowns& u) {
+  options.iterations = std::min(options.iterations, at_once);
+  options.force_left = force_left;
+  const NewtonReport r = minimize(system_, terms_, scale_, guess, options, std::move(first), u);
+  report += r;
+  return r.converged;
+}
+
 bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns& safe, int iterations,
                        NewtonReport& report, Unknowns& u) {
   NewtonOptions newton = options_;
@@ -112,6 +126,12 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
   }
   report.seconds_assembly += watch.lap();
   if (stage.liquid.law.yields()) {
+    const Unknowns start = u;
+    if (solve_at_once(guess, std::move(first), newton, report, u))
+      return true;
+    u = start;
+    for (const auto& term : terms_)
+      term->begin(stage);
     come_from_softer(stage, guess, report, u);
     first = evaluate_first(system_, terms_, u);
     other = {};

@@ -87,8 +87,8 @@ const std::vector<Case>& cases() {
        "length or radius", "", 16, at(0.1, 32), true, false, v30},
       {"V31",
        "liquids that are not Newtonian on walls (set 1: Herschel-Bulkley down an incline; 2: with slip; 3: power law "
-       "1/3; 4: Bingham slumps in a plane until it rests; 5: as a disk)",
-       "1 to 3: way; 4: length; 5: radius", "", 5, at(0.1, 40), true, false, v31},
+       "1/3; 4: Bingham slumps in a plane until it rests; 5: as a disk; 6: as 4, a tenth as thick as wide)",
+       "1 to 3: way; 4, 6: length; 5: radius", "", 6, at(0.1, 40), true, false, v31},
       {"V32", "viscous catenary, power law 1/3, 1/2, 3/2, Bingham (sets 1 to 4)", "sag", "", 4, at(1.0 / 16, 40), true,
        true, v32},
       {"V33",

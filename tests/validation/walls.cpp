@@ -210,6 +210,31 @@ Result slumping(const Settings& s, bool axis) {
   return run.result((axis ? std::sqrt(area / pi) : area / width) / (radius * end));
 }
 
+// The same of a layer so thick that what bears stretching counts: in a plane (ρ g h²/2 - 2 τ_y h)' = -τ_y, so it ends
+// in a step of the height 4 B, B = τ_y/(ρ g), and of the height h at its middle has the length (h²/2 - 2 B h)/B. (Of a
+// layer whose shear is at yield at the wall, too, the mean of 2 sqrt(τ_y² - τ²), π/2 τ_y, takes the place of 2 τ_y.)
+Result slumping_thickly(const Settings& s) {
+  constexpr double end = 1.5, thick = 0.1 * radius, bears = 2;
+  Channel c = channel(s, radius, thick);
+  const auto length = [](double height) { return height * height / 2 - bears * height; };                // over B
+  const auto half = [](double height) { return std::pow(height, 3) / 3 - bears * height * height / 2; }; // over B²
+  double low = 2 * bears, high = 1e3; // heights over B: the slenderer, the higher
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high), area = half(middle) - half(2 * bears);
+    (area / (length(middle) * length(middle)) > thick / (radius * end * end) ? low : high) = middle;
+  }
+  Model m = layer(s, {0, 0, -gravity});
+  m.liquid.law = {.kind = FlowLawKind::bingham, .yield_stress = density * gravity * radius * end / length(low)};
+  m.liquid.law.rest_rate = 1e-6 * m.liquid.law.yield_stress / m.liquid.viscosity;
+  hold_channel(c, axis_bit(0), m);
+  m.walls.push_back(floor_under(c.state));
+  const double time = 3 * kinematic * radius * radius / (gravity * std::pow(thick, 3)), width = c.width;
+  Run run(std::move(c.state), m, s, radius);
+  run.advance(1e-3 * time, 4);
+  advance_in_ratio(run, 1e-3 * time, 1e3 * time, s.steps);
+  return run.result(sheet_area(run.state()) / width / (radius * end));
+}
+
 // A plug of speed U comes to rest after U h²/(3 ν).
 Result stopping(const Settings& s) {
   Channel c = channel(s, radius, thin);
@@ -344,6 +369,8 @@ Result v31(const Settings& s) {
     return herschel_bulkley_down_an_incline(s, 0.4, 0.5, 0.3 * thin);
   case 3:
     return power_law_down_an_incline(s, 1.0 / 3);
+  case 6:
+    return slumping_thickly(s);
   default:
     return slumping(s, s.set == 5);
   }

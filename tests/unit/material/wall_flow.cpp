@@ -71,10 +71,17 @@ TEST(WallFlow, DerivesFromItsPotential) {
     const WallFlow flow({.viscosity = 3, .law = law});
     for (double u = 1e-7; u < 1e4; u *= 13) {
       const double by = 1e-3 * u;
-      const WallFlow::Drag here = flow.drag(u, 0.2, 0.01), less = flow.drag(u - by, 0.2, 0.01),
-                           more = flow.drag(u + by, 0.2, 0.01);
-      EXPECT_NEAR((more.potential - less.potential) / (2 * by), here.stress, 1e-6 * here.stress) << u;
-      EXPECT_NEAR((more.stress - less.stress) / (2 * by), here.slope, 1e-6 * here.stress / u) << u;
+      for (const double b : {0.0, 0.01}) {
+        const WallFlow::Drag here = flow.drag(u, 0.2, b), less = flow.drag(u - by, 0.2, b),
+                             more = flow.drag(u + by, 0.2, b);
+        EXPECT_NEAR((more.potential - less.potential) / (2 * by), here.stress, 1e-6 * here.stress) << u;
+        EXPECT_NEAR((more.stress - less.stress) / (2 * by), here.slope, 1e-6 * here.stress / u) << u;
+      }
+      // Hardly any slip is as good as none, which takes the shorter way.
+      const WallFlow::Drag none = flow.drag(u, 0.2, 0), hardly = flow.drag(u, 0.2, 1e-14);
+      EXPECT_NEAR(none.potential, hardly.potential, 1e-8 * hardly.potential) << u;
+      EXPECT_NEAR(none.stress, hardly.stress, 1e-8 * hardly.stress) << u;
+      EXPECT_NEAR(none.slope, hardly.slope, 1e-5 * hardly.slope) << u;
     }
   }
 }
