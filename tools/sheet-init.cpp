@@ -17,6 +17,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/shell_words.h"
 #include "libsheet/plan/contact_warnings.h"
+#include "libsheet/plan/face_warnings.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/modelled.h"
@@ -127,6 +128,7 @@ std::string explained(Source source, bool ring_alone) {
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
   const double until = sheet::proposed_ring(scene, frame, wishes).until;
   std::ranges::copy(sheet::contact_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
+  std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, wishes, init)
                                               : sheet::scene::to_text(explanation) +
                                                     sheet::ring_text(scene, frame, wishes, init));

@@ -20,6 +20,7 @@
 //     the Hessian is a positive semidefinite approximation in closed form, otherwise it is exact
 //   double gradient(i, u, gradient) const;                    optional: the same without the Hessian, where that is
 //     much cheaper
+//   bool idle(i) const;                                       optional: whether the element has no part in this solve
 // u holds the unknowns of the element: its vertices' coordinates, then its edges' angles.
 #pragma once
 #include <array>

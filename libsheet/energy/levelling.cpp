@@ -19,8 +19,19 @@ struct Layers {
   std::vector<char> at_rim;                  // with a corner at a rim that is free: its steep profile is no unevenness
 };
 
-// H: means of thickness around the corners, of these the mean.
-Layers layers_of(const State& state, std::span<const char> held) {
+// What values at triangles have beyond the mean of the means around their corners. volumes: values times areas.
+std::vector<double> rest_of(const State& state, std::vector<double> values, std::span<const double> volumes,
+                            std::span<const double> area) {
+  const auto& triangles = state.mesh->triangles;
+  const std::vector<double> around =
+      thickness_around(state.positions.size(), triangles, volumes, [&](std::uint32_t t) { return area[t]; });
+  for (std::size_t t = 0; t < values.size(); ++t)
+    values[t] -= (around[triangles[t][0]] + around[triangles[t][1]] + around[triangles[t][2]]) / 3;
+  return values;
+}
+
+// H: means of thickness around the corners, of these the mean. sloped: of h - H again what is beyond its means.
+Layers layers_of(const State& state, std::span<const char> held, bool sloped) {
   const auto& triangles = state.mesh->triangles;
   const auto& x = state.positions;
   Layers layers;
@@ -29,8 +40,7 @@ Layers layers_of(const State& state, std::span<const char> held) {
     layers.area.push_back(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area);
     layers.thickness.push_back(state.volumes[t] / layers.area[t]);
   }
-  const std::vector<double> around =
-      thickness_around(x.size(), triangles, state.volumes, [&](std::uint32_t t) { return layers.area[t]; });
+  layers.rest = rest_of(state, layers.thickness, state.volumes, layers.area);
   std::vector<char> on_rim(x.size(), 0);
   for (std::size_t e = 0; e < state.mesh->edges.size(); ++e)
     if (state.mesh->on_rim(e))
@@ -39,7 +49,14 @@ Layers layers_of(const State& state, std::span<const char> held) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Corners& c = triangles[t];
     layers.at_rim.push_back(on_rim[c[0]] != 0 || on_rim[c[1]] != 0 || on_rim[c[2]] != 0);
-    layers.rest.push_back(layers.thickness[t] - (around[c[0]] + around[c[1]] + around[c[2]]) / 3);
+  }
+  if (sloped) { // without what is at the rim, where means are of one side
+    std::vector<double> area(layers.area), volumes(layers.rest);
+    for (std::size_t t = 0; t < area.size(); ++t) {
+      area[t] *= layers.at_rim[t] != 0 ? 0 : 1;
+      volumes[t] *= area[t];
+    }
+    layers.rest = rest_of(state, std::move(layers.rest), volumes, area);
   }
   return layers;
 }
@@ -93,11 +110,12 @@ double diffusivity(const WallSite& one, const WallSite& other, const Stage& stag
 
 } // namespace
 
-bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<Hold>& holds, double dt, State& end) {
+bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<Hold>& holds, bool sloped, double dt,
+                  State& end) {
   if (stage.sites.empty() || !stage.liquid.viscous())
     return false;
   const Connectivity& mesh = *end.mesh;
-  const Layers layers = layers_of(end, held_unknowns(holds, stage));
+  const Layers layers = layers_of(end, held_unknowns(holds, stage), sloped);
   Carried carried(end);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     auto [up, down] = mesh.edge_triangles[e];

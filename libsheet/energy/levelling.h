@@ -6,7 +6,9 @@
 // [Oron, Davis and Bankoff 1997, section II.B], of a liquid that is not Newtonian q = h u(τ_w) (wall_flow.h), τ_w the
 // stress at the wall of the same forces, so that nothing levels below a yield stress; k = 1/l for patterns of the size
 // of an edge l. What vertices see, the means H around them, flows with them (wall_weight.h); volume goes between
-// triangles by the rest, h - H, which falls with the edges squared, so orders stay.
+// triangles by the rest, h - H, which falls with the edges squared, so orders stay of the weight's part. Of the
+// tension's it is half of what a wave of any length flows: where its slopes drive that themselves (slope_tension.h)
+// only the rest of the rest goes, which falls with the fourth power.
 #pragma once
 #include "libsheet/energy/holds.h"
 #include "libsheet/energy/stage.h"
@@ -14,8 +16,9 @@
 namespace sheet {
 
 // Levels `end`, the end of a step of dt [s] whose last stage is given: its volumes, and the velocities with them, so
-// that volume and momentum stay. No new extremes. Where the rim is not held at all, what is there stays as it is. False
-// where there is no wall.
-bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<Hold>& holds, double dt, State& end);
+// that volume and momentum stay. sloped: tension sees slopes. No new extremes. Where the rim is not held at all, what
+// is there stays as it is. False where there is no wall.
+bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<Hold>& holds, bool sloped, double dt,
+                  State& end);
 
 } // namespace sheet

@@ -10,6 +10,7 @@
 #include "libsheet/energy/inertia.h"
 #include "libsheet/energy/pressure.h"
 #include "libsheet/energy/walls.h"
+#include "libsheet/geometry/faces.h"
 #include "libsheet/material/bath_liquid.h"
 #include "libsheet/material/liquid.h"
 
@@ -19,6 +20,12 @@ namespace sheet {
 // to nothing, or those at the step's end, which take a solve of their own.
 enum class Reactions { none, of_stage, at_end };
 
+// What tension sees besides the middle surface.
+struct ModelFaces {
+  std::vector<double> rims; // of each edge of the mesh the part of it that is a free rim
+  std::vector<SlopedEdge> slopes;
+};
+
 enum class Bending { none, mid_edge, hinge, hinge_paper };
 
 struct Model {
@@ -27,6 +34,7 @@ struct Model {
   std::vector<PressureLaw> pressures; // one an enclosure
   std::optional<BathLiquid> bath;     // needs gravity
   bool inertia = true;
+  std::optional<ModelFaces> faces; // needs tension; chosen for a step
   Bending bending = Bending::none;
   bool arcs = false;        // with mid-edge bending: edges are arcs in the membrane's strain
   std::vector<Hold> holds;  // of two that hold the same unknown, the later one

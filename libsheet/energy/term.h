@@ -117,6 +117,8 @@ public:
     EnergySum sum;
     VectorN<unknown_count> g;
     for (std::size_t i = first; i < last; ++i, u += stride, gradients += stride) {
+      if (!overwrite && idle(i))
+        continue;
       const Eigen::Map<const VectorN<unknown_count>> local(u);
       if constexpr (requires { element_.gradient(i, local, g); }) {
         sum.add(element_.gradient(i, local, g));
@@ -144,6 +146,8 @@ public:
     VectorN<unknown_count> g;
     MatrixN<unknown_count> h;
     for (std::size_t i = first; i < last; ++i, u += stride, gradients += stride, hessians += stride * stride) {
+      if (!overwrite && idle(i))
+        continue;
       sum.add(element_.derivatives(i, Eigen::Map<const VectorN<unknown_count>>(u), g, h, definite));
       Eigen::Map<VectorN<unknown_count>> gradient(gradients, unknown_count);
       Eigen::Map<MatrixN<unknown_count>, 0, Eigen::OuterStride<>> hessian(hessians, unknown_count, unknown_count,
@@ -178,6 +182,13 @@ public:
   }
 
 private:
+  [[nodiscard]] bool idle([[maybe_unused]] std::size_t i) const {
+    if constexpr (requires { element_.idle(i); })
+      return element_.idle(i);
+    else
+      return false;
+  }
+
   E element_;
 };
 

@@ -20,6 +20,8 @@
 #include "libsheet/energy/hinge.h"
 #include "libsheet/energy/membrane.h"
 #include "libsheet/energy/mid_edge_shell.h"
+#include "libsheet/energy/rim_tension.h"
+#include "libsheet/energy/slope_tension.h"
 #include "libsheet/energy/wall_drag.h"
 #include "libsheet/energy/wall_weight.h"
 
@@ -57,11 +59,16 @@ namespace {
 
 bool spreads(const Model& m) { return m.bath && m.bath->spreads; }
 bool has_bath(const Model& m) { return m.bath && m.gravity.squaredNorm() > 0; }
+bool has_faces(const Model& m) { return m.faces && m.liquid.surface_tension > 0; }
 bool layers_flow(const Model& m) { return !m.contacts.empty() && m.contacts_flow; }
 
 std::string no_contact(const Model&) { return "no [contact], or self = false: the sheet may pass through itself"; }
 std::string no_layers(const Model& m) {
   return m.contacts.empty() ? no_contact(m) : "layers do not flow along each other";
+}
+std::string no_faces(const Model& m) {
+  return m.liquid.surface_tension > 0 ? "tension pulls on the middle surface alone (faces = true in [model])"
+                                      : "no surface_tension in [material]";
 }
 std::string inviscid(const Model&) { return "viscosity is 0"; }
 
@@ -89,6 +96,17 @@ constexpr std::array table = {
         [](const Model& m) { return fmt::format("{:.3g} N/m on each of the two surfaces", m.liquid.surface_tension); },
         [](const Model&) -> std::string { return "no surface_tension in [material]"; },
         [](const Model&, TermMaker& maker) { maker.add_load(&AreaLoads::tension, SurfaceTension()); }},
+    TermEntry{"rim tension", has_faces, [](const Model&) -> std::string { return "rims are round"; }, no_faces,
+              [](const Model& m, TermMaker& maker) {
+                if (std::ranges::any_of(m.faces->rims, [](double part) { return part > 0; }))
+                  maker.add(RimTension(m.faces->rims, maker.mesh()));
+              }},
+    TermEntry{"slope tension", has_faces,
+              [](const Model&) -> std::string { return "faces level where the thickness is uneven"; }, no_faces,
+              [](const Model& m, TermMaker& maker) {
+                if (!m.faces->slopes.empty())
+                  maker.add(SlopeTension(m.faces->slopes));
+              }},
     TermEntry{"inertia", [](const Model& m) { return m.has_inertia(); },
               [](const Model&) -> std::string { return "mass resists acceleration (inertia = false: creeping flow)"; },
               [](const Model&) -> std::string { return "[model] inertia = false"; },

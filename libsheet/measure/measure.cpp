@@ -8,7 +8,11 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
+#include "libsheet/geometry/connectivity.h"
+#include "libsheet/geometry/faces.h"
+#include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/read.h"
+#include "libsheet/sheet/sheet.h"
 
 namespace sheet {
 
@@ -165,6 +169,18 @@ const Range& Measurements::range_of(std::string_view field) const {
   return std::ranges::find(fields, field, [](const FieldRange& f) { return f.field->name; })->range;
 }
 
+namespace {
+
+// What rims and slopes add to the middle surface's [m²].
+double area_of_faces(const formats::Frame& frame, const Scene& scene) {
+  if (!scene.model.faces)
+    return 0;
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  return extra_area(mesh, positions(frame), volumes(frame), scene::free_faces(scene, frame, mesh));
+}
+
+} // namespace
+
 void measure_energies(const formats::Frame& frame, const Scene& scene, Measurements& measured) {
   if (scene.environment.gravity && scene.material.density > 0) {
     const auto x = positions(frame);
@@ -176,7 +192,7 @@ void measure_energies(const formats::Frame& frame, const Scene& scene, Measureme
     measured.gravity_energy = -scene.material.density * scene.environment.gravity->dot(moment);
   }
   if (scene.material.surface_tension > 0)
-    measured.surface_energy = 2 * scene.material.surface_tension * measured.area;
+    measured.surface_energy = scene.material.surface_tension * (2 * measured.area + area_of_faces(frame, scene));
 }
 
 std::optional<double> SceneDensity::of(const formats::Frame& frame) {

@@ -59,7 +59,8 @@ struct Measurements {
 [[nodiscard]] Measurements measure(const formats::Frame& frame, std::optional<double> density);
 
 // Adds energies that need a scene [J]: of gravity, -Σ m g·x, x from the origin to the triangles' centres; of surface,
-// 2 γ A, of both sides wherever they lie. NaN without density, gravity, tension.
+// 2 γ A, of both sides wherever they lie, and with [model] faces of rims and slopes. NaN without density, gravity,
+// tension.
 void measure_energies(const formats::Frame& frame, const Scene& scene, Measurements& measured);
 
 // The density that the frame's scene states [kg/m³]. Remembers the last scene, which rarely changes within a stream.

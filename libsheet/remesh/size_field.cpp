@@ -27,7 +27,10 @@ constexpr double edges_in_a_wave = 8;  // of a buckle
 constexpr double thicknesses_an_edge = 1; // a shell model says nothing about what is shorter
 constexpr double grading = 0.4;           // growth of length over distance
 constexpr double widths_an_edge = 2;      // of a strip: up to split_above times that, no angle need be below 19 degrees
-constexpr double finest_in_strips = 1.0 / 16; // of edge_length
+constexpr double widths_an_edge_of_threads = 1.5; // which are as wide as π/4 of their thickness
+constexpr double thicknesses_an_edge_of_threads = 0.5;
+constexpr double least_wedge_of_threads = pi / 9; // a thread ends in no wedge, but tension shortens it
+constexpr double finest_in_strips = 1.0 / 16;     // of edge_length
 
 void check_length(const char* option, double value) {
   if (!(value > 0 && std::isfinite(value)))
@@ -213,7 +216,7 @@ SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeO
     adapt(sheet, scene, options);
   else
     note_thick(sheet);
-  fit_strips(sheet, options);
+  fit_strips(sheet, options, scene != nullptr && scene->model.faces);
 }
 
 double SizeOptions::shortest_in_strips() const { return min_edge.value_or(finest_in_strips * edge_length); }
@@ -227,14 +230,19 @@ void SizeField::note_thick(const EditableSheet& sheet) {
     thick_ = std::move(thick);
 }
 
-void SizeField::fit_strips(const EditableSheet& sheet, const SizeOptions& options) {
+void SizeField::fit_strips(const EditableSheet& sheet, const SizeOptions& options, bool round) {
+  const double widths = round ? widths_an_edge_of_threads : widths_an_edge;
+  const double thicknesses = round ? thicknesses_an_edge_of_threads : thicknesses_an_edge;
   const double floor = options.shortest_in_strips();
-  const std::vector<double> width = strip_widths(sheet), thickness = thickness_at_vertices(sheet);
+  const std::vector<double> width = strip_widths(sheet, round ? least_wedge_of_threads : 0),
+                            thickness = thickness_at_vertices(sheet);
   std::vector<double> fitted(width.size());
   bool any = false;
   for (std::uint32_t v = 0; v < width.size(); ++v) {
-    fitted[v] = std::min(at(v), std::max({widths_an_edge * width[v], thickness[v], floor}));
+    fitted[v] = std::min(at(v), std::max({widths * width[v], thicknesses * thickness[v], floor}));
     any = any || fitted[v] < at(v);
+    if (round && !thick_.empty() && fitted[v] < at(v))
+      thick_[v] *= thicknesses;
   }
   if (!any)
     return;

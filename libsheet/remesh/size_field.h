@@ -35,7 +35,8 @@ struct SizeOptions {
 //
 // A strip from rim to rim (strip_width.h) gets a row of good triangles of its own: edges of twice its width at most,
 // which need no angle below 19 degrees as long as they are not split, but not below h, nor below `min_edge`, absent: an
-// sixteenth of `edge_length`, growing as above.
+// sixteenth of `edge_length`, growing as above. Where tension makes rims round ([model] faces) such strips are threads,
+// and get good triangles: edges of 1.5 times the width, down to h/2.
 //
 // Without `chord_error` no edge is split that is not too long for h, too, where nothing holds the sheet and no solid
 // carries it: a shell model says nothing about what is shorter.
@@ -54,7 +55,7 @@ public:
 
 private:
   void adapt(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
-  void fit_strips(const EditableSheet& sheet, const SizeOptions& options);
+  void fit_strips(const EditableSheet& sheet, const SizeOptions& options, bool round);
   void note_thick(const EditableSheet& sheet);
 
   double uniform_;

@@ -55,7 +55,7 @@ void leave_out_wedge(const EditableSheet& sheet, std::uint32_t tip, double angle
 
 } // namespace
 
-std::vector<double> strip_widths(const EditableSheet& sheet) {
+std::vector<double> strip_widths(const EditableSheet& sheet, double least_wedge) {
   const Mesh& mesh = sheet.mesh();
   std::vector<double> width(mesh.vertex_slots(), infinity);
   bool any = false;
@@ -70,7 +70,7 @@ std::vector<double> strip_widths(const EditableSheet& sheet) {
   }
   for (std::uint32_t v = 0; any && v < width.size(); ++v)
     if (mesh.on_rim(v))
-      if (const double angle = angle_at(sheet, v); angle < sharp_corner)
+      if (const double angle = angle_at(sheet, v); angle < sharp_corner && angle >= least_wedge)
         leave_out_wedge(sheet, v, angle, width);
   return width;
 }

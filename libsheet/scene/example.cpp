@@ -161,6 +161,7 @@ gravity = [0, "-9.81 m/s^2", 0]
 inertia = true?
 bending = true?
 #forces = true?
+#faces = true?
 )toml";
 
 static constexpr std::string_view things = R"toml(

@@ -159,7 +159,8 @@ constexpr KeyTable environment_table{"environment", environment_keys};
 constexpr std::array model_keys{
     boolean_key("inertia", "false: creeping flow, when viscosity stops everything at once"),
     boolean_key("bending", "false: a membrane"),
-    boolean_key("forces", "those of holds and solids on the sheet are written, for sheet-info")};
+    boolean_key("forces", "those of holds and solids on the sheet are written, for sheet-info"),
+    boolean_key("faces", "tension makes rims round and levels faces (default: it acts on the middle surface)")};
 constexpr KeyTable model_table{"model", model_keys};
 
 // ---- [[hold]], [[solid]], [[inflow]], [[outflow]], [tear], [merge], [contact]

@@ -39,6 +39,8 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     problems.add(place("material", "density"), "missing key \"density\" in [material]: gravity needs it");
   if (material.viscosity == 0 && !model.inertia)
     problems.add(place("material", "viscosity"), "viscosity: 0 needs inertia: nothing else would resist the forces");
+  if (model.faces && !(material.surface_tension > 0))
+    problems.add(place("model", "faces"), "faces: needs surface_tension in [material], which acts on them");
   if (environment.bath && !environment.gravity && (!has("environment", "gravity") || !problems.any()))
     problems.add(place("environment", "bath"), "bath: needs gravity, which says where up is");
   if (merge && !(contact && contact->self))

@@ -92,6 +92,7 @@ Model read_model(TableReader table) {
   model.inertia = table.boolean("inertia").value_or(true);
   model.bending = table.boolean("bending").value_or(true);
   model.forces = table.boolean("forces").value_or(false);
+  model.faces = table.boolean("faces").value_or(false);
   table.finish();
   return model;
 }

@@ -170,6 +170,7 @@ struct Model {
   bool inertia = true; // false: creeping flow
   bool bending = true; // false: a membrane
   bool forces = false; // those of holds and solids are wanted
+  bool faces = false;  // tension acts on the faces' slopes and on rims, too; needs surface tension
   bool operator==(const Model&) const = default;
 };
 

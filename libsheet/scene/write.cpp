@@ -314,6 +314,8 @@ std::string to_toml(const Scene& scene) {
   out.line("bending", flag(scene.model.bending));
   if (scene.model.forces)
     out.line("forces", flag(true));
+  if (scene.model.faces)
+    out.line("faces", flag(true));
   for (const Hold& hold : scene.holds)
     write_hold(out, hold);
   for (const Solid& solid : scene.solids)

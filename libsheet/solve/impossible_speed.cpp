@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/faces.h"
 #include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
@@ -53,7 +54,7 @@ double work_of_gravity(const Model& model, const State& start, const State& end,
   return work;
 }
 
-// Of tension, of pressure, and of the weight of layers that spread.
+// Of tension, on rims and slopes all that they have, of pressure, and of the weight of layers that spread.
 double work_on_area(const Model& model, const State& start, const State& end) {
   double pressure = 0;
   for (const PressureLaw& law : model.pressures)
@@ -61,6 +62,9 @@ double work_on_area(const Model& model, const State& start, const State& end) {
   for (const Gas& gas : end.gas)
     pressure = std::max(pressure, std::abs(gas.pressure));
   double work = 0;
+  if (model.faces)
+    work += model.liquid.surface_tension *
+            extra_area(*start.mesh, start.positions, start.volumes, FreeFaces{model.faces->rims, {}});
   for (std::size_t t = 0; t < start.volumes.size(); ++t) {
     const Corners& c = start.mesh->triangles[t];
     const double before = area_of(start, c), after = area_of(end, c);

@@ -11,6 +11,7 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/capped_volume.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/directors.h"
@@ -299,6 +300,14 @@ void put_of_gas(Frame& frame, std::string_view name, std::string_view unit, std:
   frame.put(std::move(array));
 }
 
+// As they are at the start of the step, so that a run that is gone on with has the same.
+ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& mesh) {
+  constexpr double least_slope = 0.02; // of a face: what is less adds 5e-5 to its area
+  FreeFaces faces = scene::free_faces(scene, frame, mesh);
+  std::vector<SlopedEdge> slopes = sloped_edges(mesh, positions(frame), volumes(frame), faces, least_slope);
+  return {std::move(faces.rims), std::move(slopes)};
+}
+
 // What a model has of a scene in any frame.
 Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   Model model;
@@ -402,6 +411,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
                                      model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
   add_inlets(scene, frame, mesh, model);
+  if (scene.model.faces)
+    model.faces = faces_of(scene, frame, mesh);
   model.contacts = read_springs(frame); // as sheet-collide has set them up
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))
@@ -421,6 +432,8 @@ Model model_of(const Scene& scene) {
       wall.slip_length = solid.contact == SolidContact::slip ? free_slip : solid.slip_length;
       model.walls.push_back(std::move(wall));
     }
+  if (scene.model.faces)
+    model.faces.emplace();
   model.may_squeeze = solids_squeeze(scene) || (scene.solids.size() > 1 && flows_on_solids(scene));
   if (scene.contact && scene.contact->self)
     model.contacts.resize(1);

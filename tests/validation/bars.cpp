@@ -72,6 +72,32 @@ TEST(Validation, FreeDiskStaysSmooth) {
     }
 }
 
+// Tension of rims and slopes. What is not as near as one could wish stands in tests/validation/V38.
+TEST(Validation, RimsAndSlopes) {
+  const auto of = [](int set, double edge, int steps, Pattern pattern = Pattern::irregular) {
+    Settings s = settings("V38", edge, steps, set);
+    s.pattern = pattern;
+    return run(find_case("V38"), s);
+  };
+  const Result strip = of(1, 0.5, 100);
+  EXPECT_LT(std::abs(strip.error), 0.02);
+  EXPECT_NEAR(strip.more[0].second, 1, 0.02); // energy of the thread
+  EXPECT_LT(std::abs(of(3, 1.0 / 12, 100, Pattern::equilateral).error), 0.015);
+  EXPECT_LT(std::abs(of(4, 1.0 / 12, 100, Pattern::equilateral).error), 0.04);
+  EXPECT_LT(std::abs(of(5, 1.0 / 12, 100, Pattern::equilateral).error), 0.03);
+  Settings wave = settings("V38", 1.0 / 6, 200, 3);
+  wave.pattern = Pattern::equilateral;
+  EXPECT_GE(space_order(find_case("V38"), wave).order, 1.8);
+  for (const int set : {6, 7}) {
+    const Result rim = of(set, 1, 300);
+    EXPECT_LT(std::abs(rim.error), 0.03) << set;
+    EXPECT_LT(std::abs(rim.more[2].second), 1e-3) << set; // momentum
+  }
+  EXPECT_LT(std::abs(of(8, 1, 40).error), 0.03);
+  EXPECT_LT(std::abs(of(9, 1, 200, Pattern::equilateral).error), 0.05);
+  EXPECT_GT(of(13, 1.04, 60).value, 1.05); // the hole opens
+}
+
 // What remeshing adds. The tables of docs/remeshing.md go on to finer meshes.
 TEST(Validation, RemeshedOnTheWay) {
   EXPECT_LT(error("V9r", settings("V9r", 0.05, 40)), 0.01);

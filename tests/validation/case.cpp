@@ -115,6 +115,13 @@ const std::vector<Case>& cases() {
        "ice on the sea (set 1: a slab, its width held; 2: a free disk; 3: a wedge; 4: a shelf with inflow, PISM's test "
        "V)",
        "1: thickness; 2: speed of the rim; 3: speed of the front; 4: front", "", 4, at(0.1, 40), true, false, v37},
+      {"V38",
+       "tension of rims and slopes (set 1: a strip rests; 2: a disk; 3: a varicose wave; 4: with viscosity; 5: on a "
+       "wall; 6, 7: a rim retracts, Oh 0.05, 1; 8: a free thread; 9, 10, 11: it beads, k r = 0.25, 0.5, 0.7; 12, 13: a "
+       "hole of 0.3 and 0.5 h)",
+       "1 width over thickness; 2 radius; 3 frequency; 4, 5, 9 to 11 rate; 6, 7 thickness; 8 speed of its radius; 12, "
+       "13 radius over that at the start",
+       "", 13, at(0.2, 100), true, true, v38},
   };
   return list;
 }

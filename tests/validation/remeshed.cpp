@@ -1,67 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cases whose mesh is remade on the way, through the stages sheet-step and sheet-remesh: V9 until the hole has grown
-// tenfold, V10, V25.
+// V9 until the hole has grown tenfold, V10, V25: remeshed on the way.
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/core.h>
 
 #include "libsheet/geometry/area.h"
-#include "libsheet/remesh/remesh.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
-#include "libsheet/solve/step_stage.h"
 #include "tests/validation/setup.h"
+#include "tests/validation/stages.h"
 
 namespace sheet::validation {
 
 namespace {
 
 using formats::Frame;
-
-struct Staged {
-  Frame frame;
-  double seconds = 0;
-  std::uint64_t edits = 0;
-};
-
-// Steps and remeshes; `prepare` sees the first frame, `each` every later one.
-Staged run_stages(const std::string& scene_text, const Settings& s, double duration,
-                  const std::function<void(const Frame&)>& each = {}, const std::function<void(Frame&)>& prepare = {}) {
-  const Scene scene = parse_scene(scene_text, "validation case");
-  Staged run{build_frame(scene)};
-  if (prepare)
-    prepare(run.frame);
-  StepStageOptions options;
-  options.dt = duration / s.steps;
-  options.scheme = s.scheme;
-  options.failed = "";
-  StepStage stage(options);
-  remesh::Options remeshing;
-  remeshing.size.edge_length = s.edge;
-  remeshing.smooth = true;
-  const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < s.steps; ++k) {
-    stage.step(run.frame);
-    run.edits += remesh::remesh(run.frame, &scene, remeshing).edits();
-    if (each)
-      each(run.frame);
-  }
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return run;
-}
-
-Result result_of(const Staged& run, const Settings& s, double value) {
-  Result r;
-  r.value = value;
-  r.error = value - 1;
-  r.seconds = run.seconds;
-  r.vertices = run.frame.vertices;
-  r.edge = s.edge;
-  r.steps = s.steps;
-  return r;
-}
 
 double area_of(const Frame& frame) {
   const auto x = positions(frame);

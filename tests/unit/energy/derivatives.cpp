@@ -24,6 +24,8 @@
 #include "libsheet/energy/membrane.h"
 #include "libsheet/energy/mid_edge_shell.h"
 #include "libsheet/energy/pressure.h"
+#include "libsheet/energy/rim_tension.h"
+#include "libsheet/energy/slope_tension.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/energy/surface_tension.h"
 #include "libsheet/energy/wall_drag.h"
@@ -53,6 +55,16 @@ State crumpled(Random& random) {
     v = random.vector(1);
   for (double& v : s.volumes)
     v *= 1.5 + random();
+  return s;
+}
+
+// A dented sphere whose faces slope steeply.
+State steep(Random& random) {
+  State s = test::at_rest(test::icosphere(1), 0.3);
+  for (Vector3& x : s.positions)
+    x += random.vector(0.03);
+  for (double& v : s.volumes)
+    v *= std::exp(2 * random());
   return s;
 }
 
@@ -127,6 +139,7 @@ public:
   [[nodiscard]] virtual std::array<std::uint32_t, 4> nodes(std::size_t i) const = 0; // hinge and four only
   virtual void begin(const Stage& stage) = 0;
   [[nodiscard]] virtual double value(std::size_t i, const VectorN<n>& u) const = 0;
+  virtual double gradient(std::size_t i, const VectorN<n>& u, VectorN<n>& g) const = 0;
   virtual double derivatives(std::size_t i, const VectorN<n>& u, VectorN<n>& g, MatrixN<n>& h, bool definite) const = 0;
 };
 
@@ -149,6 +162,12 @@ public:
       element_.prepare(stage.begin);
   }
   [[nodiscard]] double value(std::size_t i, const VectorN<n>& u) const override { return element_.value(i, u); }
+  double gradient(std::size_t i, const VectorN<n>& u, VectorN<n>& g) const override {
+    if constexpr (requires { element_.gradient(i, u, g); })
+      return element_.gradient(i, u, g);
+    MatrixN<n> unused;
+    return element_.derivatives(i, u, g, unused, true);
+  }
   double derivatives(std::size_t i, const VectorN<n>& u, VectorN<n>& g, MatrixN<n>& h, bool definite) const override {
     return element_.derivatives(i, u, g, h, definite);
   }
@@ -221,6 +240,8 @@ void check_all(Elements<n>& elements, Properties properties, bool second_stage_t
       VectorN<n> g, ignored;
       MatrixN<n> h, positive, scrap;
       const double w = elements.derivatives(i, u, g, h, false);
+      EXPECT_NEAR(elements.gradient(i, u, ignored), w, 1e-12 * std::abs(w) + 1e-300);
+      EXPECT_LE((ignored - g).norm(), 1e-12 * g.norm() + 1e-300) << elements.name();
       EXPECT_NEAR(w, elements.value(i, u), 1e-12 * std::abs(w) + 1e-300);
       double gradient_error[3], hessian_error[3];
       for (int k = 0; k < 3; ++k) {
@@ -288,6 +309,28 @@ TEST(Derivatives, MembraneOfFlowCurves) {
 }
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(), {}, true, crumpled, touch_walls); }
+// A sphere has no rim: every third edge counts as one, in part.
+TEST(Derivatives, RimTension) {
+  const State sphere = test::at_rest(test::icosphere(1), 0.3);
+  const Connectivity& mesh = *sphere.mesh;
+  std::vector<double> rims(mesh.edges.size(), 0);
+  for (std::size_t e = 0; e < rims.size(); e += 3)
+    rims[e] = 0.25 * static_cast<double>(1 + e % 4);
+  check(RimTension(rims, mesh), {});
+}
+TEST(Derivatives, SlopeTension) {
+  const State sphere = test::at_rest(test::icosphere(1), 0.3);
+  const Connectivity& mesh = *sphere.mesh;
+  FreeFaces faces{std::vector<double>(mesh.edges.size(), 0), std::vector<char>(mesh.vertices, 0)};
+  for (std::size_t v = 0; v < mesh.vertices; v += 2)
+    faces.on_wall[v] = 1;
+  Random random;
+  const State s = steep(random);
+  const std::vector<SlopedEdge> edges = sloped_edges(mesh, s.positions, s.volumes, faces, 0);
+  EXPECT_GT(edges.size(), 20U);
+  check(SlopeTension(edges), {}, true, steep);
+  check(SlopeTension(edges), {}, true, steep, touch_two_walls);
+}
 TEST(Derivatives, WallDrag) { check(WallDrag(), {false, false}, true, crumpled, touch_walls); }
 TEST(Derivatives, WallDragOfFlowCurves) {
   for (const FlowLaw& law : flow_laws())

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -66,7 +68,7 @@ TEST(Levelling, KeepsVolumeAndMomentumAndMakesNoNewExtremes) {
     s.velocities[v] = {1 + 0.1 * static_cast<double>(v % 3), -0.5, 0};
   const State before = s;
   const auto [least, most] = std::ranges::minmax(before.volumes);
-  ASSERT_TRUE(level_layers(on_floor(before), {0, 0, -9}, {}, 1e6, s));
+  ASSERT_TRUE(level_layers(on_floor(before), {0, 0, -9}, {}, false, 1e6, s));
   const auto [low, high] = std::ranges::minmax(s.volumes);
   EXPECT_GE(low, least);
   EXPECT_LE(high, most);
@@ -82,7 +84,7 @@ TEST(Levelling, LeavesEvenSlopesAlone) {
     s.volumes[t] *= 1 + 0.5 * (s.positions[c[0]].x() + s.positions[c[1]].x() + s.positions[c[2]].x()) / 3;
   }
   const State before = s;
-  ASSERT_TRUE(level_layers(on_floor(before), {0, 0, -9}, {}, 1e6, s));
+  ASSERT_TRUE(level_layers(on_floor(before), {0, 0, -9}, {}, false, 1e6, s));
   double away_from_rim = 0;
   for (std::size_t t = 0; t < s.volumes.size(); ++t) {
     const Vector3& x = s.positions[s.mesh->triangles[t][0]];
@@ -92,17 +94,56 @@ TEST(Levelling, LeavesEvenSlopesAlone) {
   EXPECT_LT(away_from_rim, 1e-3);
 }
 
+// The unit square in 20 x 20 cells, all cut alike.
+State lattice() {
+  constexpr std::uint32_t n = 20;
+  test::Mesh mesh;
+  for (std::uint32_t j = 0; j <= n; ++j)
+    for (std::uint32_t i = 0; i <= n; ++i)
+      mesh.positions.emplace_back(static_cast<double>(i) / n, static_cast<double>(j) / n, 0);
+  for (std::uint32_t j = 0; j < n; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = j * (n + 1) + i, c = a + n + 1;
+      mesh.triangles.insert(mesh.triangles.end(), {{a, a + 1, c + 1}, {a, c + 1, c}});
+    }
+  return test::at_rest(mesh, thickness);
+}
+
+// A smooth wave is the slopes' own, where tension sees them; patterns of single triangles level all the same.
+TEST(Levelling, LeavesWavesToSlopes) {
+  const auto moved = [](const State& start, bool sloped) {
+    State s = start;
+    Stage stage = on_floor(start);
+    stage.liquid.surface_tension = 0.1;
+    EXPECT_TRUE(level_layers(stage, Vector3::Zero(), {}, sloped, 1e-3, s));
+    double sum = 0;
+    for (std::size_t t = 0; t < s.volumes.size(); ++t)
+      if (const Vector3& x = s.positions[s.mesh->triangles[t][0]];
+          std::abs(x.x() - 0.5) < 0.3 && std::abs(x.y() - 0.5) < 0.3) // away from the rim
+        sum += std::abs(s.volumes[t] - start.volumes[t]);
+    return sum;
+  };
+  State wave = lattice();
+  for (std::size_t t = 0; t < wave.volumes.size(); ++t) {
+    const Corners& c = wave.mesh->triangles[t];
+    const double x = (wave.positions[c[0]].x() + wave.positions[c[1]].x() + wave.positions[c[2]].x()) / 3;
+    wave.volumes[t] *= 1 + 0.1 * std::cos(2 * std::numbers::pi * x);
+  }
+  EXPECT_LT(moved(wave, true), 0.2 * moved(wave, false));
+  EXPECT_GT(moved(uneven(), true), 0.5 * moved(uneven(), false));
+}
+
 TEST(Levelling, NeitherHangingNorFreelySlippingLayersLevel) {
   State s = uneven();
   const std::vector<double> before = s.volumes;
   const State start = s;
   Stage stage = on_floor(start);
-  ASSERT_TRUE(level_layers(stage, {0, 0, 9}, {}, 1, s));
+  ASSERT_TRUE(level_layers(stage, {0, 0, 9}, {}, false, 1, s));
   EXPECT_EQ(s.volumes, before);
   for (WallSite& site : stage.sites)
     site.slip_length = free_slip;
   stage.liquid.surface_tension = 0.1;
-  ASSERT_TRUE(level_layers(stage, {0, 0, -9}, {}, 1, s));
+  ASSERT_TRUE(level_layers(stage, {0, 0, -9}, {}, false, 1, s));
   EXPECT_EQ(s.volumes, before);
 }
 

@@ -64,6 +64,7 @@ TEST(Modelled, TermsAreMadeUnderTheNamesThatTheTableHas) {
   model.walls.resize(2);
   model.contacts.resize(1);
   model.contacts_flow = true;
+  model.faces = ModelFaces{{1, 1, 1}, {SlopedEdge{}}};
   Connectivity mesh = connect(3, std::vector<Corners>{{0, 1, 2}});
   Names made, table;
   for (const auto& term : make_terms(model, std::make_shared<const Connectivity>(std::move(mesh))))

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,26 @@ TEST(StripWidth, IsTheHeightOfARowOfTrianglesAndInfiniteInASheet) {
   const formats::Frame disk = test::frame_of(make_disk(1, edges(0.1)), 0.001);
   for (const double w : strip_widths(EditableSheet(disk)))
     EXPECT_EQ(w, std::numeric_limits<double>::infinity());
+}
+
+// A wedge of 10 degrees, one row of triangles.
+TEST(StripWidth, ASharpEndIsAWedgeOrTheEndOfAStrip) {
+  TriangleMesh mesh;
+  const double opening = std::tan(10 * std::numbers::pi / 180);
+  mesh.positions = {{0, 0, 0}};
+  for (std::uint32_t i = 1; i <= 8; ++i) {
+    mesh.positions.emplace_back(0.1 * i, 0, 0);
+    mesh.positions.emplace_back(0.1 * i, 0.1 * i * opening, 0);
+  }
+  mesh.triangles = {{0, 1, 2}};
+  for (std::uint32_t i = 1; i < 8; ++i) {
+    const std::uint32_t a = 2 * i - 1;
+    mesh.triangles.push_back({a, a + 2, a + 1});
+    mesh.triangles.push_back({a + 1, a + 2, a + 3});
+  }
+  const EditableSheet sheet(test::frame_of(mesh, 0.001));
+  EXPECT_EQ(strip_widths(sheet)[5], std::numeric_limits<double>::infinity());
+  EXPECT_LT(strip_widths(sheet, std::numbers::pi / 9)[5], 0.1);
 }
 
 // One edge wide, between clamps and free, to a twentieth of its width.

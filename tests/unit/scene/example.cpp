@@ -91,6 +91,8 @@ std::string with(const Block& option) {
     put(rest);
   }
   put(option);
+  if (keys.contains("[model]faces"))
+    tables["[material]"] += "surface_tension = 0.04\n"; // without which it is refused
   std::string text;
   for (const auto& [table, lines] : tables)
     text += table + "\n" + lines;

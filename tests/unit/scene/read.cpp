@@ -382,6 +382,8 @@ TEST(Read, WhatTheModelNeeds) {
       "s:6:1: missing key \"density\" in [material]: gravity needs it");
   EXPECT_EQ(problem(disk + "[material]\nviscosity = 0\n[model]\ninertia = false\n"),
             "s:7:13: viscosity: 0 needs inertia: nothing else would resist the forces");
+  EXPECT_EQ(problem(disk + liquid + "[model]\nfaces = true\n"),
+            "s:10:9: faces: needs surface_tension in [material], which acts on them");
   EXPECT_EQ(problem(disk + "[material]\nviscosity = 1\ndensity = 0\n"),
             "s:8:11: density must be positive, got 0 kg/m^3");
 }

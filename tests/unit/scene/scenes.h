@@ -48,6 +48,7 @@ bath = {density = 1200, level = 0.5}
 [model]
 inertia = true
 bending = true
+faces = true
 [[hold]]
 region = "inner_rim"
 kind = "clamped"

@@ -41,6 +41,7 @@ bath = {density = 1200, level = 0.5, clings = false}
 [model]
 inertia = true
 bending = true
+faces = true
 
 [[hold]]
 region = "inner_rim"

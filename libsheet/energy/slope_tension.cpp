@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/slope_tension.h"
+
+#include <cmath>
+
+#include "libsheet/energy/walls.h"
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+
+namespace {
+
+// Corners of the two triangles among the element's vertices: the first one runs from the edge's lower vertex to the
+// higher one (connectivity.h).
+constexpr int corners[2][3] = {{2, 0, 1}, {3, 1, 0}};
+
+TriangleArea triangle(const VectorN<12>& u, int side) {
+  const int* c = corners[side];
+  return {u.segment<3>(3 * c[0]), u.segment<3>(3 * c[1]), u.segment<3>(3 * c[2])};
+}
+
+void add_area_hessian(const TriangleArea& a, int side, double factor, MatrixN<12>& hessian) {
+  const MatrixN<9> h = factor * a.hessian(true);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      hessian.block<3, 3>(3 * corners[side][i], 3 * corners[side][j]) += h.block<3, 3>(3 * i, 3 * j);
+}
+
+// ∇∇l times a factor, of the edge from the first vertex to the second, `along` its direction.
+void add_length_hessian(const Vector3& along, double length, double factor, MatrixN<12>& hessian) {
+  const Matrix3 turn = factor / length * (Matrix3::Identity() - along * along.transpose());
+  hessian.block<3, 3>(0, 0) += turn;
+  hessian.block<3, 3>(3, 3) += turn;
+  hessian.block<3, 3>(0, 3) -= turn;
+  hessian.block<3, 3>(3, 0) -= turn;
+}
+
+// Two triangles about an edge, with what the energy is made of, and its first derivatives.
+struct Pair {
+  Pair(const VectorN<12>& u, const std::array<double, 2>& volumes)
+      : triangles{triangle(u, 0), triangle(u, 1)}, edge(u.segment<3>(3) - u.segment<3>(0)), length(edge.norm()),
+        jump(volumes[0] / triangles[0].area - volumes[1] / triangles[1].area),
+        p(2 * (triangles[0].area + triangles[1].area) / 3), q(length * jump / 2) {
+    for (const int side : {0, 1})
+      falls[side] = (side == 0 ? 1 : -1) * volumes[static_cast<std::size_t>(side)] /
+                    (triangles[side].area * triangles[side].area);
+  }
+
+  TriangleArea triangles[2];
+  Vector3 edge;
+  double length, jump, p, q;
+  double falls[2]; // -∂jump/∂A
+};
+
+// W, and its derivatives by p and q; `curvature` is the factor of (q ∇p - p ∇q)² in the second ones.
+struct Energy {
+  Energy(double p, double q, const std::array<double, 2>& tensions) {
+    for (const int steeper : {1, 2}) {
+      const double tension = tensions[static_cast<std::size_t>(steeper - 1)], slope = steeper * q;
+      if (tension == 0)
+        continue;
+      const double r = std::sqrt(p * p + slope * slope), over = slant(p, slope);
+      value += tension * over;
+      by_p -= tension * over / r;
+      by_q += tension * steeper * slope / r;
+      curvature += tension * steeper * steeper / (r * r * r);
+    }
+  }
+  double value = 0, by_p = 0, by_q = 0, curvature = 0;
+};
+
+} // namespace
+
+void SlopeTension::begin(const Stage& stage) {
+  const Connectivity& mesh = *stage.start->mesh;
+  loads_.resize(edges_.size());
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    double filled = 0;
+    for (const auto v : edges_[i].vertices)
+      if (const WallSite* site = site_at(stage, v); site != nullptr && site->channel != no_index)
+        filled += stage.channels[site->channel].filled / 4;
+    const double gamma = (1 - filled) * stage.liquid.surface_tension, wall = edges_[i].on_wall;
+    const auto [one, two] = mesh.edge_triangles[edges_[i].edge];
+    loads_[i] = {{stage.start->volumes[one], stage.start->volumes[two]}, {2 * (1 - wall) * gamma, wall * gamma}};
+  }
+}
+
+double SlopeTension::value(std::size_t i, const VectorN<12>& u) const {
+  const Pair pair(u, loads_[i].volumes);
+  return loads_[i].tensions[0] * slant(pair.p, pair.q) + loads_[i].tensions[1] * slant(pair.p, 2 * pair.q);
+}
+
+double SlopeTension::gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const {
+  const Pair pair(u, loads_[i].volumes);
+  const Energy energy(pair.p, pair.q, loads_[i].tensions);
+  const Vector3 of_length = energy.by_q * pair.jump / (2 * pair.length) * pair.edge;
+  gradient << -of_length, of_length, Vector3::Zero(), Vector3::Zero();
+  for (int side = 0; side < 2; ++side) {
+    const double by_area = 2 * energy.by_p / 3 - energy.by_q * pair.length * pair.falls[side] / 2;
+    for (int k = 0; k < 3; ++k)
+      gradient.segment<3>(3 * corners[side][k]) += by_area * pair.triangles[side].gradient(k);
+  }
+  return energy.value;
+}
+
+double SlopeTension::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
+                                 bool definite) const {
+  const Pair pair(u, loads_[i].volumes);
+  const Energy energy(pair.p, pair.q, loads_[i].tensions);
+  VectorN<12> of_area[2] = {VectorN<12>::Zero(), VectorN<12>::Zero()};
+  for (int side = 0; side < 2; ++side)
+    for (int k = 0; k < 3; ++k)
+      of_area[side].segment<3>(3 * corners[side][k]) = pair.triangles[side].gradient(k);
+  const Vector3 along = pair.edge / pair.length;
+  VectorN<12> of_length;
+  of_length << -along, along, Vector3::Zero(), Vector3::Zero();
+  const VectorN<12> of_p = 2.0 / 3 * (of_area[0] + of_area[1]);
+  const VectorN<12> of_jump = -pair.falls[0] * of_area[0] - pair.falls[1] * of_area[1];
+  const VectorN<12> of_q = (pair.jump * of_length + pair.length * of_jump) / 2;
+  gradient = energy.by_p * of_p + energy.by_q * of_q;
+  const VectorN<12> across = pair.q * of_p - pair.p * of_q;
+  hessian.noalias() = (energy.curvature * across) * across.transpose();
+  if (definite)
+    return energy.value;
+  for (int side = 0; side < 2; ++side) { // by_p ∇∇p, and of by_q ∇∇q what is of one area
+    const double by_jump = energy.by_q * pair.length * pair.falls[side];
+    add_area_hessian(pair.triangles[side], side, 2 * energy.by_p / 3 - by_jump / 2, hessian);
+    hessian.noalias() += (by_jump / pair.triangles[side].area * of_area[side]) * of_area[side].transpose();
+  }
+  const VectorN<12> half = energy.by_q / 2 * of_jump;
+  hessian.topRows<6>().noalias() += of_length.head<6>() * half.transpose();
+  hessian.leftCols<6>().noalias() += half * of_length.head<6>().transpose();
+  add_length_hessian(along, pair.length, energy.by_q * pair.jump / 2, hessian);
+  return energy.value;
+}
+
+} // namespace sheet

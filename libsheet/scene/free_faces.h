@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which faces of a frame's sheet tension sees besides its middle surface ([model] faces): the rims at which it ends in
+// the open, and what lies on solids, with one face.
+#pragma once
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/geometry/faces.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet::scene {
+
+// No free rim is where the sheet goes on beyond its mesh, or something else says what happens there: inlets, rims that
+// holds keep from moving outward (pinned ones, planes of symmetry, guides), welds, the planes of outflows. On solids,
+// in the part of its two ends that touch, a rim is the contact angle's.
+[[nodiscard]] FreeFaces free_faces(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh);
+
+} // namespace sheet::scene

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What rims and slopes add to a sheet's area, against closed forms.
+#include "libsheet/geometry/faces.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+namespace {
+
+// Equilateral triangles with edges of 1, a parallelogram of n x n pairs, whose thickness is 1 + slope·x.
+struct Layer {
+  std::vector<Vector3> x;
+  Connectivity mesh;
+  std::vector<double> volumes;
+  double area = 0;
+
+  Layer(std::uint32_t n, const Vector3& slope) {
+    const double height = std::numbers::sqrt3 / 2;
+    for (std::uint32_t j = 0; j <= n; ++j)
+      for (std::uint32_t i = 0; i <= n; ++i)
+        x.emplace_back(i + 0.5 * j, height * j, 0);
+    std::vector<Corners> triangles;
+    for (std::uint32_t j = 0; j < n; ++j)
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
+        triangles.push_back({a, a + 1, b});
+        triangles.push_back({a + 1, b + 1, b});
+      }
+    mesh = connect(x.size(), triangles);
+    for (const Corners& c : triangles) {
+      const double own = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+      volumes.push_back(own * (1 + slope.dot(x[c[0]] + x[c[1]] + x[c[2]]) / 3));
+      area += own;
+    }
+  }
+};
+
+TEST(Faces, EvenSlopesCostTheAreaOfBothFaces) {
+  constexpr std::uint32_t n = 60;
+  for (const Vector3& slope : {Vector3(0.01, 0, 0), Vector3(0, 0.01, 0), Vector3(0.007, -0.007, 0)}) {
+    const Layer layer(n, slope);
+    FreeFaces faces{std::vector<double>(layer.mesh.edges.size(), 0), {}};
+    const double both = slope.squaredNorm() / 4 * layer.area;
+    EXPECT_NEAR(extra_area(layer.mesh, layer.x, layer.volumes, faces) / both, 1, 2.0 / n); // without the border's edges
+    faces.on_wall.assign(layer.x.size(), 1); // one face rises by all of it
+    EXPECT_NEAR(extra_area(layer.mesh, layer.x, layer.volumes, faces) / (2 * both), 1, 2.0 / n);
+  }
+}
+
+TEST(Faces, RimsAreHalfRoundAndFlatWhereTrianglesResolveTheirRoundness) {
+  Layer layer(4, Vector3::Zero());
+  const auto of_thickness = [&](double h) {
+    for (double& volume : layer.volumes)
+      volume = h * std::numbers::sqrt3 / 4;
+    return extra_area(layer.mesh, layer.x, layer.volumes, all_free(layer.mesh)) / (16 * h);
+  };
+  EXPECT_NEAR(of_thickness(1), std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(of_thickness(1e4), 1, 1e-3);
+  EXPECT_LT(of_thickness(4), of_thickness(8));
+}
+
+TEST(Faces, EvenThicknessHasSlopesNearRimsOnly) {
+  const Layer even(10, Vector3::Zero()), uneven(10, Vector3(0.1, 0.05, 0));
+  const auto count = [](const Layer& layer, const FreeFaces& faces) {
+    return sloped_edges(layer.mesh, layer.x, layer.volumes, faces, 0.01).size();
+  };
+  const FreeFaces closed{std::vector<double>(even.mesh.edges.size(), 0), {}};
+  const std::size_t inner = even.mesh.edges.size() - 40;
+  EXPECT_EQ(count(even, closed), 0U);
+  EXPECT_EQ(count(uneven, all_free(even.mesh)), inner);
+  EXPECT_GT(count(even, all_free(even.mesh)), 0U);
+  EXPECT_LT(count(even, all_free(even.mesh)), inner);
+}
+
+} // namespace
+} // namespace sheet
