@@ -26,8 +26,8 @@ struct Ruler {
 [[nodiscard]] double scale_width(int width, int height);
 [[nodiscard]] double clock_height(int width, int height);
 
-// Draws the bar at the right edge, and "t = 0.25 s", or years, at the lower left, where there is room. Nothing for looks
-// without a scale but the time.
+// Draws the bar at the right edge, and "t = 0.25 s", or years, at the lower left, where there is room. Nothing for
+// looks without a scale but the time.
 void draw_scale(Bitmap& bitmap, const Scale& scale, Look look, double time);
 
 } // namespace sheet::render

@@ -550,8 +550,7 @@ TEST(Derivatives, TensionOfArcs) {
   check(MidEdgeShell(tension()), {true, false, 0.01}, true, crumpled, touch_walls);
 }
 TEST(Derivatives, WeightOfArcs) {
-  check(MidEdgeShell(AreaLoads{.weight = WallWeight({0.3, -9, 2})}), {true, false, 0.01}, true, crumpled,
-        touch_walls);
+  check(MidEdgeShell(AreaLoads{.weight = WallWeight({0.3, -9, 2})}), {true, false, 0.01}, true, crumpled, touch_walls);
 }
 // Directors that lean far: arcs that hardly close to triangles.
 TEST(Derivatives, TensionOfLeaningDirectors) { check(MidEdgeShell(tension()), {true, false, 0.01}, true, leaning); }
