@@ -188,26 +188,34 @@ Result power_law_down_an_incline(const Settings& s, double n) {
       0, n / (2 * n + 1) * thin * rate);
 }
 
+// A layer of this thickness and yield stress slumps until it rests, which it comes near algebraically: its length over
+// that which is due, by its area and, in a channel, the width that it keeps.
+Result slumped(const Settings& s, Channel c, double thickness, double yield_stress,
+               const std::function<double(double area, double width)>& over_what_is_due) {
+  Model m = layer(s, {0, 0, -gravity});
+  m.liquid.law = {.kind = FlowLawKind::bingham, .yield_stress = yield_stress};
+  m.liquid.law.rest_rate = 1e-6 * m.liquid.law.yield_stress / m.liquid.viscosity;
+  if (c.width > 0)
+    hold_channel(c, axis_bit(0), m);
+  m.walls.push_back(floor_under(c.state));
+  const double time = 3 * kinematic * radius * radius / (gravity * std::pow(thickness, 3)), width = c.width;
+  Run run(std::move(c.state), m, s, radius);
+  run.advance(1e-3 * time, 4);
+  advance_in_ratio(run, 1e-3 * time, 1e3 * time, s.steps);
+  return run.result(over_what_is_due(sheet_area(run.state()), width));
+}
+
 // A Bingham liquid slumps until its weight no longer overcomes the yield stress at the wall: ρ g h h' = -τ_y, so in a
 // plane x_N = (3 q/(2 a))^(2/3), about an axis r_N = (15 Q/(8π a))^(2/5), a = sqrt(2 τ_y/(ρ g)), of a half q or all Q.
-// The yield stress is such that the layer becomes 1.5 times as long. It comes near that algebraically.
+// The yield stress is such that the layer becomes 1.5 times as long.
 Result slumping(const Settings& s, bool axis) {
   constexpr double end = 1.5;
   Channel c = axis ? Channel{film(make_disk(radius, mesh_options(s, radius)), thin), 0} : channel(s, radius, thin);
   const double amount = axis ? pi * thin : thin;
   const double a = axis ? 15 * amount / (8 * pi * std::pow(end, 2.5)) : 3 * amount / (2 * std::pow(end, 1.5));
-  Model m = layer(s, {0, 0, -gravity});
-  m.liquid.law = {.kind = FlowLawKind::bingham, .yield_stress = density * gravity * a * a / 2};
-  m.liquid.law.rest_rate = 1e-6 * m.liquid.law.yield_stress / m.liquid.viscosity;
-  if (!axis)
-    hold_channel(c, axis_bit(0), m);
-  m.walls.push_back(floor_under(c.state));
-  const double time = 3 * kinematic * radius * radius / (gravity * std::pow(thin, 3)), width = c.width;
-  Run run(std::move(c.state), m, s, radius);
-  run.advance(1e-3 * time, 4);
-  advance_in_ratio(run, 1e-3 * time, 1e3 * time, s.steps);
-  const double area = sheet_area(run.state());
-  return run.result((axis ? std::sqrt(area / pi) : area / width) / (radius * end));
+  return slumped(s, std::move(c), thin, density * gravity * a * a / 2, [&](double area, double width) {
+    return (axis ? std::sqrt(area / pi) : area / width) / (radius * end);
+  });
 }
 
 // The same of a layer so thick that what bears stretching counts: in a plane (ρ g h²/2 - 2 τ_y h)' = -τ_y, so it ends
@@ -223,16 +231,8 @@ Result slumping_thickly(const Settings& s) {
     const double middle = 0.5 * (low + high), area = half(middle) - half(2 * bears);
     (area / (length(middle) * length(middle)) > thick / (radius * end * end) ? low : high) = middle;
   }
-  Model m = layer(s, {0, 0, -gravity});
-  m.liquid.law = {.kind = FlowLawKind::bingham, .yield_stress = density * gravity * radius * end / length(low)};
-  m.liquid.law.rest_rate = 1e-6 * m.liquid.law.yield_stress / m.liquid.viscosity;
-  hold_channel(c, axis_bit(0), m);
-  m.walls.push_back(floor_under(c.state));
-  const double time = 3 * kinematic * radius * radius / (gravity * std::pow(thick, 3)), width = c.width;
-  Run run(std::move(c.state), m, s, radius);
-  run.advance(1e-3 * time, 4);
-  advance_in_ratio(run, 1e-3 * time, 1e3 * time, s.steps);
-  return run.result(sheet_area(run.state()) / width / (radius * end));
+  return slumped(s, std::move(c), thick, density * gravity * radius * end / length(low),
+                 [&](double area, double width) { return area / width / (radius * end); });
 }
 
 // A plug of speed U comes to rest after U h²/(3 ν).

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Flow curves as measured, in the scene and by file.
-#include <filesystem>
-#include <fstream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -11,20 +10,10 @@
 namespace sheet::scene {
 namespace {
 
-class CurveFile : public testing::Test {
+class CurveFile : public FolderOfScene {
 protected:
-  CurveFile()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("sheet_curve_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~CurveFile() override { std::filesystem::remove_all(folder_); }
-
   Scene read(const std::string& rows) {
-    std::ofstream(folder_ / "curve.csv") << rows;
-    std::ofstream(folder_ / "scene.toml")
-        << disk + "[material]\ndensity = 1000\nlaw = \"table\"\nfile = \"curve.csv\"\n";
-    return read_scene(folder_ / "scene.toml");
+    return read_beside("curve.csv", rows, disk + "[material]\ndensity = 1000\nlaw = \"table\"\nfile = \"curve.csv\"\n");
   }
   // Behind the place in the scene and the file's folder.
   std::string fault(const std::string& rows) {
@@ -38,7 +27,6 @@ protected:
       return file != std::string::npos ? text.substr(file + 9) : text.substr(place + 6);
     }
   }
-  std::filesystem::path folder_;
 };
 
 TEST_F(CurveFile, IsTheListsOfTheScene) {

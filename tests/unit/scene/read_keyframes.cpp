@@ -14,21 +14,12 @@ namespace {
 
 const std::string ball = "[[solid]]\nshape = \"sphere\"\nradius = 0.1\n";
 
-class MotionFile : public testing::Test {
+class MotionFile : public FolderOfScene {
 protected:
-  MotionFile()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("sheet_rows_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~MotionFile() override { std::filesystem::remove_all(folder_); }
-
   // A disk, with a solid that moves as the file says.
   Scene read(const std::string& rows, const std::string& solid = ball) {
-    std::ofstream(folder_ / "arm.csv") << rows;
-    std::ofstream(folder_ / "scene.toml")
-        << disk + liquid + solid + "motion = {kind = \"keyframed\", file = \"arm.csv\"}\n";
-    return read_scene(folder_ / "scene.toml");
+    return read_beside("arm.csv", rows,
+                       disk + liquid + solid + "motion = {kind = \"keyframed\", file = \"arm.csv\"}\n");
   }
   // Behind the place in the scene and the file's folder.
   std::string fault(const std::string& rows) {
@@ -42,7 +33,6 @@ protected:
       return text.substr(file + 7);
     }
   }
-  std::filesystem::path folder_;
 };
 
 TEST_F(MotionFile, IsTheListsOfTheScene) {

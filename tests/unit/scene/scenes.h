@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Texts of scenes for these tests.
 #pragma once
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "libsheet/base/error.h"
 #include "libsheet/scene/read.h"
@@ -11,6 +15,26 @@ namespace sheet::scene {
 
 inline const std::string disk = "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.02\n";
 inline const std::string liquid = "[material]\nviscosity = 100\ndensity = 1000\n";
+
+// A folder of the test's own, for a scene and the file that it names.
+class FolderOfScene : public testing::Test {
+protected:
+  FolderOfScene()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("sheet_scene_" +
+                 std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~FolderOfScene() override { std::filesystem::remove_all(folder_); }
+  // scene.toml, as read, beside a file of this name and content.
+  Scene read_beside(const std::string& name, const std::string& content, const std::string& scene) {
+    std::ofstream(folder_ / name) << content;
+    std::ofstream(folder_ / "scene.toml") << scene;
+    return read_scene(folder_ / "scene.toml");
+  }
+  std::filesystem::path folder_;
+};
 
 // What is wrong with a text, or "fine".
 inline std::string problem(const std::string& text, const std::vector<std::string>& sets = {}) {
