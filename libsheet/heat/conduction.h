@@ -31,8 +31,8 @@ struct Conductances {
   // squared_lengths [m²], volume [m³], k [W/(m K)].
   Conductances(const Vector3& squared_lengths, double volume, double conductivity);
 
-  // F_i [W].
-  [[nodiscard]] Vector3 fluxes(double t, const Vector3& edge_temperatures) const;
+  // F_i [W], of which the edges take `exchanged` = g (T - λ̄) together.
+  [[nodiscard]] Vector3 fluxes(double exchanged, const Vector3& edge_temperatures) const;
 };
 
 // The symmetric positive definite system of the edges' temperatures: of each triangle k h S + w 1 1ᵀ, where w is what

@@ -15,7 +15,7 @@
 
 namespace sheet::heat {
 
-inline constexpr int most_modes = 12;
+inline constexpr int most_modes = 8;
 
 // Which modes there are, 0 first; and whether those beyond it follow at once.
 struct Profile {

@@ -73,7 +73,7 @@ struct Result {
 };
 
 // Squared edge lengths of every triangle, as Problem has them.
-[[nodiscard]] std::vector<Vector3> squared_lengths(const Connectivity& mesh, std::span<const Vector3> positions);
+[[nodiscard]] std::vector<Vector3> squared_lengths_of(const Connectivity& mesh, std::span<const Vector3> positions);
 
 // Stages on one mesh. What depends on the connectivity alone is kept.
 class Solver {
@@ -83,7 +83,8 @@ public:
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
-  // Throws std::logic_error if a span has the wrong size, Error (did not converge) if Newton's method does not end.
+  // Throws std::logic_error if a span has the wrong size or contacts are out of order, Error (did not converge) if
+  // Newton's method does not end.
   [[nodiscard]] Result stage(const Problem& problem);
 
 private:
