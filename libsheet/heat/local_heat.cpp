@@ -10,6 +10,13 @@
 
 namespace sheet::heat {
 
+namespace {
+
+// Newton's method for T⁴ starts no colder than this part of what radiates: from far below it would go far beyond.
+constexpr double least_start = 0.5;
+
+} // namespace
+
 LocalHeat::LocalHeat(const Problem& problem)
     : problem_(problem), degrees_(problem.conductivity > 0 ? problem.profile.degrees : std::vector<int>{0}) {
   const int n = modes();
@@ -44,17 +51,26 @@ double LocalHeat::seen_area(std::size_t t, Face face) const {
   return area(t) * (exposed.empty() ? 1 : exposed[t]);
 }
 
+LocalHeat::Modes LocalHeat::before(std::size_t t) const {
+  Modes modes = Modes::Zero(this->modes());
+  modes[0] = problem_.temperatures[t];
+  const auto beyond = static_cast<std::size_t>(modes.size()) - 1;
+  for (std::size_t k = 0; k < beyond && !problem_.profile.follows && !problem_.modes.empty(); ++k)
+    modes[static_cast<Eigen::Index>(k + 1)] = problem_.modes[t * beyond + k];
+  return modes;
+}
+
 LocalHeat::State LocalHeat::start(std::size_t t) const {
-  State state{Modes::Zero(modes()), {}};
-  state.modes[0] = problem_.temperatures[t];
-  for (int k = 1; k < modes() && !problem_.profile.follows && !problem_.modes.empty(); ++k)
-    state.modes[k] = problem_.modes[t * static_cast<std::size_t>(modes() - 1) + static_cast<std::size_t>(k - 1)];
+  State state{before(t), {}};
+  for (const Surroundings& around : problem_.surroundings)
+    if (around.emissivity > 0)
+      state.modes[0] = std::max(state.modes[0], least_start * around.radiant);
   return state;
 }
 
 LocalHeat::Step LocalHeat::step(std::size_t t, const State& state, double exchange) const {
   const double a = area(t), volume = problem_.volumes[t], by_area = problem_.conductivity * a * a / volume; // k A/h
-  const State before = start(t);
+  const Modes before = this->before(t);
   Matrix j = by_area * across_;
   Modes residual = j * state.modes;
   for (int k = 0; k < modes(); ++k) {
@@ -63,7 +79,7 @@ LocalHeat::Step LocalHeat::step(std::size_t t, const State& state, double exchan
     const double capacity =
         problem_.heat_capacity * volume / (problem_.duration * (2 * degrees_[static_cast<std::size_t>(k)] + 1));
     j(k, k) += capacity;
-    residual[k] += capacity * (state.modes[k] - before.modes[k]);
+    residual[k] += capacity * (state.modes[k] - before[k]);
   }
   residual[0] -= problem_.sources.empty() ? 0 : problem_.sources[t];
   std::array<double, 2> leaving{}, slope{};

@@ -9,6 +9,8 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -47,6 +49,7 @@ public:
   [[nodiscard]] double face_temperature(const State& state, Face face) const { return at_face_[face].dot(state.modes); }
 
 private:
+  [[nodiscard]] Modes before(std::size_t t) const; // ā
   [[nodiscard]] std::span<const WallContact> contacts(std::size_t t) const;
   [[nodiscard]] double area(std::size_t t) const;
   [[nodiscard]] double seen_area(std::size_t t, Face face) const;

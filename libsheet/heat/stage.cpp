@@ -19,7 +19,7 @@ namespace sheet::heat {
 namespace {
 
 constexpr int most_iterations = 50;
-constexpr double close_enough = 1e-8; // of the temperature: Newton's method then leaves its square
+constexpr double close_enough = 1e-6; // of the temperature: Newton's method then leaves its square
 
 void check(const Problem& problem, std::size_t triangles) {
   const std::size_t beyond = static_cast<std::size_t>(problem.profile.modes()) - 1;
@@ -104,7 +104,7 @@ Work::Work(const Problem& of, const Connectivity& on)
   });
 }
 
-// One iteration of Newton's method; the greatest change of a temperature.
+// One iteration of Newton's method; the greatest change of a temperature, as a part of the greatest temperature.
 double Work::improve(std::optional<EdgeSystem>& system) {
   std::vector<LocalHeat::Step> steps(states.size());
   std::vector<double> weights(conductances.size());
@@ -123,12 +123,14 @@ double Work::improve(std::optional<EdgeSystem>& system) {
     for (std::size_t e = 0; e < edge_temperatures.size(); ++e)
       edge_temperatures[e] += changes[e];
   }
-  std::vector<double> changes(states.size());
+  std::vector<double> changes(states.size()), sizes(states.size());
   each_in_parallel(states.size(), [&](std::size_t t) {
     exchanged[t] = conducts() ? steps[t].exchanged(conductances[t].exchange, around(t).mean()) : 0;
     changes[t] = local.advance(t, steps[t], exchanged[t], states[t]);
+    sizes[t] = std::abs(states[t].modes[0]);
   });
-  return changes.empty() ? 0 : *std::ranges::max_element(changes);
+  const double greatest = changes.empty() ? 0 : *std::ranges::max_element(changes);
+  return greatest > 0 ? greatest / *std::ranges::max_element(sizes) : 0;
 }
 
 // The flux through each edge from its first triangle to its second, the mean of what both have: 0 at a rim.
@@ -187,10 +189,9 @@ Result Solver::Impl::stage(const Problem& problem) {
   Work work(problem, *mesh);
   if (work.conducts() && !edges)
     edges.emplace(*mesh);
-  const double warmest = problem.temperatures.empty() ? 0 : *std::ranges::max_element(problem.temperatures);
   for (int i = 1; i <= most_iterations; ++i) {
     const double change = work.improve(edges);
-    if (!radiates(problem) || change <= close_enough * warmest) {
+    if (!radiates(problem) || change <= close_enough) {
       Result result = work.result();
       result.iterations = i;
       return result;

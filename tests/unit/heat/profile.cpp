@@ -141,6 +141,46 @@ TEST(Profile, BetweenColdAndWarmIsLinear) {
   }
 }
 
+// A slab of half thickness 1 and diffusivity 1 between ambients of -1 and 1, at 0 first: x Bi/(1 + Bi) in the end, from
+// which the roots of β cot β = -Bi fade.
+double between(double biot, double time, double x) {
+  double sum = x;
+  for (int n = 0; n < 60; ++n) {
+    double low = n * pi + pi / 2, high = (n + 1) * pi;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (middle / std::tan(middle) > -biot ? low : high) = middle;
+    }
+    const double b = 0.5 * (low + high);
+    const double part = (std::sin(b) - b * std::cos(b)) / (b * b) / (0.5 - std::sin(2 * b) / (4 * b));
+    sum -= part * std::sin(b * x) * std::exp(-b * b * time);
+  }
+  return biot / (1 + biot) * sum;
+}
+
+TEST(Profile, BetweenColdAndWarmIsThatOfASlab) {
+  const test::Sheet sheet = test::one_triangle(2);
+  for (const double biot : {0.3, 1.0, 3.0}) {
+    const CooledSlab slab(biot);
+    const auto error = [&](const Profile& profile, double time) {
+      Problem problem = test::problem_of(sheet, {});
+      problem.conductivity = 1;
+      problem.profile = profile;
+      problem.surroundings = {{{biot, 1000.5}, {biot, 999.5}}};
+      const std::vector<double> modes(profile.degrees.size() - 1, 0.0);
+      const test::Temperatures now = test::steps(sheet, problem, {{1001}, modes}, time, 200);
+      double greatest = 0;
+      for (const double zeta : quarter_points) {
+        const double exact = 1000 + slab.at(time, 2 * zeta) + 0.5 * between(biot, time, 2 * zeta);
+        greatest = std::max(greatest, std::abs(temperature_at(profile, now.mean[0], now.modes, zeta) - exact));
+      }
+      return greatest;
+    };
+    EXPECT_LT(error(parabola(), 1), 0.012) << biot;
+    EXPECT_LT(error(all_modes(8), 0.2), 2e-4) << biot;
+  }
+}
+
 // T_u = T - (h/k) (q_u/3 - q_l/6), as the head of profile.h says.
 TEST(Profile, OfAParabolaHasTheFaceTemperaturesOfItsFluxes) {
   const double h = 0.02, k = 0.8;
