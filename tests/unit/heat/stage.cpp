@@ -11,7 +11,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "tests/unit/heat/sheets.h"
+#include "tests/support/heat_sheets.h"
+#include "tests/unit/heat/order.h"
 
 namespace sheet::heat {
 namespace {
