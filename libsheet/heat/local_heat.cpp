@@ -17,7 +17,8 @@ constexpr double least_start = 0.5;
 
 } // namespace
 
-LocalHeat::LocalHeat(const Problem& problem)
+template <int Count>
+LocalHeat<Count>::LocalHeat(const Problem& problem)
     : problem_(problem), degrees_(problem.conductivity > 0 ? problem.profile.degrees : std::vector<int>{0}) {
   const int n = modes();
   across_ = Matrix::Zero(n, n);
@@ -38,20 +39,20 @@ LocalHeat::LocalHeat(const Problem& problem)
     first_contact_[t] += first_contact_[t - 1];
 }
 
-std::span<const WallContact> LocalHeat::contacts(std::size_t t) const {
+template <int Count> std::span<const WallContact> LocalHeat<Count>::contacts(std::size_t t) const {
   return problem_.contacts.subspan(first_contact_[t], first_contact_[t + 1] - first_contact_[t]);
 }
 
-double LocalHeat::area(std::size_t t) const {
+template <int Count> double LocalHeat<Count>::area(std::size_t t) const {
   return 0.5 * std::sqrt(std::max(0.0, form_determinant(problem_.squared_lengths[t])));
 }
 
-double LocalHeat::seen_area(std::size_t t, Face face) const {
+template <int Count> double LocalHeat<Count>::seen_area(std::size_t t, Face face) const {
   const std::span<const double> exposed = problem_.exposed[face];
   return area(t) * (exposed.empty() ? 1 : exposed[t]);
 }
 
-LocalHeat::Modes LocalHeat::before(std::size_t t) const {
+template <int Count> typename LocalHeat<Count>::Modes LocalHeat<Count>::before(std::size_t t) const {
   Modes modes = Modes::Zero(this->modes());
   modes[0] = problem_.temperatures[t];
   const auto beyond = static_cast<std::size_t>(modes.size()) - 1;
@@ -60,7 +61,7 @@ LocalHeat::Modes LocalHeat::before(std::size_t t) const {
   return modes;
 }
 
-LocalHeat::State LocalHeat::start(std::size_t t) const {
+template <int Count> typename LocalHeat<Count>::State LocalHeat<Count>::start(std::size_t t) const {
   State state{before(t), {}};
   for (const Surroundings& around : problem_.surroundings)
     if (around.emissivity > 0)
@@ -68,7 +69,8 @@ LocalHeat::State LocalHeat::start(std::size_t t) const {
   return state;
 }
 
-LocalHeat::Step LocalHeat::step(std::size_t t, const State& state, double exchange) const {
+template <int Count>
+typename LocalHeat<Count>::Step LocalHeat<Count>::step(std::size_t t, const State& state, double exchange) const {
   const double a = area(t), volume = problem_.volumes[t], by_area = problem_.conductivity * a * a / volume; // k A/h
   const Modes before = this->before(t);
   Matrix j = by_area * across_;
@@ -101,7 +103,8 @@ LocalHeat::Step LocalHeat::step(std::size_t t, const State& state, double exchan
   return {state.modes - factor.solve(residual), answer, 1 / (1 + exchange * answer[0])};
 }
 
-double LocalHeat::advance(std::size_t t, const Step& step, double to_edges, State& state) const {
+template <int Count>
+double LocalHeat<Count>::advance(std::size_t t, const Step& step, double to_edges, State& state) const {
   const Modes change = step.alone - to_edges * step.answer - state.modes;
   for (const Face face : {upper, lower}) {
     const double there = face_temperature(state, face), seen = seen_area(t, face);
@@ -112,11 +115,15 @@ double LocalHeat::advance(std::size_t t, const Step& step, double to_edges, Stat
   return change.cwiseAbs().maxCoeff();
 }
 
-double LocalHeat::lost(std::size_t t, const State& state) const {
+template <int Count> double LocalHeat<Count>::lost(std::size_t t, const State& state) const {
   double sum = state.surroundings[upper] + state.surroundings[lower];
   for (const WallContact& contact : contacts(t))
     sum += contact.conductance * (face_temperature(state, contact.face) - contact.temperature);
   return sum;
 }
+
+template class LocalHeat<1>;
+template class LocalHeat<3>;
+template class LocalHeat<Eigen::Dynamic>;
 
 } // namespace sheet::heat

@@ -19,10 +19,13 @@
 
 namespace sheet::heat {
 
-class LocalHeat {
+// Count: that of the modes, if it is known when this is compiled, which it is for one temperature across and for the
+// parabola; else Eigen::Dynamic.
+template <int Count> class LocalHeat {
 public:
-  using Modes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_modes, 1>;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
+  static constexpr int most = Count == Eigen::Dynamic ? most_modes : Count;
+  using Modes = Eigen::Matrix<double, Count, 1, 0, most, 1>;
+  using Matrix = Eigen::Matrix<double, Count, Count, 0, most, most>;
 
   struct State {
     Modes modes;                             // a [K]
@@ -38,7 +41,7 @@ public:
   };
 
   explicit LocalHeat(const Problem& problem);
-  [[nodiscard]] int modes() const { return static_cast<int>(degrees_.size()); }
+  [[nodiscard]] int modes() const { return Count == Eigen::Dynamic ? static_cast<int>(degrees_.size()) : Count; }
   [[nodiscard]] State start(std::size_t t) const;
   // exchange: g [W/K].
   [[nodiscard]] Step step(std::size_t t, const State& state, double exchange) const;
@@ -60,5 +63,9 @@ private:
   Matrix across_;                // K
   std::vector<std::uint32_t> first_contact_;
 };
+
+extern template class LocalHeat<1>;
+extern template class LocalHeat<3>;
+extern template class LocalHeat<Eigen::Dynamic>;
 
 } // namespace sheet::heat
