@@ -35,11 +35,15 @@ std::vector<std::uint32_t> edge_order(const Connectivity& mesh) {
 
 } // namespace
 
+double conducting_area(const Vector3& q) {
+  return std::max(0.5 * std::sqrt(std::max(0.0, form_determinant(q))), least_area * q.sum());
+}
+
 Conductances::Conductances(const Vector3& q, double volume, double conductivity) {
   const double sum = q.sum();
   if (sum <= 0)
     return;
-  const double area = std::max(0.5 * std::sqrt(std::max(0.0, form_determinant(q))), least_area * sum);
+  const double area = conducting_area(q);
   const double per_square = conductivity * volume / area; // k h
   for (std::size_t i = 0; i < 3; ++i)                     // e_j·e_k = (|e_i|² - |e_j|² - |e_k|²)/2
     off[i] = per_square * (2 * q[static_cast<Eigen::Index>(i)] - sum) / (2 * area);

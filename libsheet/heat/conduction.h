@@ -22,6 +22,9 @@
 
 namespace sheet::heat {
 
+// The area by which a triangle conducts, of its squared edge lengths [m²].
+[[nodiscard]] double conducting_area(const Vector3& squared_lengths);
+
 // Of one triangle [W/K].
 struct Conductances {
   std::array<double, 3> off = {}; // k h S_ij, the pair opposite edge i

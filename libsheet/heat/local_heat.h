@@ -29,6 +29,7 @@ public:
 
   struct State {
     Modes modes;                             // a [K]
+    std::array<double, 2> slopes = {};       // of what leaves to the surroundings through each face [W/K]
     std::array<double, 2> surroundings = {}; // heat that leaves to them through each face [W]
   };
   // A step of Newton's method.
@@ -43,8 +44,8 @@ public:
   explicit LocalHeat(const Problem& problem);
   [[nodiscard]] int modes() const { return Count == Eigen::Dynamic ? static_cast<int>(degrees_.size()) : Count; }
   [[nodiscard]] State start(std::size_t t) const;
-  // exchange: g [W/K].
-  [[nodiscard]] Step step(std::size_t t, const State& state, double exchange) const;
+  // exchange: g [W/K]. Takes new slopes, or those that the state has: then J is what it was.
+  [[nodiscard]] Step step(std::size_t t, State& state, double exchange, bool new_slopes) const;
   // Takes a step that gives `to_edges` [W] to the edges. The greatest change of a mode [K].
   double advance(std::size_t t, const Step& step, double to_edges, State& state) const;
   // What leaves through both faces [W], to walls too.

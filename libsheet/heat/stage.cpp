@@ -19,8 +19,8 @@ namespace sheet::heat {
 namespace {
 
 constexpr int most_iterations = 50;
-constexpr double close_enough = 1e-6; // of the temperature: Newton's method then leaves its square
-constexpr double fast_enough = 0.1;   // of the change before: a factor that does this well serves again [Kelley 1995]
+constexpr double close_enough = 1e-6; // of the temperature: what the next iteration would change at most
+constexpr double fast_enough = 0.1;   // a change or its rate below which the factor there is serves again [Kelley 1995]
 
 void check(const Problem& problem, std::size_t triangles) {
   const std::size_t beyond = static_cast<std::size_t>(problem.profile.modes()) - 1;
@@ -111,14 +111,14 @@ Work<Count>::Work(const Problem& of, const Connectivity& on)
   });
 }
 
-// One iteration of Newton's method, with a new factor of the edges' matrix or the one there is; the greatest change of
-// a temperature, as a part of the greatest temperature.
+// One iteration of Newton's method, with a new matrix or the one there is (all of it: what edges give and take must be
+// the same); the greatest change of a temperature, as a part of the greatest temperature.
 template <int Count> double Work<Count>::improve(std::optional<EdgeSystem>& system, bool factorize) {
   std::vector<double> weights(conductances.size());
   std::vector<Vector3> loads(conductances.size());
   each_in_parallel(states.size(), [&](std::size_t t) {
     const double g = conducts() ? conductances[t].exchange : 0;
-    steps[t] = local.step(t, states[t], g);
+    steps[t] = local.step(t, states[t], g, factorize);
     if (!conducts())
       return;
     const Vector3 edges = around(t);
@@ -184,6 +184,8 @@ template <int Count> Result Work<Count>::result() const {
     for (const Face face : {upper, lower})
       account.faces[face] += problem.duration * states[t].surroundings[face];
   }
+  if (!std::isfinite(account.stored))
+    fail(ExitCode::not_converged, "heat: temperatures are not finite; are all volumes and positions?");
   for (const WallContact& contact : problem.contacts) {
     const double there = local.face_temperature(states[contact.triangle], contact.face);
     account.walls[contact.wall] += problem.duration * contact.conductance * (there - contact.temperature);
@@ -198,15 +200,15 @@ template <int Count> Result Solver::Impl::solve(const Problem& problem) {
   if (work.conducts() && !edges)
     edges.emplace(*mesh);
   bool factorize = true;
-  double before = 1;
+  double before = 0;
   for (int i = 1; i <= most_iterations; ++i) {
-    const double change = work.improve(edges, factorize);
-    if (!radiates(problem) || change <= close_enough) {
+    const double change = work.improve(edges, factorize), rate = i == 1 ? 1 : change / before;
+    if (!radiates(problem) || change * rate <= close_enough) {
       Result result = work.result();
       result.iterations = i;
       return result;
     }
-    factorize = change > fast_enough * before;
+    factorize = std::min(change, rate) > fast_enough;
     before = change;
   }
   fail(ExitCode::not_converged, "heat: temperatures do not converge in {} iterations; shorten the step",

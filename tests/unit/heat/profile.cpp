@@ -55,13 +55,13 @@ TEST(Profile, BetweenColdAndWarmIsLinear) {
   const double h = 0.02, k = 0.8, hu = 40, hl = 120, tu = 300, tl = 500;
   const double flux = (tl - tu) / (1 / hu + h / k + 1 / hl), upper_face = tu + flux / hu, lower_face = tl - flux / hl;
   const test::Sheet sheet = test::one_triangle(h);
-  const std::vector<double> start = {900};
+  const std::vector<double> start = {(upper_face + lower_face) / 2};
   for (const Profile& profile : {parabola(), all_modes(2), all_modes(5)}) {
     Problem problem = test::problem_of(sheet, start);
     problem.heat_capacity = 1e6;
     problem.conductivity = k;
     problem.profile = profile;
-    problem.duration = 1e10;
+    problem.duration = 1e9;
     problem.surroundings = {{{hu, tu}, {hl, tl}}};
     const Result result = Solver(sheet.mesh).stage(problem);
     for (const double zeta : {-0.5, -0.1, 0.3, 0.5})
@@ -114,7 +114,7 @@ TEST(Profile, OfAParabolaHasTheFaceTemperaturesOfItsFluxes) {
   EXPECT_NEAR(tu, mean - h / k * (qu / 3 - ql / 6), 1e-8);
   EXPECT_NEAR(tl, mean - h / k * (ql / 3 - qu / 6), 1e-8);
   EXPECT_NEAR(qu, 40 * (tu - 300), 1e-7);
-  EXPECT_NEAR(ql, problem.surroundings[lower].flux(tl), 1e-7 * std::abs(ql));
+  EXPECT_NEAR(ql, problem.surroundings[lower].flux(tl), 3e-6 * std::abs(ql));
 }
 
 TEST(ThicknessRule, IntegratesWhatDependsOnTemperature) {
