@@ -36,8 +36,8 @@ private:
   std::vector<double> weight_;       // V μ/(2τ) [J]; of a liquid that is not Newtonian V/(2τ)
   Liquid liquid_;
   FlowCurve flow_;
-  double duration_ = 0;         // τ [s]
-  std::vector<Vector3> stress_; // of a liquid that is not Newtonian, once Newton has gone a step [Pa m²]
+  std::vector<double> duration_; // τ, reduced by temperature (stage.h) [s]
+  std::vector<Vector3> stress_;  // of a liquid that is not Newtonian, once Newton has gone a step [Pa m²]
   std::shared_ptr<const Connectivity> mesh_;
 };
 

@@ -28,7 +28,7 @@ struct alignas(64) MidEdgeReference {
   // counts.
   LaneNumbers folding[3], lean_cosine[3], lean_sine[3], upright[3];
   LaneNumbers volume, thickness; // for flow curves; the volume as stiffened [m³], [m]
-  double duration;               // τ [s]
+  LaneNumbers duration;          // likewise; τ, reduced by temperature (stage.h) [s]
   bool folded;                   // whether any lane has a director that leans far
 };
 
@@ -58,7 +58,8 @@ struct alignas(64) MidEdgeStart {
   LaneNumbers rate, stiffening;  // μ/(2 τ), as stiffened, and by how much it is [Pa], [1]
   LaneNumbers sign[3];           // 1 where edge k runs from its lower to its higher vertex, else -1
   LaneNumbers held[3];           // 1 where edge k's director is held, else 0
-  double ratio, duration;        // of the stage, see stage.h; τ [s]
+  LaneNumbers duration;          // τ, reduced by temperature (stage.h) [s]
+  double ratio;                  // of the stage, see stage.h
 };
 
 // What works on the area A within the arcs (area_loads.h).

@@ -71,13 +71,13 @@ void MidEdgeShell::refer(const Stage& stage, std::size_t batch) {
   MidEdgeStart start;
   MidEdgeState previous;
   start.ratio = stage.previous ? stage.ratio : 0;
-  start.duration = stage.duration;
   for (int lane = 0; lane < lane_count; ++lane) {
     const std::size_t t = std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1);
     const Corners& v = mesh_->triangles[t];
     start.volume[lane] = stage.start->volumes[t];
     start.rate[lane] = stage.viscosity[t] / (2 * stage.duration) * stage.stiffening(t);
     start.stiffening[lane] = stage.stiffening(t);
+    start.duration[lane] = stage.reduced_time(t);
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const std::uint32_t edge = mesh_->triangle_edges[t][at];

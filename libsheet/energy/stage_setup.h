@@ -15,6 +15,9 @@ namespace sheet {
 // points.
 [[nodiscard]] bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
 
+// How warm the triangles are taken to be at the stage's end, with the shift of their flow curves.
+void set_temperatures(std::vector<double> temperatures, Stage& stage);
+
 // Sets the angles of u so that each director stands to the mean of the normals at its edge as it did at the start: a
 // guess for positions that were extrapolated.
 void turn_with_normals(const Stage& stage, Unknowns& u);

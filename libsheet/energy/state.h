@@ -17,10 +17,12 @@ struct State {
   std::vector<Vector3> positions;
   std::vector<Vector3> velocities;
   std::vector<double> volumes;
-  std::vector<double> director_angles; // none: all are 0
-  std::vector<Vector3> overshoot;      // positions less where a solid holds them [m], see overshoot.h; none: all are 0
-  std::vector<Gas> gas;                // that it encloses, one an enclosure; without one: as its law starts
-  double time = 0;                     // [s]
+  std::vector<double> temperatures;      // of each triangle [K]; none: the liquid has none
+  std::vector<double> temperature_rates; // how fast they changed last [K/s]; none: all are 0
+  std::vector<double> director_angles;   // none: all are 0
+  std::vector<Vector3> overshoot; // positions less where a solid holds them [m], see overshoot.h; none: all are 0
+  std::vector<Gas> gas;           // that it encloses, one an enclosure; without one: as its law starts
+  double time = 0;                // [s]
 };
 
 } // namespace sheet

@@ -340,6 +340,12 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
     const auto angle = angles->values<double>();
     state.director_angles.assign(angle.begin(), angle.end());
   }
+  const auto temperature = temperatures(frame);
+  state.temperatures.assign(temperature.begin(), temperature.end());
+  if (const Array* rates = frame.find("temperature_rate")) {
+    const auto rate = rates->values<double>();
+    state.temperature_rates.assign(rate.begin(), rate.end());
+  }
   if (const Array* amounts = frame.find("gas.amount"))
     for (const double amount : amounts->values<double>())
       state.gas.push_back({.amount = amount});
@@ -373,6 +379,12 @@ void put_state(const State& state, Frame& frame) {
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());
+  if (!state.temperatures.empty()) {
+    put_temperatures(state.temperatures, frame);
+    Array rates = formats::make_standard_array("temperature_rate", frame.triangles);
+    std::ranges::copy(state.temperature_rates, rates.values<double>().begin());
+    frame.put(std::move(rates));
+  }
   put_director_angles(state.director_angles, frame);
   if (!state.gas.empty()) {
     put_of_gas(frame, "gas.amount", "m^3", state.gas, &Gas::amount);
@@ -455,9 +467,17 @@ double next_event(const Scene& scene, double t) {
     if (hold.until)
       consider(*hold.until);
   }
-  for (const scene::Solid& solid : scene.solids)
+  const auto consider_rows = [&](const std::optional<scene::Timed<double>>& timed) {
+    if (timed && timed->entries.size() > 1)
+      for (const auto& entry : timed->entries)
+        consider(entry.time);
+  };
+  for (const scene::Solid& solid : scene.solids) {
     consider_motion(solid.motion);
+    consider_rows(solid.temperature);
+  }
   for (const scene::Inflow& inflow : scene.inflows) {
+    consider_rows(inflow.temperature);
     consider_motion(scene::Translating{inflow.velocity});
     if (inflow.until)
       consider(*inflow.until);

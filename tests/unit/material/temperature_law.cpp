@@ -34,7 +34,7 @@ TemperatureLaw tabulated_glass() {
   return law;
 }
 
-std::vector<TemperatureLaw> laws() {
+std::vector<TemperatureLaw> temperature_laws() {
   return {{.kind = arrhenius, .reference_temperature = 1400, .activation_energy = 2e5},
           {.kind = exponential, .reference_temperature = 300, .temperature_coefficient = 0.06},
           float_glass(1000),
@@ -43,7 +43,7 @@ std::vector<TemperatureLaw> laws() {
 }
 
 TEST(TemperatureLaw, HasTheReferenceViscosityAtItsReference) {
-  for (const TemperatureLaw& law : laws())
+  for (const TemperatureLaw& law : temperature_laws())
     EXPECT_NEAR(ViscosityShift(law).factor(law.reference_temperature), 1, 1e-14);
   EXPECT_EQ(ViscosityShift().factor(273), 1);
   EXPECT_EQ(ViscosityShift(TemperatureLaw{}).at(273).log_slope, 0);
@@ -60,7 +60,8 @@ TEST(TemperatureLaw, OfFloatGlassHasItsFixedPoints) {
 }
 
 TEST(TemperatureLaw, IsTheLaw) {
-  const ViscosityShift arrhenius_shift(laws()[0]), exponential_shift(laws()[1]), wlf_shift(laws()[3]);
+  const ViscosityShift arrhenius_shift(temperature_laws()[0]), exponential_shift(temperature_laws()[1]),
+      wlf_shift(temperature_laws()[3]);
   EXPECT_NEAR(arrhenius_shift.factor(1300), std::exp(2e5 / 8.31446261815324 * (1 / 1300.0 - 1 / 1400.0)), 1e-13);
   EXPECT_NEAR(exponential_shift.factor(290), std::exp(0.6), 1e-14);
   EXPECT_NEAR(wlf_shift.factor(383), std::pow(10, -17.44 * 10 / 61.6), 1e-16);
@@ -79,7 +80,7 @@ TEST(TemperatureLaw, OfATableIsItsRowsAndSmoothBetween) {
 }
 
 TEST(TemperatureLaw, SlopesAreThoseOfTheFactor) {
-  for (const TemperatureLaw& law : laws()) {
+  for (const TemperatureLaw& law : temperature_laws()) {
     const ViscosityShift shift(law);
     for (const double by : {-13.0, 4.0, 29.0}) {
       const double t = law.reference_temperature + by, step = 1e-4;
@@ -93,21 +94,21 @@ TEST(TemperatureLaw, EndsWhereItSaysNothing) {
   const TemperatureLaw glass = float_glass(1000), tabulated = tabulated_glass();
   EXPECT_FALSE(range_of(glass).holds(293));
   EXPECT_TRUE(range_of(glass).holds(800));
-  EXPECT_FALSE(range_of(laws()[3]).holds(321));
-  EXPECT_TRUE(range_of(laws()[3]).holds(322));
+  EXPECT_FALSE(range_of(temperature_laws()[3]).holds(321));
+  EXPECT_TRUE(range_of(temperature_laws()[3]).holds(322));
   EXPECT_FALSE(range_of(tabulated).holds(1501));
-  EXPECT_TRUE(range_of(laws()[0]).holds(1e4));
+  EXPECT_TRUE(range_of(temperature_laws()[0]).holds(1e4));
   for (const double cold : {20.0, 519.25, 530.0}) {
     EXPECT_EQ(ViscosityShift(glass).factor(cold), glass.greatest_factor) << cold;
     EXPECT_EQ(ViscosityShift(glass).at(cold).log_slope, 0);
   }
-  EXPECT_EQ(ViscosityShift(laws()[3]).factor(300), laws()[3].greatest_factor);
+  EXPECT_EQ(ViscosityShift(temperature_laws()[3]).factor(300), temperature_laws()[3].greatest_factor);
   EXPECT_EQ(ViscosityShift(tabulated).factor(600), ViscosityShift(tabulated).factor(900));
   EXPECT_EQ(ViscosityShift(tabulated).at(600).log_slope, 0);
 }
 
 TEST(TemperatureLaw, TellsTheTemperatureOfAFactor) {
-  for (const TemperatureLaw& law : laws()) {
+  for (const TemperatureLaw& law : temperature_laws()) {
     const ViscosityShift shift(law);
     const double t = law.reference_temperature + 11.5;
     EXPECT_NEAR(shift.temperature_of(shift.factor(t), 200, 3000), t, 1e-9 * t);
