@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/heat/local_heat.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "libsheet/geometry/metric.h"
+
+namespace sheet::heat {
+
+namespace {
+
+// Newton's method for T⁴ starts no colder than this part of what radiates: from far below it would go far beyond.
+constexpr double least_start = 0.5;
+
+} // namespace
+
+LocalHeat::LocalHeat(const Problem& problem)
+    : problem_(problem), degrees_(problem.conductivity > 0 ? problem.profile.degrees : std::vector<int>{0}) {
+  const int n = modes();
+  across_ = Matrix::Zero(n, n);
+  for (const Face face : {upper, lower})
+    at_face_[face] = Modes::Ones(n);
+  for (int i = 0; i < n; ++i) {
+    at_face_[lower][i] = degrees_[static_cast<std::size_t>(i)] % 2 == 0 ? 1 : -1;
+    for (int j = 0; j < n; ++j) {
+      const int a = degrees_[static_cast<std::size_t>(i)], b = degrees_[static_cast<std::size_t>(j)];
+      const int less = std::min(a, b);
+      across_(i, j) = (a - b) % 2 == 0 ? 2 * less * (less + 1) : 0;
+    }
+  }
+  first_contact_.assign(problem.temperatures.size() + 1, 0);
+  for (const WallContact& contact : problem.contacts)
+    ++first_contact_[contact.triangle + 1];
+  for (std::size_t t = 1; t < first_contact_.size(); ++t)
+    first_contact_[t] += first_contact_[t - 1];
+}
+
+std::span<const WallContact> LocalHeat::contacts(std::size_t t) const {
+  return problem_.contacts.subspan(first_contact_[t], first_contact_[t + 1] - first_contact_[t]);
+}
+
+double LocalHeat::area(std::size_t t) const {
+  return 0.5 * std::sqrt(std::max(0.0, form_determinant(problem_.squared_lengths[t])));
+}
+
+double LocalHeat::seen_area(std::size_t t, Face face) const {
+  const std::span<const double> exposed = problem_.exposed[face];
+  return area(t) * (exposed.empty() ? 1 : exposed[t]);
+}
+
+LocalHeat::Modes LocalHeat::before(std::size_t t) const {
+  Modes modes = Modes::Zero(this->modes());
+  modes[0] = problem_.temperatures[t];
+  const auto beyond = static_cast<std::size_t>(modes.size()) - 1;
+  for (std::size_t k = 0; k < beyond && !problem_.profile.follows && !problem_.modes.empty(); ++k)
+    modes[static_cast<Eigen::Index>(k + 1)] = problem_.modes[t * beyond + k];
+  return modes;
+}
+
+LocalHeat::State LocalHeat::start(std::size_t t) const {
+  State state{before(t), {}};
+  for (const Surroundings& around : problem_.surroundings)
+    if (around.emissivity > 0)
+      state.modes[0] = std::max(state.modes[0], least_start * around.radiant);
+  return state;
+}
+
+LocalHeat::Step LocalHeat::step(std::size_t t, const State& state, double exchange) const {
+  const double a = area(t), volume = problem_.volumes[t], by_area = problem_.conductivity * a * a / volume; // k A/h
+  const Modes before = this->before(t);
+  Matrix j = by_area * across_;
+  Modes residual = j * state.modes;
+  for (int k = 0; k < modes(); ++k) {
+    if (k > 0 && problem_.profile.follows)
+      break;
+    const double capacity =
+        problem_.heat_capacity * volume / (problem_.duration * (2 * degrees_[static_cast<std::size_t>(k)] + 1));
+    j(k, k) += capacity;
+    residual[k] += capacity * (state.modes[k] - before[k]);
+  }
+  residual[0] -= problem_.sources.empty() ? 0 : problem_.sources[t];
+  std::array<double, 2> leaving{}, slope{};
+  for (const Face face : {upper, lower}) {
+    const double seen = seen_area(t, face), there = face_temperature(state, face);
+    leaving[face] = seen * problem_.surroundings[face].flux(there);
+    slope[face] = seen * problem_.surroundings[face].slope(there);
+  }
+  for (const WallContact& contact : contacts(t)) {
+    leaving[contact.face] += contact.conductance * (face_temperature(state, contact.face) - contact.temperature);
+    slope[contact.face] += contact.conductance;
+  }
+  for (const Face face : {upper, lower}) {
+    residual += leaving[face] * at_face_[face];
+    j += slope[face] * at_face_[face] * at_face_[face].transpose();
+  }
+  const Eigen::LLT<Matrix> factor(j);
+  const Modes answer = factor.solve(Modes::Unit(modes(), 0));
+  return {state.modes - factor.solve(residual), answer, 1 / (1 + exchange * answer[0])};
+}
+
+double LocalHeat::advance(std::size_t t, const Step& step, double to_edges, State& state) const {
+  const Modes change = step.alone - to_edges * step.answer - state.modes;
+  for (const Face face : {upper, lower}) {
+    const double there = face_temperature(state, face), seen = seen_area(t, face);
+    const Surroundings& around = problem_.surroundings[face];
+    state.surroundings[face] = seen * (around.flux(there) + around.slope(there) * at_face_[face].dot(change));
+  }
+  state.modes += change;
+  return change.cwiseAbs().maxCoeff();
+}
+
+double LocalHeat::lost(std::size_t t, const State& state) const {
+  double sum = state.surroundings[upper] + state.surroundings[lower];
+  for (const WallContact& contact : contacts(t))
+    sum += contact.conductance * (face_temperature(state, contact.face) - contact.temperature);
+  return sum;
+}
+
+} // namespace sheet::heat
