@@ -94,6 +94,17 @@ void Membrane::follow(const Unknowns& u, const Unknowns& step) {
   stress_ = std::move(next);
 }
 
+// Twice the potential, or V τ η γ̇².
+void Membrane::add_dissipated(const Unknowns& u, std::span<double> energy) const {
+  each_in_parallel(energy.size(), [&](std::size_t t) {
+    const Corners& v = mesh_->triangles[t];
+    const Vector3 q = squared_lengths(Stage::position(u, v[0]), Stage::position(u, v[1]), Stage::position(u, v[2]));
+    const Vector3 m = q - reference_[t];
+    const double work = weight_[t] * m.dot(raised_[t].dissipated(m)); // with a viscosity of 1, of a flow curve
+    energy[t] += flow_.newtonian() ? work : work * flow_.viscosity(strain_rate(raised_[t], m, duration_[t]));
+  });
+}
+
 double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
   if (!flow_.newtonian())
     return curved_derivatives(i, u, gradient, nullptr, false);

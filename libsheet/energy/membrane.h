@@ -25,6 +25,7 @@ public:
 
   // See term.h.
   void follow(const Unknowns& u, const Unknowns& step);
+  void add_dissipated(const Unknowns& u, std::span<double> energy) const;
   void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
 
 private:

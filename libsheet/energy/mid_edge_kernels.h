@@ -70,6 +70,7 @@ struct alignas(64) MidEdgeLoads {
 
 struct alignas(64) MidEdgeResult {
   LaneNumbers value;        // [J]
+  LaneNumbers dissipated;   // what viscosity dissipates in the stage, caps and folds apart [J]; not of `value`
   LaneNumbers gradient[12]; // [N], [N m]
   LaneNumbers hessian[78];  // lower triangle, row by row
 };

@@ -144,6 +144,20 @@ void MidEdgeShell::follow(const Unknowns& u, const Unknowns& step) {
   stresses_ = std::move(next);
 }
 
+void MidEdgeShell::add_dissipated(const Unknowns& u, std::span<double> energy) const {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count),
+                    [&](const auto& range) {
+                      MidEdgeResult result;
+                      for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
+                        const std::size_t first = batch * lane_count;
+                        mid_edge_kernels().gradient(references_[batch], global_state(u, first), arcs_, nullptr,
+                                                    flow_of(first), result);
+                        for (std::size_t t = first; t < std::min(first + lane_count, triangles_); ++t)
+                          energy[t] += result.dissipated[t - first];
+                      }
+                    });
+}
+
 // The unknowns of lane_count triangles; lanes beyond the last triangle are like it.
 void MidEdgeShell::gather(const Unknowns& u, std::size_t first, LaneNumbers (&to)[12]) const {
   const auto angles = static_cast<Eigen::Index>(3 * mesh_->vertices);

@@ -113,6 +113,17 @@ public:
     own_force_ = std::move(next);
   }
 
+  void add_dissipated(const Unknowns& u, std::span<double> energy) const {
+    each_in_parallel(corners_.size(), [&](std::size_t t) {
+      VectorN<9> x;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        x.segment<3>(3 * c) = Stage::position(u, mesh_->triangles[t][static_cast<std::size_t>(c)]);
+      each_corner(t, x, [&](int c, const Vector3& slid, const Vector3&) {
+        energy[t] += slide_of(corners_[t][static_cast<std::size_t>(c)], slid).stiffness * slid.squaredNorm();
+      });
+    });
+  }
+
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
     for (std::size_t t = 0; t < corners_.size(); ++t) {
       const Corners& corners = mesh_->triangles[t];

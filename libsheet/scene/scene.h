@@ -198,7 +198,7 @@ struct Heat {
   double specific_heat = 0; // [J/(kg K)]
   double conductivity = 0;  // along the sheet [W/(m K)]
   double temperature = 0;   // at the start [K]
-  HeatedFace upper, lower;
+  HeatedFace upper = {}, lower = {};
   bool viscous_heating = false;
   bool operator==(const Heat&) const = default;
 };

@@ -14,6 +14,7 @@
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
+#include "libsheet/sheet/account.h"
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
@@ -308,6 +309,34 @@ ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& 
   return {std::move(faces.rims), std::move(slopes)};
 }
 
+heat::Surroundings surroundings(const scene::HeatedFace& face) {
+  return {face.transfer, face.ambient, face.emissivity, face.radiant};
+}
+
+// With the solids that the sheet touches.
+HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<const solid::Solids>& solids) {
+  HeatModel model;
+  model.capacity = scene.material.density * scene.heat->specific_heat;
+  model.conductivity = scene.heat->conductivity;
+  if (model.conductivity > 0)
+    model.profile = heat::parabola();
+  model.surroundings = {surroundings(scene.heat->upper), surroundings(scene.heat->lower)};
+  model.viscous = scene.heat->viscous_heating;
+  const auto touched = touched_solids(frame, scene.solids.size());
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    WarmWall wall;
+    for (std::uint32_t v = 0; v < touched.size(); ++v)
+      if (touched[v] == static_cast<std::int32_t>(i))
+        wall.vertices.push_back(v);
+    wall.conductance = scene.solids[i].contact_conductance;
+    if (const auto& temperature = scene.solids[i].temperature)
+      wall.temperature = [timed = *temperature](double t) { return scene::value_at(timed, t); };
+    wall.normal = [solids, i](double t, const Vector3& x) { return solids->at(i, x, t).normal; };
+    model.walls.push_back(std::move(wall));
+  }
+  return model;
+}
+
 // What a model has of a scene in any frame.
 Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   Model model;
@@ -394,6 +423,14 @@ void put_state(const State& state, Frame& frame) {
   ++frame.step;
 }
 
+void put_heat_moved(const State& state, Frame& frame) {
+  if (state.temperatures.empty())
+    return;
+  const HeatMoved& moved = state.heat_moved;
+  const std::array amounts{moved.generated, moved.upper, moved.lower, moved.solids};
+  add_to_account(frame, "heat.moved", "J", amounts);
+}
+
 void put_reactions(std::span<const Vector3> reactions, bool of_holds, Frame& frame) {
   frame.erase("touch_force");
   frame.erase("hold_force");
@@ -425,6 +462,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   add_inlets(scene, frame, mesh, model);
   if (scene.model.faces)
     model.faces = faces_of(scene, frame, mesh);
+  if (scene.heat)
+    model.heat = heat_of(scene, frame, solids);
   model.contacts = read_springs(frame); // as sheet-collide has set them up
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))

@@ -69,9 +69,9 @@ void check_edges(const Frame& frame, const Connectivity& mesh) {
 }
 
 // Liquid that flows on solids has to know their surfaces, and so has what sticks to belts, which run along them, and
-// what is squeezed between two.
+// what is squeezed between two, and what takes heat.
 bool needs_surfaces(const Scene& scene) {
-  return flows_on_solids(scene) || solids_squeeze(scene) ||
+  return flows_on_solids(scene) || solids_squeeze(scene) || (scene.heat && !scene.solids.empty()) ||
          std::ranges::any_of(scene.solids, [](const scene::Solid& solid) { return !solid.surface_velocity.isZero(0); });
 }
 
@@ -191,6 +191,7 @@ struct StepStage::Impl {
     rest.note(report.flat_fallbacks > 0);
     rest.put(frame);
     put_state(state, frame);
+    put_heat_moved(state, frame);
     put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), frame);
   }
 

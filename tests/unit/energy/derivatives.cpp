@@ -225,7 +225,7 @@ void check_all(Elements<n>& elements, Properties properties, bool second_stage_t
     const Liquid liquid{.viscosity = properties.viscosity, .density = 3, .surface_tension = 0.7, .law = properties.law};
     Stage stage = first_stage(s, liquid, 0.05, 0.05, elements.stencil() == Stencil::triangle_edges);
     for (std::size_t t = 0; properties.warm && t < s.volumes.size(); ++t)
-      stage.shift.push_back(0.2 + static_cast<double>(t % 5));
+      stage.shift.push_back(0.5 + 0.25 * static_cast<double>(t % 5));
     Unknowns first = stage.begin;
     if (second_stage_too && round % 2) {
       for (Eigen::Index k = 0; k < first.size(); ++k)

@@ -204,12 +204,12 @@ public:
 
 private:
   void add_heat(Scene& s) {
-    Heat heat{.specific_heat = positive(), .conductivity = below(2) ? positive() : 0, .temperature = positive()};
-    for (HeatedFace* face : {&heat.upper, &heat.lower})
+    Heat made{.specific_heat = positive(), .conductivity = below(2) ? positive() : 0, .temperature = positive()};
+    for (HeatedFace* face : {&made.upper, &made.lower})
       if (below(2))
         *face = {positive(), positive(), below(2) ? 0.5 : 0, positive()};
-    heat.viscous_heating = below(2) == 1;
-    s.heat = heat;
+    made.viscous_heating = below(2) == 1;
+    s.heat = made;
     s.material.temperature_law.reference_temperature = 300;
     if (below(2)) {
       s.material.temperature_law.kind = TemperatureLawKind::arrhenius;
