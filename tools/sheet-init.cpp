@@ -21,6 +21,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/modelled.h"
+#include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/scene/document.h"
@@ -125,9 +126,14 @@ std::string explained(Source source, bool ring_alone) {
       source.sets.push_back(set);
   }
   std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));
-  const std::string init = command_of(source);
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
   const double until = sheet::proposed_ring(scene, frame, wishes).until;
+  if (const auto parting = sheet::must_part(scene, frame, until)) {
+    explanation.warnings.push_back(parting->why + ", but what touches a solid never comes off. [contact] adhesion lets "
+                                                  "it, as in the ring below");
+    source.sets.push_back(fmt::format("contact.adhesion=\"{:.2g} Pa\"", parting->adhesion));
+  }
+  const std::string init = command_of(source);
   std::ranges::copy(sheet::contact_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, wishes, init)

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t impulse_rounds = 10, sweeps_of_round = 30, group_rounds = 5;
 constexpr std::array<double, 4> parts_of_way = {1, 0.5, 0.25, 0}; // pull-back
 constexpr double impulse_part = 0.5;                              // of the contact distance, that impulses want
+constexpr double longest_throw = 2; // by impulses, times what brings features apart: their ways and their distance
 
 // n·Σ w_i x_i ≥ distance
 struct Inequality {
@@ -41,6 +42,7 @@ public:
     const std::vector<Vector3> asked = path_.end, velocity = path_.velocity;
     note(hits);
     hits = give_impulses(std::move(hits));
+    hits = take_back_throws(std::move(hits), asked);
     hits = move_groups(std::move(hits));
     pull_back(std::move(hits));
     set_velocities(asked, velocity);
@@ -124,6 +126,31 @@ private:
       hits = remaining(std::move(hits), before);
     }
     return hits;
+  }
+
+  // Where many pairs want apart what has no room for it, their impulses drive each other on, without end. An island in
+  // which they move a vertex farther than any of its pairs can want goes on from where it was asked to go.
+  std::vector<Hit> take_back_throws(std::vector<Hit> hits, const std::vector<Vector3>& asked) {
+    std::vector<double> wanted(asked.size(), 0); // at each vertex [m]
+    for (const Inequality& q : inequalities_) {
+      double way = 0;
+      for (const std::uint32_t v : q.vertices)
+        way = std::max(way, (asked[v] - path_.start[v]).norm());
+      for (const std::uint32_t v : q.vertices)
+        wanted[v] = std::max(wanted[v], way + q.distance);
+    }
+    const std::vector<Vector3> before = path_.end;
+    for (const auto& island : islands_.all()) {
+      double farthest = 0, most = 0;
+      for (const std::uint32_t v : island) {
+        farthest = std::max(farthest, (path_.end[v] - asked[v]).norm());
+        most = std::max(most, wanted[v]);
+      }
+      if (farthest > longest_throw * most)
+        for (const std::uint32_t v : island)
+          path_.end[v] = asked[v];
+    }
+    return path_.end == before ? std::move(hits) : remaining(std::move(hits), before);
   }
 
   // Hits of the path as it is now, when `hits` were those of the ends `before`.

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "libsheet/base/overloaded.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/scales.h"
+#include "libsheet/scene/solid_width.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::health {
@@ -138,27 +138,12 @@ void look_for_coarse_folds(const Frame& frame, const Surface& surface, std::vect
   worst.add_to(seen, surface.area);
 }
 
-// How wide what a sheet may lie on is at least [m]: the radius of what is round, the narrower side of a box's largest
-// face. Of a mesh it is not known.
-double width_of(const scene::SolidShape& shape) {
-  return std::visit(
-      Overloaded{[](const scene::Sphere& s) { return s.radius; },
-                 [](const scene::SolidBox& b) {
-                   std::array<double, 3> sides{b.size.x(), b.size.y(), b.size.z()};
-                   std::ranges::sort(sides);
-                   return sides[1];
-                 },
-                 [](const scene::Capsule& c) { return c.radius; }, [](const scene::Cylinder& c) { return c.radius; },
-                 [](const scene::HalfSpace&) { return infinity; }, [](const scene::SolidMesh&) { return infinity; }},
-      shape);
-}
-
 void look_at_solids(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
   if (scene.solids.empty() || frame.find("touch") == nullptr)
     return;
   std::vector<double> width;
   for (const scene::Solid& solid : scene.solids)
-    width.push_back(width_of(solid.shape));
+    width.push_back(scene::width_of(solid.shape));
   const auto touch = touched_solids(frame, scene.solids.size());
   const auto corners = triangles(frame);
   Worst worst(Trouble::coarse_solid);

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "libsheet/geometry/area.h"
 #include "libsheet/material/flow_curve.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
+#include "libsheet/plan/piling.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -21,7 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using formats::Frame;
 
-constexpr double far_down = 3, far_spread = 5, long_fall = 3; // thicknesses
+constexpr double far_down = 3, far_spread = 5; // thicknesses
 
 std::string question(const std::string& solid, const std::string& otherwise) {
   return fmt::format("does liquid stay where it touches {}? contact = \"stick\" holds it there, though {}: contact = "
@@ -67,45 +67,17 @@ std::string warning_of_stuck_slope(const Scene& scene, const solid::Solids& soli
                               way, until));
 }
 
-// Whether what lands there with that speed [m/s] is not drawn away faster by a belt.
-bool piles_up(const Landing& landing, double speed, double thickness) {
-  return landing.fall > long_fall * thickness && landing.there.velocity.norm() < speed;
-}
-
-// Whether the most of it is steeper than 60 degrees.
-bool is_upright(const Scene& scene, const Frame& first) {
-  const Vector3d down = scene.environment.gravity->normalized();
-  const auto x = positions(first);
-  double area = 0, below = 0;
-  for (const Corners& c : triangles(first)) {
-    const TriangleArea triangle(x[c[0]], x[c[1]], x[c[2]]);
-    area += triangle.area;
-    below += std::abs((x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).dot(down)) / 2;
-  }
-  return below < area / 2;
-}
-
-// Of the first solid on which something folds or piles up, though it may pass through itself; else "".
+// Of what folds or piles up, though it may pass through itself; else "".
 std::string warning_of_passing_through(const Scene& scene, const solid::Solids& solids, const Frame& first,
-                                       const std::vector<Landing>& all, double thickness) {
+                                       const std::vector<Landing>& all) {
   if (scene.contact && scene.contact->self)
     return {};
-  const auto warning = [&](const std::string& what, std::size_t solid) {
-    return fmt::format("{} lands on {} and folds or piles up, but may pass through itself: [contact] self = true keeps "
-                       "its layers apart",
-                       what, solids.name(solid));
-  };
-  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
-    const double v0 = scene::value_at(scene.inflows[i].velocity, first.time).norm();
-    if (const auto landing = landing_of_inflow(scene, first, i);
-        landing && piles_up(*landing, speed_after_fall(scene, v0, landing->fall), scene.inflows[i].thickness))
-      return warning("what flows in", landing->solid);
-  }
-  if (all.empty() || !scene.holds.empty() || !scene.inflows.empty() || !is_upright(scene, first))
-    return {};
-  const auto landing = std::ranges::max_element(all, {}, &Landing::fall);
-  const bool piles = piles_up(*landing, speed_after_fall(scene, 0, landing->fall), thickness);
-  return piles ? warning("the upright sheet", landing->solid) : "";
+  const auto piling = what_piles_up(scene, first, all);
+  return piling
+             ? fmt::format("{} lands on {} and folds or piles up, but may pass through itself: [contact] self = true "
+                           "keeps its layers apart",
+                           piling->what, solids.name(piling->solid))
+             : "";
 }
 
 } // namespace
@@ -120,7 +92,7 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Frame& first
   const bool asked = std::ranges::any_of(warnings, [](const std::string& warning) { return !warning.empty(); });
   for (std::size_t i = 0; i < solids.size() && !asked; ++i)
     warnings.push_back(warning_of_stuck_slope(scene, solids, i, all, thickness, until));
-  warnings.push_back(warning_of_passing_through(scene, solids, first, all, thickness));
+  warnings.push_back(warning_of_passing_through(scene, solids, first, all));
   std::erase(warnings, "");
   return warnings;
 }

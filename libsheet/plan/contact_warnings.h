@@ -15,8 +15,7 @@ namespace sheet {
 //     three thicknesses, U = rho g h² sin(slope)/(3 mu)
 //   - under an inflow that lands on a solid at rest: spreading on a level one it would run more than five thicknesses,
 //     (rho g q³/(3 mu))^(1/5) t^(4/5), q what flows in per width [Huppert 1982, J. Fluid Mech. 121]
-// As folding or piling up counts what falls on a solid for more than three thicknesses, an inflow, or sheets that are
-// free and rather upright; but not on a belt that draws it away faster than it comes.
+// What folds or piles up: piling.h.
 [[nodiscard]] std::vector<std::string> contact_warnings(const Scene& scene, const formats::Frame& first, double until);
 
 } // namespace sheet

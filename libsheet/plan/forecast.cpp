@@ -100,7 +100,8 @@ Forecast forecast(const Scene& scene, const Frame& first, const ProposedRing& ri
   constexpr double with_a_law = 3, with_yield = 5; // more iterations a step
   const double edge = mean_edge(first), start = static_cast<double>(first.vertices);
   const double area = std::pow(*measured(first).length, 2), until = std::max(0.0, ring.until - first.time);
-  const double entered = entered_area(scene, first, until, edge) / area * start;
+  constexpr double in_folds = 3; // times as many vertices
+  const double entered = entered_area(scene, first, until, edge) / area * start * (ring.folds ? in_folds : 1);
   Forecast run{};
   run.frames = 1 + std::ceil(until * ring.fps * (1 - 1e-9));
   run.vertices = start + entered / 2 + vertices_of_sheets_that_enter(scene, until);

@@ -22,9 +22,12 @@ std::optional<Landing> landing_from(const solid::Solids& solids, const Vector3d&
   constexpr double farthest = 100, near = 1e-3; // times the size
   double way = 0;
   while (way < farthest * size) {
-    Landing nearest{.solid = 0, .fall = way, .there = {std::numeric_limits<double>::infinity(), -down, {}}};
+    Landing nearest{.solid = 0,
+                    .fall = way,
+                    .place = x + way * down,
+                    .there = {std::numeric_limits<double>::infinity(), -down, {}}};
     for (std::size_t i = 0; i < solids.size(); ++i)
-      if (const solid::SolidPoint point = solids.at(i, x + way * down, t); point.distance < nearest.there.distance) {
+      if (const solid::SolidPoint point = solids.at(i, nearest.place, t); point.distance < nearest.there.distance) {
         nearest.solid = i;
         nearest.there = point;
       }

@@ -14,6 +14,7 @@ namespace sheet {
 struct Landing {
   std::size_t solid;       // its number in the scene
   double fall;             // the way down to it [m]
+  Vector3 place;           // at the way's end [m]
   solid::SolidPoint there; // of the solid, at the first frame's time
 };
 

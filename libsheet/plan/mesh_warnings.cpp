@@ -12,6 +12,9 @@
 #include "libsheet/geometry/coincident.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/disjoint_sets.h"
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/proposed_ring.h"
+#include "libsheet/scene/solid_width.h"
 #include "libsheet/shape/mesh_measure.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
@@ -95,6 +98,26 @@ std::string warning_of_needles(const Frame& first) {
       count, least * 180 / std::numbers::pi, sharpest, written(x[triangles(first)[sharpest][0]]));
 }
 
+// Of solids that are narrower than edges are long; else "".
+std::string warning_of_narrow_solids(const Scene& scene, const solid::Solids& solids, const Frame& first) {
+  const double edge = mean_edge(first);
+  std::vector<std::size_t> narrow;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    if (scene::width_of(scene.solids[i].shape) < edge)
+      narrow.push_back(i);
+  if (narrow.empty())
+    return {};
+  const auto width = [&](std::size_t i) { return scene::width_of(scene.solids[i].shape); };
+  const std::size_t least = *std::ranges::min_element(narrow, {}, width);
+  const bool thick = *measured(first).thickness > 2 * width(least);
+  return fmt::format(
+      "{}{} narrower ({:.3g} m) than edges are long ({:.3g} m), so triangles span {} instead of lying on "
+      "{}: edge_length = {:.2g} in [sheet]{}",
+      solids.name(least), narrow.size() > 1 ? fmt::format(" and {} more are", narrow.size() - 1) : " is", width(least),
+      edge, narrow.size() > 1 ? "them" : "it", narrow.size() > 1 ? "them" : "it", width(least),
+      thick ? "; and thinner than the sheet: a groove that it draws within the layer is not modelled" : "");
+}
+
 } // namespace
 
 std::string hint_of_scale(const std::string& what, double length) {
@@ -104,8 +127,9 @@ std::string hint_of_scale(const std::string& what, double length) {
 }
 
 std::vector<std::string> mesh_warnings(const Scene& scene, const Frame& first) {
-  std::vector<std::string> warnings{warning_of_pieces(scene, first), warning_of_needles(first)};
   const solid::Solids solids(scene);
+  std::vector<std::string> warnings{warning_of_pieces(scene, first), warning_of_needles(first),
+                                    warning_of_narrow_solids(scene, solids, first)};
   for (std::size_t i = 0; i < solids.size(); ++i)
     if (std::holds_alternative<scene::SolidMesh>(scene.solids[i].shape))
       warnings.push_back(hint_of_scale(solids.name(i), solids.shape(i).bounds().diagonal().norm()));

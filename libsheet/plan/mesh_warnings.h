@@ -13,7 +13,7 @@ namespace sheet {
 [[nodiscard]] std::string hint_of_scale(const std::string& what, double length);
 
 // Of the first frame's meshes: borders that lie on each other but are not joined, pieces that nothing joins, needles,
-// and solids whose numbers may be millimetres. Each with place and remedy.
+// solids whose numbers may be millimetres, and those that are narrower than edges are long. Each with place and remedy.
 [[nodiscard]] std::vector<std::string> mesh_warnings(const Scene& scene, const formats::Frame& first);
 
 } // namespace sheet

@@ -17,11 +17,17 @@ namespace sheet {
 // The mean length of the sheet's edges, those between triangles counted twice [m].
 [[nodiscard]] double mean_edge(const formats::Frame& frame);
 
+// How to remesh what folds where it lands: edges that lie nearer to it than `nearness`, with lengths between these [m].
+struct EdgesInFolds {
+  double nearness, shortest, longest;
+};
+
 // How to run a scene.
 struct ProposedRing {
-  double until;       // [s]
-  double fps;         // frames to keep [1/s]
-  std::string stages; // joined by pipes
+  double until;                           // [s]
+  double fps;                             // frames to keep [1/s]
+  std::optional<EdgesInFolds> folds = {}; // where something folds or piles up (piling.h)
+  std::string stages;                     // joined by pipes
 };
 // What the user has settled.
 struct RingWishes {

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "libsheet/scene/ring.h"
 #include "libsheet/solve/step_stage.h"
 
 namespace sheet {
@@ -50,15 +47,5 @@ Scene at_quality(Scene scene, Quality quality) {
 }
 
 double tolerance_at(Quality quality) { return factors_of(quality).tolerance * default_tolerance; }
-
-std::string pipeline_at(const Scene& scene, Quality quality) {
-  std::string pipeline;
-  for (const scene::RingStage& stage : scene::ring_of(scene)) {
-    pipeline += (pipeline.empty() ? "" : " | ") + stage.program;
-    if (quality != Quality::normal && stage.program == "sheet-step")
-      pipeline += fmt::format(" --tolerance {:g}", tolerance_at(quality));
-  }
-  return pipeline;
-}
 
 } // namespace sheet

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How finely a scene is computed: one word for the lengths of its edges and the errors of its steps together.
 #pragma once
-#include <string>
-
 #include "libsheet/scene/scene.h"
 
 namespace sheet {
@@ -16,8 +14,5 @@ enum class Quality { draft, normal, fine };
 // The error of a step that is allowed, in lengths of the edges: three times that of normal runs for a draft, 0.3 times
 // for fine ones.
 [[nodiscard]] double tolerance_at(Quality quality);
-
-// The ring of the scene (scene/ring.h) with that tolerance.
-[[nodiscard]] std::string pipeline_at(const Scene& scene, Quality quality);
 
 } // namespace sheet

@@ -3,6 +3,7 @@
 // momentum.
 #include "libsheet/collide/self_response.h"
 
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -310,6 +311,32 @@ TEST(SelfResponse, NothingIsThrownByALever) {
   c.expect_safe();
   EXPECT_LT((c.path.end[2] - c.start[2]).norm(), 4 * 0.03);
   EXPECT_LT(c.path.velocity[2].norm(), 4 * 0.03 / c.path.length());
+}
+
+// Layers that are pressed together between two held ones, with vertices of very different masses: nothing ends farther
+// from where it was asked to than all that brings features apart.
+TEST(SelfResponse, NothingIsThrownWhereThereIsNoRoom) {
+  double farthest = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    constexpr double apart = 0.002, way = 0.004;
+    Case c(6, 4, apart);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const std::size_t layer = c.start.size() / 6;
+    for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+      const bool held = v < layer || v >= 5 * layer;
+      c.path.mass[v] = std::exp(5 * uniform(random));
+      c.path.fixed[v] = held && uniform(random) < 0.5 ? all_axes : 0;
+      c.displace(v, held ? Vector3(0, 0, v < layer ? way : -way)
+                         : Vector3(way * Vector3(uniform(random), uniform(random), uniform(random))));
+    }
+    const std::vector<Vector3> asked = c.path.end;
+    EXPECT_GT(c.resolve().hits, 0u);
+    c.expect_safe();
+    for (std::size_t v = 0; v < asked.size(); ++v)
+      farthest = std::max(farthest, (c.path.end[v] - asked[v]).norm());
+  }
+  EXPECT_LT(farthest, 2 * (0.004 * std::sqrt(3.0) + 0.5 * 0.02));
 }
 
 } // namespace

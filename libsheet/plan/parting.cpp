@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/parting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/landing.h"
+#include "libsheet/scene/motion.h"
+#include "libsheet/solid/solids.h"
+
+namespace sheet {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Of a solid's point that is at x when something lands there, at time t: how far above it gets at most, until the end,
+// what flies freely from some time on [m].
+double height_of_throw(const scene::Motion& motion, const Vector3d& x, double t, double until,
+                       const Vector3d& gravity) {
+  constexpr std::size_t times = 400;
+  if (std::holds_alternative<scene::Fixed>(motion) || !(until > t))
+    return 0;
+  const double g = gravity.norm(), step = (until - t) / times;
+  std::vector<double> height; // of the point, along gravity
+  for (std::size_t i = 0; i <= times; ++i)
+    height.push_back(-(scene::motion_between(motion, t, t + static_cast<double>(i) * step) * x - x).dot(gravity) / g);
+  double highest = 0;
+  for (std::size_t i = 1; i < times; ++i)
+    for (std::size_t j = i + 1; j <= times; ++j) {
+      const double flight = static_cast<double>(j - i) * step, speed = (height[i] - height[i - 1]) / step;
+      highest = std::max(highest, height[i] + speed * flight - g * flight * flight / 2 - height[j]);
+    }
+  return highest;
+}
+
+// How long a belt needs to carry what lies at x past its solid's end [s].
+double time_to_end(const solid::Solids& solids, std::size_t number, const Vector3d& x, const Vector3d& normal,
+                   double t) {
+  const Eigen::Isometry3d to_own = solids.pose(number, t).inverse();
+  const Vector3d place = to_own * x, velocity = to_own.linear() * solids.belt_velocity(number, normal);
+  const solid::Box3 box = solids.shape(number).bounds();
+  double time = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i)
+    if (velocity[i] != 0)
+      time = std::min(time, ((velocity[i] > 0 ? box.max()[i] : box.min()[i]) - place[i]) / velocity[i]);
+  return std::max(time, 0.0);
+}
+
+} // namespace
+
+std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first, double until) {
+  if (!scene.environment.gravity || (scene.contact && scene.contact->adhesion))
+    return std::nullopt;
+  const Vector3d& gravity = *scene.environment.gravity;
+  const solid::Solids solids(scene);
+  const double thickness = *measured(first).thickness;
+  const auto parting = [&](const std::string& why) {
+    return Parting{why, scene.material.density * gravity.norm() * thickness / 2};
+  };
+  std::vector<bool> seen(solids.size(), false);
+  std::vector<double> ends(solids.size(), std::numeric_limits<double>::infinity());
+  for (const Landing& landing : landings(scene, first)) {
+    const std::size_t number = landing.solid;
+    const double t = first.time + std::sqrt(2 * std::max(0.0, landing.fall - thickness / 2) / gravity.norm());
+    ends[number] =
+        std::min(ends[number], t + time_to_end(solids, number, landing.place, landing.there.normal, first.time));
+    if (seen[number])
+      continue;
+    seen[number] = true;
+    if (const double thrown = height_of_throw(solids.scene(number).motion, landing.place, t, until, gravity);
+        thrown > thickness)
+      return parting(fmt::format("{} throws what lies on it {:.2g} m up", solids.name(number), thrown));
+  }
+  const auto earliest = std::ranges::min_element(ends);
+  if (earliest == ends.end() || *earliest >= until)
+    return std::nullopt;
+  return parting(fmt::format("{} carries what lies on it past its end, from about {:.2g} s on",
+                             solids.name(static_cast<std::size_t>(earliest - ends.begin())), *earliest));
+}
+
+} // namespace sheet

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sheets that a scene means to come off a solid, though it says no [contact] adhesion, so that nothing ever does.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+struct Parting {
+  std::string why; // which solid, and what it does with the sheet
+  double adhesion; // at which it comes off: half of the sheet's weight by area, rho g h/2 [Pa]
+};
+
+// The first of these that happens before the end of the run, `until` [s], to what lies on a solid or lands on it:
+//   - the solid throws it up: in free flight from some time on it would get farther than its thickness above the solid
+//   - a belt carries it past the solid's end, where the belt does not go on
+// Nothing where the scene has an adhesion, or no gravity.
+[[nodiscard]] std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first, double until);
+
+} // namespace sheet

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/piling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/geometry/area.h"
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+using Eigen::Vector3d;
+using formats::Frame;
+
+constexpr double long_fall = 3; // thicknesses
+
+// Whether what lands there with that speed [m/s] is not drawn away faster by a belt.
+bool piles_up(const Landing& landing, double speed, double thickness) {
+  return landing.fall > long_fall * thickness && landing.there.velocity.norm() < speed;
+}
+
+// Whether the most of it is steeper than 60 degrees.
+bool is_upright(const Scene& scene, const Frame& first) {
+  const Vector3d down = scene.environment.gravity->normalized();
+  const auto x = positions(first);
+  double area = 0, below = 0;
+  for (const Corners& c : triangles(first)) {
+    const TriangleArea triangle(x[c[0]], x[c[1]], x[c[2]]);
+    area += triangle.area;
+    below += std::abs((x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).dot(down)) / 2;
+  }
+  return below < area / 2;
+}
+
+} // namespace
+
+std::optional<Piling> what_piles_up(const Scene& scene, const Frame& first, const std::vector<Landing>& all) {
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    const double v0 = scene::value_at(scene.inflows[i].velocity, first.time).norm();
+    if (const auto landing = landing_of_inflow(scene, first, i);
+        landing && piles_up(*landing, speed_after_fall(scene, v0, landing->fall), scene.inflows[i].thickness))
+      return Piling{"what flows in", landing->solid};
+  }
+  if (all.empty() || !scene.holds.empty() || !scene.inflows.empty() || !is_upright(scene, first))
+    return std::nullopt;
+  const auto landing = std::ranges::max_element(all, {}, &Landing::fall);
+  if (!piles_up(*landing, speed_after_fall(scene, 0, landing->fall), *measured(first).thickness))
+    return std::nullopt;
+  return Piling{"the upright sheet", landing->solid};
+}
+
+} // namespace sheet

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/parting.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/read.h"
+
+namespace sheet {
+namespace {
+
+// A sheet 4 mm thick that lies in the middle of a box, 0.3 m long along x.
+std::optional<Parting> parting_of(const std::string& box, const std::string& contact = "[contact]\n") {
+  const Scene scene = scene::parse_scene(R"([sheet]
+shape = "rectangle"
+size = [0.06, 0.06]
+edge_length = 0.01
+thickness = 0.004
+center = [0, 0.002, 0]
+[material]
+viscosity = 100
+density = 1000
+[environment]
+gravity = [0, -10, 0]
+[[solid]]
+shape = "box"
+size = [0.3, 0.1, 0.3]
+center = [0, -0.05, 0]
+)" + box + "\n" + contact,
+                                         "s");
+  return must_part(scene, checked_first_frame(scene), 1);
+}
+
+// Up at 1 m/s for 0.1 s, and then at once still: it flies 1²/(2 10) = 50 mm high. The weight is 40 Pa.
+TEST(Parting, OfWhatIsThrownUp) {
+  const std::string stops =
+      R"(motion = {kind = "translating", velocity = [[0, 0, 1, 0], [0.1, 0, 1, 0], [0.10001, 0, 0, 0]]})";
+  const auto parting = parting_of(stops);
+  ASSERT_TRUE(parting);
+  EXPECT_NEAR(parting->adhesion, 20, 1e-9);
+  EXPECT_EQ(parting->why, "solid 0 (box) throws what lies on it 0.05 m up");
+  EXPECT_FALSE(parting_of(stops, "[contact]\nadhesion = 1e9\n"));
+  // slower, it flies 2 mm high, half of its thickness
+  EXPECT_FALSE(parting_of(
+      R"(motion = {kind = "translating", velocity = [[0, 0, 0.2, 0], [0.1, 0, 0.2, 0], [0.10001, 0, 0, 0]]})"));
+  // and brought to rest in 0.2 s it stays where it is
+  EXPECT_FALSE(
+      parting_of(R"(motion = {kind = "translating", velocity = [[0, 0, 1, 0], [0.1, 0, 1, 0], [0.3, 0, 0, 0]]})"));
+}
+
+// The rim is 120 mm from the end.
+TEST(Parting, OfWhatABeltCarriesPastItsEnd) {
+  const auto parting = parting_of("surface_velocity = [0.2, 0, 0]");
+  ASSERT_TRUE(parting);
+  EXPECT_EQ(parting->why, "solid 0 (box) carries what lies on it past its end, from about 0.6 s on");
+  EXPECT_FALSE(parting_of("surface_velocity = [0.1, 0, 0]")); // later than the run ends
+}
+
+} // namespace
+} // namespace sheet
