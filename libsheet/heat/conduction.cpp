@@ -35,11 +35,15 @@ std::vector<std::uint32_t> edge_order(const Connectivity& mesh) {
 
 } // namespace
 
+double conducting_area(const Vector3& q) {
+  return std::max(0.5 * std::sqrt(std::max(0.0, form_determinant(q))), least_area * q.sum());
+}
+
 Conductances::Conductances(const Vector3& q, double volume, double conductivity) {
   const double sum = q.sum();
   if (sum <= 0)
     return;
-  const double area = std::max(0.5 * std::sqrt(std::max(0.0, form_determinant(q))), least_area * sum);
+  const double area = conducting_area(q);
   const double per_square = conductivity * volume / area; // k h
   for (std::size_t i = 0; i < 3; ++i)                     // e_j·e_k = (|e_i|² - |e_j|² - |e_k|²)/2
     off[i] = per_square * (2 * q[static_cast<Eigen::Index>(i)] - sum) / (2 * area);
@@ -67,8 +71,7 @@ struct EdgeSystem::Impl {
   SupernodalFactor<double> factor;
 
   explicit Impl(const Connectivity& mesh);
-  void fill(std::span<const Conductances> conductances, std::span<const double> weights,
-            std::span<const Vector3> loads);
+  void fill(std::span<const Conductances> conductances, std::span<const double> weights);
 };
 
 EdgeSystem::Impl::Impl(const Connectivity& mesh) : order(edge_order(mesh)) {
@@ -119,19 +122,16 @@ EdgeSystem::Impl::Impl(const Connectivity& mesh) : order(edge_order(mesh)) {
   factor.analyze(graph);
 }
 
-void EdgeSystem::Impl::fill(std::span<const Conductances> conductances, std::span<const double> weights,
-                            std::span<const Vector3> loads) {
+void EdgeSystem::Impl::fill(std::span<const Conductances> conductances, std::span<const double> weights) {
   each_in_parallel(order.size(), [&](std::size_t c) {
     const auto first = static_cast<std::size_t>(matrix.starts[c]), end = static_cast<std::size_t>(matrix.starts[c + 1]);
-    double diagonal = 0, right = 0;
+    double diagonal = 0;
     for (std::uint32_t s = first_source[first]; s < first_source[first + 1]; ++s) {
       const auto [t, i] = sources[s];
       diagonal += weights[t] - conductances[t].off[(i + 1) % 3] - conductances[t].off[(i + 2) % 3];
-      right += loads[t][i];
     }
     matrix.values[first] = diagonal > 0 ? diagonal : 1; // edges of points conduct nothing
     scale[static_cast<Eigen::Index>(c)] = 1 / std::sqrt(matrix.values[first]);
-    load[static_cast<Eigen::Index>(c)] = right;
     for (std::size_t p = first + 1; p < end; ++p) {
       double value = 0;
       for (std::uint32_t s = first_source[p]; s < first_source[p + 1]; ++s)
@@ -146,16 +146,26 @@ EdgeSystem::~EdgeSystem() = default;
 EdgeSystem::EdgeSystem(EdgeSystem&&) noexcept = default;
 EdgeSystem& EdgeSystem::operator=(EdgeSystem&&) noexcept = default;
 
-std::vector<double> EdgeSystem::solve(std::span<const Conductances> conductances, std::span<const double> weights,
-                                      std::span<const Vector3> loads) {
-  impl_->fill(conductances, weights, loads);
+void EdgeSystem::factorize(std::span<const Conductances> conductances, std::span<const double> weights) {
+  impl_->fill(conductances, weights);
   if (!impl_->factor.factorize(impl_->matrix, impl_->scale, 0))
     fail(ExitCode::not_converged, "conduction of heat: the matrix is not positive definite; are temperatures, volumes "
                                   "and positions finite?");
-  const Eigen::VectorXd solved = impl_->scale.cwiseProduct(impl_->factor.solve(impl_->scale.cwiseProduct(impl_->load)));
-  std::vector<double> x(impl_->order.size());
+}
+
+std::vector<double> EdgeSystem::solve(std::span<const Vector3> loads) {
+  Impl& own = *impl_;
+  each_in_parallel(own.order.size(), [&](std::size_t c) {
+    const auto diagonal = static_cast<std::size_t>(own.matrix.starts[c]);
+    double sum = 0;
+    for (std::uint32_t s = own.first_source[diagonal]; s < own.first_source[diagonal + 1]; ++s)
+      sum += loads[own.sources[s].triangle][own.sources[s].edge];
+    own.load[static_cast<Eigen::Index>(c)] = own.scale[static_cast<Eigen::Index>(c)] * sum;
+  });
+  const Eigen::VectorXd solved = own.factor.solve(own.load);
+  std::vector<double> x(own.order.size());
   for (std::size_t c = 0; c < x.size(); ++c)
-    x[impl_->order[c]] = solved[static_cast<Eigen::Index>(c)];
+    x[own.order[c]] = own.scale[static_cast<Eigen::Index>(c)] * solved[static_cast<Eigen::Index>(c)];
   return x;
 }
 

@@ -22,6 +22,9 @@
 
 namespace sheet::heat {
 
+// The area by which a triangle conducts, of its squared edge lengths [m²].
+[[nodiscard]] double conducting_area(const Vector3& squared_lengths);
+
 // Of one triangle [W/K].
 struct Conductances {
   std::array<double, 3> off = {}; // k h S_ij, the pair opposite edge i
@@ -44,10 +47,10 @@ public:
   EdgeSystem(EdgeSystem&&) noexcept;
   EdgeSystem& operator=(EdgeSystem&&) noexcept;
 
-  // The edges' x with Σ over triangles of (k h S + w 1 1ᵀ) x = Σ over triangles of `loads`. Throws Error (did not
-  // converge) if the matrix is not positive definite.
-  [[nodiscard]] std::vector<double> solve(std::span<const Conductances> conductances, std::span<const double> weights,
-                                          std::span<const Vector3> loads);
+  // Throws Error (did not converge) if the matrix is not positive definite.
+  void factorize(std::span<const Conductances> conductances, std::span<const double> weights);
+  // The edges' x with Σ over triangles of (k h S + w 1 1ᵀ) x = Σ over triangles of `loads`.
+  [[nodiscard]] std::vector<double> solve(std::span<const Vector3> loads);
 
 private:
   struct Impl;

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "libsheet/geometry/metric.h"
+#include "libsheet/heat/conduction.h"
 
 namespace sheet::heat {
 
@@ -15,9 +14,27 @@ namespace {
 // Newton's method for T⁴ starts no colder than this part of what radiates: from far below it would go far beyond.
 constexpr double least_start = 0.5;
 
+// J x = b for both columns of b, by elimination without pivots, as J is positive definite.
+template <class Matrix, class Columns> void solve(Matrix& j, Columns& b) {
+  const Eigen::Index n = j.cols();
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      const double part = j(i, k) / j(k, k);
+      for (Eigen::Index m = i; m < n; ++m)
+        j(m, i) -= part * j(m, k);
+      b.row(i) -= part * b.row(k);
+    }
+  for (Eigen::Index k = n - 1; k >= 0; --k) {
+    for (Eigen::Index i = k + 1; i < n; ++i)
+      b.row(k) -= j(i, k) * b.row(i);
+    b.row(k) /= j(k, k);
+  }
+}
+
 } // namespace
 
-LocalHeat::LocalHeat(const Problem& problem)
+template <int Count>
+LocalHeat<Count>::LocalHeat(const Problem& problem)
     : problem_(problem), degrees_(problem.conductivity > 0 ? problem.profile.degrees : std::vector<int>{0}) {
   const int n = modes();
   across_ = Matrix::Zero(n, n);
@@ -38,20 +55,20 @@ LocalHeat::LocalHeat(const Problem& problem)
     first_contact_[t] += first_contact_[t - 1];
 }
 
-std::span<const WallContact> LocalHeat::contacts(std::size_t t) const {
+template <int Count> std::span<const WallContact> LocalHeat<Count>::contacts(std::size_t t) const {
   return problem_.contacts.subspan(first_contact_[t], first_contact_[t + 1] - first_contact_[t]);
 }
 
-double LocalHeat::area(std::size_t t) const {
+template <int Count> double LocalHeat<Count>::area(std::size_t t) const {
   return 0.5 * std::sqrt(std::max(0.0, form_determinant(problem_.squared_lengths[t])));
 }
 
-double LocalHeat::seen_area(std::size_t t, Face face) const {
+template <int Count> double LocalHeat<Count>::seen_area(std::size_t t, Face face) const {
   const std::span<const double> exposed = problem_.exposed[face];
   return area(t) * (exposed.empty() ? 1 : exposed[t]);
 }
 
-LocalHeat::Modes LocalHeat::before(std::size_t t) const {
+template <int Count> typename LocalHeat<Count>::Modes LocalHeat<Count>::before(std::size_t t) const {
   Modes modes = Modes::Zero(this->modes());
   modes[0] = problem_.temperatures[t];
   const auto beyond = static_cast<std::size_t>(modes.size()) - 1;
@@ -60,7 +77,7 @@ LocalHeat::Modes LocalHeat::before(std::size_t t) const {
   return modes;
 }
 
-LocalHeat::State LocalHeat::start(std::size_t t) const {
+template <int Count> typename LocalHeat<Count>::State LocalHeat<Count>::start(std::size_t t) const {
   State state{before(t), {}};
   for (const Surroundings& around : problem_.surroundings)
     if (around.emissivity > 0)
@@ -68,8 +85,11 @@ LocalHeat::State LocalHeat::start(std::size_t t) const {
   return state;
 }
 
-LocalHeat::Step LocalHeat::step(std::size_t t, const State& state, double exchange) const {
-  const double a = area(t), volume = problem_.volumes[t], by_area = problem_.conductivity * a * a / volume; // k A/h
+template <int Count>
+typename LocalHeat<Count>::Step LocalHeat<Count>::step(std::size_t t, State& state, double exchange,
+                                                       bool new_slopes) const {
+  const double volume = problem_.volumes[t], a = conducting_area(problem_.squared_lengths[t]);
+  const double by_area = a > 0 ? problem_.conductivity * a * a / volume : 1; // k A/h; what is a point has no faces
   const Modes before = this->before(t);
   Matrix j = by_area * across_;
   Modes residual = j * state.modes;
@@ -82,12 +102,14 @@ LocalHeat::Step LocalHeat::step(std::size_t t, const State& state, double exchan
     residual[k] += capacity * (state.modes[k] - before[k]);
   }
   residual[0] -= problem_.sources.empty() ? 0 : problem_.sources[t];
-  std::array<double, 2> leaving{}, slope{};
+  std::array<double, 2> leaving{};
   for (const Face face : {upper, lower}) {
     const double seen = seen_area(t, face), there = face_temperature(state, face);
     leaving[face] = seen * problem_.surroundings[face].flux(there);
-    slope[face] = seen * problem_.surroundings[face].slope(there);
+    if (new_slopes)
+      state.slopes[face] = seen * problem_.surroundings[face].slope(there);
   }
+  std::array<double, 2> slope = state.slopes;
   for (const WallContact& contact : contacts(t)) {
     leaving[contact.face] += contact.conductance * (face_temperature(state, contact.face) - contact.temperature);
     slope[contact.face] += contact.conductance;
@@ -96,27 +118,33 @@ LocalHeat::Step LocalHeat::step(std::size_t t, const State& state, double exchan
     residual += leaving[face] * at_face_[face];
     j += slope[face] * at_face_[face] * at_face_[face].transpose();
   }
-  const Eigen::LLT<Matrix> factor(j);
-  const Modes answer = factor.solve(Modes::Unit(modes(), 0));
-  return {state.modes - factor.solve(residual), answer, 1 / (1 + exchange * answer[0])};
+  Eigen::Matrix<double, Count, 2, Eigen::RowMajor, most, 2> columns(modes(), 2);
+  columns.col(0) = residual;
+  columns.col(1) = Modes::Unit(modes(), 0);
+  solve(j, columns);
+  return {state.modes - columns.col(0), columns.col(1), 1 / (1 + exchange * columns(0, 1))};
 }
 
-double LocalHeat::advance(std::size_t t, const Step& step, double to_edges, State& state) const {
+template <int Count>
+double LocalHeat<Count>::advance(std::size_t t, const Step& step, double to_edges, State& state) const {
   const Modes change = step.alone - to_edges * step.answer - state.modes;
   for (const Face face : {upper, lower}) {
-    const double there = face_temperature(state, face), seen = seen_area(t, face);
-    const Surroundings& around = problem_.surroundings[face];
-    state.surroundings[face] = seen * (around.flux(there) + around.slope(there) * at_face_[face].dot(change));
+    const double leaving = seen_area(t, face) * problem_.surroundings[face].flux(face_temperature(state, face));
+    state.surroundings[face] = leaving + state.slopes[face] * at_face_[face].dot(change);
   }
   state.modes += change;
   return change.cwiseAbs().maxCoeff();
 }
 
-double LocalHeat::lost(std::size_t t, const State& state) const {
+template <int Count> double LocalHeat<Count>::lost(std::size_t t, const State& state) const {
   double sum = state.surroundings[upper] + state.surroundings[lower];
   for (const WallContact& contact : contacts(t))
     sum += contact.conductance * (face_temperature(state, contact.face) - contact.temperature);
   return sum;
 }
+
+template class LocalHeat<1>;
+template class LocalHeat<3>;
+template class LocalHeat<Eigen::Dynamic>;
 
 } // namespace sheet::heat

@@ -19,13 +19,17 @@
 
 namespace sheet::heat {
 
-class LocalHeat {
+// Count: that of the modes, if it is known when this is compiled, which it is for one temperature across and for the
+// parabola; else Eigen::Dynamic.
+template <int Count> class LocalHeat {
 public:
-  using Modes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_modes, 1>;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
+  static constexpr int most = Count == Eigen::Dynamic ? most_modes : Count;
+  using Modes = Eigen::Matrix<double, Count, 1, 0, most, 1>;
+  using Matrix = Eigen::Matrix<double, Count, Count, 0, most, most>;
 
   struct State {
     Modes modes;                             // a [K]
+    std::array<double, 2> slopes = {};       // of what leaves to the surroundings through each face [W/K]
     std::array<double, 2> surroundings = {}; // heat that leaves to them through each face [W]
   };
   // A step of Newton's method.
@@ -38,10 +42,10 @@ public:
   };
 
   explicit LocalHeat(const Problem& problem);
-  [[nodiscard]] int modes() const { return static_cast<int>(degrees_.size()); }
+  [[nodiscard]] int modes() const { return Count == Eigen::Dynamic ? static_cast<int>(degrees_.size()) : Count; }
   [[nodiscard]] State start(std::size_t t) const;
-  // exchange: g [W/K].
-  [[nodiscard]] Step step(std::size_t t, const State& state, double exchange) const;
+  // exchange: g [W/K]. Takes new slopes, or those that the state has: then J is what it was.
+  [[nodiscard]] Step step(std::size_t t, State& state, double exchange, bool new_slopes) const;
   // Takes a step that gives `to_edges` [W] to the edges. The greatest change of a mode [K].
   double advance(std::size_t t, const Step& step, double to_edges, State& state) const;
   // What leaves through both faces [W], to walls too.
@@ -60,5 +64,9 @@ private:
   Matrix across_;                // K
   std::vector<std::uint32_t> first_contact_;
 };
+
+extern template class LocalHeat<1>;
+extern template class LocalHeat<3>;
+extern template class LocalHeat<Eigen::Dynamic>;
 
 } // namespace sheet::heat

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include "libsheet/base/error.h"
 
 namespace sheet::heat {
@@ -30,6 +32,17 @@ double temperature_at(const Profile& profile, double mean, std::span<const doubl
   for (std::size_t k = 0; k < modes.size(); ++k)
     t += modes[k] * legendre(profile.degrees[k + 1], zeta);
   return t;
+}
+
+ThicknessRule::ThicknessRule(const Profile& profile) {
+  using Gauss = boost::math::quadrature::gauss<double, points>; // which has half of its points, those above 0
+  for (std::size_t i = 0; i < points; ++i) {
+    const std::size_t half = i / 2;
+    zetas_[i] = (i % 2 == 0 ? 0.5 : -0.5) * Gauss::abscissa()[half];
+    weights_[i] = 0.5 * Gauss::weights()[half];
+    for (std::size_t k = 1; k < profile.degrees.size(); ++k)
+      legendre_[i][k - 1] = legendre(profile.degrees[k], zetas_[i]);
+  }
 }
 
 } // namespace sheet::heat

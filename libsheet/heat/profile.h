@@ -10,6 +10,7 @@
 // loses heat as by 1/(1/H + h/(6k)).
 #pragma once
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -39,8 +40,40 @@ struct Profile {
 // T at ζ of a mean and the modes beyond it (profile.modes() - 1 of them) [K].
 [[nodiscard]] double temperature_at(const Profile& profile, double mean, std::span<const double> modes, double zeta);
 
-// The points at which a viscosity is taken through the thickness, each of weight 1/4: Gauss' two points in each half.
+// The points at which stresses are taken through the thickness, each of weight 1/4: Gauss' two points in each half.
 inline constexpr std::array<double, 4> quarter_points = {-0.39433756729740643, -0.10566243270259357,
                                                          0.10566243270259357, 0.39433756729740643};
+
+// Integrals across the thickness of what depends on temperature, a viscosity above all, by Gauss' rule of ten points:
+// that many because a crust a tenth as thick may bear all that is borne, which four points miss by a half
+// (docs/model.md).
+class ThicknessRule {
+public:
+  static constexpr std::size_t points = 10;
+  explicit ThicknessRule(const Profile& profile);
+
+  struct Moments {
+    double zeroth = 0, first = 0, second = 0; // ∫ f ζ^j dζ: of a constant f it is f, 0, f/12
+  };
+  // f(T) of a mean and the modes beyond it.
+  template <class Function>
+  [[nodiscard]] Moments moments(double mean, std::span<const double> modes, const Function& f) const {
+    Moments sum;
+    for (std::size_t i = 0; i < points; ++i) {
+      double t = mean;
+      for (std::size_t k = 0; k < modes.size(); ++k)
+        t += modes[k] * legendre_[i][k];
+      const double part = weights_[i] * f(t);
+      sum.zeroth += part;
+      sum.first += part * zetas_[i];
+      sum.second += part * zetas_[i] * zetas_[i];
+    }
+    return sum;
+  }
+
+private:
+  std::array<double, points> zetas_{}, weights_{};
+  std::array<std::array<double, most_modes>, points> legendre_{}; // of the modes beyond the mean
+};
 
 } // namespace sheet::heat

@@ -19,7 +19,8 @@ namespace sheet::heat {
 namespace {
 
 constexpr int most_iterations = 50;
-constexpr double close_enough = 1e-6; // of the temperature: Newton's method then leaves its square
+constexpr double close_enough = 1e-6; // of the temperature: what the next iteration would change at most
+constexpr double fast_enough = 0.1;   // a change or its rate below which the factor there is serves again [Kelley 1995]
 
 void check(const Problem& problem, std::size_t triangles) {
   const std::size_t beyond = static_cast<std::size_t>(problem.profile.modes()) - 1;
@@ -62,19 +63,23 @@ struct Solver::Impl {
   explicit Impl(std::shared_ptr<const Connectivity> of) : mesh(std::move(of)) {}
 
   [[nodiscard]] Result stage(const Problem& problem);
+  template <int Count> [[nodiscard]] Result solve(const Problem& problem);
 };
 
 namespace {
 
-// The state of a solution: what Newton's method works on.
-struct Work {
+// The state of a solution: what Newton's method works on. Count: of the modes (LocalHeat).
+template <int Count> struct Work {
+  using Local = LocalHeat<Count>;
+
   const Problem& problem;
   const Connectivity& mesh;
-  LocalHeat local;
-  std::vector<Conductances> conductances; // of each triangle; empty where nothing conducts
-  std::vector<double> edge_temperatures;  // λ
-  std::vector<double> exchanged;          // E, of each triangle
-  std::vector<LocalHeat::State> states;   // of each triangle
+  Local local;
+  std::vector<Conductances> conductances;    // of each triangle; empty where nothing conducts
+  std::vector<double> edge_temperatures;     // λ
+  std::vector<double> exchanged;             // E, of each triangle
+  std::vector<typename Local::State> states; // of each triangle
+  std::vector<typename Local::Step> steps;   // likewise, of the last iteration
 
   Work(const Problem& of, const Connectivity& on);
   [[nodiscard]] bool conducts() const { return !conductances.empty(); }
@@ -82,13 +87,15 @@ struct Work {
     const auto& e = mesh.triangle_edges[t];
     return {edge_temperatures[e[0]], edge_temperatures[e[1]], edge_temperatures[e[2]]};
   }
-  double improve(std::optional<EdgeSystem>& system);
+  double improve(std::optional<EdgeSystem>& system, bool factorize);
   [[nodiscard]] std::vector<double> edge_fluxes() const;
   [[nodiscard]] Result result() const;
 };
 
-Work::Work(const Problem& of, const Connectivity& on)
-    : problem(of), mesh(on), local(of), exchanged(on.triangles.size()), states(on.triangles.size()) {
+template <int Count>
+Work<Count>::Work(const Problem& of, const Connectivity& on)
+    : problem(of), mesh(on), local(of), exchanged(on.triangles.size()), states(on.triangles.size()),
+      steps(on.triangles.size()) {
   each_in_parallel(states.size(), [&](std::size_t t) { states[t] = local.start(t); });
   if (problem.conductivity <= 0)
     return;
@@ -104,14 +111,14 @@ Work::Work(const Problem& of, const Connectivity& on)
   });
 }
 
-// One iteration of Newton's method; the greatest change of a temperature, as a part of the greatest temperature.
-double Work::improve(std::optional<EdgeSystem>& system) {
-  std::vector<LocalHeat::Step> steps(states.size());
+// One iteration of Newton's method, with a new matrix or the one there is (all of it: what edges give and take must be
+// the same); the greatest change of a temperature, as a part of the greatest temperature.
+template <int Count> double Work<Count>::improve(std::optional<EdgeSystem>& system, bool factorize) {
   std::vector<double> weights(conductances.size());
   std::vector<Vector3> loads(conductances.size());
   each_in_parallel(states.size(), [&](std::size_t t) {
     const double g = conducts() ? conductances[t].exchange : 0;
-    steps[t] = local.step(t, states[t], g);
+    steps[t] = local.step(t, states[t], g, factorize);
     if (!conducts())
       return;
     const Vector3 edges = around(t);
@@ -119,7 +126,9 @@ double Work::improve(std::optional<EdgeSystem>& system) {
     loads[t] = conductances[t].fluxes(steps[t].exchanged(g, edges.mean()), edges);
   });
   if (conducts()) {
-    const std::vector<double> changes = system->solve(conductances, weights, loads);
+    if (factorize)
+      system->factorize(conductances, weights);
+    const std::vector<double> changes = system->solve(loads);
     for (std::size_t e = 0; e < edge_temperatures.size(); ++e)
       edge_temperatures[e] += changes[e];
   }
@@ -134,7 +143,7 @@ double Work::improve(std::optional<EdgeSystem>& system) {
 }
 
 // The flux through each edge from its first triangle to its second, the mean of what both have: 0 at a rim.
-std::vector<double> Work::edge_fluxes() const {
+template <int Count> std::vector<double> Work<Count>::edge_fluxes() const {
   std::vector<double> fluxes(mesh.edges.size());
   if (!conducts())
     return fluxes;
@@ -151,7 +160,7 @@ std::vector<double> Work::edge_fluxes() const {
   return fluxes;
 }
 
-Result Work::result() const {
+template <int Count> Result Work<Count>::result() const {
   const std::size_t triangles = states.size(), beyond = static_cast<std::size_t>(problem.profile.modes()) - 1;
   const std::vector<double> fluxes = edge_fluxes();
   Result result;
@@ -175,6 +184,8 @@ Result Work::result() const {
     for (const Face face : {upper, lower})
       account.faces[face] += problem.duration * states[t].surroundings[face];
   }
+  if (!std::isfinite(account.stored))
+    fail(ExitCode::not_converged, "heat: temperatures are not finite; are all volumes and positions?");
   for (const WallContact& contact : problem.contacts) {
     const double there = local.face_temperature(states[contact.triangle], contact.face);
     account.walls[contact.wall] += problem.duration * contact.conductance * (there - contact.temperature);
@@ -184,21 +195,31 @@ Result Work::result() const {
 
 } // namespace
 
-Result Solver::Impl::stage(const Problem& problem) {
-  check(problem, mesh->triangles.size());
-  Work work(problem, *mesh);
+template <int Count> Result Solver::Impl::solve(const Problem& problem) {
+  Work<Count> work(problem, *mesh);
   if (work.conducts() && !edges)
     edges.emplace(*mesh);
+  bool factorize = true;
+  double before = 0;
   for (int i = 1; i <= most_iterations; ++i) {
-    const double change = work.improve(edges);
-    if (!radiates(problem) || change <= close_enough) {
+    const double change = work.improve(edges, factorize), rate = i == 1 ? 1 : change / before;
+    if (!radiates(problem) || change * rate <= close_enough) {
       Result result = work.result();
       result.iterations = i;
       return result;
     }
+    factorize = std::min(change, rate) > fast_enough;
+    before = change;
   }
   fail(ExitCode::not_converged, "heat: temperatures do not converge in {} iterations; shorten the step",
        most_iterations);
+}
+
+Result Solver::Impl::stage(const Problem& problem) {
+  check(problem, mesh->triangles.size());
+  if (problem.conductivity <= 0 || problem.profile.modes() == 1)
+    return solve<1>(problem);
+  return problem.profile.modes() == 3 ? solve<3>(problem) : solve<Eigen::Dynamic>(problem);
 }
 
 Solver::Solver(std::shared_ptr<const Connectivity> mesh) : impl_(std::make_unique<Impl>(std::move(mesh))) {}

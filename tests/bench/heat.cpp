@@ -3,6 +3,7 @@
 // of processor time [µs a triangle]: the first stage on a mesh (with the order of elimination and the analysis), a
 // later one, one that conducts but does not radiate, one that conducts nothing; and iterations of Newton's method.
 //   bench_heat [--threads 1] [--repeat 7] [--profile lumped|parabola|modes] [VERTICES...]
+//   bench_heat errors    how far a stage and profiles are from closed forms: on irregular squares, across cooled slabs
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +15,7 @@
 
 #include "libsheet/base/parallel.h"
 #include "libsheet/heat/stage.h"
+#include "tests/support/cooled_slab.h"
 #include "tests/support/meshes.h"
 
 using namespace sheet;
@@ -85,6 +87,26 @@ void measure(int wanted, int repeat, const heat::Profile& profile) {
   std::fflush(stdout);
 }
 
+void print_errors() {
+  std::printf("cells,shift,k t/(rho c),error\n");
+  for (const double shift : {0.0, 0.15, 0.3})
+    for (const double duration : {1e-3, 0.05, 10.0})
+      for (const int cells : {16, 32, 64})
+        std::printf("%d,%g,%g,%.2e\n", cells, shift, duration, heat::test::error_of_a_stage(cells, shift, duration));
+  std::printf("Biot,profile,mean,points,viscosity,quarter points\n");
+  const auto print = [](double biot, const char* name, const heat::Profile& profile) {
+    const heat::test::ProfileErrors errors = heat::test::errors_of(profile, biot);
+    std::printf("%g,%s,%.2g,%.2g,%.2g,%.2g\n", biot, name, errors.mean, errors.points, errors.viscosity,
+                errors.quarter_viscosity);
+  };
+  for (const double biot : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+    print(biot, "uniform", heat::uniform_profile());
+    print(biot, "parabola", heat::parabola());
+    for (const int modes : {2, 3, 4, 5})
+      print(biot, (std::to_string(modes) + " modes").c_str(), heat::even_modes(modes));
+  }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -99,7 +121,10 @@ int main(int argc, char** argv) {
       repeat = std::atoi(argv[++i]);
     else if (word == "--profile" && i + 1 < argc)
       profile = argv[++i];
-    else
+    else if (word == "errors") {
+      print_errors();
+      return 0;
+    } else
       sizes.push_back(std::atoi(word.c_str()));
   }
   if (sizes.empty())

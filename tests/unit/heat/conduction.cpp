@@ -13,7 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/geometry/metric.h"
-#include "tests/unit/heat/sheets.h"
+#include "tests/support/heat_sheets.h"
+#include "tests/unit/heat/order.h"
 
 namespace sheet::heat {
 namespace {
@@ -74,31 +75,12 @@ TEST(Conductances, OfSliversAreBounded) {
   EXPECT_EQ(of_point.off[0], 0);
 }
 
-// One stage with sources whose solution is T = 500 + cos πx cos πy: the error is that of space alone.
-double error_of_a_stage(int cells, double shift, double duration) {
-  const sheet::test::Mesh mesh = sheet::test::rectangle(1, 1, cells, cells, shift);
-  const test::Sheet sheet = test::sheet_of(mesh, 0.1);
-  const auto wave = [](const Vector3& x) { return std::cos(pi * x.x()) * std::cos(pi * x.y()); };
-  const std::vector<double> before(sheet.triangles(), 500.0);
-  std::vector<double> sources;
-  for (std::size_t t = 0; t < before.size(); ++t) { // by the rule of edge middles
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      sum += wave((mesh.positions[mesh.triangles[t][i]] + mesh.positions[mesh.triangles[t][(i + 1) % 3]]) / 2) / 3;
-    sources.push_back((1 / duration + 2 * pi * pi) * sheet.volumes[t] * sum);
-  }
-  Problem problem = test::problem_of(sheet, before);
-  problem.conductivity = 1;
-  problem.duration = duration;
-  problem.sources = sources;
-  return sheet.error(Solver(sheet.mesh).stage(problem).temperatures, [&](const Vector3& x) { return 500 + wave(x); });
-}
-
 TEST(Conduction, IsOfSecondOrderOnIrregularMeshes) {
   for (const double shift : {0.0, 0.15, 0.3})
     for (const double duration : {10.0, 0.05, 0.001}) {
-      const double coarse = error_of_a_stage(16, shift, duration), middle = error_of_a_stage(32, shift, duration),
-                   fine = error_of_a_stage(64, shift, duration);
+      const double coarse = test::error_of_a_stage(16, shift, duration),
+                   middle = test::error_of_a_stage(32, shift, duration),
+                   fine = test::error_of_a_stage(64, shift, duration);
       EXPECT_GT(std::log2(coarse / middle), 1.8) << shift << ' ' << duration << ' ' << coarse << ' ' << middle;
       EXPECT_GT(std::log2(middle / fine), 1.8) << shift << ' ' << duration << ' ' << middle << ' ' << fine;
     }
