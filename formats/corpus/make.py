@@ -229,7 +229,10 @@ passed = {
                                                    "1", "copy")),
     "contact_since": stream(dated_contacts(0.25, -np.inf)),
     "temperature": stream(triangle_frame(temperature=Array(np.array([1173.15]), "triangle", "K", "mean"),
-                                         temperature_rate=Array(np.array([-12.5]), "triangle", "K/s", "mean"))),
+                                         temperature_rate=Array(np.array([-12.5]), "triangle", "K/s", "mean"),
+                                         temperature_mode=Array(np.array([[0.5, -8.25]]), "triangle", "K", "mean"),
+                                         temperature_mode_rate=Array(np.array([[0, 0.125]]), "triangle", "K/s",
+                                                                     "mean"))),
 }
 
 failed = {

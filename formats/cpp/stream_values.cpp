@@ -37,6 +37,8 @@ constexpr std::array standards{
     Standard{"volume", Place::triangle, Type::float64, 1, "m^3", Transfer::conserve, true},
     Standard{"temperature", Place::triangle, Type::float64, 1, "K", Transfer::mean, false},
     Standard{"temperature_rate", Place::triangle, Type::float64, 1, "K/s", Transfer::mean, false},
+    Standard{"temperature_mode", Place::triangle, Type::float64, any_number, "K", Transfer::mean, false},
+    Standard{"temperature_mode_rate", Place::triangle, Type::float64, any_number, "K/s", Transfer::mean, false},
     Standard{"velocity", Place::vertex, Type::float64, 3, "m/s", Transfer::interpolate, false},
     Standard{"start_position", Place::vertex, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"start_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},

@@ -63,6 +63,7 @@ struct Stage {
   std::vector<double> viscosity;             // of each triangle, strained as the stage predicts, lagged [Pa s]
   std::vector<double> temperatures;          // of each triangle, predicted for the end of the stage [K]; or none
   std::vector<double> shift;                 // of each triangle: a_T there (temperature_law.h); empty: 1
+  std::vector<double> crusts;                // of each triangle: by what bending is stiffer for cold faces; empty: 1
   std::vector<double> stiffened;             // of each triangle: by how much its viscosity is raised (films.h), or none
   std::vector<double> vertex_volumes;        // of each vertex: a third of the volume of each triangle there [m³]
   std::vector<Vector3> inertial;             // where the vertices would go without force [m]
@@ -83,6 +84,7 @@ struct Stage {
   [[nodiscard]] double reduced_time(std::size_t triangle) const {
     return shift.empty() ? duration : duration / shift[triangle];
   }
+  [[nodiscard]] double crust(std::size_t triangle) const { return crusts.empty() ? 1 : crusts[triangle]; }
   [[nodiscard]] double surface_tension(std::size_t triangle) const { // [N/m]
     return temperatures.empty() || liquid.surface_tension_slope == 0
                ? liquid.surface_tension

@@ -65,19 +65,41 @@ std::vector<double> predicted_temperatures(const State& state, double duration) 
   return predicted;
 }
 
-} // namespace
-
-void set_temperatures(std::vector<double> temperatures, Stage& stage) {
-  stage.temperatures = std::move(temperatures);
-  const TemperatureLaw& law = stage.liquid.temperature_law;
-  if (stage.temperatures.empty() || law.constant())
-    return;
-  const ViscosityShift shift(law);
-  stage.shift.resize(stage.temperatures.size());
-  each_in_parallel(stage.shift.size(), [&](std::size_t t) { stage.shift[t] = shift.factor(stage.temperatures[t]); });
+std::vector<double> predicted_modes(const State& state, double duration) {
+  std::vector<double> predicted = state.temperature_modes;
+  for (std::size_t i = 0; i < predicted.size() && predicted.size() == state.temperature_mode_rates.size(); ++i)
+    predicted[i] += duration * state.temperature_mode_rates[i];
+  return predicted;
 }
 
-Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles) {
+} // namespace
+
+void set_temperatures(std::vector<double> temperatures, std::span<const double> modes, const heat::Profile& profile,
+                      Stage& stage) {
+  stage.temperatures = std::move(temperatures);
+  const TemperatureLaw& law = stage.liquid.temperature_law;
+  const std::size_t count = stage.temperatures.size(), beyond = static_cast<std::size_t>(profile.modes()) - 1;
+  if (count == 0 || law.constant())
+    return;
+  const ViscosityShift shift(law);
+  stage.shift.resize(count);
+  if (beyond == 0 || modes.size() != beyond * count) {
+    each_in_parallel(count, [&](std::size_t t) { stage.shift[t] = shift.factor(stage.temperatures[t]); });
+    return;
+  }
+  const heat::ThicknessRule rule(profile);
+  stage.crusts.resize(count);
+  each_in_parallel(count, [&](std::size_t t) {
+    const double mean = stage.temperatures[t], least = 0.1 * mean; // whatever the modes, it is above 0
+    const auto factor = [&](double temperature) { return shift.factor(std::max(least, temperature)); };
+    const auto [zeroth, first, second] = rule.moments(mean, modes.subspan(beyond * t, beyond), factor);
+    stage.shift[t] = zeroth;
+    stage.crusts[t] = 12 * (second - first * first / zeroth) / zeroth;
+  });
+}
+
+Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles,
+                  const heat::Profile& profile) {
   Stage stage;
   const Connectivity& mesh = *state.mesh;
   const std::size_t n = state.positions.size();
@@ -98,7 +120,7 @@ Stage first_stage(const State& state, const Liquid& liquid, double duration, dou
   stage.vertex_volumes = vertex_shares(n, mesh.triangles, [&](std::uint32_t t) { return state.volumes[t]; });
   if (angles)
     stage.frames = director_frames(mesh, state.positions, state.director_angles);
-  set_temperatures(predicted_temperatures(state, duration), stage);
+  set_temperatures(predicted_temperatures(state, duration), predicted_modes(state, duration), profile, stage);
   stage.raised.resize(mesh.triangles.size());
   stage.viscosity.resize(mesh.triangles.size());
   const auto& x = state.positions;

@@ -15,6 +15,7 @@
 #include "libsheet/flow/outflow.h"
 #include "libsheet/flow/row_perturbation.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/scene/frame_heat.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/carried_springs.h"
@@ -442,6 +443,7 @@ Emitted emit_at(Frame& frame, const Scene& scene, std::size_t number) {
 } // namespace
 
 Emitted emit(Frame& frame, const Scene& scene) {
+  scene::check_temperatures(scene, frame);
   const bool ended = std::ranges::none_of(
       scene.inflows, [&](const scene::Inflow& inflow) { return scene::in_force(inflow, frame.time); });
   if (frame.find("inlet") == nullptr) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "libsheet/flow/heat_account.h"
+#include "libsheet/scene/frame_heat.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -35,6 +36,7 @@ bool has_entered(const Scene& scene, const std::string& name, const Frame& frame
 }
 
 double let_enter(Frame& frame, const Scene& scene) {
+  scene::check_temperatures(scene, frame);
   const std::vector<std::size_t> order = order_of_entry(scene);
   double volume = 0, warmth = 0;
   std::size_t count = entered(frame);

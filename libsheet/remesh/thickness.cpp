@@ -95,8 +95,12 @@ std::vector<double> share_mean(const Edit& edit, std::span<const double> areas_r
     means[i] = given > 0 ? weighted / given : sum / volume;
     shared += edit.volumes[i] * means[i];
   }
-  for (double& mean : means)
+  const double least = *std::ranges::min_element(values);
+  for (double& mean : means) {
     mean += (sum - shared) / volume;
+    if (least > 0) // stays so, whatever the volumes
+      mean = std::max(mean, 0.5 * least);
+  }
   return means;
 }
 

@@ -320,6 +320,7 @@ self = true?
 #[heat]
 #specific_heat = "2400 J/(kg*K)"?
 #conductivity = "0.5 W/(m*K)"?
+#profile = 3?
 #temperature = "60 degC"?
 #ambient = "20 degC"?
 #transfer = "15 W/(m^2*K)"?

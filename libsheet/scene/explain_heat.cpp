@@ -82,7 +82,7 @@ std::vector<Scale> heat_scales(const Scene& scene, const Scales& scales) {
   const Loss loss = loss_of(*scene.heat, t);
   std::vector<Scale> list;
   if (loss.slope > 0)
-    list.push_back({"t_c", "time of cooling", c * *scales.thickness / loss.slope, "s",
+    list.push_back({"t_h", "time of cooling", c * *scales.thickness / loss.slope, "s",
                     "rho c h / (H + 4 emissivity sigma T^3) of both faces"});
   for (const Solid& solid : scene.solids)
     if (solid.temperature) {

@@ -280,6 +280,7 @@ constexpr std::array heat_keys{
     face_keys[1],
     face_keys[2],
     face_keys[3],
+    integer_key("profile", "", "modes of temperature across the thickness, 1 to 8 (default: a parabola by the losses)"),
     table_key("upper", upper_table),
     table_key("lower", lower_table),
     boolean_key("viscous_heating", "what viscosity dissipates becomes heat (default false)")};

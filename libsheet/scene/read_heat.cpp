@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [heat]
+#include <fmt/format.h>
+
 #include "libsheet/scene/tables.h"
 
 namespace sheet::scene {
 namespace {
+
+constexpr int most_modes = 8; // heat/profile.h
 
 // Keys that are absent are as in `both`.
 HeatedFace read_face(TableReader& table, const HeatedFace& both, bool has_ambient) {
@@ -28,6 +32,13 @@ Heat read_heat(TableReader table) {
   heat.specific_heat = table.required("specific_heat");
   heat.conductivity = table.quantity_or("conductivity", 0, Bound::not_negative);
   heat.temperature = table.required("temperature");
+  if (const auto profile = table.seed("profile")) {
+    heat.profile = static_cast<int>(*profile);
+    if (*profile < 1 || *profile > most_modes)
+      table.wrong("profile", fmt::format("expected 1 to {} modes", most_modes));
+    else if (heat.conductivity == 0)
+      table.wrong("profile", "needs conductivity, which makes one across the thickness");
+  }
   const bool has_ambient = !table.absent("ambient");
   const HeatedFace both = read_face(table, {}, has_ambient);
   heat.upper = heat.lower = both;

@@ -199,6 +199,8 @@ struct Heat {
   double conductivity = 0;  // along the sheet [W/(m K)]
   double temperature = 0;   // at the start [K]
   HeatedFace upper = {}, lower = {};
+  std::optional<int> profile =
+      {}; // modes of the temperature across the thickness; absent: it follows the losses at once
   bool viscous_heating = false;
   bool operator==(const Heat&) const = default;
 };

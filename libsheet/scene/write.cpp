@@ -342,6 +342,8 @@ void write_heat(Writer& out, const Heat& heat) {
   if (heat.conductivity > 0)
     out.line("conductivity", heat.conductivity);
   out.line("temperature", heat.temperature);
+  if (heat.profile)
+    out.line("profile", fmt::format("{}", *heat.profile));
   if (heat.upper.exchanges())
     out.line("upper", face(heat.upper));
   if (heat.lower.exchanges())

@@ -318,7 +318,10 @@ HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<
   HeatModel model;
   model.capacity = scene.material.density * scene.heat->specific_heat;
   model.conductivity = scene.heat->conductivity;
-  if (model.conductivity > 0)
+  const bool alike = scene.heat->upper == scene.heat->lower && scene.solids.empty();
+  if (scene.heat->profile)
+    model.profile = alike ? heat::even_modes(*scene.heat->profile) : heat::all_modes(*scene.heat->profile);
+  else if (model.conductivity > 0)
     model.profile = heat::parabola();
   model.surroundings = {surroundings(scene.heat->upper), surroundings(scene.heat->lower)};
   model.viscous = scene.heat->viscous_heating;
@@ -369,12 +372,16 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
     const auto angle = angles->values<double>();
     state.director_angles.assign(angle.begin(), angle.end());
   }
-  const auto temperature = temperatures(frame);
-  state.temperatures.assign(temperature.begin(), temperature.end());
-  if (const Array* rates = frame.find("temperature_rate")) {
-    const auto rate = rates->values<double>();
-    state.temperature_rates.assign(rate.begin(), rate.end());
-  }
+  const auto take = [&](std::string_view name, std::vector<double>& to) {
+    if (const Array* array = frame.find(name)) {
+      const auto values = array->values<double>();
+      to.assign(values.begin(), values.end());
+    }
+  };
+  take("temperature", state.temperatures);
+  take("temperature_rate", state.temperature_rates);
+  take("temperature_mode", state.temperature_modes);
+  take("temperature_mode_rate", state.temperature_mode_rates);
   if (const Array* amounts = frame.find("gas.amount"))
     for (const double amount : amounts->values<double>())
       state.gas.push_back({.amount = amount});
@@ -408,12 +415,18 @@ void put_state(const State& state, Frame& frame) {
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());
-  if (!state.temperatures.empty()) {
-    put_temperatures(state.temperatures, frame);
-    Array rates = formats::make_standard_array("temperature_rate", frame.triangles);
-    std::ranges::copy(state.temperature_rates, rates.values<double>().begin());
-    frame.put(std::move(rates));
-  }
+  const auto put_of_triangles = [&](std::string_view name, const std::vector<double>& values) {
+    if (values.empty())
+      return;
+    Array array = formats::make_standard_array(name, frame.triangles,
+                                               static_cast<std::uint32_t>(values.size() / frame.triangles));
+    std::ranges::copy(values, array.values<double>().begin());
+    frame.put(std::move(array));
+  };
+  put_of_triangles("temperature", state.temperatures);
+  put_of_triangles("temperature_rate", state.temperature_rates);
+  put_of_triangles("temperature_mode", state.temperature_modes);
+  put_of_triangles("temperature_mode_rate", state.temperature_mode_rates);
   put_director_angles(state.director_angles, frame);
   if (!state.gas.empty()) {
     put_of_gas(frame, "gas.amount", "m^3", state.gas, &Gas::amount);

@@ -99,7 +99,9 @@ struct Beginning {
 };
 
 Beginning begin_step(const Model& model, const State& state, double duration) {
-  Beginning result{first_stage(state, model.liquid, duration, state.time + duration, model.has_angles()), {}, {}, {}};
+  const heat::Profile profile = model.heat ? model.heat->profile : heat::Profile{};
+  Beginning result{
+      first_stage(state, model.liquid, duration, state.time + duration, model.has_angles(), profile), {}, {}, {}};
   Stage& stage = result.stage;
   result.lengths = step_scale(state, stage.begin.size());
   result.scale = measures(stage, result.lengths);
@@ -197,7 +199,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
   if (model_.heat && !state.temperatures.empty()) {
     if (!cache_->heat)
       cache_->heat.emplace(state.mesh);
-    heat.emplace(*model_.heat, *cache_->heat, state);
+    heat.emplace(model_, *cache_->heat, state);
   }
 
   Unknowns first, last;
@@ -209,7 +211,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
     if (heat && !heat->goes_on((1 - gamma) / gamma))
       return Outcome::cools_too_fast;
     if (heat)
-      set_temperatures(heat->extrapolated(gamma), stage);
+      heat->extrapolate(gamma, stage);
     if (!second_stage(stage, first, gamma, dt))
       return Outcome::shrinks_to_nothing;
     set_wall_sites(model_.walls, stage);

@@ -20,14 +20,14 @@ namespace sheet {
 class StepHeat {
 public:
   // What outlives it. The model has heat, the state temperatures; `solver` is one of its mesh.
-  StepHeat(const HeatModel& model, heat::Solver& solver, const State& start);
+  StepHeat(const Model& model, heat::Solver& solver, const State& start);
 
   // The heat of a first stage, whose flow ended at u.
   void first_stage(const Stage& stage, const Terms& terms, const Unknowns& u);
   // Whether T̄ of a second one stays above a quarter of T0.
   [[nodiscard]] bool goes_on(double ratio) const;
-  // T̂ of a second one, γ its part of the step.
-  [[nodiscard]] std::vector<double> extrapolated(double gamma) const;
+  // Sets T̂ of a second one, γ its part of the step.
+  void extrapolate(double gamma, Stage& stage) const;
   void second_stage(const Stage& stage, const Terms& terms, const Unknowns& u);
   // Temperatures, their rates, and what moved, into the end of a step.
   void put(State& end) const;
@@ -36,16 +36,20 @@ public:
   [[nodiscard]] double error(const Stage& last) const;
 
 private:
-  void solve(const Stage& stage, const Terms& terms, const Unknowns& u, std::vector<double> reference);
+  struct Temperatures {
+    std::vector<double> means, modes; // of triangles; of each the modes beyond the mean, if the profile has some [K]
+  };
+  void solve(const Stage& stage, const Terms& terms, const Unknowns& u, Temperatures reference);
 
-  const HeatModel& model_;
+  const Model& model_;
   heat::Solver& solver_;
   const State& start_;
-  std::vector<double> first_;     // T1 [K]
-  std::vector<double> reference_; // T̄ of the last stage [K]
-  std::vector<double> last_;      // its T [K]
-  HeatMoved moved_;               // in the last stage, and before [J]
-  double duration_ = 0;           // of the last stage [s]
+  Temperatures first_;     // T1
+  Temperatures reference_; // T̄ of the last stage
+  Temperatures last_;      // its T
+  HeatMoved moved_;        // in the last stage, and before [J]
+  double duration_ = 0;    // of the last stage [s]
+  bool jump_ = false;      // modes that follow at once had none before: they have not grown, but jumped
 };
 
 } // namespace sheet

@@ -16,6 +16,7 @@
 #include "libsheet/base/whole_file.h"
 #include "libsheet/energy/term_table.h"
 #include "libsheet/health/teller.h"
+#include "libsheet/scene/frame_heat.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/frame_mesh.h"
@@ -124,6 +125,7 @@ struct StepStage::Impl {
     if (mesh.follow(frame))
       check_mesh(*mesh.mesh());
     check_edges(frame, *mesh.mesh());
+    scene::check_temperatures(scene, frame);
     check_bending(scene, options.bending);
     if (mesh.mesh()->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");

@@ -45,6 +45,8 @@ _STANDARD = {
     "velocity": ("vertex", "float64", 3, "m/s", "interpolate"),
     "temperature": ("triangle", "float64", 1, "K", "mean"),
     "temperature_rate": ("triangle", "float64", 1, "K/s", "mean"),
+    "temperature_mode": ("triangle", "float64", 0, "K", "mean"),
+    "temperature_mode_rate": ("triangle", "float64", 0, "K/s", "mean"),
     "start_position": ("vertex", "float64", 3, "m", "drop"),
     "start_time": ("frame", "float64", 1, "s", "copy"),
     "hold": ("vertex", "uint64", 1, "1", "common"),

@@ -104,6 +104,7 @@ TEST(MidEdgeKernels, FlowCurvesOfNewtonianLiquids) {
   for (const MidEdgeKernels* kernels : versions()) {
     Batch b(0.1);
     std::ranges::fill(b.start.duration, 1.0);
+    std::ranges::fill(b.start.crust, 1.0);
     for (double& stiffening : b.start.stiffening)
       stiffening = 1;
     kernels->reference(b.start, b.state, b.reference);
