@@ -103,7 +103,8 @@ TEST(MidEdgeKernels, FlowCurvesOfNewtonianLiquids) {
   const FlowCurve curve(Liquid{.viscosity = 6});
   for (const MidEdgeKernels* kernels : versions()) {
     Batch b(0.1);
-    b.start.duration = 1;
+    std::ranges::fill(b.start.duration, 1.0);
+    std::ranges::fill(b.start.crust, 1.0);
     for (double& stiffening : b.start.stiffening)
       stiffening = 1;
     kernels->reference(b.start, b.state, b.reference);
