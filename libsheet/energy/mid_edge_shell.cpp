@@ -148,7 +148,7 @@ void MidEdgeShell::follow(const Unknowns& u, const Unknowns& step) {
 void MidEdgeShell::add_dissipated(const Unknowns& u, std::span<double> energy) const {
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count), [&](const auto& range) {
-        LaneNumbers dissipated;
+        alignas(64) LaneNumbers dissipated;
         for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
           const std::size_t first = batch * lane_count;
           mid_edge_kernels().dissipated(references_[batch], global_state(u, first), arcs_, flow_of(first), dissipated);

@@ -93,7 +93,7 @@ TEST(StepHeat, LayersCoverEachOther) {
   State s = start;
   (void)stepper.step(s, 1);
   const std::size_t last = s.volumes.size() - 1; // far from the first three
-  EXPECT_NEAR(hot - s.temperatures[last], 30 * (hot - cold) / (capacity * film_height), 1e-4);
+  EXPECT_NEAR(hot - s.temperatures[last], 30 * (hot - cold) / (capacity * film_height), 2e-4); // it cools on the way
 }
 
 // A film that is pulled at a given rate: 4 μ ε̇² of each cubic metre [Trouton 1906, of a sheet whose width is held].
@@ -112,7 +112,7 @@ TEST(StepHeat, DissipationBecomesHeat) {
     (void)stepper.step(s, time);
     const double power = capacity * (warmth(s) - before) / time;
     EXPECT_NEAR(power, 4 * 100 * 4 * film_height, 0.01 * 16) << arcs;
-    EXPECT_NEAR(s.heat_moved.generated, capacity * (warmth(s) - before), 1e-9 * s.heat_moved.generated);
+    EXPECT_NEAR(s.heat_moved.generated, capacity * (warmth(s) - before), 1e-14 * capacity * before);
   }
 }
 
@@ -129,7 +129,7 @@ TEST(StepHeat, ModesOfTheThicknessAreKept) {
     EXPECT_EQ(s.temperature_modes.size(), (k == 2 ? 0U : 2U) * s.volumes.size());
     means[k] = s.temperatures[5];
     if (k < 2) {
-      EXPECT_LT(s.temperature_modes[1], 0); // colder at the faces
+      EXPECT_LT(s.temperature_modes[k == 0 ? 0 : 1], 0); // P_2: colder at the faces
     }
   }
   EXPECT_GT(means[1], means[2] + 1); // cold faces lose less
