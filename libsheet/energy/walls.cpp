@@ -125,20 +125,26 @@ int side_on_wall(const Stage& stage, std::size_t triangle) {
 
 // The directors of edges between triangles that lie on walls are not free to turn: they follow the sheet's normals. Not
 // so where the sheet is folded back on itself within the wall's plane: there the mean of the normals is about nothing,
-// and turns over as the fold passes 180 degrees.
+// and turns over as the fold passes 180 degrees. Elsewhere what lies does not bend but as the wall says, whose drag is
+// larger by (length/thickness)². As the directors follow where the stage is predicted to end, triangles much thicker
+// than they are long, crushed by a tool, would be driven on by their own prediction, to any speed.
 void set_wall_turns(Stage& stage) {
   stage.wall_edges.clear();
   stage.wall_turns.clear();
+  stage.carried.clear();
   if (stage.frames.empty())
     return;
   const Connectivity& mesh = *stage.start->mesh;
   std::vector<signed char> sides(mesh.triangles.size());
   each_in_parallel(sides.size(), [&](std::size_t t) { sides[t] = static_cast<signed char>(side_on_wall(stage, t)); });
+  stage.carried.assign(sides.begin(), sides.end());
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
     const auto [left, right] = mesh.edge_triangles[e];
     const int one = sides[left == no_index ? right : left], other = sides[right == no_index ? left : right];
     if (one != 0 && one == other)
       stage.wall_edges.push_back(e);
+    else if (one != 0 && other != 0)
+      stage.carried[left] = stage.carried[right] = 0;
   }
   if (stage.wall_edges.empty())
     return;
@@ -159,6 +165,7 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   stage.channels.clear();
   stage.wall_edges.clear();
   stage.wall_turns.clear();
+  stage.carried.clear();
   if (std::ranges::all_of(walls, [](const Wall& w) { return w.vertices.empty(); }))
     return;
   if (!stage.liquid.law.newtonian() && !stage.wall_flow)
