@@ -322,6 +322,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   } catch (const std::filesystem::filesystem_error& error) {
     return report(ExitCode::io, error.what());
   } catch (const std::exception& error) {
+    if (std::string_view(error.what()).starts_with("pthread_create has failed")) // oneTBB's, where a stack has no room
+      return report(ExitCode::io, "not enough memory for another thread");
     return report(ExitCode::internal, fmt::format("internal error: {}", error.what()).c_str());
   }
 }

@@ -34,18 +34,53 @@ std::vector<Part> bare_parts(const Surface& s, const std::vector<float>& covered
   return parts;
 }
 
+Cell cell_of(const Vector3& x, double size) {
+  const auto at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / size)); };
+  return {at(x.x()), at(x.y()), at(x.z())};
+}
+
+// Of the six directions along the axes, the one that it faces most.
+int facing(const Vec& normal) {
+  Vec::Index axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return static_cast<int>(2 * axis) + (normal[axis] < 0 ? 1 : 0);
+}
+
+// One part for those in each cell of a grid that face the same way: so the work does not grow with the square of how
+// fine the triangles are.
+std::vector<Part> gathered(const std::vector<Part>& parts, double size) {
+  std::vector<std::tuple<Cell, int, std::uint32_t>> order;
+  for (std::uint32_t p = 0; p < parts.size(); ++p)
+    order.emplace_back(cell_of(parts[p].place, size), facing(parts[p].normal), p);
+  std::sort(order.begin(), order.end());
+  std::vector<Part> result;
+  for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
+    Part sum{Vector3::Zero(), Vec::Zero(), 0};
+    for (end = i; end < order.size() && std::get<0>(order[end]) == std::get<0>(order[i]) &&
+                  std::get<1>(order[end]) == std::get<1>(order[i]);
+         ++end) {
+      const Part& part = parts[std::get<2>(order[end])];
+      sum.place += static_cast<double>(part.weight) * part.place;
+      sum.normal += part.weight * part.normal;
+      sum.weight += part.weight;
+    }
+    result.push_back({sum.place / static_cast<double>(sum.weight), sum.normal.normalized(), sum.weight});
+  }
+  return result;
+}
+
 // Parts in cells of a grid, in the order of the cells.
 class Cells {
 public:
   Cells(const std::vector<Part>& parts, double size) : size_(size) {
     for (std::uint32_t p = 0; p < parts.size(); ++p)
-      points_.emplace_back(cell_of(parts[p].place), p);
+      points_.emplace_back(cell_of(parts[p].place, size), p);
     std::sort(points_.begin(), points_.end());
   }
 
   // Calls visit(part) for all parts in the cells around x.
   template <class Visit> void around(const Vector3& x, Visit&& visit) const {
-    const Cell c = cell_of(x);
+    const Cell c = cell_of(x, size_);
     for (std::int64_t i = c[0] - 1; i <= c[0] + 1; ++i)
       for (std::int64_t j = c[1] - 1; j <= c[1] + 1; ++j) { // three cells in a row
         const auto end = std::pair(Cell{i, j, c[2] + 2}, 0U);
@@ -56,11 +91,6 @@ public:
   }
 
 private:
-  [[nodiscard]] Cell cell_of(const Vector3& x) const {
-    const auto at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / size_)); };
-    return {at(x.x()), at(x.y()), at(x.z())};
-  }
-
   double size_;
   std::vector<std::pair<Cell, std::uint32_t>> points_;
 };
@@ -81,7 +111,8 @@ std::vector<float> areas(const Surface& s) {
 
 std::vector<Vec> melted_normals(const Surface& surface, const NearLayers& near, double radius) {
   std::vector<Vec> result = surface.normals;
-  const std::vector<Part> parts = bare_parts(surface, near.covered);
+  constexpr double fineness = 6; // cells of a gathered part in the radius
+  const std::vector<Part> parts = gathered(bare_parts(surface, near.covered), radius / fineness);
   const Cells cells(parts, radius);
   const std::vector<float> area = areas(surface);
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t p) {

@@ -132,6 +132,8 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.flag("--denoise", o.denoise,
             "smooth what is random about the light over places that see the same surface, and draw edges with rays of "
             "their own: looks clean with --samples 4. Of materials; false colours have no noise");
+  tool.flag("--facets", o.facets,
+            "draw materials flat between the vertices of the sheet, as it is computed; without it, curved");
   tool.flag("--layers", o.layers,
             "draw layers that touch as slabs of their own, each with its two faces; without it, as one body of liquid");
   tool.choice("--look", o.look, looks(), "the material itself, or a quantity in false colours, or the mesh");

@@ -20,11 +20,12 @@
 namespace sheet::render {
 namespace {
 
-constexpr double margin = 0.04;         // of the picture, around the subject
-constexpr double largest = 1e30;        // subject, far from where single precision ends [m]
-constexpr double unknown_growth = 0.25; // of a subject of which only the first frame is known
-constexpr double farthest = 1e9;        // eye, in sizes of the subject
-constexpr double thinnest = 1e-4;       // of the subject: a sheet below it is drawn as its mid-surface
+constexpr double margin = 0.04;                 // of the picture, around the subject
+constexpr double largest = 1e30;                // subject, far from where single precision ends [m]
+constexpr double unknown_growth = 0.25;         // of a subject of which only the first frame is known
+constexpr double farthest = 1e9;                // eye, in sizes of the subject
+constexpr double thinnest = 1e-4;               // of the subject: a sheet below it is drawn as its mid-surface
+constexpr std::size_t most_to_smooth = 200'000; // triangles of the middle surface
 
 void check(const RenderOptions& o) {
   const CameraOptions& c = o.camera;
@@ -295,7 +296,10 @@ struct RenderStage::Impl {
     std::vector<Plane> planes = scene && options.solids ? make_planes(*scene, frame.time) : std::vector<Plane>{};
     if (fixed->ground)
       planes.push_back(*fixed->ground);
-    const Surface surface = make_surface(frame, thinnest * fixed->subject.diagonal());
+    const Middle middle = middle_of(frame);
+    const bool smooth = options.look.is_material() && !options.facets;
+    const Surface surface = make_surface(smooth ? smoothed(middle, volumes(frame), most_to_smooth) : middle,
+                                         thinnest * fixed->subject.diagonal());
     const bool bodies = options.look.is_material() && !options.layers;
     const std::unique_ptr<World> world =
         bodies ? world_of_bodies(surface, meshes, motions, planes, fixed->subject)

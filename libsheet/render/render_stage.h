@@ -20,6 +20,7 @@ struct RenderOptions {
   DrawOptions draw;              // exposure is not used; see below
   bool denoise = false;          // draw_denoised; of materials only
   bool layers = false;           // that touch are drawn each by itself
+  bool facets = false;           // materials are drawn flat between the sheet's vertices, as false colours are
   CameraOptions camera;
   Look look;
   std::size_t liquid = 0; // number of the preset

@@ -6,22 +6,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "libsheet/geometry/vertex_shares.h"
-
 namespace sheet::render {
 namespace {
 
 constexpr int bead_segments = 6; // of the half circle
 
-Vector3 normal_of(std::span<const Vector3> x, const Corners& t) { // its length is twice the area
-  return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-}
-
 // Normals of the faces around each vertex, weighted by their angles there.
 std::vector<Vector3> vertex_normals(std::span<const Vector3> x, std::span<const Corners> triangles) {
   std::vector<Vector3> sum(x.size(), Vector3::Zero()), any(x.size(), Vector3::UnitY());
   for (const Corners& t : triangles) {
-    const Vector3 n = normal_of(x, t).normalized();
+    const Vector3 n = area_normal(x, t).normalized();
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector3 a = x[t[(i + 1) % 3]] - x[t[i]], b = x[t[(i + 2) % 3]] - x[t[i]];
       sum[t[i]] += std::atan2(a.cross(b).norm(), a.dot(b)) * n;
@@ -62,7 +56,7 @@ void add_bead(std::span<const Vector3> x, std::span<const Corners> triangles, st
   const std::vector<RimEdge> rim = rim_of(triangles);
   std::vector<Vector3> outward(x.size(), Vector3::Zero());
   for (const RimEdge& e : rim) {
-    const Vector3 out = (x[e.to] - x[e.from]).cross(normal_of(x, triangles[e.triangle])).normalized();
+    const Vector3 out = (x[e.to] - x[e.from]).cross(area_normal(x, triangles[e.triangle])).normalized();
     outward[e.from] += out;
     outward[e.to] += out;
   }
@@ -102,33 +96,18 @@ void add_bead(std::span<const Vector3> x, std::span<const Corners> triangles, st
 
 } // namespace
 
-std::vector<double> vertex_thickness(const formats::Frame& frame) {
-  const auto x = positions(frame);
-  const auto corners = sheet::triangles(frame);
-  return thickness_around(x.size(), corners, volumes(frame),
-                          [&](std::uint32_t t) { return 0.5 * normal_of(x, corners[t]).norm(); });
-}
-
-Surface make_surface(const formats::Frame& frame, double thinnest) {
-  const auto x = positions(frame);
-  const auto all = sheet::triangles(frame);
-  const std::vector<double> h = vertex_thickness(frame);
-  std::vector<Corners> kept;
-  std::vector<std::uint32_t> number;
+Surface make_surface(const Middle& middle, double thinnest) {
+  const auto& [x, h, triangles, source] = middle;
   double area = 0, volume = 0;
-  for (std::uint32_t t = 0; t < all.size(); ++t) {
-    const double a = 0.5 * normal_of(x, all[t]).norm();
-    if (!(a > 0))
-      continue;
-    kept.push_back(all[t]);
-    number.push_back(t);
+  for (const Corners& t : triangles) {
+    const double a = area_normal(x, t).norm();
     area += a;
-    volume += volumes(frame)[t];
+    volume += a * (h[t[0]] + h[t[1]] + h[t[2]]) / 3;
   }
   Surface s;
   s.closed = volume > thinnest * area;
   s.thickness.assign(h.begin(), h.end());
-  const std::vector<Vector3> normals = vertex_normals(x, kept);
+  const std::vector<Vector3> normals = vertex_normals(x, triangles);
   const auto count = static_cast<std::uint32_t>(x.size());
   for (const double side : {0.5, -0.5}) {
     if (!s.closed && side < 0)
@@ -138,18 +117,18 @@ Surface make_surface(const formats::Frame& frame, double thinnest) {
       s.normals.push_back((side > 0 ? normals[v] : Vector3(-normals[v])).cast<float>());
       s.source_vertex.push_back(v);
     }
-    for (std::size_t t = 0; t < kept.size(); ++t) {
-      const Corners& c = kept[t];
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const Corners& c = triangles[t];
       s.triangles.push_back(side > 0 ? c : Corners{c[0] + count, c[2] + count, c[1] + count});
-      s.source_triangle.push_back(number[t]);
+      s.source_triangle.push_back(source[t]);
       s.on_bead.push_back(false);
     }
   }
   if (s.closed) {
     const std::size_t flat = s.triangles.size();
-    add_bead(x, kept, normals, h, count, s);
+    add_bead(x, triangles, normals, h, count, s);
     for (std::size_t t = flat; t < s.triangles.size(); ++t)
-      s.source_triangle[t] = number[s.source_triangle[t]];
+      s.source_triangle[t] = source[s.source_triangle[t]];
   }
   return s;
 }

@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/cpp/stream_frame.h"
 #include "libsheet/render/camera.h"
-#include "libsheet/sheet/sheet.h"
+#include "libsheet/render/middle.h"
 
 namespace sheet::render {
 
@@ -23,10 +22,7 @@ struct Surface {
   std::vector<float> thickness; // of the sheet's vertices [m]: all volume around it / all area around it
 };
 
-// Triangles without area are left out. The sheet counts as too thin below `thinnest` [m], by its mean.
-[[nodiscard]] Surface make_surface(const formats::Frame& frame, double thinnest);
-
-// All volume around a vertex over all area around it [m]; 0 where there is no area.
-[[nodiscard]] std::vector<double> vertex_thickness(const formats::Frame& frame);
+// The sheet counts as too thin below `thinnest` [m], by its mean.
+[[nodiscard]] Surface make_surface(const Middle& middle, double thinnest);
 
 } // namespace sheet::render

@@ -31,7 +31,7 @@ void print(const formats::Frame& frame) {
   Box box;
   for (const Vector3& x : positions(frame))
     box.add(x);
-  const Surface layers = make_surface(frame, 1e-4 * box.diagonal());
+  const Surface layers = make_surface(middle_of(frame), 1e-4 * box.diagonal());
   const double body = enclosed(world_of_bodies(layers, {}, {}, {}, box)->surface());
   fmt::print("{},{:.5f},{:.5f}\n", frame.time, enclosed(layers) / volume, body / volume);
 }

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     const formats::Frame frame = test::trough(n, 0.005);
     const Box box = test::box_of(frame);
     const std::vector<Plane> ground = {{ground_id, Vector3(0, -0.6, 0), Vector3::UnitY()}};
-    const Surface surface = make_surface(frame, 1e-4);
+    const Surface surface = make_surface(middle_of(frame), 1e-4);
     const World world(surface, {}, {}, ground, box);
     const double build = measure(repetitions, [&] { const World again(surface, {}, {}, ground, box); });
     const Camera camera = test::frame_box(box, {}, Vector3::UnitY(), 16.0 / 9, 0.06);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -167,6 +168,44 @@ TEST(Stage, WithHeatingIsOfSecondOrderInTime) {
       error = std::max(error, std::abs(end[t] - exact[t]));
     test::expect_order(before, error, 1.9);
   }
+}
+
+// Viscous heating with the viscosity at the temperature that is foretold: T0 + τ Ṫ0, with the rate of the last stage,
+// then T0 + (T1 - T0)/α. μ = μ0 exp(-b (T - T0)), μ0 = ρ c = b = 1.
+double heated(double (*power)(double viscosity), double duration, int count) {
+  const double alpha = 1 - 1 / std::numbers::sqrt2, s = (1 - alpha) / alpha, stage = alpha * duration / count;
+  const double cold = 300;
+  const test::Sheet sheet = test::one_triangle(0.01);
+  Solver solver(sheet.mesh);
+  const auto stage_from = [&](double reference, double foretold) {
+    const std::vector<double> start = {reference}, sources = {sheet.volumes[0] * power(std::exp(cold - foretold))};
+    Problem problem = test::problem_of(sheet, start);
+    problem.duration = stage;
+    problem.sources = sources;
+    return solver.stage(problem).temperatures[0];
+  };
+  double t = cold, rate = 0;
+  for (int i = 0; i < count; ++i) {
+    const double first = stage_from(t, t + stage * rate), reference = t + s * (first - t);
+    const double second = stage_from(reference, t + (first - t) / alpha);
+    rate = (second - reference) / stage;
+    t = second;
+  }
+  return t - cold;
+}
+
+// Under a stress σ it runs away, exp(-b (T - T0)) = 1 - b σ² t/(ρ c μ0); at a rate γ̇ it slows, exp(b (T - T0)) =
+// 1 + b μ0 γ̇² t/(ρ c).
+TEST(Stage, HeatsViscouslyToSecondOrder) {
+  double by_stress = 0, by_rate = 0;
+  for (const int count : {32, 64, 128, 256}) {
+    const double stressed = heated([](double viscosity) { return 1 / viscosity; }, 0.8, count);
+    test::expect_order(by_stress, std::abs(stressed + std::log(1 - 0.8)), 1.85);
+    const double sheared = heated([](double viscosity) { return viscosity; }, 2, count);
+    test::expect_order(by_rate, std::abs(sheared - std::log(3)), 1.85);
+  }
+  EXPECT_LT(by_stress, 1e-3);
+  EXPECT_LT(by_rate, 1e-4);
 }
 
 TEST(Stage, HasTheSameBitsForAnyNumberOfThreads) {

@@ -49,7 +49,7 @@ formats::Frame stack(int layers, double apart, double thick = layer_thickness) {
 enum class Drawn { as_body, as_layers };
 
 std::unique_ptr<World> world_of(const formats::Frame& frame, Drawn drawn, const std::vector<Plane>& planes = {}) {
-  const Surface surface = make_surface(frame, 1e-6);
+  const Surface surface = make_surface(middle_of(frame), 1e-6);
   return drawn == Drawn::as_body
              ? world_of_bodies(surface, {}, {}, planes, test::box_of(frame))
              : std::make_unique<World>(surface, std::vector<SolidMesh>{}, std::vector<Eigen::Isometry3d>{}, planes,

@@ -93,7 +93,7 @@ struct Still {
     return make_solids(scene)[0];
   }
   explicit Still(std::size_t material, const Lighting& light)
-      : world(make_surface(frame, 1e-4), {ball()}, {Eigen::Isometry3d::Identity()},
+      : world(make_surface(middle_of(frame), 1e-4), {ball()}, {Eigen::Isometry3d::Identity()},
               {{ground_id, {0, -0.52, 0}, Vector3::UnitY()}}, box),
         lighting(light), tracer(world, lighting, preset(material), {{Colour::Constant(0.6F)}}),
         camera(test::frame_box(box, {}, Vector3::UnitY(), 1, 0.05)) {}

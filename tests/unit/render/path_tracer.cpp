@@ -27,7 +27,7 @@ Picture draw_furnace(const Furnace& f, const Liquid& liquid, int pixels, int sam
   for (const SolidMesh& solid : f.solids)
     for (const Vector3& p : solid.positions)
       box.add(p);
-  const World world(make_surface(f.frame, f.thinnest), f.solids, motions, {}, box);
+  const World world(make_surface(middle_of(f.frame), f.thinnest), f.solids, motions, {}, box);
   const Lighting lighting = Lighting::uniform(1);
   Surroundings around;
   around.solids.assign(4, Colour::Ones());

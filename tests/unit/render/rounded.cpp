@@ -38,7 +38,7 @@ double off_the_sphere(const Surface& s) {
 }
 
 TEST(Rounded, ComesNearerToASphere) {
-  const Surface ball = make_surface(test::ball(16, thick), 1e-6);
+  const Surface ball = make_surface(middle_of(test::ball(16, thick)), 1e-6);
   std::vector<float> roundness = everywhere(ball, 1);
   const Surface once = rounded(ball, roundness);
   const Surface twice = rounded(once, roundness);
@@ -56,7 +56,7 @@ TEST(Rounded, ComesNearerToASphere) {
 }
 
 TEST(Rounded, StaysWhereItIsToStayFlat) {
-  const Surface ball = make_surface(test::ball(8, thick), 1e-6);
+  const Surface ball = make_surface(middle_of(test::ball(8, thick)), 1e-6);
   std::vector<float> roundness = everywhere(ball, 0);
   const Surface fine = rounded(ball, roundness);
   for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
@@ -70,7 +70,7 @@ TEST(Rounded, StaysWhereItIsToStayFlat) {
 }
 
 TEST(Rounded, IsAsClosedAsItWas) {
-  const Surface trough = make_surface(test::trough(6, thick), 1e-6);
+  const Surface trough = make_surface(middle_of(test::trough(6, thick)), 1e-6);
   std::vector<float> roundness = everywhere(trough, 0.7F);
   const Surface fine = rounded(trough, roundness);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;

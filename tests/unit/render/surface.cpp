@@ -34,7 +34,7 @@ bool is_closed(const Surface& s) {
 
 TEST(Surface, AFlatSheetHasItsVolumeAndHalfARodForARim) {
   const double h = 0.02;
-  const Surface s = make_surface(test::flat(8, h), 1e-4);
+  const Surface s = make_surface(middle_of(test::flat(8, h)), 1e-4);
   EXPECT_TRUE(s.closed);
   EXPECT_TRUE(is_closed(s));
   // The half circle is cut into 6, corners are mitred.
@@ -47,11 +47,11 @@ TEST(Surface, AFlatSheetHasItsVolumeAndHalfARodForARim) {
 
 TEST(Surface, CurvedSheetsAreClosedToo) {
   for (const formats::Frame& frame : {test::trough(10, 0.05), test::ball(16, 0.03), test::flat(1, 0.1)})
-    EXPECT_TRUE(is_closed(make_surface(frame, 1e-4)));
+    EXPECT_TRUE(is_closed(make_surface(middle_of(frame), 1e-4)));
 }
 
 TEST(Surface, NormalsPointOutOfTheTriangles) {
-  const Surface s = make_surface(test::trough(24, 0.01), 1e-4);
+  const Surface s = make_surface(middle_of(test::trough(24, 0.01)), 1e-4);
   for (const Corners& t : s.triangles) {
     const Vector3 n = (s.positions[t[1]] - s.positions[t[0]]).cross(s.positions[t[2]] - s.positions[t[0]]).normalized();
     for (const std::uint32_t v : t)
@@ -60,7 +60,7 @@ TEST(Surface, NormalsPointOutOfTheTriangles) {
 }
 
 TEST(Surface, ThinSheetsAreDrawnAsTheirMiddle) {
-  const Surface s = make_surface(test::flat(4, 1e-6), 1e-4);
+  const Surface s = make_surface(middle_of(test::flat(4, 1e-6)), 1e-4);
   EXPECT_FALSE(s.closed);
   EXPECT_EQ(s.triangles.size(), 32U);
 }
@@ -71,13 +71,13 @@ TEST(Surface, TrianglesWithoutAreaAndPinchesDoNoHarm) {
   const std::vector<V> x = {V(0, 0, 0), V(1, 0, 0), V(0, 1, 0), V(-1, 0, 0), V(0, -1, 0), V(2, 0, 0)};
   const std::vector<Corners> t = {{0, 1, 2}, {0, 3, 4}, {0, 1, 5}};
   const std::vector<double> v = {0.01, 0.01, 0.01};
-  const Surface s = make_surface(make_frame(x, t, v), 1e-4);
+  const Surface s = make_surface(middle_of(make_frame(x, t, v)), 1e-4);
   for (const Vector3& p : s.positions)
     EXPECT_TRUE(p.allFinite());
   for (const Vec& n : s.normals)
     EXPECT_TRUE(n.allFinite());
   EXPECT_EQ(s.source_triangle.size(), s.triangles.size());
-  const Surface none = make_surface(make_frame({}, {}, {}), 1e-4);
+  const Surface none = make_surface(middle_of(make_frame({}, {}, {})), 1e-4);
   EXPECT_TRUE(none.triangles.empty());
 }
 

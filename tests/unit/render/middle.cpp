@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/middle.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/render/surface.h"
+#include "tests/support/meshes.h"
+#include "tests/unit/render/scenes.h"
+
+namespace sheet::render {
+namespace {
+
+constexpr std::size_t plenty = 1'000'000;
+
+double volume_of(const Middle& middle) {
+  double volume = 0;
+  for (const Corners& t : middle.triangles)
+    volume += area_normal(middle.positions, t).norm() *
+              (middle.thickness[t[0]] + middle.thickness[t[1]] + middle.thickness[t[2]]) / 3;
+  return volume;
+}
+
+// How far the middles of triangles lie from the sphere of radius 0.5, in the mean by area.
+double off_sphere(const Middle& middle) {
+  double sum = 0, area = 0;
+  for (const Corners& t : middle.triangles) {
+    const Vector3 center = (middle.positions[t[0]] + middle.positions[t[1]] + middle.positions[t[2]]) / 3;
+    const double size = area_normal(middle.positions, t).norm();
+    sum += size * std::abs(center.norm() - 0.5);
+    area += size;
+  }
+  return sum / area;
+}
+
+formats::Frame coarse_ball() { // edges of 32 to 36 degrees
+  const sheet::test::Mesh mesh = sheet::test::icosphere(1);
+  std::vector<Vector3> x;
+  for (const Vector3& v : mesh.positions)
+    x.push_back(0.5 * v);
+  return make_frame(x, mesh.triangles, std::vector<double>(mesh.triangles.size(), 1e-4));
+}
+
+TEST(Middle, ACoarseBallBecomesRound) {
+  const formats::Frame frame = coarse_ball();
+  const Middle flat = middle_of(frame), smooth = smoothed(flat, volumes(frame), plenty);
+  ASSERT_EQ(smooth.triangles.size(), 16 * flat.triangles.size());
+  EXPECT_GT(off_sphere(flat), 0.02);
+  EXPECT_LT(off_sphere(smooth), 0.3 * off_sphere(flat)); // it goes near to the vertices, not through them
+  double volume = 0;
+  for (const double v : volumes(frame))
+    volume += v;
+  EXPECT_NEAR(volume_of(smooth), volume, 0.02 * volume);
+  for (std::size_t t = 0; t < smooth.triangles.size(); ++t) { // their normals still point outwards
+    const Vector3& x = smooth.positions[smooth.triangles[t][0]];
+    EXPECT_GT(area_normal(smooth.positions, smooth.triangles[t]).dot(x), 0);
+  }
+}
+
+TEST(Middle, AsFarAsThereMayBeTriangles) {
+  const formats::Frame frame = coarse_ball();
+  const Middle flat = middle_of(frame);
+  const std::size_t n = flat.triangles.size();
+  EXPECT_EQ(smoothed(flat, volumes(frame), 16 * n).triangles.size(), 16 * n);
+  EXPECT_EQ(smoothed(flat, volumes(frame), 4 * n - 1).positions, flat.positions);
+}
+
+TEST(Middle, WhatIsFlatStays) {
+  const formats::Frame frame = test::flat(4, 0.01);
+  const Middle flat = middle_of(frame), smooth = smoothed(flat, volumes(frame), plenty);
+  EXPECT_EQ(smooth.positions, flat.positions);
+  EXPECT_EQ(smooth.triangles, flat.triangles);
+}
+
+// Half of a tube, with straight and round rims and four corners.
+TEST(Middle, RimsAreRoundAndCornersStay) {
+  Middle half;
+  constexpr std::uint32_t around = 6, along = 3;
+  for (std::uint32_t j = 0; j < along; ++j)
+    for (std::uint32_t i = 0; i <= around; ++i) {
+      const double angle = std::numbers::pi * i / around;
+      half.positions.emplace_back(std::cos(angle), std::sin(angle), 0.5 * j);
+      half.thickness.push_back(0.01);
+    }
+  for (std::uint32_t j = 0; j + 1 < along; ++j)
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const std::uint32_t a = j * (around + 1) + i, b = a + around + 1;
+      for (const Corners& t : {Corners{a, a + 1, b}, Corners{a + 1, b + 1, b}}) {
+        half.source_triangle.push_back(static_cast<std::uint32_t>(half.triangles.size()));
+        half.triangles.push_back(t);
+      }
+    }
+  const Middle smooth = smoothed(half, std::vector<double>(half.triangles.size(), 1e-3), plenty);
+  ASSERT_GT(smooth.triangles.size(), half.triangles.size());
+  double lowest = 0, widest = 0;
+  for (const Vector3& x : smooth.positions) {
+    widest = std::max(widest, std::abs(std::hypot(x.x(), x.y()) - 1));
+    lowest = std::max({lowest, -x.z(), x.z() - 1, -x.y()});
+  }
+  EXPECT_LT(widest, 0.02); // the chords of the coarse tube: 0.034
+  EXPECT_LT(lowest, 1e-12);
+  for (const std::size_t corner : {std::size_t{0}, std::size_t{around}})
+    EXPECT_EQ(smooth.positions[corner], half.positions[corner]);
+}
+
+// Three triangles at one edge, as an imported mesh may have.
+TEST(Middle, EdgesOfThreeTrianglesStay) {
+  Middle fan;
+  fan.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {-0.5, 0.9, 0.5}, {-0.5, -0.9, 0.5}, {0.2, 1.2, 0.5}};
+  fan.thickness.assign(6, 0.01);
+  fan.triangles = {{0, 2, 1}, {0, 3, 1}, {0, 4, 1}, {0, 3, 5}};
+  fan.source_triangle = {0, 1, 2, 3};
+  const Middle smooth = smoothed(fan, std::vector<double>(4, 1e-3), plenty);
+  ASSERT_GT(smooth.triangles.size(), 4u);
+  EXPECT_EQ(smooth.positions[0], fan.positions[0]);
+  EXPECT_EQ(smooth.positions[1], fan.positions[1]);
+  for (const Vector3& x : smooth.positions)
+    EXPECT_TRUE(x.allFinite());
+}
+
+} // namespace
+} // namespace sheet::render
