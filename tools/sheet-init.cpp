@@ -27,6 +27,7 @@
 #include "libsheet/scene/document.h"
 #include "libsheet/scene/example.h"
 #include "libsheet/scene/explain.h"
+#include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/keys.h"
 #include "libsheet/scene/read.h"
 
@@ -113,10 +114,10 @@ std::string file_list(const Source& source) {
 
 // What --check prints; of that, what --ring does.
 std::string explained(Source source, bool ring_alone) {
-  const sheet::Scene scene = read(source);
-  const sheet::formats::Frame frame = sheet::checked_first_frame(scene);
+  const sheet::Scene with_heat = read(source), scene = sheet::scene::as_it_starts(with_heat);
+  const sheet::formats::Frame frame = sheet::checked_first_frame(with_heat);
   const std::vector<sheet::scene::Measured> measured = sheet::measured_sheets(scene, frame);
-  sheet::scene::Explanation explanation = sheet::scene::explain(scene, measured, sheet::modelled(scene));
+  sheet::scene::Explanation explanation = sheet::scene::explain(with_heat, measured, sheet::modelled(with_heat));
   const double thickness = sheet::landing_thickness(scene, frame);
   if (sheet::stays_in_its_plane(scene, frame, thickness)) {
     explanation.warnings.emplace_back("all is symmetric about the sheet's plane: it would grow thicker where it should "

@@ -228,6 +228,11 @@ passed = {
                                                    [5, 3, 0.5, 0.5, 0.0009765625, 0.5, 0, 0, 0, 0, 0, 0]]), "frame",
                                                    "1", "copy")),
     "contact_since": stream(dated_contacts(0.25, -np.inf)),
+    "temperature": stream(triangle_frame(temperature=Array(np.array([1173.15]), "triangle", "K", "mean"),
+                                         temperature_rate=Array(np.array([-12.5]), "triangle", "K/s", "mean"),
+                                         temperature_mode=Array(np.array([[0.5, -8.25]]), "triangle", "K", "mean"),
+                                         temperature_mode_rate=Array(np.array([[0, 0.125]]), "triangle", "K/s",
+                                                                     "mean"))),
 }
 
 failed = {
@@ -276,7 +281,7 @@ failed = {
     "place_unknown": forge(one, (entry["volume"] + 72, b"\4")),
     "type_unknown": forge(one, (entry["volume"] + 73, b"\12")),
     "type_zero": forge(one, (entry["volume"] + 73, b"\0")),
-    "rule_unknown": forge(one, (entry["volume"] + 74, b"\5")),
+    "rule_unknown": forge(one, (entry["volume"] + 74, b"\6")),
     "flags_unknown": forge(one, (entry["volume"] + 75, b"\3")),
     "flags_unknown_newer_minor": forge(one, (10, u(1, 2)), (entry["volume"] + 75, b"\2")),
     "no_components": forge(note, (entry["note"] + 76, u(0, 4)), (entry["note"] + 80, u(1 << 60)),
@@ -345,6 +350,13 @@ failed = {
     "health_nan": with_array("health", Array(np.full((1, 12), np.nan), "frame", "1", "copy")),
     "contact_since_infinite": stream(dated_contacts(0.25, np.inf)),
     "contact_since_rows": stream(dated_contacts(0.25)),
+    "mean_of_vertex": forge(one, (entry["position"] + 74, b"\5")),
+    "mean_of_integer": forge(one, (entry["triangle"] + 74, b"\5")),
+    "temperature_zero": with_array("temperature", Array(np.zeros(1), "triangle", "K", "mean")),
+    "temperature_nan": with_array("temperature", Array(np.full(1, np.nan), "triangle", "K", "mean")),
+    "temperature_rule": with_array("temperature", Array(np.full(1, 300.0), "triangle", "K", "interpolate")),
+    "temperature_place": with_array("temperature", Array(np.full(3, 300.0), "vertex", "K", "interpolate")),
+    "temperature_rate_infinite": with_array("temperature_rate", Array(np.full(1, np.inf), "triangle", "K/s", "mean")),
 }
 
 

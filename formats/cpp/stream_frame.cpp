@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 4> place_names{"vertex", "triangle", "edg
 constexpr std::array<std::string_view, 10> type_names{"",      "int8",   "uint8",   "int32",   "uint32",
                                                       "int64", "uint64", "float32", "float64", "text"};
 constexpr std::array<std::size_t, 10> type_sizes{0, 1, 1, 4, 4, 8, 8, 4, 8, 1};
-constexpr std::array<std::string_view, 5> transfer_names{"drop", "copy", "interpolate", "conserve", "common"};
+constexpr std::array<std::string_view, 6> transfer_names{"drop", "copy", "interpolate", "conserve", "common", "mean"};
 
 // The table's value, or its type's empty one for a number outside of it.
 template <class Table, class Enum> typename Table::value_type lookup(const Table& table, Enum index) {
@@ -151,8 +151,11 @@ std::string find_entry_error(const Array& a, const Frame& frame) {
     return "text belongs to the frame, with one component";
   if (a.transfer == Transfer::common && (is_floating(a.type) || a.type == Type::text))
     return "transfer \"common\" is for integers";
-  if ((a.transfer == Transfer::interpolate || a.transfer == Transfer::conserve) && !is_floating(a.type))
+  if ((a.transfer == Transfer::interpolate || a.transfer == Transfer::conserve || a.transfer == Transfer::mean) &&
+      !is_floating(a.type))
     return fmt::format("transfer \"{}\" is for floating point", name_of(a.transfer));
+  if (a.transfer == Transfer::mean && a.place != Place::triangle)
+    return "transfer \"mean\" is for triangles, which have a volume";
   if (a.place != Place::frame && a.rows != frame.rows_at(a.place))
     return fmt::format("it has {} rows, the frame has {} at place {}", a.rows, frame.rows_at(a.place),
                        name_of(a.place));

@@ -36,6 +36,7 @@ enum class Transfer : std::uint8_t {
   interpolate = 2, // weighted mean of the parents (floating point only)
   conserve = 3,    // the sum over all rows stays (floating point only)
   common = 4,      // the bits that all parents have (integers only)
+  mean = 5,        // mean by volume: the sum of value x volume stays (floating point, of triangles only)
 };
 
 [[nodiscard]] std::size_t size_of(Type type) noexcept;

@@ -73,7 +73,7 @@ std::string read_entry(const layout::ArrayEntry& e, const layout::FrameHeader& h
     return fmt::format("place {} is unknown", e.place);
   if (e.type < static_cast<std::uint8_t>(Type::int8) || e.type > static_cast<std::uint8_t>(Type::text))
     return fmt::format("type {} is unknown", e.type);
-  if (e.transfer > static_cast<std::uint8_t>(Transfer::common))
+  if (e.transfer > static_cast<std::uint8_t>(Transfer::mean))
     return fmt::format("transfer rule {} is unknown", e.transfer);
   if ((e.flags & ~layout::critical_bit) != 0)
     return fmt::format("flags {:#x} are unknown", e.flags);

@@ -252,9 +252,9 @@ Array TextParser::read_entry(const Frame& frame) {
   if (counted && !parse_number(place.substr(6, place.size() - 7), array.rows))
     fail(place, fmt::format("\"{}\" does not say how many rows: write \"frame[ROWS]\"", place));
 
-  const auto found_transfer = find_named(transfer, Transfer::drop, Transfer::common);
+  const auto found_transfer = find_named(transfer, Transfer::drop, Transfer::mean);
   if (!found_transfer)
-    fail(transfer, fmt::format("\"{}\" is not a rule: drop copy interpolate conserve common", transfer));
+    fail(transfer, fmt::format("\"{}\" is not a rule: drop copy interpolate conserve common mean", transfer));
   array.transfer = *found_transfer;
   array.critical = critical == "critical";
   if (!critical.empty() && !array.critical)

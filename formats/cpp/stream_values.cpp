@@ -35,6 +35,10 @@ constexpr std::array standards{
     Standard{"position", Place::vertex, Type::float64, 3, "m", Transfer::interpolate, true},
     Standard{"triangle", Place::triangle, Type::uint32, 3, "1", Transfer::drop, true},
     Standard{"volume", Place::triangle, Type::float64, 1, "m^3", Transfer::conserve, true},
+    Standard{"temperature", Place::triangle, Type::float64, 1, "K", Transfer::mean, false},
+    Standard{"temperature_rate", Place::triangle, Type::float64, 1, "K/s", Transfer::mean, false},
+    Standard{"temperature_mode", Place::triangle, Type::float64, any_number, "K", Transfer::mean, false},
+    Standard{"temperature_mode_rate", Place::triangle, Type::float64, any_number, "K/s", Transfer::mean, false},
     Standard{"velocity", Place::vertex, Type::float64, 3, "m/s", Transfer::interpolate, false},
     Standard{"start_position", Place::vertex, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"start_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
@@ -179,6 +183,10 @@ std::string find_error(const Frame& frame, const Standard& standard, const Array
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!(values[i] > 0))
         return fmt::format("array \"volume\": triangle {} has volume {} m^3, it must be positive", i, values[i]);
+  if (array.name == "temperature")
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!(values[i] > 0))
+        return fmt::format("array \"temperature\": triangle {} has {} K, it must be above 0", i, values[i]);
   if (array.name == "step_size" && !(values[0] > 0))
     return fmt::format("array \"step_size\" is {} s, it must be positive", values[0]);
   return {};

@@ -35,6 +35,8 @@ constexpr std::array units{
     NamedUnit{"h", {{0, 0, 1}, 2, 36}, false},
     NamedUnit{"d", {{0, 0, 1}, 0, 86400}, false},
     NamedUnit{"a", {{0, 0, 1}, 0, 31557600}, false}, // a year of 365.25 days
+    NamedUnit{"K", {{0, 0, 0, 1}}, true},
+    NamedUnit{"mol", {{0, 0, 0, 0, 1}}, true},
     NamedUnit{"Hz", {{0, 0, -1}}, true},
     NamedUnit{"N", {{1, 1, -2}}, true},
     NamedUnit{"dyn", {{1, 1, -2}, -5}, false},
@@ -86,11 +88,17 @@ std::optional<Unit> find_unit(std::string_view name) {
   return {};
 }
 
+constexpr double zero_celsius = 273.15; // [K], by definition
+
+bool is_celsius(std::string_view name) { return name == "°C" || name == "degC" || name == "\u2103"; }
+
 // a *= b^power
 void multiply(Unit& a, const Unit& b, int power) {
   a.dimension.kg += b.dimension.kg * power;
   a.dimension.m += b.dimension.m * power;
   a.dimension.s += b.dimension.s * power;
+  a.dimension.K += b.dimension.K * power;
+  a.dimension.mol += b.dimension.mol * power;
   a.ten += b.ten * power;
   for (int i = 0; i < std::abs(power); ++i) {
     a.numerator *= power > 0 ? b.numerator : b.denominator;
@@ -163,6 +171,8 @@ private:
       if (!found) {
         if (name.empty())
           fail_at_rest();
+        else if (is_celsius(name))
+          problem_ = fmt::format("\"{}\" counts from 273.15 K, so it stands behind a temperature alone: write K", name);
         else
           problem_ = fmt::format("unknown unit \"{}\"", name);
         return base;
@@ -342,7 +352,8 @@ std::string describe(const Dimension& dimension) {
       return fmt::format("{} ({})", known.name, known.unit);
   for (const Quantity& known :
        {quantity::length, quantity::time, quantity::mass, quantity::velocity, quantity::acceleration,
-        quantity::turning_rate, quantity::viscosity, quantity::density, quantity::pressure, quantity::conductance})
+        quantity::turning_rate, quantity::viscosity, quantity::density, quantity::pressure, quantity::conductance,
+        quantity::temperature, quantity::specific_heat, quantity::conductivity, quantity::heat_transfer})
     if (known.dimension == dimension)
       return fmt::format("{} ({})", known.name, known.unit);
   std::string unit;
@@ -358,6 +369,8 @@ std::string describe(const Dimension& dimension) {
   append("kg", dimension.kg);
   append("m", dimension.m);
   append("s", dimension.s);
+  append("K", dimension.K);
+  append("mol", dimension.mol);
   return "a quantity in " + unit;
 }
 
@@ -385,7 +398,8 @@ std::optional<double> read_quantity(std::string_view text, const Quantity& expec
   }
   rest = trim(rest);
   Unit unit{expected.dimension};
-  if (!rest.empty()) {
+  const bool celsius = expected.dimension == quantity::temperature.dimension && is_celsius(rest);
+  if (!rest.empty() && !celsius) {
     const auto parsed = UnitParser(rest, problem).parse();
     if (!parsed) {
       problem = fmt::format("expected {} such as \"{}\": {}", expected.name, expected.example, excerpt(problem, 300));
@@ -398,7 +412,7 @@ std::optional<double> read_quantity(std::string_view text, const Quantity& expec
     }
   }
   const auto decimal = read_decimal(number, unit.ten);
-  const double value = decimal ? *decimal * unit.numerator / unit.denominator : HUGE_VAL;
+  const double value = decimal ? *decimal * unit.numerator / unit.denominator + (celsius ? zero_celsius : 0) : HUGE_VAL;
   if (!std::isfinite(value)) {
     problem = fmt::format("\"{}\" is beyond the range of numbers", excerpt(text));
     return {};

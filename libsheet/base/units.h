@@ -3,7 +3,8 @@
 //
 // Grammar: a number, then a unit: names joined by * (or a blank, or a middle dot) and /, worked off from left to right,
 // each with an optional integer power ("m^3", "m3", "s^-1", "m²"), in brackets if need be. A number alone is taken as
-// SI. Angles count as plain numbers (1 rad = 1). Powers of ten go into the decimal number before it becomes a double,
+// SI. Angles count as plain numbers (1 rad = 1). "°C" and "degC" stand alone, behind a temperature.
+// Powers of ten go into the decimal number before it becomes a double,
 // so "0.1 mm" is the double nearest to 0.0001.
 #pragma once
 #include <optional>
@@ -16,7 +17,7 @@ namespace sheet {
 
 // Exponents of the base units; angles have none.
 struct Dimension {
-  int kg = 0, m = 0, s = 0;
+  int kg = 0, m = 0, s = 0, K = 0, mol = 0;
   bool operator==(const Dimension&) const = default;
 };
 
@@ -45,6 +46,13 @@ inline constexpr Quantity stiffness{"a stiffness", {1, 0, -2}, "N/m", "1.5 N/m"}
 inline constexpr Quantity drag{"a drag", {1, -2, -1}, "Pa*s/m", "100 Pa*s/m"};
 inline constexpr Quantity pressure{"a pressure", {1, -1, -2}, "Pa", "10 Pa"};
 inline constexpr Quantity volume{"a volume", {0, 3, 0}, "m^3", "1e-3 m^3"};
+inline constexpr Quantity temperature{"a temperature", {0, 0, 0, 1}, "K", "900 degC"};
+inline constexpr Quantity specific_heat{"a specific heat", {0, 2, -2, -1}, "J/(kg*K)", "1250 J/(kg*K)"};
+inline constexpr Quantity conductivity{"a thermal conductivity", {1, 1, -3, -1}, "W/(m*K)", "1.2 W/(m*K)"};
+inline constexpr Quantity heat_transfer{"a heat transfer coefficient", {1, 0, -3, -1}, "W/(m^2*K)", "15 W/(m^2*K)"};
+inline constexpr Quantity molar_energy{"a molar energy", {1, 2, -2, 0, -1}, "J/mol", "60 kJ/mol"};
+inline constexpr Quantity per_kelvin{"a change per kelvin", {0, 0, 0, -1}, "1/K", "0.02 1/K"};
+inline constexpr Quantity tension_slope{"a surface tension per kelvin", {1, 0, -2, -1}, "N/(m*K)", "-0.05 mN/(m*K)"};
 inline constexpr Quantity conductance{"a conductance", {-1, 4, 1}, "m^3/(Pa*s)", "1e-6 m^3/(Pa*s)"};
 } // namespace quantity
 

@@ -112,6 +112,20 @@ void put_overshoot(Frame& frame, const std::vector<Vector3>& overshoot) {
   frame.put(std::move(array));
 }
 
+// a_T at vertices, the mean of their triangles by volume; empty where viscosity does not depend on temperature.
+std::vector<double> vertex_shifts(const Frame& frame, const Liquid& liquid) {
+  const auto temperature = temperatures(frame), volume = volumes(frame);
+  if (temperature.empty() || liquid.temperature_law.constant())
+    return {};
+  const ViscosityShift shift(liquid.temperature_law);
+  const auto of = [&](auto value) { return vertex_shares(frame.vertices, triangles(frame), value); };
+  std::vector<double> shifts = of([&](std::uint32_t t) { return volume[t] * shift.factor(temperature[t]); });
+  const std::vector<double> carried = of([&](std::uint32_t t) { return volume[t]; });
+  for (std::size_t v = 0; v < shifts.size(); ++v)
+    shifts[v] = carried[v] > 0 ? shifts[v] / carried[v] : 1;
+  return shifts;
+}
+
 } // namespace
 
 struct CollideStage::Impl {
@@ -406,8 +420,9 @@ struct CollideStage::Impl {
   void set_springs(Frame& frame, StepPath& path, const std::vector<Axes>& fixed, std::span<const double> reach,
                    double taken) {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
-    const SpringSheet sheet{path.start,  path.end, reach,         path.thickness,
-                            at_end.area, fixed,    path.length(), path.end_thickness};
+    const std::vector<double> shift = vertex_shifts(frame, scene->material);
+    const SpringSheet sheet{path.start,    path.end,           reach, path.thickness, at_end.area, fixed,
+                            path.length(), path.end_thickness, shift};
     std::vector<ContactSpring> springs = read_springs(frame);
     drop_within_layers(springs, search->layers(), sheet);
     weld_anew(springs, *mesh.mesh(), path.start);

@@ -41,7 +41,8 @@ double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringShee
   const double g = scene.environment.gravity ? scene.environment.gravity->norm() : 0;
   const double time = time_of(s, g, d, sheet);
   const double inertia = scene.model.inertia ? mass / (time * time) : 0;
-  const double viscosity = viscosity_of(scene.material, {1 / (time * time)});
+  const double shift = sheet.shift.empty() ? 1 : s.mean(sheet.shift);
+  const double viscosity = shift * viscosity_of(scene.material, {shift * shift / (time * time)});
   return inertia + 200 * mass * g / d + 0.5 * viscosity * h / time;
 }
 

@@ -38,6 +38,7 @@ struct SpringSheet {
   std::vector<Axes> fixed;                    // pairs of fixed vertices alone get no spring
   double step = 0;                            // its length [s]
   std::span<const double> end_thickness = {}; // where layers flow; their springs rest at what they thin to [m]
+  std::span<const double> shift = {};         // a_T by which temperature shifts the flow curve; empty: 1
 };
 
 // Takes away the springs within one layer, by the positions and contact distances at the start: those of a layer that

@@ -9,14 +9,14 @@ namespace sheet {
 
 void ContactDamping::begin(const Stage& stage) {
   const LayerShares shares = layer_shares(stage);
-  const std::vector<double> viscosities = vertex_viscosities(stage);
+  const std::vector<double> viscosities = vertex_means(stage, stage.viscosity);
   const double density = inertia_ ? stage.liquid.density : 0;
   dampers_.assign(springs_.size(), {});
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
     const double area = s.area(shares.area), h = s.mean(shares.thickness);
     const auto critical = [&](double k) { return std::sqrt(2 * k * area * density * h); };
-    dampers_[i].normal = (0.5 * viscosity_between(s, viscosities) * h + critical(s.stiffness[0])) / stage.duration;
+    dampers_[i].normal = (0.5 * mean_between(s, viscosities) * h + critical(s.stiffness[0])) / stage.duration;
     dampers_[i].tangential = critical(s.stiffness[1]) / stage.duration;
     dampers_[i].before = s.sum([&](std::uint32_t v) { return reference_position(stage, v); });
   }

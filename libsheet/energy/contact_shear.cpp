@@ -27,11 +27,11 @@ Feature feature(const ContactSpring& s, std::size_t first, std::size_t end, cons
 
 void ContactShear::begin(const Stage& stage) {
   const LayerShares shares = layer_shares(stage);
-  const std::vector<double> viscosities = vertex_viscosities(stage);
+  const std::vector<double> viscosities = vertex_means(stage, stage.viscosity);
+  const std::vector<double> shifts = stage.shift.empty() ? std::vector<double>{} : vertex_means(stage, stage.shift);
   links_.assign(springs_.size(), {});
   liquid_ = stage.liquid;
   flow_ = stage.flow;
-  duration_ = stage.duration;
   own_force_.clear();
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
@@ -47,10 +47,11 @@ void ContactShear::begin(const Stage& stage) {
     const LayerShear shear = on_wall ? shear_on_wall(lower.thickness, upper.thickness, lower.site->slip_length)
                                      : shear_in_stack(lower.thickness, upper.thickness);
     Link& link = links_[i];
-    const double rate = s.area(shares.area) * viscosity_between(s, viscosities) / stage.duration;
+    const double rate = s.area(shares.area) * mean_between(s, viscosities) / stage.duration;
     link.shear = rate / shear.depth;
     link.area = s.area(shares.area);
     link.depth = shear.depth;
+    link.time = shifts.empty() ? stage.duration : stage.duration / mean_between(s, shifts);
     link.squeeze = 3 * rate / ((lower.thickness + upper.thickness) / 2);
     link.before.setZero();
     for (std::size_t c = 0; c < 4; ++c) {

@@ -63,14 +63,15 @@ private:
     double thickness = 0;            // n·Σ w_i x̄_i [m]
     double shear = 0, squeeze = 0;   // stiffnesses [N/m]
     double area = 0, depth = 0;      // for a flow curve [m²], [m]
+    double time = 0;                 // likewise: τ, reduced by temperature (stage.h) [s]
   };
 
   [[nodiscard]] CurvedDrag drag_of(const Link& link, const Vector3& slid) const {
     if (flow_.newtonian() || link.area == 0)
       return {0.5 * link.shear * slid.squaredNorm(), link.shear, 0};
-    const double per = 1 / (duration_ * link.depth);
+    const double per = 1 / (link.time * link.depth);
     const FlowPoint flow = flow_.at(per * per * slid.squaredNorm());
-    return {link.area * duration_ * link.depth * flow.potential, link.area * per * flow.viscosity,
+    return {link.area * link.time * link.depth * flow.potential, link.area * per * flow.viscosity,
             link.area * per * per * per * flow.slope};
   }
   [[nodiscard]] const Vector3* own_force(std::size_t i) const { return own_force_.empty() ? nullptr : &own_force_[i]; }
@@ -88,7 +89,6 @@ private:
   std::vector<Link> links_;
   Liquid liquid_;
   FlowCurve flow_;
-  double duration_ = 0;            // [s]
   std::vector<Vector3> own_force_; // of what is not Newtonian, once Newton has gone a step [N]
 };
 

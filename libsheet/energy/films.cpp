@@ -22,7 +22,7 @@ std::vector<double> stiffened_films(const Stage& stage, bool inertia) {
   const double thin = film_thickness * volume / area, tau = stage.duration;
   for (std::size_t t = 0; t < volumes.size(); ++t) {
     const double own = stage.raised[t].area(), h = volumes[t] / own;
-    const double pull = 2 * tension - of_triangle * density * h * own / (tau * tau);
+    const double pull = 2 * stage.surface_tension(t) - of_triangle * density * h * own / (tau * tau);
     const double excess = pull * tau / (of_strip * stage.viscosity[t] * h) - 1;
     if (h >= thin || !(excess > 0))
       continue;

@@ -45,7 +45,7 @@ void Hinge::begin(const Stage& stage) {
     for (const auto t : mesh.edge_triangles[edges_[i]]) {
       const RaisedMetric& a = stage.raised[t];
       area += a.area();
-      viscosity += 0.5 * stage.viscosity[t];
+      viscosity += 0.5 * stage.viscosity[t] * stage.crust(t);
       thickness += 0.5 * stage.start->volumes[t] / a.area();
       for (std::size_t k = 0; k < 3; ++k)
         if (mesh.triangle_edges[t][k] == edges_[i])

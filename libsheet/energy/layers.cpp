@@ -19,26 +19,26 @@ LayerShares layer_shares(const Stage& stage) {
 }
 
 // Means are sums of differences to one of the values, so that equal values have just that mean.
-std::vector<double> vertex_viscosities(const Stage& stage) {
+std::vector<double> vertex_means(const Stage& stage, std::span<const double> values) {
   const auto& triangles = stage.start->mesh->triangles;
   std::vector<double> first(stage.vertices(), 0);
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     for (const std::uint32_t v : triangles[t])
-      first[v] = stage.viscosity[t];
+      first[v] = values[t];
   std::vector<double> more(stage.vertices(), 0);
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     for (const std::uint32_t v : triangles[t])
-      more[v] += stage.start->volumes[t] / 3 * (stage.viscosity[t] - first[v]);
+      more[v] += stage.start->volumes[t] / 3 * (values[t] - first[v]);
   for (std::size_t v = 0; v < first.size(); ++v)
     first[v] += more[v] / stage.vertex_volumes[v];
   return first;
 }
 
-double viscosity_between(const ContactSpring& contact, std::span<const double> viscosities) {
-  const double first = viscosities[contact.vertices[0]];
+double mean_between(const ContactSpring& contact, std::span<const double> means) {
+  const double first = means[contact.vertices[0]];
   double more = 0;
   for (std::size_t i = 1; i < 4; ++i)
-    more += 0.5 * std::abs(contact.weights[i]) * (viscosities[contact.vertices[i]] - first);
+    more += 0.5 * std::abs(contact.weights[i]) * (means[contact.vertices[i]] - first);
   return first + more;
 }
 

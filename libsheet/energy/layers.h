@@ -15,10 +15,10 @@ struct LayerShares {
   std::vector<double> area, thickness; // a third of its triangles' [m²]; volume / area [m]
 };
 [[nodiscard]] LayerShares layer_shares(const Stage& stage);
-// Of each vertex the mean of its triangles' viscosities, by volume [Pa s].
-[[nodiscard]] std::vector<double> vertex_viscosities(const Stage& stage);
-// The mean over both features of a contact [Pa s].
-[[nodiscard]] double viscosity_between(const ContactSpring& contact, std::span<const double> viscosities);
+// Of each vertex the mean of its triangles' values, such as viscosities, by volume.
+[[nodiscard]] std::vector<double> vertex_means(const Stage& stage, std::span<const double> values);
+// Their mean over both features of a contact.
+[[nodiscard]] double mean_between(const ContactSpring& contact, std::span<const double> means);
 
 // How a layer that is sheared by the one below it lags behind. The velocity across each is a parabola, without stress
 // at the upper face of the upper one, and both, and their stresses, meet in between [Oron, Davis and Bankoff 1997,

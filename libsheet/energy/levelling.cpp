@@ -96,16 +96,24 @@ struct Carried {
 
 // How fast unevenness of the size of an edge flows across it, a step of thickness over `apart` [m²/s]; 0 where nothing
 // drags.
-double diffusivity(const WallSite& one, const WallSite& other, const Stage& stage, const Vector3& gravity, double h,
-                   double step, double apart) {
+double diffusivity(const WallSite& one, const WallSite& other, const Stage& stage,
+                   const std::array<std::uint32_t, 2>& sides, const Vector3& gravity, double h, double step,
+                   double apart) {
   if (one.slip_length == free_slip || other.slip_length == free_slip)
     return 0;
+  const double tension = 0.5 * (stage.surface_tension(sides[0]) + stage.surface_tension(sides[1]));
+  const double shift = 0.5 * (stage.shift_of(sides[0]) + stage.shift_of(sides[1]));
   const double towards = std::max(0.0, -gravity.dot(one.normal + other.normal) / 2);
-  const double stiffness = stage.liquid.density * towards + stage.liquid.surface_tension / (apart * apart);
+  const double stiffness = stage.liquid.density * towards + tension / (apart * apart);
   const double slip = std::min(one.slip_length, other.slip_length);
   if (stage.wall_flow)
-    return stage.wall_flow->velocity(stiffness * h * step / apart, h, slip) * h * apart / step;
-  return stiffness * h * h * (h + 3 * slip) / (3 * stage.liquid.viscosity);
+    return stage.wall_flow->velocity(stiffness * h * step / apart, h, slip) * h * apart / (step * shift);
+  return stiffness * h * h * (h + 3 * slip) / (3 * shift * stage.liquid.viscosity);
+}
+
+// What is given takes its heat with it.
+void mix_in(double temperature, double amount, double& of_taker, double volume) {
+  of_taker = (volume * of_taker + amount * temperature) / (volume + amount);
 }
 
 } // namespace
@@ -133,8 +141,11 @@ bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<
     const double apart = (middle_of(end, up) - middle_of(end, down)).norm();
     const double h = (layers.thickness[up] + layers.thickness[down]) / 2;
     const double amount =
-        rest * std::min(diffusivity(*one, *other, stage, gravity, h, rest, apart) * dt * length / apart,
+        rest * std::min(diffusivity(*one, *other, stage, mesh.edge_triangles[e], gravity, h, rest, apart) * dt *
+                            length / apart,
                         most_in_a_step * std::min(layers.area[up], layers.area[down]));
+    if (!end.temperatures.empty())
+      mix_in(end.temperatures[up], amount, end.temperatures[down], end.volumes[down]);
     end.volumes[up] -= amount;
     end.volumes[down] += amount;
     carried.move(end, amount, up, down);

@@ -23,11 +23,11 @@ void Membrane::begin(const Stage& stage) {
   raised_ = stage.raised;
   liquid_ = stage.liquid;
   flow_ = stage.flow;
-  duration_ = stage.duration;
   stress_.clear();
   mesh_ = stage.start->mesh;
   const auto& triangles = stage.start->mesh->triangles;
   reference_.resize(triangles.size());
+  duration_.resize(triangles.size());
   weight_.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Corners& v = triangles[t];
@@ -35,7 +35,8 @@ void Membrane::begin(const Stage& stage) {
       return squared_lengths(stage.position(u, v[0]), stage.position(u, v[1]), stage.position(u, v[2]));
     };
     const Vector3 start = lengths(stage.begin);
-    const double rate = (flow_.newtonian() ? stage.viscosity[t] : 1) / (4 * stage.duration);
+    duration_[t] = stage.reduced_time(t);
+    const double rate = flow_.newtonian() ? stage.viscosity[t] / (4 * stage.duration) : 1 / (4 * duration_[t]);
     weight_[t] = 2 * rate * stage.start->volumes[t] * stage.stiffening(t);
     reference_[t] = stage.previous ? Vector3(start + stage.ratio * (lengths(*stage.previous) - start)) : start;
   }
@@ -45,7 +46,7 @@ double Membrane::value(std::size_t i, const VectorN<9>& u) const {
   const Vector3 m = squared_lengths(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)) - reference_[i];
   const RaisedMetric& a = raised_[i];
   if (!flow_.newtonian())
-    return 2 * duration_ * duration_ * weight_[i] * flow_.at(strain_rate(a, m, duration_).squared).potential;
+    return 2 * duration_[i] * duration_[i] * weight_[i] * flow_.at(strain_rate(a, m, duration_[i]).squared).potential;
   const double trace = a.trace.dot(m);
   return weight_[i] * (trace * trace - form_determinant(m) / a.determinant);
 }
@@ -56,18 +57,19 @@ double Membrane::curved_derivatives(std::size_t i, const VectorN<9>& u, VectorN<
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];
   const RaisedMetric& a = raised_[i];
-  const FlowPoint flow = flow_.at(strain_rate(a, m, duration_).squared);
-  const double volume = 2 * duration_ * weight_[i];
-  const Vector3 c = a.dissipated(m) / (2 * duration_), s = volume * flow.viscosity * c;
+  const double duration = duration_[i];
+  const FlowPoint flow = flow_.at(strain_rate(a, m, duration).squared);
+  const double volume = 2 * duration * weight_[i];
+  const Vector3 c = a.dissipated(m) / (2 * duration), s = volume * flow.viscosity * c;
   springs.gradient(s, gradient);
   if (hessian != nullptr) {
     const Vector3 other =
-        stress_.empty() || flow.slope >= 0 ? c : dual_factor(a, flow, strain_rate(a, m, duration_), stress_[i]);
+        stress_.empty() || flow.slope >= 0 ? c : dual_factor(a, flow, strain_rate(a, m, duration), stress_[i]);
     const Matrix3 product = 0.5 * (c * other.transpose() + other * c.transpose());
-    const Matrix3 qq = (volume / duration_) * (0.5 * flow.viscosity * a.dissipation() + flow.slope * product);
+    const Matrix3 qq = (volume / duration) * (0.5 * flow.viscosity * a.dissipation() + flow.slope * product);
     springs.hessian(qq, definite ? a.positive_part(s) : s, *hessian);
   }
-  return volume * duration_ * flow.potential;
+  return volume * duration * flow.potential;
 }
 
 void Membrane::follow(const Unknowns& u, const Unknowns& step) {
@@ -84,12 +86,23 @@ void Membrane::follow(const Unknowns& u, const Unknowns& step) {
       m[k] = e.squaredNorm() - reference_[t][k];
       dm[k] = 2 * e.dot(Stage::position(step, to) - Stage::position(step, from));
     }
-    const FlowPoint flow = flow_.at(strain_rate(raised_[t], m, duration_).squared);
-    const Vector3 r = m / (2 * duration_), dr = dm / (2 * duration_);
+    const FlowPoint flow = flow_.at(strain_rate(raised_[t], m, duration_[t]).squared);
+    const Vector3 r = m / (2 * duration_[t]), dr = dm / (2 * duration_[t]);
     const Vector3 p = stress_.empty() ? Vector3(flow.viscosity * r) : stress_[t];
     next[t] = flow.viscosity * (r + dr) + (flow.slope / flow.viscosity * 2 * raised_[t].dissipated(r).dot(dr)) * p;
   });
   stress_ = std::move(next);
+}
+
+// Twice the potential, or V τ η γ̇².
+void Membrane::add_dissipated(const Unknowns& u, std::span<double> energy) const {
+  each_in_parallel(energy.size(), [&](std::size_t t) {
+    const Corners& v = mesh_->triangles[t];
+    const Vector3 q = squared_lengths(Stage::position(u, v[0]), Stage::position(u, v[1]), Stage::position(u, v[2]));
+    const Vector3 m = q - reference_[t];
+    const double work = weight_[t] * m.dot(raised_[t].dissipated(m)); // with a viscosity of 1, of a flow curve
+    energy[t] += flow_.newtonian() ? work : work * flow_.viscosity(strain_rate(raised_[t], m, duration_[t]));
+  });
 }
 
 double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {

@@ -25,6 +25,7 @@ public:
 
   // See term.h.
   void follow(const Unknowns& u, const Unknowns& step);
+  void add_dissipated(const Unknowns& u, std::span<double> energy) const;
   void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
 
 private:
@@ -36,8 +37,8 @@ private:
   std::vector<double> weight_;       // V μ/(2τ) [J]; of a liquid that is not Newtonian V/(2τ)
   Liquid liquid_;
   FlowCurve flow_;
-  double duration_ = 0;         // τ [s]
-  std::vector<Vector3> stress_; // of a liquid that is not Newtonian, once Newton has gone a step [Pa m²]
+  std::vector<double> duration_; // τ, reduced by temperature (stage.h) [s]
+  std::vector<Vector3> stress_;  // of a liquid that is not Newtonian, once Newton has gone a step [Pa m²]
   std::shared_ptr<const Connectivity> mesh_;
 };
 

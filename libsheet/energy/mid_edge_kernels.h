@@ -27,8 +27,8 @@ struct alignas(64) MidEdgeReference {
   // Of directors that lean far: half a hinge by their angle, else 0 [J]; that angle; the part of the height that
   // counts.
   LaneNumbers folding[3], lean_cosine[3], lean_sine[3], upright[3];
-  LaneNumbers volume, thickness; // for flow curves; the volume as stiffened [m³], [m]
-  double duration;               // τ [s]
+  LaneNumbers volume, thickness; // for flow curves; the volume as stiffened; as crusts have it [m³], [m]
+  LaneNumbers duration;          // likewise; τ, reduced by temperature (stage.h) [s]
   bool folded;                   // whether any lane has a director that leans far
 };
 
@@ -58,7 +58,8 @@ struct alignas(64) MidEdgeStart {
   LaneNumbers rate, stiffening;  // μ/(2 τ), as stiffened, and by how much it is [Pa], [1]
   LaneNumbers sign[3];           // 1 where edge k runs from its lower to its higher vertex, else -1
   LaneNumbers held[3];           // 1 where edge k's director is held, else 0
-  double ratio, duration;        // of the stage, see stage.h; τ [s]
+  LaneNumbers duration, crust;   // τ, reduced by temperature; by what bending is stiffer (stage.h) [s], [1]
+  double ratio;                  // of the stage, see stage.h
 };
 
 // What works on the area A within the arcs (area_loads.h).
@@ -82,6 +83,10 @@ using MidEdgeKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, boo
 using MidEdgeStressKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, const LaneNumbers (&step)[12],
                                      const MidEdgeFlow& flow, MidEdgeStress&);
 
+// What viscosity dissipates in the stage, caps and directors that lean apart [J].
+using MidEdgeDissipatedKernel = void (*)(const MidEdgeReference&, const MidEdgeState&, bool arcs,
+                                         const MidEdgeFlow& flow, LaneNumbers& energy);
+
 // Fills a reference whose frames are set. previous: the first stage's result; it counts if the ratio is not 0.
 using MidEdgeReferenceKernel = void (*)(const MidEdgeStart& start, const MidEdgeState& previous,
                                         MidEdgeReference& reference);
@@ -91,6 +96,7 @@ struct MidEdgeKernels {
   MidEdgeKernel value, gradient, hessian; // each with those before it
   MidEdgeKernel definite;                 // as `hessian`, with the positive semidefinite approximation
   MidEdgeStressKernel stress;
+  MidEdgeDissipatedKernel dissipated;
 };
 
 // Those for this processor.

@@ -71,13 +71,14 @@ void MidEdgeShell::refer(const Stage& stage, std::size_t batch) {
   MidEdgeStart start;
   MidEdgeState previous;
   start.ratio = stage.previous ? stage.ratio : 0;
-  start.duration = stage.duration;
   for (int lane = 0; lane < lane_count; ++lane) {
     const std::size_t t = std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1);
     const Corners& v = mesh_->triangles[t];
     start.volume[lane] = stage.start->volumes[t];
     start.rate[lane] = stage.viscosity[t] / (2 * stage.duration) * stage.stiffening(t);
     start.stiffening[lane] = stage.stiffening(t);
+    start.duration[lane] = stage.reduced_time(t);
+    start.crust[lane] = stage.crust(t);
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const std::uint32_t edge = mesh_->triangle_edges[t][at];
@@ -142,6 +143,19 @@ void MidEdgeShell::follow(const Unknowns& u, const Unknowns& step) {
                       }
                     });
   stresses_ = std::move(next);
+}
+
+void MidEdgeShell::add_dissipated(const Unknowns& u, std::span<double> energy) const {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count), [&](const auto& range) {
+        alignas(64) LaneNumbers dissipated;
+        for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
+          const std::size_t first = batch * lane_count;
+          mid_edge_kernels().dissipated(references_[batch], global_state(u, first), arcs_, flow_of(first), dissipated);
+          for (std::size_t t = first; t < std::min(first + lane_count, triangles_); ++t)
+            energy[t] += dissipated[t - first];
+        }
+      });
 }
 
 // The unknowns of lane_count triangles; lanes beyond the last triangle are like it.

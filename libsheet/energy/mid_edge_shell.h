@@ -61,6 +61,7 @@ public:
   void prepare(const Unknowns& u);
   // See term.h.
   void follow(const Unknowns& u, const Unknowns& step);
+  void add_dissipated(const Unknowns& u, std::span<double> energy) const;
   void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
 
   // Elements first to last-1, their unknowns `stride` apart; see term.h. Gradients, unless null, are set or added to,

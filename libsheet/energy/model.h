@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libsheet/energy/contact.h"
+#include "libsheet/energy/heat_model.h"
 #include "libsheet/energy/holds.h"
 #include "libsheet/energy/inertia.h"
 #include "libsheet/energy/pressure.h"
@@ -36,10 +37,11 @@ struct Model {
   bool inertia = true;
   std::optional<ModelFaces> faces; // needs tension; chosen for a step
   Bending bending = Bending::none;
-  bool arcs = false;        // with mid-edge bending: edges are arcs in the membrane's strain
-  std::vector<Hold> holds;  // of two that hold the same unknown, the later one
-  std::vector<Wall> walls;  // along which liquid flows
-  bool may_squeeze = false; // several solids, which may leave liquid no room between them
+  bool arcs = false;             // with mid-edge bending: edges are arcs in the membrane's strain
+  std::optional<HeatModel> heat; // of states with temperatures
+  std::vector<Hold> holds;       // of two that hold the same unknown, the later one
+  std::vector<Wall> walls;       // along which liquid flows
+  bool may_squeeze = false;      // several solids, which may leave liquid no room between them
   Reactions reactions = Reactions::none;
   std::vector<ContactSpring> contacts;
   bool contacts_adhere = false;

@@ -26,7 +26,9 @@ public:
 
   void begin(const Stage& stage) {
     volumes_ = stage.start->volumes;
-    tension_ = stage.liquid.surface_tension;
+    tension_.resize(parts_.size());
+    for (std::size_t t = 0; t < parts_.size(); ++t)
+      tension_[t] = stage.surface_tension(t);
   }
 
   [[nodiscard]] bool idle(std::size_t i) const { return parts_[i][0] + parts_[i][1] + parts_[i][2] == 0; }
@@ -131,12 +133,11 @@ private:
   template <class Visit> void each_side(std::size_t i, const TriangleArea& a, Visit&& visit) const {
     for (int k = 0; k < 3; ++k)
       if (const double part = parts_[i][static_cast<std::size_t>(k)]; part > 0)
-        visit(k, Side(part * tension_, volumes_[i], a.area, a.edge[k].norm()));
+        visit(k, Side(part * tension_[i], volumes_[i], a.area, a.edge[k].norm()));
   }
 
   std::vector<std::array<double, 3>> parts_; // of the sides of triangles
-  std::vector<double> volumes_;              // [m³]
-  double tension_ = 0;                       // [N/m]
+  std::vector<double> volumes_, tension_;    // [m³], [N/m]
 };
 
 } // namespace sheet

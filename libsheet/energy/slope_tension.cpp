@@ -79,8 +79,9 @@ void SlopeTension::begin(const Stage& stage) {
     for (const auto v : edges_[i].vertices)
       if (const WallSite* site = site_at(stage, v); site != nullptr && site->channel != no_index)
         filled += stage.channels[site->channel].filled / 4;
-    const double gamma = (1 - filled) * stage.liquid.surface_tension, wall = edges_[i].on_wall;
     const auto [one, two] = mesh.edge_triangles[edges_[i].edge];
+    const double mean = 0.5 * (stage.surface_tension(one) + stage.surface_tension(two));
+    const double gamma = (1 - filled) * mean, wall = edges_[i].on_wall;
     loads_[i] = {{stage.start->volumes[one], stage.start->volumes[two]}, {2 * (1 - wall) * gamma, wall * gamma}};
   }
 }

@@ -61,6 +61,9 @@ struct Stage {
   FlowCurve flow, lagged;                    // of the liquid; for `viscosity`
   std::shared_ptr<const WallFlow> wall_flow; // likewise along walls, where anything touches; null: Newtonian, or none
   std::vector<double> viscosity;             // of each triangle, strained as the stage predicts, lagged [Pa s]
+  std::vector<double> temperatures;          // of each triangle, predicted for the end of the stage [K]; or none
+  std::vector<double> shift;                 // of each triangle: a_T there (temperature_law.h); empty: 1
+  std::vector<double> crusts;                // of each triangle: by what bending is stiffer for cold faces; empty: 1
   std::vector<double> stiffened;             // of each triangle: by how much its viscosity is raised (films.h), or none
   std::vector<double> vertex_volumes;        // of each vertex: a third of the volume of each triangle there [m³]
   std::vector<Vector3> inertial;             // where the vertices would go without force [m]
@@ -75,6 +78,18 @@ struct Stage {
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] double stiffening(std::size_t triangle) const { return stiffened.empty() ? 1 : stiffened[triangle]; }
+  [[nodiscard]] double shift_of(std::size_t triangle) const { return shift.empty() ? 1 : shift[triangle]; }
+  // The one place where flow depends on temperature: as all of a flow curve is shifted, τ(γ̇, T) = τ(a_T γ̇, T_r), what
+  // is strained at T in the stage's duration is what is strained at T_r in this time [s] [Morland and Lee 1960].
+  [[nodiscard]] double reduced_time(std::size_t triangle) const {
+    return shift.empty() ? duration : duration / shift[triangle];
+  }
+  [[nodiscard]] double crust(std::size_t triangle) const { return crusts.empty() ? 1 : crusts[triangle]; }
+  [[nodiscard]] double surface_tension(std::size_t triangle) const { // [N/m]
+    return temperatures.empty() || liquid.surface_tension_slope == 0
+               ? liquid.surface_tension
+               : liquid.surface_tension_at(temperatures[triangle]);
+  }
   [[nodiscard]] bool director_held(std::uint32_t edge) const { return !clamped.empty() && clamped[edge] != 0; }
   [[nodiscard]] static Vector3 position(const Unknowns& u, std::uint32_t v) { return u.segment<3>(3 * v); }
 };

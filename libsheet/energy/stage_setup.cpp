@@ -9,6 +9,7 @@
 #include "libsheet/geometry/angles.h"
 #include "libsheet/geometry/mean_normals.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/material/shifted_liquid.h"
 
 namespace sheet {
 
@@ -50,9 +51,55 @@ std::vector<EdgeFrame> mean_normal_frames_of(const Stage& stage, const Unknowns&
   return mean_normal_frames(*stage.start->mesh, positions);
 }
 
+// Of a triangle whose squared edge lengths change so during the stage [Pa s].
+double lagged_viscosity(const Stage& stage, std::size_t t, const Vector3& change) {
+  return ShiftedCurve{stage.lagged, stage.shift_of(t)}.viscosity(strain_rate(stage.raised[t], change, stage.duration));
+}
+
+// T0 + τ dT/dt, by no more than a tenth of T0: what cools or warms so fast that this counts is not known better.
+std::vector<double> predicted_temperatures(const State& state, double duration) {
+  constexpr double most = 0.1;
+  std::vector<double> predicted = state.temperatures;
+  for (std::size_t t = 0; t < state.temperature_rates.size(); ++t)
+    predicted[t] += std::clamp(duration * state.temperature_rates[t], -most * predicted[t], most * predicted[t]);
+  return predicted;
+}
+
+std::vector<double> predicted_modes(const State& state, double duration) {
+  std::vector<double> predicted = state.temperature_modes;
+  for (std::size_t i = 0; i < predicted.size() && predicted.size() == state.temperature_mode_rates.size(); ++i)
+    predicted[i] += duration * state.temperature_mode_rates[i];
+  return predicted;
+}
+
 } // namespace
 
-Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles) {
+void set_temperatures(std::vector<double> temperatures, std::span<const double> modes, const heat::Profile& profile,
+                      Stage& stage) {
+  stage.temperatures = std::move(temperatures);
+  const TemperatureLaw& law = stage.liquid.temperature_law;
+  const std::size_t count = stage.temperatures.size(), beyond = static_cast<std::size_t>(profile.modes()) - 1;
+  if (count == 0 || law.constant())
+    return;
+  const ViscosityShift shift(law);
+  stage.shift.resize(count);
+  if (beyond == 0 || modes.size() != beyond * count) {
+    each_in_parallel(count, [&](std::size_t t) { stage.shift[t] = shift.factor(stage.temperatures[t]); });
+    return;
+  }
+  const heat::ThicknessRule rule(profile);
+  stage.crusts.resize(count);
+  each_in_parallel(count, [&](std::size_t t) {
+    const double mean = stage.temperatures[t], least = 0.1 * mean; // whatever the modes, it is above 0
+    const auto factor = [&](double temperature) { return shift.factor(std::max(least, temperature)); };
+    const auto [zeroth, first, second] = rule.moments(mean, modes.subspan(beyond * t, beyond), factor);
+    stage.shift[t] = zeroth;
+    stage.crusts[t] = 12 * (second - first * first / zeroth) / zeroth;
+  });
+}
+
+Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles,
+                  const heat::Profile& profile) {
   Stage stage;
   const Connectivity& mesh = *state.mesh;
   const std::size_t n = state.positions.size();
@@ -73,6 +120,7 @@ Stage first_stage(const State& state, const Liquid& liquid, double duration, dou
   stage.vertex_volumes = vertex_shares(n, mesh.triangles, [&](std::uint32_t t) { return state.volumes[t]; });
   if (angles)
     stage.frames = director_frames(mesh, state.positions, state.director_angles);
+  set_temperatures(predicted_temperatures(state, duration), predicted_modes(state, duration), profile, stage);
   stage.raised.resize(mesh.triangles.size());
   stage.viscosity.resize(mesh.triangles.size());
   const auto& x = state.positions;
@@ -85,7 +133,7 @@ Stage first_stage(const State& state, const Liquid& liquid, double duration, dou
       change[k] = 2 * duration * (x[b] - x[a]).dot(v[b] - v[a]);
     }
     stage.raised[t] = predicted_metric(squared_lengths(x[c[0]], x[c[1]], x[c[2]]), change);
-    stage.viscosity[t] = stage.lagged.viscosity(strain_rate(stage.raised[t], change, duration));
+    stage.viscosity[t] = lagged_viscosity(stage, t, change);
   });
   return stage;
 }
@@ -112,7 +160,7 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
     const Vector3 end =
         squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
     stage.raised[t] = predicted_metric(start, (end - start) / gamma);
-    stage.viscosity[t] = stage.lagged.viscosity(strain_rate(stage.raised[t], end - start, stage.duration));
+    stage.viscosity[t] = lagged_viscosity(stage, t, end - start);
     if (!(Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= least_ratio - 1))
       possible.store(false, std::memory_order_relaxed);
   });

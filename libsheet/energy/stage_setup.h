@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stages of a time step: what they start from, refer to and predict.
 #pragma once
+#include <span>
+
 #include "libsheet/energy/stage.h"
+#include "libsheet/heat/profile.h"
 
 namespace sheet {
 
 // The first (or only) stage: refers to the start; metrics and viscosities predicted from the velocities.
-[[nodiscard]] Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time,
-                                bool angles);
+[[nodiscard]] Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles,
+                                const heat::Profile& profile = {});
 
 // Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it). False if a
 // triangle shrank so much that its reference metric is none, or nearly none: a principal stretch, squared, below 1/4 of
 // the start's. Where it is negative SDIRK2's stability function is, too (z < -1/(1 - 2γ)), and triangles shrink to
 // points.
 [[nodiscard]] bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
+
+// How warm the triangles are taken to be at the stage's end, with the shift of their flow curves: the mean of a_T
+// across the thickness, by which they stretch. Crusts: the bending stiffness about the layer that is not strained, over
+// that of the mean. `modes`: of the profile beyond the mean, or none.
+void set_temperatures(std::vector<double> temperatures, std::span<const double> modes, const heat::Profile& profile,
+                      Stage& stage);
 
 // Sets the angles of u so that each director stands to the mean of the normals at its edge as it did at the start: a
 // guess for positions that were extrapolated.

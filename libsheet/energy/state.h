@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libsheet/energy/gas.h"
+#include "libsheet/energy/heat_model.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/types.h"
 
@@ -17,10 +18,14 @@ struct State {
   std::vector<Vector3> positions;
   std::vector<Vector3> velocities;
   std::vector<double> volumes;
-  std::vector<double> director_angles; // none: all are 0
-  std::vector<Vector3> overshoot;      // positions less where a solid holds them [m], see overshoot.h; none: all are 0
-  std::vector<Gas> gas;                // that it encloses, one an enclosure; without one: as its law starts
-  double time = 0;                     // [s]
+  std::vector<double> temperatures;                              // of each triangle [K]; none: the liquid has none
+  std::vector<double> temperature_rates;                         // how fast they changed last [K/s]; none: all are 0
+  std::vector<double> temperature_modes, temperature_mode_rates; // likewise, across the thickness (heat/profile.h)
+  HeatMoved heat_moved;                                          // since the step of the stream began [J]
+  std::vector<double> director_angles;                           // none: all are 0
+  std::vector<Vector3> overshoot; // positions less where a solid holds them [m], see overshoot.h; none: all are 0
+  std::vector<Gas> gas;           // that it encloses, one an enclosure; without one: as its law starts
+  double time = 0;                // [s]
 };
 
 } // namespace sheet

@@ -20,10 +20,11 @@ public:
   void begin(const Stage& stage) {
     const auto& triangles = stage.start->mesh->triangles;
     start_area_.resize(triangles.size());
-    const double gamma = stage.liquid.surface_tension;
-    tension_.assign(triangles.size(), 2 * gamma);
+    tension_.resize(triangles.size());
     const auto& x = stage.start->positions;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const double gamma = stage.surface_tension(t);
+      tension_[t] = 2 * gamma;
       start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
       for (const auto v : triangles[t])
         if (const WallSite* site = site_at(stage, v))

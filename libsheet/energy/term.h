@@ -41,6 +41,8 @@ public:
                            double* hessians) const = 0;
   // Adds to each vertex' force what walls do to it along themselves [N].
   virtual void add_wall_forces(const Unknowns&, std::span<Vector3>) const {}
+  // Adds to each triangle what its viscosity has dissipated in the stage that leads to u [J].
+  virtual void add_dissipated(const Unknowns&, std::span<double>) const {}
   // What else a step leaves in the state, to whose end `last` the last stage led.
   virtual void finish(const Unknowns&, State&) {}
   // A part c g gᵀ of the Hessian that couples all unknowns: returns c >= 0 and, unless that is 0, sets g, one an
@@ -94,6 +96,11 @@ public:
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const override {
     if constexpr (requires { element_.add_wall_forces(u, force); })
       element_.add_wall_forces(u, force);
+  }
+
+  void add_dissipated(const Unknowns& u, std::span<double> energy) const override {
+    if constexpr (requires { element_.add_dissipated(u, energy); })
+      element_.add_dissipated(u, energy);
   }
 
   void finish(const Unknowns& last, State& end) override {

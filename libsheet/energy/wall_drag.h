@@ -36,7 +36,6 @@ public:
     for (const WallSite& site : stage.sites)
       walls_.push_back(touched(stage, site));
     corners_.assign(walls_.empty() ? 0 : triangles_, {});
-    duration_ = stage.duration;
     flow_ = stage.wall_flow;
     rest_rate_ = flow_ ? std::max(rest_rate(stage.liquid), flow_->newtonian_below()) : 0;
     own_force_.clear();
@@ -51,6 +50,7 @@ public:
           const double trebled = lies * area + (1 - lies) * 3 * foot;
           corners_[i][c].stiffness = trebled * stage.viscosity[i] / (stage.duration * depth);
           corners_[i][c].area = trebled / 3;
+          corners_[i][c].time = stage.reduced_time(i);
           corners_[i][c].depth = between > 0 ? between : thickness;
           corners_[i][c].slip_length = between > 0 ? 0 : site->slip_length;
           corners_[i][c].site = stage.site_of[corners[c]];
@@ -113,6 +113,17 @@ public:
     own_force_ = std::move(next);
   }
 
+  void add_dissipated(const Unknowns& u, std::span<double> energy) const {
+    each_in_parallel(corners_.size(), [&](std::size_t t) {
+      VectorN<9> x;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        x.segment<3>(3 * c) = Stage::position(u, mesh_->triangles[t][static_cast<std::size_t>(c)]);
+      each_corner(t, x, [&](int c, const Vector3& slid, const Vector3&) {
+        energy[t] += slide_of(corners_[t][static_cast<std::size_t>(c)], slid).stiffness * slid.squaredNorm();
+      });
+    });
+  }
+
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
     for (std::size_t t = 0; t < corners_.size(); ++t) {
       const Corners& corners = mesh_->triangles[t];
@@ -135,6 +146,7 @@ private:
   struct Corner {
     double stiffness = 0;                        // of a Newtonian liquid [N/m]; 0: it is not dragged
     double area = 0, depth = 0, slip_length = 0; // for a flow curve [m²], [m], [m]
+    double time = 0;                             // likewise: τ, reduced by temperature (stage.h) [s]
     std::uint32_t site = 0;
   };
 
@@ -142,11 +154,11 @@ private:
     if (!flow_)
       return {0.5 * corner.stiffness * slid.squaredNorm(), corner.stiffness, 0};
     const double still = rest_rate_ * corner.depth / 3;
-    const double u = std::sqrt(slid.squaredNorm() / (duration_ * duration_) + still * still);
+    const double time = corner.time, u = std::sqrt(slid.squaredNorm() / (time * time) + still * still);
     const WallFlow::Drag drag = flow_->drag(u, corner.depth, corner.slip_length);
-    const double stiffness = corner.area * drag.stress / (duration_ * u);
-    const double change = corner.area * (drag.slope - drag.stress / u) / (duration_ * duration_ * duration_ * u * u);
-    return {corner.area * duration_ * drag.potential, stiffness, change};
+    const double stiffness = corner.area * drag.stress / (time * u);
+    const double change = corner.area * (drag.slope - drag.stress / u) / (time * time * time * u * u);
+    return {corner.area * time * drag.potential, stiffness, change};
   }
 
   static Touched touched(const Stage& stage, const WallSite& site) {
@@ -184,7 +196,6 @@ private:
 
   std::shared_ptr<const Connectivity> mesh_;
   std::size_t triangles_ = 0;
-  double duration_ = 0;                           // [s]
   std::shared_ptr<const WallFlow> flow_;          // of a liquid that is not Newtonian
   double rest_rate_ = 0;                          // [1/s]
   std::vector<std::array<Vector3, 3>> own_force_; // once Newton has gone a step [N]

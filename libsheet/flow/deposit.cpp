@@ -64,10 +64,12 @@ std::vector<Vector3> deposit(Frame& frame, std::span<const Lying> parts) {
   const std::vector<double> carried =
       vertex_shares(frame.vertices, corners, [&](std::uint32_t t) { return volume[t]; });
   const Lineage vertices = lineage_of(of_vertices, carried);
-  const Lineage triangle_rows = lineage_of(of_triangles, volume);
+  const Lineage triangle_rows = lineage_of(of_triangles, volume), means = triangle_rows.by_volume(volume);
   for (formats::Array& array : frame.arrays)
-    if ((array.transfer == Transfer::conserve || array.transfer == Transfer::interpolate) && array.name != "position" &&
-        (array.place == Place::vertex || array.place == Place::triangle))
+    if (array.transfer == Transfer::mean)
+      array = transferred(array, means);
+    else if ((array.transfer == Transfer::conserve || array.transfer == Transfer::interpolate) &&
+             array.name != "position" && (array.place == Place::vertex || array.place == Place::triangle))
       array = transferred(array, array.place == Place::vertex ? vertices : triangle_rows);
   const std::vector<double> now = vertex_shares(frame.vertices, triangles(std::as_const(frame)),
                                                 [&](std::uint32_t t) { return volumes(std::as_const(frame))[t]; });

@@ -5,7 +5,7 @@
 // each corner of t a third of its mass, with the mean velocity of its own corners and a third of g v n of moment. So
 // volume and momentum stay, and the middle surface of what has received moves by (Σ g v/3 n)/(volume at the corner)
 // towards what it has received: the centre of mass stays along n. Kinetic energy falls by that of the relative motion.
-// Other arrays by their transfer rules: conserve adds, interpolate is a mean by mass, the others stay.
+// Other arrays by their transfer rules: conserve adds, interpolate and mean are means by mass, the others stay.
 #pragma once
 #include <span>
 

@@ -9,11 +9,13 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/flow/entering.h"
+#include "libsheet/flow/heat_account.h"
 #include "libsheet/flow/inlet.h"
 #include "libsheet/flow/inlet_checks.h"
 #include "libsheet/flow/outflow.h"
 #include "libsheet/flow/row_perturbation.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/scene/frame_heat.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/carried_springs.h"
@@ -37,7 +39,7 @@ class Emission {
 public:
   // The inflow's inlet has this number, and these chains.
   Emission(Frame& frame, const Scene& scene, std::size_t number, const std::vector<InletChain>& chains)
-      : frame_(frame), old_(frame), inflow_(scene.inflows[number]), number_(number), chains_(chains),
+      : frame_(frame), old_(frame), scene_(scene), inflow_(scene.inflows[number]), number_(number), chains_(chains),
         perturbation_(scene, number, frame) {
     const auto x = positions(old_);
     const auto origins = frame.find("inlet_origin")->values<Vector3>();
@@ -62,6 +64,8 @@ public:
       return {};
     put();
     add_to_account(frame_, "emit.volume", "m^3", {&grown_, 1});
+    if (scene_.heat)
+      add_heat_to_account(frame_, "emit.heat", scene_, grown_ * temperature_of_inflow());
     return {.volume = grown_, .rows = rows_};
   }
 
@@ -70,6 +74,7 @@ private:
     Corners corners;
     double volume = 0;
     std::vector<Parent> parents = {};
+    double temperature = 0; // in scenes with heat [K]
   };
 
   [[nodiscard]] double row_length() const {
@@ -155,6 +160,18 @@ private:
            (TriangleArea(origins_[a], origins_[b], now[b]).area + TriangleArea(origins_[a], now[b], now[a]).area);
   }
 
+  [[nodiscard]] double temperature_of_inflow() const {
+    return inflow_.temperature ? scene::value_at(*inflow_.temperature, frame_.time) : scene_.heat->temperature;
+  }
+
+  // Of the strip behind an edge of the border [m³ K].
+  [[nodiscard]] double warmth_of_strip(const InletChain& chain, std::size_t edge) const {
+    double warmth = 0;
+    for (const std::uint32_t t : chain.strip[edge])
+      warmth += volumes(old_)[t] * temperatures(old_)[t];
+    return warmth;
+  }
+
   // The strip takes up what has entered.
   void lengthen(const InletChain& chain) {
     for (std::size_t i = 0; i < chain.edges(); ++i) {
@@ -166,8 +183,9 @@ private:
         area += area_of(triangles(old_)[t]);
         volume += volumes(old_)[t];
       }
+      const double mixed = scene_.heat ? (warmth_of_strip(chain, i) + enters * temperature_of_inflow()) / volume : 0;
       for (const std::uint32_t t : chain.strip[i])
-        lengthened_.emplace_back(t, volume / area * area_of(triangles(old_)[t]));
+        lengthened_.push_back({t, volume / area * area_of(triangles(old_)[t]), mixed});
       grown_ += enters;
     }
   }
@@ -240,6 +258,7 @@ private:
     double sum = 0, left = 1;
     if (chain.strip.empty()) {
       for (Made* m : made) {
+        m->temperature = scene_.heat ? temperature_of_inflow() : 0;
         sum += m->volume = inflow_.thickness * area_of(m->corners);
         m->parents = {{chain.behind[edge], 1, 0}};
       }
@@ -272,7 +291,19 @@ private:
       for (const std::uint32_t t : chain.strip[edge])
         m->parents.push_back({t, 0.5, share});
     }
+    if (scene_.heat)
+      give_temperatures(warmth_of_strip(chain, edge) / (volume - enters), volume - enters, made);
     grown_ += enters;
+  }
+
+  // What was in the strip is farthest from the border, what has entered behind it. `made`: two triangles a row, from
+  // the farthest one on; `old`: the strip's temperature, `left`: its volume.
+  void give_temperatures(double old, double left, std::span<Made* const> made) const {
+    for (std::size_t k = 0; k + 1 < made.size(); k += 2) {
+      const double volume = made[k]->volume + made[k + 1]->volume, part = std::min(1.0, left / volume);
+      left = std::max(0.0, left - volume);
+      made[k]->temperature = made[k + 1]->temperature = part * old + (1 - part) * temperature_of_inflow();
+    }
   }
 
   // Of a triangle's middle from the border, across it.
@@ -309,8 +340,11 @@ private:
   void put() {
     const CarriedSprings springs(frame_);
     const Directors directors(frame_);
-    for (const auto& [t, volume] : lengthened_)
-      volumes(frame_)[t] = volume;
+    for (const Lengthened& l : lengthened_) {
+      volumes(frame_)[l.triangle] = l.volume;
+      if (scene_.heat)
+        temperature(l.triangle) = l.temperature;
+    }
     if (!made_.empty())
       rebuild();
     std::copy(x_.begin(), x_.end(), positions(frame_).begin());
@@ -336,16 +370,24 @@ private:
     }
     const auto old_vertices = static_cast<std::ptrdiff_t>(frame_.vertices);
     transfer_frame(frame_, vertices_, lineage, corners);
-    for (std::size_t k = 0; k < made_.size(); ++k)
+    for (std::size_t k = 0; k < made_.size(); ++k) {
       volumes(frame_)[kept + k] = made_[k].volume;
+      if (scene_.heat)
+        temperature(kept + k) = made_[k].temperature;
+    }
     std::copy(bits_.begin(), bits_.end(), frame_.find("inlet")->values<std::uint64_t>().begin());
     std::copy(origins_.begin(), origins_.end(), frame_.find("inlet_origin")->values<Vector3>().begin());
     const auto v = velocities(frame_);
     std::fill(v.begin() + old_vertices, v.end(), scene::value_at(inflow_.velocity, frame_.time));
   }
 
+  [[nodiscard]] double& temperature(std::size_t triangle) {
+    return frame_.find("temperature")->values<double>()[triangle];
+  }
+
   Frame& frame_;
   const Frame& old_; // the same, to read
+  const Scene& scene_;
   const scene::Inflow& inflow_;
   std::size_t number_;
   const std::vector<InletChain>& chains_;
@@ -356,7 +398,11 @@ private:
   Lineage vertices_;
   std::vector<bool> stays_; // for each old triangle
   std::vector<Made> made_;
-  std::vector<std::pair<std::uint32_t, double>> lengthened_; // triangles and their new volumes
+  struct Lengthened {
+    std::uint32_t triangle;
+    double volume, temperature; // new ones [m³], [K]
+  };
+  std::vector<Lengthened> lengthened_;
   double grown_ = 0;
   std::size_t rows_ = 0;
   bool moved_ = false;
@@ -397,6 +443,7 @@ Emitted emit_at(Frame& frame, const Scene& scene, std::size_t number) {
 } // namespace
 
 Emitted emit(Frame& frame, const Scene& scene) {
+  scene::check_temperatures(scene, frame);
   const bool ended = std::ranges::none_of(
       scene.inflows, [&](const scene::Inflow& inflow) { return scene::in_force(inflow, frame.time); });
   if (frame.find("inlet") == nullptr) {

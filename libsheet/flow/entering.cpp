@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "libsheet/flow/heat_account.h"
+#include "libsheet/scene/frame_heat.h"
 #include "libsheet/shape/build.h"
-#include "libsheet/sheet/account.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::flow {
@@ -35,18 +36,22 @@ bool has_entered(const Scene& scene, const std::string& name, const Frame& frame
 }
 
 double let_enter(Frame& frame, const Scene& scene) {
+  scene::check_temperatures(scene, frame);
   const std::vector<std::size_t> order = order_of_entry(scene);
-  double volume = 0;
+  double volume = 0, warmth = 0;
   std::size_t count = entered(frame);
   for (; count < order.size() && frame.time >= *scene.sheets[order[count]].enters; ++count) {
     const Frame sheet = build_sheet(scene, order[count]);
     append_sheet(sheet, frame);
     const auto volumes = sheet::volumes(sheet);
     volume += std::accumulate(volumes.begin(), volumes.end(), 0.0);
+    const auto temperatures = sheet::temperatures(sheet);
+    warmth += std::inner_product(temperatures.begin(), temperatures.end(), volumes.begin(), 0.0);
   }
   if (volume > 0) {
     put_number(frame, "entered", "1", static_cast<double>(count));
     add_to_account(frame, "emit.volume", "m^3", {&volume, 1});
+    add_heat_to_account(frame, "emit.heat", scene, warmth);
   }
   return volume;
 }

@@ -94,8 +94,9 @@ private:
 class Candidates {
 public:
   Candidates(const Frame& frame, const Connectivity& mesh, const Scene& scene)
-      : frame_(frame), mesh_(mesh), scene_(scene), areas_(areas_of(frame, mesh)),
-        thickness_(thickness_of(frame, areas_)), dates_(contact_dates(frame, mesh, areas_)), order_(frame, mesh, scene),
+      : frame_(frame), mesh_(mesh), scene_(scene), shift_(scene.material.temperature_law),
+        areas_(areas_of(frame, mesh)), thickness_(thickness_of(frame, areas_)),
+        dates_(contact_dates(frame, mesh, areas_)), order_(frame, mesh, scene),
         layers_(mesh, positions(frame), areas_, thickness_, ripe_triangles()), on_(mesh.triangles.size()) {
     std::vector<std::uint32_t> not_enough;
     for (std::uint32_t t = 0; t < on_.size(); ++t)
@@ -126,9 +127,17 @@ private:
     return thickness;
   }
 
+  [[nodiscard]] double viscosity(std::uint32_t t) const {
+    const auto temperature = temperatures(frame_);
+    return scene_.material.viscosity * (temperature.empty() ? 1 : shift_.factor(temperature[t]));
+  }
+  [[nodiscard]] double tension(std::uint32_t t) const {
+    const auto temperature = temperatures(frame_);
+    return temperature.empty() ? scene_.material.surface_tension : scene_.material.surface_tension_at(temperature[t]);
+  }
+
   [[nodiscard]] bool ripe(std::uint32_t t, std::size_t side) const {
-    const Liquid& liquid = scene_.material;
-    const double after = scene_.merge->after.value_or(liquid.viscosity * thickness_[t] / liquid.surface_tension);
+    const double after = scene_.merge->after.value_or(viscosity(t) * thickness_[t] / tension(t));
     return std::ranges::all_of(mesh_.triangles[t],
                                [&](std::uint32_t v) { return frame_.time - dates_[v][side] >= after; });
   }
@@ -177,6 +186,7 @@ private:
   const Frame& frame_;
   const Connectivity& mesh_;
   const Scene& scene_;
+  ViscosityShift shift_;
   std::vector<TriangleArea> areas_;
   std::vector<double> thickness_;
   std::vector<Dates> dates_;

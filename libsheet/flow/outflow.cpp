@@ -5,8 +5,8 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/flow/drop.h"
+#include "libsheet/flow/heat_account.h"
 #include "libsheet/geometry/area.h"
-#include "libsheet/sheet/account.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::flow {
@@ -90,9 +90,11 @@ Dropped let_out(Frame& frame, const Scene& scene) {
   out.volume += cut.volume;
   out.momentum += cut.momentum;
   out.energy += cut.energy;
+  out.warmth += cut.warmth;
   add_to_account(frame, "outflow.volume", "m^3", {&out.volume, 1});
   add_to_account(frame, "outflow.momentum", "kg*m/s", {out.momentum.data(), 3});
   add_to_account(frame, "outflow.energy", "J", {&out.energy, 1});
+  add_heat_to_account(frame, "outflow.heat", scene, out.warmth);
   return out;
 }
 

@@ -84,12 +84,14 @@ void put_fans(Frame& frame, const Fans& fans, const std::vector<bool>& dropped, 
 Dropped sum_of(const Frame& frame, const std::vector<bool>& dropped, double density) {
   Dropped sum;
   const auto v = velocities(frame);
-  const auto volume = volumes(frame);
+  const auto volume = volumes(frame), temperature = temperatures(frame);
   for (std::size_t t = 0; t < frame.triangles; ++t) {
     if (!dropped[t])
       continue;
     ++sum.triangles;
     sum.volume += volume[t];
+    if (!temperature.empty())
+      sum.warmth += volume[t] * temperature[t];
     for (const std::uint32_t c : triangles(frame)[t])
       if (!v.empty()) {
         sum.momentum += density * volume[t] / 3 * v[c];

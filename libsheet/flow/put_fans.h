@@ -18,6 +18,7 @@ struct Dropped {
   double volume = 0;                  // [m³]
   Vector3 momentum = Vector3::Zero(); // [kg m/s]
   double energy = 0;                  // kinetic [J]
+  double warmth = 0;                  // sum of volume x temperature [m³ K]; 0 without temperatures
 };
 [[nodiscard]] Dropped sum_of(const formats::Frame& frame, const std::vector<bool>& dropped, double density);
 

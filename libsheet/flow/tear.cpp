@@ -7,11 +7,11 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/flow/cracks.h"
+#include "libsheet/flow/heat_account.h"
 #include "libsheet/flow/put_fans.h"
 #include "libsheet/flow/tear_cuts.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/prescribed.h"
-#include "libsheet/sheet/account.h"
 
 namespace sheet::flow {
 
@@ -98,6 +98,7 @@ Torn tear(Frame& frame, const Scene& scene) {
   if (torn.dropped > 0) {
     add_to_account(frame, "tear.volume", "m^3", {&torn.volume, 1});
     add_to_account(frame, "tear.momentum", "kg*m/s", {torn.momentum.data(), 3});
+    add_heat_to_account(frame, "tear.heat", scene, dropped.warmth);
   }
   return torn;
 }

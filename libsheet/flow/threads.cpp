@@ -5,11 +5,11 @@
 #include <numeric>
 
 #include "libsheet/flow/drop.h"
+#include "libsheet/flow/heat_account.h"
 #include "libsheet/flow/tear_cuts.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/scene/prescribed.h"
-#include "libsheet/sheet/account.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::flow {
@@ -112,6 +112,7 @@ Dropped cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
   if (dropped.triangles > 0) {
     add_to_account(frame, "tear.volume", "m^3", {&dropped.volume, 1});
     add_to_account(frame, "tear.momentum", "kg*m/s", {dropped.momentum.data(), 3});
+    add_heat_to_account(frame, "tear.heat", scene, dropped.warmth);
   }
   return dropped;
 }

@@ -102,6 +102,8 @@ ViscosityShift::Point ViscosityShift::at(double temperature) const {
   const Logarithm here = logarithm(temperature);
   if (here.value >= log_greatest_)
     return {law_.greatest_factor, 0};
+  if (here.value <= -log_greatest_)
+    return {1 / law_.greatest_factor, 0};
   return {std::exp(here.value), here.slope};
 }
 

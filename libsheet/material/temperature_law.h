@@ -29,7 +29,8 @@ struct TemperatureLaw {
   double vft_b = 0, vft_temperature = 0;                   // B, T_0 [K]
   double wlf_c1 = 0, wlf_c2 = 0;                           // C_1, C_2 [K]
   std::vector<double> temperatures = {}, viscosities = {}; // of a table, four rows or more, T ascending [K], [Pa s]
-  double greatest_factor = 1e12; // a_T does not rise above this: colder liquid is as good as solid
+  double greatest_factor =
+      1e12; // a_T does not rise above this: colder liquid is as good as solid; nor fall below its inverse
 
   [[nodiscard]] bool constant() const { return kind == TemperatureLawKind::constant; }
   bool operator==(const TemperatureLaw&) const = default;

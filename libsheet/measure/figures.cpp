@@ -30,7 +30,8 @@ std::vector<Figure> make_figures() {
     if (field.in_figures)
       all.push_back({std::string(field.name), std::string(field.caption), std::string(field.unit), Form::range,
                      [](const M& m, const F& f) { return range_values(m.fields[f.field].range); },
-                     field.of_laws ? "" : std::string(field.caption), true, false, all.size() - 2, field.of_laws});
+                     field.needs == Needs::law ? "" : std::string(field.caption), true, false, all.size() - 2,
+                     field.needs});
   const std::vector<Figure> others = {
       {"thickness_p", "thickness by area", "m", Form::percentiles,
        [](const M& m, const F&) {
@@ -41,7 +42,9 @@ std::vector<Figure> make_figures() {
       {"thickness_max_at", "thickest at", "m", Form::vector,
        [](const M& m, const F&) { return vector_values(m.thickest_at); }},
       {"part_at_rest", "part at rest", "1", Form::scalar, [](const M& m, const F&) { return Values{m.part_at_rest}; },
-       "", true, false, 0, true},
+       "", true, false, 0, Needs::law},
+      {"heat", "heat", "J", Form::scalar, [](const M& m, const F&) { return Values{m.heat}; }, "heat", true, false, 0,
+       Needs::heat},
       {"kinetic_energy", "kinetic energy", "J", Form::scalar,
        [](const M& m, const F&) { return Values{m.kinetic_energy}; }, "energy", true, true},
       {"gravity_energy", "energy of height", "J", Form::scalar,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libsheet/measure/measure.h"
+#include "libsheet/quantities/fields.h"
 #include "libsheet/scene/scene.h"
 
 namespace sheet {
@@ -27,8 +28,8 @@ struct Figure {
   std::string panel = {}; // on the page of a run, of the curves that are drawn together; "": it is not drawn
   bool printed = true;    // in text, JSON and CSV
   bool needs_density = false;
-  std::size_t field = 0; // number of its field among those that are measured
-  bool of_laws = false;  // printed only of liquids that are not Newtonian
+  std::size_t field = 0;        // number of its field among those that are measured
+  Needs needs = Needs::nothing; // what frames have of which it is printed
 
   // Of its values, in their order.
   [[nodiscard]] std::vector<std::string> columns() const;

@@ -126,7 +126,7 @@ void measure_fields(const formats::Frame& frame, const Range& thickness, Measure
     if (!field.in_figures)
       continue;
     Range& range = m.fields.emplace_back(&field).range;
-    m.of_laws = m.of_laws || (field.of_laws && has(frame, field));
+    m.has[static_cast<std::size_t>(field.needs)] |= has(frame, field);
     if (field.name == "thickness") {
       range = thickness;
       measure_distribution(frame, values_of(frame, field), m);
@@ -207,6 +207,22 @@ double area_of_faces(const formats::Frame& frame, const Scene& scene) {
   return extra_area(mesh, positions(frame), volumes(frame), scene::free_faces(scene, frame, mesh));
 }
 
+// By area [N/m].
+double mean_tension(const formats::Frame& frame, const Scene& scene) {
+  const auto temperature = temperatures(frame);
+  if (temperature.empty() || scene.material.surface_tension_slope == 0)
+    return scene.material.surface_tension;
+  const auto x = positions(frame);
+  Sum area, sum;
+  for (std::size_t t = 0; t < temperature.size(); ++t) {
+    const Corners& c = triangles(frame)[t];
+    const double size = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
+    area.add(size);
+    sum.add(size * scene.material.surface_tension_at(temperature[t]));
+  }
+  return sum.value() / area.value();
+}
+
 } // namespace
 
 void measure_energies(const formats::Frame& frame, const Scene& scene, Measurements& measured) {
@@ -219,8 +235,15 @@ void measure_energies(const formats::Frame& frame, const Scene& scene, Measureme
       moment += v[t] / 3 * (x[corners[t][0]] + x[corners[t][1]] + x[corners[t][2]]);
     measured.gravity_energy = -scene.material.density * scene.environment.gravity->dot(moment);
   }
+  const auto temperature = temperatures(frame), volume = volumes(frame);
   if (scene.material.surface_tension > 0)
-    measured.surface_energy = scene.material.surface_tension * (2 * measured.area + area_of_faces(frame, scene));
+    measured.surface_energy = mean_tension(frame, scene) * (2 * measured.area + area_of_faces(frame, scene));
+  if (!scene.heat || temperature.empty())
+    return;
+  Sum warmth;
+  for (std::size_t t = 0; t < volume.size(); ++t)
+    warmth.add(volume[t] * temperature[t]);
+  measured.heat = scene.material.density * scene.heat->specific_heat * warmth.value();
 }
 
 std::optional<double> SceneDensity::of(const formats::Frame& frame) {

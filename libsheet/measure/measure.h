@@ -51,10 +51,11 @@ struct Measurements {
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Constant(absent); // Σ m x × v, about the origin [kg m²/s]
   Eigen::Vector3d low = Eigen::Vector3d::Constant(absent);              // bounding box of all vertices [m]
   Eigen::Vector3d high = Eigen::Vector3d::Constant(absent);
-  Range edge;                   // lengths, each edge once [m]
-  bool of_laws = false;         // the liquid is not Newtonian:
-  double part_at_rest = absent; // quantities/fields.h
-  double angle_min = absent;    // of the triangles' corners [rad]
+  Range edge;                                  // lengths, each edge once [m]
+  std::array<bool, 3> has{true, false, false}; // by Needs
+  double heat = absent;                        // measure_energies
+  double part_at_rest = absent;                // quantities/fields.h
+  double angle_min = absent;                   // of the triangles' corners [rad]
   double angle_max = absent;
   double aspect_max = absent; // longest side over the altitude on it, 1 for an equilateral triangle; inf: degenerate
   Topology topology;
@@ -71,7 +72,7 @@ struct Measurements {
 
 // Adds energies that need a scene [J]: of gravity, -Σ m g·x, x from the origin to the triangles' centres; of surface,
 // 2 γ A, of both sides wherever they lie, and with [model] faces of rims and slopes. NaN without density, gravity,
-// tension.
+// tension. In scenes with heat: Σ ρ c V T.
 void measure_energies(const formats::Frame& frame, const Scene& scene, Measurements& measured);
 
 // The density that the frame's scene states [kg/m³]. Remembers the last scene, which rarely changes within a stream.

@@ -99,7 +99,7 @@ public:
       out += fmt::format("  {:<18} {}\n", name, text);
     };
     for (const Figure& figure : figures())
-      if (figure.printed && (m.of_laws || !figure.of_laws) &&
+      if (figure.printed && m.has[static_cast<std::size_t>(figure.needs)] &&
           figure.name != "aspect_max") // that stands behind the angles
         if (const std::string told = told_of(figure, m); !told.empty())
           line(figure.caption, told);
@@ -159,9 +159,8 @@ constexpr std::array<std::string_view, 32> first_columns = {"frame",
                                                             "boundary_loops",
                                                             "euler_characteristic"};
 
-// A row's cells, in the order of the columns; forces stand last. of_laws: with what liquids have that are not
-// Newtonian.
-std::vector<Cell> cells_of(const ReportEntry& e, bool of_laws) {
+// A row's cells, in the order of the columns; forces stand last. `has`: by Needs.
+std::vector<Cell> cells_of(const ReportEntry& e, const std::array<bool, 3>& has) {
   const Frame& f = *e.frame;
   const Topology& t = e.measurements.topology;
   std::vector<Cell> cells = {{"frame", fmt::format("{}", e.index)},
@@ -174,7 +173,7 @@ std::vector<Cell> cells_of(const ReportEntry& e, bool of_laws) {
                              {"euler_characteristic", fmt::format("{}", t.euler_characteristic)},
                              {"closed", t.closed ? "1" : "0"}};
   for (const Figure& figure : figures()) {
-    if (!figure.printed || (figure.of_laws && !of_laws))
+    if (!figure.printed || !has[static_cast<std::size_t>(figure.needs)])
       continue;
     const std::vector<std::string> columns = figure.columns();
     const std::vector<double> values = figure.values(e.measurements);
@@ -193,11 +192,11 @@ public:
     if (first_) {
       for (const NamedForce& force : m.forces)
         forces_.push_back(force.name);
-      of_laws_ = m.of_laws;
+      has_ = m.has;
       out = header(e, forces_);
       first_ = false;
     }
-    for (const Cell& cell : cells_of(e, of_laws_))
+    for (const Cell& cell : cells_of(e, has_))
       out += (cell.column == first_columns[0] ? "" : ",") + cell.text;
     for (std::size_t i = 0; i < forces_.size(); ++i)
       for (int axis = 0; axis < 3; ++axis)
@@ -219,7 +218,7 @@ public:
 private:
   [[nodiscard]] std::string header(const ReportEntry& entry, const std::vector<std::string>& forces) const {
     std::string line;
-    for (const Cell& cell : cells_of(entry, of_laws_))
+    for (const Cell& cell : cells_of(entry, has_))
       line += (line.empty() ? "" : ",") + cell.column;
     for (const std::string& name : forces)
       for (const char axis : {'x', 'y', 'z'})
@@ -228,7 +227,7 @@ private:
     return line + (entry.many_files ? ",file\n" : "\n");
   }
   bool first_ = true;
-  bool of_laws_ = false; // of the first frame's scene, as
+  std::array<bool, 3> has_{true, false, false}; // of the first frame's scene, as
   std::vector<std::string> forces_;
 };
 

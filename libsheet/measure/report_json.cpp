@@ -69,7 +69,7 @@ Json figure_json(const Figure& figure, const std::vector<double>& v) {
 Json measurements_json(const Measurements& m) {
   Json json = Json::object();
   for (const Figure& figure : figures())
-    if (figure.printed && (m.of_laws || !figure.of_laws))
+    if (figure.printed && m.has[static_cast<std::size_t>(figure.needs)])
       json[figure.name] = figure_json(figure, figure.values(m));
   const Topology& t = m.topology;
   json["topology"] = {{"components", t.components},

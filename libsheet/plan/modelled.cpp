@@ -11,6 +11,7 @@
 #include "libsheet/base/overloaded.h"
 #include "libsheet/energy/term_table.h"
 #include "libsheet/scene/brief.h"
+#include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/explain_law.h"
 #include "libsheet/solve/scene_model.h"
 
@@ -88,6 +89,8 @@ std::vector<scene::ModelledPart> modelled(const Scene& scene) {
   };
   if (!scene.material.law.newtonian())
     part("flow law", true, scene::law_in_words(scene.material), "");
+  if (scene.heat)
+    part("heat", true, scene::heat_in_words(scene), "");
   part("holds", !scene.holds.empty(), count(scene.holds.size(), "hold"), "no [[hold]]");
   part("solids", !scene.solids.empty(), count(scene.solids.size(), "solid") + "; " + what_touches(scene.solids),
        "no [[solid]]");

@@ -15,6 +15,7 @@
 #include "libsheet/geometry/dihedral.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/material/flow_curve.h"
+#include "libsheet/material/shifted_liquid.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -86,10 +87,11 @@ std::vector<double> contacts(const Frame& frame) {
 struct Law {
   double rest_rate = 0; // [1/s]
   FlowCurve curve;
+  ViscosityShift shift; // by temperature
 };
 
-// Of the liquid of the frame's scene; null if that is Newtonian or there is no scene that can be read. Remembers the
-// last.
+// Of the liquid of the frame's scene; null if its viscosity is one number, or there is no scene that can be read.
+// Remembers the last.
 const Law* law_of(const Frame& frame) {
   thread_local std::string text;
   thread_local std::optional<Law> law;
@@ -101,8 +103,8 @@ const Law* law_of(const Frame& frame) {
     text = scene->text();
     try {
       const Liquid liquid = scene::parse_scene(text, "the frame's scene").material;
-      if (!liquid.law.newtonian())
-        law = Law{rest_rate(liquid), FlowCurve(liquid)};
+      if (!liquid.law.newtonian() || !liquid.temperature_law.constant())
+        law = Law{rest_rate(liquid), FlowCurve(liquid), ViscosityShift(liquid.temperature_law)};
     } catch (const Error&) { // that of another version of these programs: others say so
     }
   }
@@ -128,9 +130,12 @@ std::vector<double> strain_rates(const Frame& frame) {
 // These two: precondition: there is a law.
 std::vector<double> viscosity(const Frame& frame) {
   std::vector<double> values = strain_rates(frame);
-  const FlowCurve& curve = law_of(frame)->curve;
-  for (double& value : values)
-    value = curve.viscosity({value * value});
+  const Law& law = *law_of(frame);
+  const auto temperature = temperatures(frame);
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    const ShiftedCurve curve{law.curve, temperature.empty() ? 1 : law.shift.factor(temperature[t])};
+    values[t] = curve.viscosity({values[t] * values[t]});
+  }
   return values;
 }
 
@@ -141,14 +146,15 @@ std::vector<double> log_viscosity(const Frame& frame) {
   return values;
 }
 
-const std::array<Field, 7> all_fields = {{
+const std::array<Field, 8> all_fields = {{
     {"thickness", "thickness", "m", Place::triangle, thickness, amounts, true},
     {"curvature", "mean curvature", "1/m", Place::vertex, mean_curvature, two_sided, false},
     {"speed", "speed", "m/s", Place::vertex, speed, amounts, false},
     {"contacts", "contacts", "1", Place::vertex, contacts, contact_kinds, false},
-    {"strain_rate", "rate of strain", "1/s", Place::triangle, strain_rates, amounts, true, true},
-    {"viscosity", "viscosity", "Pa s", Place::triangle, viscosity, amounts, true, true},
-    {"log_viscosity", "viscosity log10 Pa s", "1", Place::triangle, log_viscosity, amounts, false, true},
+    {"temperature", "temperature", "K", Place::triangle, nullptr, amounts, true, Needs::heat},
+    {"strain_rate", "rate of strain", "1/s", Place::triangle, strain_rates, amounts, true, Needs::law},
+    {"viscosity", "viscosity", "Pa s", Place::triangle, viscosity, amounts, true, Needs::law},
+    {"log_viscosity", "viscosity log10 Pa s", "1", Place::triangle, log_viscosity, amounts, false, Needs::law},
 }};
 
 // The frame's array of one number a row; null if it has none.
@@ -166,13 +172,14 @@ std::span<const Field> fields() { return all_fields; }
 const Field& field_named(std::string_view name) { return *std::ranges::find(all_fields, name, &Field::name); }
 
 bool has(const Frame& frame, const Field& field) {
-  return field.of_laws ? law_of(frame) != nullptr : field.get != nullptr || array_of(frame, field) != nullptr;
+  return field.needs == Needs::law ? law_of(frame) != nullptr
+                                   : field.get != nullptr || array_of(frame, field) != nullptr;
 }
 
 double part_at_rest(const Frame& frame) {
   constexpr double moves = 10; // times the rest rate
   const Law* law = law_of(frame);
-  if (law == nullptr)
+  if (law == nullptr || law->curve.newtonian())
     return std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> rates = strain_rates(frame);
   double all = 0, rests = 0;
@@ -184,8 +191,9 @@ double part_at_rest(const Frame& frame) {
 }
 
 std::vector<double> values_of(const Frame& frame, const Field& field) {
-  if (field.of_laws && !has(frame, field))
-    fail(ExitCode::bad_input, "the frame's liquid is Newtonian, so it has no {} of its own: [material] law gives one",
+  if (field.needs == Needs::law && !has(frame, field))
+    fail(ExitCode::bad_input,
+         "the frame's liquid has one viscosity, so it has no {} of its own: [material] law or viscosity_law give one",
          field.caption);
   if (field.get != nullptr)
     return field.get(frame);

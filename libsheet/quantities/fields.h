@@ -11,6 +11,9 @@
 
 namespace sheet {
 
+// What frames have that a quantity is of.
+enum class Needs { nothing, law, heat }; // a law of viscosity, by rate or temperature; temperatures
+
 struct Field {
   std::string_view name;    // of sheet-render's look and of columns of CSV
   std::string_view caption; // beside a scale
@@ -19,8 +22,8 @@ struct Field {
   // The values, one a row. Null: they are the frame's array of this name, which not every frame has.
   std::vector<double> (*get)(const formats::Frame&);
   const Palette& palette;
-  bool in_figures;      // least, mean and greatest value are among the figures of a frame (libsheet/measure/figures.h)
-  bool of_laws = false; // only of liquids that are not Newtonian
+  bool in_figures; // least, mean and greatest value are among the figures of a frame (libsheet/measure/figures.h)
+  Needs needs = Needs::nothing;
 };
 
 //   thickness  volume / area of each triangle [m]
@@ -29,10 +32,11 @@ struct Field {
 //              them, A a third of the area around the vertex [Cohen-Steiner and Morvan 2003]; at the rim 0
 //   speed      |velocity| at vertices [m/s]
 //   contacts   at vertices: 0 none, 1 touches a solid, 2 has a contact spring
-// Where the frame's scene has a law of viscosity (material/flow_law.h), of each triangle:
+//   temperature  of triangles, where the frame has it [K]
+// Where the frame's scene has a law of viscosity (material/flow_law.h, temperature_law.h), of each triangle:
 //   strain_rate    sqrt(2 D:D) of the middle of the sheet, in its plane, by the frame's velocities [1/s]: what bending
 //                  and the shear along walls add is left out
-//   viscosity      the law's at that rate [Pa s]
+//   viscosity      the law's at that rate, and at its temperature [Pa s]
 //   log_viscosity  its decimal logarithm, for pictures: it spans many decades
 [[nodiscard]] std::span<const Field> fields();
 
@@ -42,7 +46,7 @@ struct Field {
 [[nodiscard]] bool has(const formats::Frame& frame, const Field& field);
 
 // Volume of what is strained by less than ten times the rest rate (material/flow_curve.h), over all volume. NaN where
-// the frame's scene has no law of viscosity, or there is no volume.
+// the frame's liquid is Newtonian, or there is no volume.
 [[nodiscard]] double part_at_rest(const formats::Frame& frame);
 
 // Throws Error (bad_input) where the frame does not have it.

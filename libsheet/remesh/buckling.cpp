@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 
-#include "libsheet/material/flow_curve.h"
+#include "libsheet/material/shifted_liquid.h"
 
 namespace sheet::remesh {
 
@@ -56,13 +56,14 @@ struct Wave {
   double number = 0, growth = 0; // [1/m], [1/s]
 };
 
-Wave fastest_wave(const Scene& scene, const FlowCurve& flow, const TriangleRates& r) {
+Wave fastest_wave(const Scene& scene, const ShiftedCurve& flow, const TriangleRates& r) {
   const Liquid& liquid = scene.material;
   const StrainRate rate = strain_rate(r.stretching);
   const double viscosity = flow.viscosity(rate);
   const double h = r.thickness, modulus = flow.tangent_viscosity(rate) * h * h * h / 3;
   const double stretching = least_eigenvalue(r.stretching) + r.stretching.trace();
-  const double load = -2 * viscosity * h * stretching - 2 * liquid.surface_tension;
+  const double load = -2 * viscosity * h * stretching -
+                      2 * (r.temperature > 0 ? liquid.surface_tension_at(r.temperature) : liquid.surface_tension);
   Wave fastest;
   if (!(load > 0 && modulus > 0 && scene.model.bending))
     return fastest;
@@ -102,8 +103,9 @@ double fast_growth(const std::vector<Wave>& waves, const std::vector<TriangleRat
 std::vector<double> buckling_wavenumbers(const Scene& scene, const std::vector<TriangleRates>& rates) {
   const FlowCurve flow(scene.material);
   std::vector<Wave> waves;
+  const ViscosityShift shift(scene.material.temperature_law);
   for (const TriangleRates& r : rates)
-    waves.push_back(fastest_wave(scene, flow, r));
+    waves.push_back(fastest_wave(scene, {flow, r.temperature > 0 ? shift.factor(r.temperature) : 1}, r));
   const double least = std::max(over_rate * rate_scale(rates), of_fastest * fast_growth(waves, rates));
   std::vector<double> numbers;
   for (const Wave& wave : waves)

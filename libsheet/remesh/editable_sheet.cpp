@@ -29,6 +29,10 @@ Box EditableSheet::box_of(const Corners& c) const {
   return box;
 }
 
+double EditableSheet::temperature(std::uint32_t t) const {
+  return temperature_ == none ? 0 : number_at(triangle_rows_[temperature_], t, 0);
+}
+
 double EditableSheet::carried_volume(std::uint32_t v) const {
   double sum = 0;
   mesh_.for_fan(v, [&](std::uint32_t side) { sum += volume_[Mesh::triangle_of(side)] / 3; });
@@ -72,19 +76,31 @@ void EditableSheet::flatten_old(const Edit& edit, const PlaneFrame& plane) {
   };
   old_flat_.clear();
   slopes_.clear();
+  for (Mean& mean : means_)
+    mean.slopes.clear();
   for (const std::uint32_t t : edit.removed) {
     old_flat_.push_back(flat(mesh_.corners(t)));
-    std::array<ThicknessAt, 3> beside;
+    std::array<ValueAt, 3> beside;
+    std::array<std::uint32_t, 3> others{};
     std::size_t count = 0;
     for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side)
       if (const std::uint32_t twin = mesh_.twin(side); twin != no_index) {
         const std::uint32_t other = Mesh::triangle_of(twin);
-        if (shape_[other].area > 0)
+        if (shape_[other].area > 0) {
+          others[count] = other;
           beside[count++] = {middle_of(flat(mesh_.corners(other))), volume_[other] / shape_[other].area};
+        }
       }
-    slopes_.push_back(shape_[t].area > 0
-                          ? slope_of({middle_of(old_flat_.back()), volume_[t] / shape_[t].area}, {beside.data(), count})
-                          : ThicknessSlope{});
+    const auto slope = [&](double value) {
+      return shape_[t].area > 0 ? slope_of({middle_of(old_flat_.back()), value}, {beside.data(), count}) : ValueSlope{};
+    };
+    slopes_.push_back(slope(volume_[t] / shape_[t].area));
+    for (Mean& mean : means_) {
+      const formats::Array& array = triangle_rows_[mean.array];
+      for (std::size_t k = 0; k < count; ++k)
+        beside[k].value = number_at(array, others[k], mean.component);
+      mean.slopes.push_back(slope(number_at(array, t, mean.component)));
+    }
   }
 }
 
@@ -94,23 +110,31 @@ void EditableSheet::find_overlap(Edit& edit, const PlaneFrame& plane, bool given
   for (const Corners& c : edit.added)
     new_flat_.push_back({plane.flat(position_[c[0]]), plane.flat(position_[c[1]]), plane.flat(position_[c[2]])});
   const std::size_t old_count = edit.removed.size();
-  edit.overlap.resize(edit.added.size() * old_count);
-  edit.rise.resize(edit.overlap.size());
-  for (std::size_t j = 0; j < old_count; ++j) {
-    const auto& [slope, least, most] = slopes_[j];
-    double scale = 1;
-    for (std::size_t i = 0; i < edit.added.size(); ++i) {
+  const std::size_t new_count = edit.added.size();
+  edit.overlap.resize(new_count * old_count);
+  ways_.resize(edit.overlap.size());
+  for (std::size_t j = 0; j < old_count; ++j)
+    for (std::size_t i = 0; i < new_count; ++i) {
       const std::size_t k = i * old_count + j;
       const Overlap overlap =
           given ? Overlap{edit.overlap[k], middle_of(new_flat_[i])} : overlap_of(new_flat_[i], old_flat_[j]);
       edit.overlap[k] = overlap.area;
-      const double rise = overlap.area > 0 ? slope.dot(overlap.middle - middle_of(old_flat_[j])) : 0;
-      if (rise > most || rise < least)
-        scale = std::min(scale, (rise > 0 ? most : least) / rise);
-      edit.rise[k] = rise;
+      ways_[j * new_count + i] =
+          overlap.area > 0 ? Eigen::Vector2d(overlap.middle - middle_of(old_flat_[j])) : Eigen::Vector2d::Zero();
     }
-    for (std::size_t i = 0; i < edit.added.size(); ++i)
-      edit.rise[i * old_count + j] *= scale;
+  find_all_rises(slopes_, new_count, edit.rise);
+}
+
+// rise[i * slopes.size() + j], of old triangle j's quantity where new triangle i covers it.
+void EditableSheet::find_all_rises(std::span<const ValueSlope> slopes, std::size_t new_count,
+                                   std::vector<double>& rise) {
+  const std::size_t old_count = slopes.size();
+  rise.resize(new_count * old_count);
+  column_.resize(new_count);
+  for (std::size_t j = 0; j < old_count; ++j) {
+    find_rises(slopes[j], std::span(ways_).subspan(j * new_count, new_count), column_);
+    for (std::size_t i = 0; i < new_count; ++i)
+      rise[i * old_count + j] = column_[i];
   }
 }
 
@@ -300,6 +324,10 @@ void EditableSheet::write_triangle_rows(const Edit& edit) {
   }
   if (triangle_rows_.empty())
     return;
+  write_means(edit);
+  if (std::ranges::all_of(triangle_rows_,
+                          [](const formats::Array& a) { return a.transfer == formats::Transfer::mean; }))
+    return;
   const std::size_t old_count = edit.removed.size(), new_count = edit.added.size();
   std::vector<double> given(old_count, 0);
   for (std::size_t i = 0; i < new_count; ++i)
@@ -325,6 +353,8 @@ void EditableSheet::write_triangle_rows(const Edit& edit) {
     }
   }
   for (formats::Array& array : triangle_rows_) {
+    if (array.transfer == formats::Transfer::mean)
+      continue;
     const std::size_t size = row_size(array);
     row_.resize(size * new_count);
     for (std::size_t i = 0; i < new_count; ++i)
@@ -332,6 +362,21 @@ void EditableSheet::write_triangle_rows(const Edit& edit) {
     grow_rows(array, mesh_.triangle_slots());
     for (std::size_t i = 0; i < new_count; ++i)
       std::memcpy(row_at(array, slots_[i]), row_.data() + i * size, size);
+  }
+}
+
+// By the rule mean, of the patch before and after.
+void EditableSheet::write_means(const Edit& edit) {
+  for (const Mean& mean : means_) {
+    formats::Array& array = triangle_rows_[mean.array];
+    std::vector<double> values;
+    for (const std::uint32_t t : edit.removed)
+      values.push_back(number_at(array, t, mean.component));
+    find_all_rises(mean.slopes, edit.added.size(), rises_);
+    const std::vector<double> shared = share_mean(edit, old_areas_, old_volumes_, values, rises_);
+    grow_rows(array, mesh_.triangle_slots());
+    for (std::size_t i = 0; i < shared.size(); ++i)
+      set_number_at(array, slots_[i], mean.component, shared[i]);
   }
 }
 

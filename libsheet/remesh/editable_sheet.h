@@ -5,6 +5,7 @@
 // ledgers hold (swept()).
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -43,6 +44,7 @@ public:
   [[nodiscard]] const Vector3& at(std::uint32_t v) const { return position_[v]; }
   [[nodiscard]] const TriangleShape& shape(std::uint32_t t) const { return shape_[t]; }
   [[nodiscard]] double volume(std::uint32_t t) const { return volume_[t]; }
+  [[nodiscard]] double temperature(std::uint32_t t) const;                           // [K]; 0: there is none
   [[nodiscard]] std::span<const double> triangle_volumes() const { return volume_; } // of all slots
   [[nodiscard]] Vector3 velocity(std::uint32_t v) const { return velocity_.empty() ? Vector3::Zero() : velocity_[v]; }
   // Of a third of each triangle around v [m³].
@@ -74,12 +76,14 @@ private:
   [[nodiscard]] bool check_shapes(const Edit& edit, const Limits& limits);
   void flatten_old(const Edit& edit, const PlaneFrame& plane);
   void find_overlap(Edit& edit, const PlaneFrame& plane, bool given);
+  void find_all_rises(std::span<const ValueSlope> slopes, std::size_t new_count, std::vector<double>& rise);
   [[nodiscard]] bool degenerate(const Corners& corners, const TriangleShape& shape) const;
   [[nodiscard]] bool intersects(const Edit& edit);
   void place(const Edit& edit);
   void commit(const Edit& edit);
   void write_vertex_rows(const Edit& edit);
   void write_triangle_rows(const Edit& edit);
+  void write_means(const Edit& edit);
   void make_grid();
   [[nodiscard]] Box box_of(const Corners& corners) const;
   struct Grip {
@@ -102,7 +106,15 @@ private:
   std::vector<Grip> grips_ = std::vector<Grip>(1);          // the first: free
   std::vector<bool> at_inlet_;                              // marked vertices of the frame; empty: there is no inlet
   std::vector<formats::Array> vertex_rows_, triangle_rows_; // all other arrays, by slot
-  std::vector<std::uint32_t> successor_;                    // of removed vertices; itself: still there
+  struct Mean {
+    std::size_t array; // of triangle_rows_
+    std::uint32_t component;
+    std::vector<ValueSlope> slopes; // of the old triangles, scratch of make()
+  };
+  std::vector<Mean> means_;        // numbers of triangles with the rule mean
+  std::size_t temperature_ = none; // of triangle_rows_
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::uint32_t> successor_; // of removed vertices; itself: still there
   std::optional<TriangleGrid> grid_;
   std::uint64_t edits_ = 0;
 
@@ -110,7 +122,9 @@ private:
   std::vector<TriangleShape> old_shapes_, new_shapes_;
   std::vector<double> old_areas_, new_areas_, old_volumes_;
   std::vector<FlatTriangle> old_flat_, new_flat_;
-  std::vector<ThicknessSlope> slopes_; // of the old triangles
+  std::vector<ValueSlope> slopes_;    // of the old triangles' thickness
+  std::vector<Eigen::Vector2d> ways_; // from the middles of old triangles to what new ones cover of them
+  std::vector<double> rises_, column_;
   std::vector<std::uint32_t> patch_, slots_;
   std::vector<std::byte> row_;
   std::vector<MovingVertex> moving_;

@@ -90,6 +90,12 @@ EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
     std::copy_n(ledger->values<double>().begin(), swept_.size(), swept_.begin());
   vertex_rows_ = rows_of(frame, Place::vertex);
   triangle_rows_ = rows_of(frame, Place::triangle);
+  for (std::size_t i = 0; i < triangle_rows_.size(); ++i)
+    if (triangle_rows_[i].name == "temperature")
+      temperature_ = i;
+  for (std::size_t i = 0; i < triangle_rows_.size(); ++i)
+    for (std::uint32_t c = 0; triangle_rows_[i].transfer == Transfer::mean && c < triangle_rows_[i].components; ++c)
+      means_.push_back({i, c, {}});
   for (std::uint32_t v = 0; v < position_.size(); ++v) {
     carried_.push_back(carried_volume(v));
     successor_.push_back(v);

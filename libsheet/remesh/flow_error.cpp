@@ -111,6 +111,7 @@ std::vector<TriangleRates> triangle_rates(const EditableSheet& sheet) {
     if (mesh.has_triangle(t) && sheet.shape(t).area > 0) {
       rates[t].shape = sheet.shape(t);
       rates[t].thickness = sheet.volume(t) / sheet.shape(t).area;
+      rates[t].temperature = sheet.temperature(t);
     }
   const Normals normals = normals_of(sheet, rates);
   for (std::uint32_t t = 0; t < rates.size(); ++t) {

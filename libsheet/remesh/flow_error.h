@@ -15,6 +15,7 @@ struct TriangleRates {
   Matrix3 velocity = Matrix3::Zero();   // surface gradient of the velocity [1/s], not only what lies in the plane
   Matrix3 stretching = Matrix3::Zero(); // E [1/s]
   Matrix3 bending = Matrix3::Zero();    // K, of the second fundamental form [1/(m s)]
+  double temperature = 0;               // [K]; 0: there is none
   bool bends = false;                   // K is known: no corner is on the rim, where a normal is one triangle's
 };
 [[nodiscard]] std::vector<TriangleRates> triangle_rates(const EditableSheet& sheet);

@@ -8,13 +8,13 @@
 
 namespace sheet::remesh {
 
-ThicknessSlope slope_of(const ThicknessAt& triangle, std::span<const ThicknessAt> beside) {
+ValueSlope slope_of(const ValueAt& triangle, std::span<const ValueAt> beside) {
   Eigen::Matrix2d left = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  ThicknessSlope result;
-  for (const auto& [middle, thickness] : beside) {
+  ValueSlope result;
+  for (const auto& [middle, value] : beside) {
     const Eigen::Vector2d to = middle - triangle.middle;
-    const double rise = thickness - triangle.thickness;
+    const double rise = value - triangle.value;
     left += to * to.transpose();
     right += rise * to;
     result.least = std::min(result.least, rise);
@@ -25,6 +25,18 @@ ThicknessSlope slope_of(const ThicknessAt& triangle, std::span<const ThicknessAt
     result.slope = left.inverse() * right;
   }
   return result;
+}
+
+void find_rises(const ValueSlope& slope, std::span<const Eigen::Vector2d> ways, std::span<double> rises) {
+  double scale = 1;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const double rise = ways[i].isZero(0) ? 0 : slope.slope.dot(ways[i]);
+    if (rise > slope.most || rise < slope.least)
+      scale = std::min(scale, (rise > 0 ? slope.most : slope.least) / rise);
+    rises[i] = rise;
+  }
+  for (double& rise : rises)
+    rise *= scale;
 }
 
 bool share_volume(Edit& edit, std::span<const double> areas_removed, std::span<const double> volumes_removed,
@@ -58,6 +70,38 @@ bool share_volume(Edit& edit, std::span<const double> areas_removed, std::span<c
   }
   *largest = volume - others;
   return *largest > 0 && std::all_of(edit.volumes.begin(), edit.volumes.end(), [](double v) { return v > 0; });
+}
+
+std::vector<double> share_mean(const Edit& edit, std::span<const double> areas_removed,
+                               std::span<const double> volumes_removed, std::span<const double> values,
+                               std::span<const double> rises) {
+  const std::size_t old_count = areas_removed.size(), new_count = edit.volumes.size();
+  double volume = 0, sum = 0, shared = 0;
+  for (std::size_t j = 0; j < old_count; ++j) {
+    volume += volumes_removed[j];
+    sum += volumes_removed[j] * values[j];
+  }
+  std::vector<double> means(new_count);
+  for (std::size_t i = 0; i < new_count; ++i) {
+    double weighted = 0, given = 0;
+    for (std::size_t j = 0; j < old_count; ++j) {
+      const std::size_t k = i * old_count + j;
+      if (!(edit.overlap[k] > 0 && areas_removed[j] > 0))
+        continue;
+      const double piece = edit.overlap[k] * (volumes_removed[j] / areas_removed[j] + edit.rise[k]);
+      weighted += piece * (values[j] + rises[k]);
+      given += piece;
+    }
+    means[i] = given > 0 ? weighted / given : sum / volume;
+    shared += edit.volumes[i] * means[i];
+  }
+  const double least = *std::ranges::min_element(values);
+  for (double& mean : means) {
+    mean += (sum - shared) / volume;
+    if (least > 0) // stays so, whatever the volumes
+      mean = std::max(mean, 0.5 * least);
+  }
+  return means;
 }
 
 } // namespace sheet::remesh

@@ -114,6 +114,8 @@ density = "1300 kg/m^3"?
 #viscosities = ["90 Pa*s", 80, 30, 9]?
 #density = "1300 kg/m^3"
 
+# Viscosity may also depend on temperature: see [heat], at the end.
+
 [environment] # ---------------------------------------------------------- what acts on it from outside; may be absent
 
 gravity = [0, "-9.81 m/s^2", 0]
@@ -317,6 +319,93 @@ self = true?
 #stiffness = "1.5 N/m"?
 #adhesion = "100 Pa"?
 #distance = "5 mm"?
+
+# ------------------------------------------------------------------------ heat: the liquid has a temperature
+
+# Both faces lose heat alike, unless `upper` or `lower` says otherwise.
+#[heat]
+#specific_heat = "2400 J/(kg*K)"?
+#conductivity = "0.5 W/(m*K)"?
+#profile = 3?
+#temperature = "60 degC"?
+#ambient = "20 degC"?
+#transfer = "15 W/(m^2*K)"?
+#emissivity = 0.9?
+#radiant = "15 degC"?
+#upper = {ambient = "30 degC", transfer = "50 W/(m^2*K)", emissivity = 0.8, radiant = "20 degC"}
+#lower = {transfer = 0, emissivity = 0}
+#viscous_heating = true?
+
+# Solids take heat where they have a temperature, which stays as they say; rows are [time, temperature]. What enters may have
+# its own, and each sheet.
+#[heat]
+#specific_heat = "2400 J/(kg*K)"
+#temperature = "60 degC"
+#[sheet]
+#temperature = "65 degC"?
+#[inflow]
+#region = "z_max"
+#velocity = [0, 0, "-0.1 m/s"]
+#temperature = "70 degC"?
+#[[solid]]
+#shape = "plane"
+#center = [0, "-0.8 m", 0]
+#temperature = "20 degC"?
+#contact_conductance = "500 W/(m^2*K)"?
+
+# `viscosity` is that at reference_temperature; all of a flow curve is shifted along; stress is what yields, and stays.
+# Arrhenius;
+#[heat]
+#specific_heat = "2400 J/(kg*K)"
+#temperature = "60 degC"
+#[material]
+#viscosity_law = "arrhenius"?
+#reference_temperature = "40 degC"?
+#activation_energy = "60 kJ/mol"?
+
+# or exponential;
+#[heat]
+#specific_heat = "2400 J/(kg*K)"
+#temperature = "60 degC"
+#[material]
+#viscosity_law = "exponential"
+#reference_temperature = "40 degC"
+#temperature_coefficient = "0.05 1/K"?
+
+# or as Vogel, Fulcher and Tammann have it, with the viscosity in it, here of window glass (without vft_a `viscosity` counts);
+#[heat]
+#specific_heat = "2400 J/(kg*K)"
+#temperature = "60 degC"
+#[material]
+#viscosity_law = "vft"
+#reference_temperature = "900 degC"
+#vft_a = -2.601?
+#vft_b = "4330.9 K"?
+#vft_temperature = "246.1 degC"?
+#density = "2500 kg/m^3"
+
+# or as Williams, Landel and Ferry do (polymers);
+#[heat]
+#specific_heat = "2400 J/(kg*K)"
+#temperature = "60 degC"
+#[material]
+#viscosity_law = "wlf"
+#reference_temperature = "100 degC"
+#wlf_c1 = 17.44?
+#wlf_c2 = "51.6 K"?
+
+# or as measured. Surface tension may change with temperature, too.
+#[heat]
+#specific_heat = "2400 J/(kg*K)"
+#temperature = "60 degC"
+#[material]
+#viscosity_law = "table"
+#reference_temperature = "40 degC"
+#temperatures = ["20 degC", "40 degC", "60 degC", "80 degC"]?
+#temperature_viscosities = ["90 Pa*s", 20, 6, 2.5]?
+#density = "1300 kg/m^3"
+#surface_tension = "40 mN/m"
+#surface_tension_slope = "-0.1 mN/(m*K)"?
 )toml";
 
 namespace {

@@ -12,6 +12,7 @@
 #include "libsheet/base/overloaded.h"
 #include "libsheet/material/driven_rate.h"
 #include "libsheet/scene/brief.h"
+#include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/explain_law.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/scene/scales.h"
@@ -279,13 +280,16 @@ std::vector<std::string> left_out_of(const Scene& scene) {
 
 } // namespace
 
-Explanation explain(const Scene& scene, std::span<const Measured> measured, std::vector<ModelledPart> parts) {
+Explanation explain(const Scene& with_heat, std::span<const Measured> measured, std::vector<ModelledPart> parts) {
+  const Scene scene = as_it_starts(with_heat);
   const std::vector<Scales> scales = scales_of_sheets(scene, measured);
   Explanation result;
   result.parts = std::move(parts);
   result.judged = name_of_sheet(scene, 0);
   result.scales = scale_list(scene, scales.front());
   result.numbers = numbers_of(scene, scales.front());
+  std::ranges::copy(heat_scales(with_heat, scales.front()), std::back_inserter(result.scales));
+  std::ranges::copy(heat_numbers(with_heat, scales.front()), std::back_inserter(result.numbers));
   result.warnings = warnings_of(scene, scales);
   result.left_out = left_out_of(scene);
   return result;

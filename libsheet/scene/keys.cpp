@@ -75,6 +75,8 @@ constexpr std::array thickness_keys{
     word_key("along", words::axes, "or rows over a coordinate from its center"),
     list_key("rows", quantity::length, "[][2]", "of that coordinate, increasing, and thickness there")};
 constexpr KeyTable thickness_table{"thickness", thickness_keys};
+constexpr std::array temperature_keys{text_key("data", "name of the PLY file's array that has it, in K")};
+constexpr KeyTable temperature_table{"temperature", temperature_keys};
 
 constexpr std::array perturbation_keys{
     word_key("of", words::perturbed, "what deviates: the position along the normal, or the thickness"),
@@ -103,6 +105,13 @@ constexpr std::array sheet_keys{
     word_key("pattern", words::patterns, "of the triangles"),
     integer_key("seed", "", "of the irregular pattern"),
     Key{"thickness", Form::quantity, "at the start", &quantity::length, "", {}, &thickness_table},
+    Key{"temperature",
+        Form::quantity,
+        "at the start (default: that of [heat])",
+        &quantity::temperature,
+        "",
+        {},
+        &temperature_table},
     texts_key("arrays", "of a PLY file, that go along: real numbers change with the mesh, whole ones stay"),
     table_key("perturbation", perturbation_table),
     word_key("plane", words::planes, "of flat shapes; caps and tubes stand on it (default: horizontal)"),
@@ -131,7 +140,19 @@ constexpr std::array material_keys{
     list_key("viscosities", quantity::viscosity, "[]", "of a table, at its rates"),
     file_key(row_files, "of a table, in place of the two: columns rate and viscosity"),
     number_key("rest_rate", quantity::strain_rate,
-               "below which it is Newtonian (default: 1e-5 of the rate at which it yields, or of reference_rate)")};
+               "below which it is Newtonian (default: 1e-5 of the rate at which it yields, or of reference_rate)"),
+    word_key("viscosity_law", words::temperature_laws, "how viscosity depends on temperature (default: not at all)"),
+    number_key("reference_temperature", quantity::temperature, "at which it has its viscosity and surface tension"),
+    number_key("activation_energy", quantity::molar_energy, "E of arrhenius: ln(mu) rises by (E/R) (1/T - 1/T_r)"),
+    number_key("temperature_coefficient", quantity::per_kelvin, "b of exponential: ln(mu) falls by b (T - T_r)"),
+    number_key("vft_a", quantity::number, "A of log10(mu) = A + B/(T - T_0), mu in Pa s, in place of viscosity"),
+    number_key("vft_b", quantity::temperature, "B of the same, in K"),
+    number_key("vft_temperature", quantity::temperature, "T_0 of the same"),
+    number_key("wlf_c1", quantity::number, "C1 of log10(mu) = log10(mu_r) - C1 (T - T_r)/(C2 + T - T_r)"),
+    number_key("wlf_c2", quantity::temperature, "C2 of the same, in K"),
+    list_key("temperatures", quantity::temperature, "[]", "of a table, ascending, in place of viscosity"),
+    list_key("temperature_viscosities", quantity::viscosity, "[]", "of the same, at its temperatures"),
+    number_key("surface_tension_slope", quantity::tension_slope, "by how much it changes with temperature")};
 constexpr KeyTable material_table{"material", material_keys};
 
 constexpr std::array pressure_keys{
@@ -214,7 +235,9 @@ constexpr std::array solid_keys{
     number_key("slip_length", quantity::length, "eases the drag on what flows (default 0)"),
     number_key("contact_angle", quantity::angle,
                "of the rim, with surface tension (absent: the wetted face pulls as a free one)"),
-    boolean_key("receding", "rims may retreat, else they leave a film (default false)")};
+    boolean_key("receding", "rims may retreat, else they leave a film (default false)"),
+    timed_key("temperature", quantity::temperature, "", "of its surface; rows are [time, temperature]"),
+    number_key("contact_conductance", quantity::heat_transfer, "by which it cools or heats what touches it")};
 constexpr KeyTable solid_table{"solid", solid_keys};
 
 constexpr std::array inflow_keys{
@@ -222,6 +245,7 @@ constexpr std::array inflow_keys{
     word_key("region", words::borders, "border at which liquid enters", &inlet_region_table),
     timed_key("velocity", quantity::velocity, "[3]", "of what enters; rows are [time, x, y, z]"),
     number_key("thickness", quantity::length, "of what enters (default: that of the sheet)"),
+    timed_key("temperature", quantity::temperature, "", "of what enters (default: that of [heat])"),
     number_key("until", quantity::time, "when it stops (default: never)")};
 constexpr KeyTable inflow_table{"inflow", inflow_keys};
 
@@ -245,6 +269,27 @@ constexpr std::array contact_keys{
     number_key("distance", quantity::length, "between the middles of touching layers (default: their mean thickness)")};
 constexpr KeyTable contact_table{"contact", contact_keys};
 
+constexpr std::array face_keys{
+    number_key("ambient", quantity::temperature, "of the air, or what else is there"),
+    number_key("transfer", quantity::heat_transfer, "heat lost a second and kelvin above it (default 0)"),
+    number_key("emissivity", quantity::number, "part of a black body's radiation, 0 to 1 (default 0)"),
+    number_key("radiant", quantity::temperature, "of what the face sees (default: ambient)")};
+constexpr KeyTable upper_table{"upper", face_keys}, lower_table{"lower", face_keys};
+
+constexpr std::array heat_keys{
+    number_key("specific_heat", quantity::specific_heat, "of the liquid"),
+    number_key("conductivity", quantity::conductivity, "by which heat spreads along the sheet (default 0)"),
+    number_key("temperature", quantity::temperature, "at the start, and of what enters"),
+    face_keys[0],
+    face_keys[1],
+    face_keys[2],
+    face_keys[3],
+    integer_key("profile", "", "modes of temperature across the thickness, 1 to 8 (default: a parabola by the losses)"),
+    table_key("upper", upper_table),
+    table_key("lower", lower_table),
+    boolean_key("viscous_heating", "what viscosity dissipates becomes heat (default false)")};
+constexpr KeyTable heat_table{"heat", heat_keys};
+
 constexpr std::array all_tables{table_key("sheet", sheet_table),
                                 table_key("material", material_table),
                                 table_key("environment", environment_table),
@@ -255,7 +300,8 @@ constexpr std::array all_tables{table_key("sheet", sheet_table),
                                 table_key("outflow", outflow_table),
                                 table_key("tear", tear_table),
                                 table_key("merge", merge_table),
-                                table_key("contact", contact_table)};
+                                table_key("contact", contact_table),
+                                table_key("heat", heat_table)};
 constexpr KeyTable scene_table{"the scene", all_tables};
 
 // Always in a list; [sheet], [inflow] and a perturbation stand alone as a rule.

@@ -18,6 +18,29 @@ bool has_sheet_named(std::span<const SheetTable> sheets, const std::string& name
   return std::ranges::any_of(sheets, [&](const SheetTable& sheet) { return sheet.name == name; });
 }
 
+// What is said of temperatures where there are none, and what [heat] needs. `place_of`: of a key in a table.
+template <class PlaceOf> void check_heat(const Scene& scene, PlaceOf place_of, Problems& problems) {
+  if (scene.heat) {
+    if (!(scene.material.density > 0))
+      problems.add(place_of("material", "density"), "missing key \"density\" in [material]: [heat] needs it");
+    return;
+  }
+  const auto needs = [&](std::string_view table, std::string_view key) {
+    problems.add(place_of(table, key),
+                 fmt::format("{}: needs a table [heat], without which nothing has a temperature", key));
+  };
+  if (!scene.material.temperature_law.constant())
+    needs("material", "viscosity_law");
+  else if (scene.material.surface_tension_slope != 0)
+    needs("material", "surface_tension_slope");
+  if (std::ranges::any_of(scene.sheets, [](const SheetTable& sheet) { return sheet.temperature.has_value(); }))
+    needs("sheet", "temperature");
+  if (std::ranges::any_of(scene.inflows, [](const Inflow& inflow) { return inflow.temperature.has_value(); }))
+    needs("inflow", "temperature");
+  if (std::ranges::any_of(scene.solids, [](const Solid& solid) { return solid.temperature.has_value(); }))
+    needs("solid", "temperature");
+}
+
 // What only several tables together can say.
 void check_together(const Scene& scene, const Node& document, Problems& problems) {
   const auto place = [&](std::string_view table, std::string_view key) {
@@ -31,7 +54,8 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     const Node* found = document.find(table);
     return found && found->find(key);
   };
-  const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, merge, contact] = scene;
+  const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, merge, contact, heat] =
+      scene;
   if (!has("material", "density") && model.inertia)
     problems.add(place("material", "density"), "missing key \"density\" in [material]: inertia needs it (or switch it "
                                                "off: inertia = false in [model])");
@@ -58,6 +82,7 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
   if (environment.pressure && flat && !without_volume)
     problems.add(place("environment", "pressure"),
                  "pressure: this law needs a shape that encloses a volume, or a mesh");
+  check_heat(scene, place, problems);
   std::size_t rows = 0;
   const auto count = [&](const Motion& motion) {
     if (const auto* keyed = std::get_if<Keyframed>(&motion))
@@ -169,6 +194,8 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     scene.merge = read_merge(*table);
   if (auto table = optional("contact"))
     scene.contact = read_contact(*table);
+  if (auto table = optional("heat"))
+    scene.heat = read_heat(*table);
   top.finish();
   if (has_sheet && has_material)
     check_together(scene, document, problems);

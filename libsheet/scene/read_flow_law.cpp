@@ -22,23 +22,6 @@ namespace {
 constexpr int looked_at_between = 8;  // places between two rows of a table
 constexpr std::size_t least_rows = 4; // of it
 
-std::vector<double> read_positive(TableReader& table, std::string_view key, std::string_view example) {
-  std::vector<double> numbers;
-  const Node* list = table.take(key);
-  if (list == nullptr) {
-    table.missing(key, example);
-    return numbers;
-  }
-  if (list->type != Node::Type::list) {
-    table.wrong(key, fmt::format("expected a list, got {}", describe(list->type)));
-    return numbers;
-  }
-  for (const Node& item : list->items)
-    if (const auto number = table.quantity(item, key, Bound::positive))
-      numbers.push_back(*number);
-  return numbers.size() == list->items.size() ? numbers : std::vector<double>{};
-}
-
 // The first rate from which on the stress falls, if there is one: no steady flow is stable there.
 std::optional<double> falls_from(const Liquid& liquid) {
   const FlowCurve curve(liquid);
@@ -88,8 +71,8 @@ void read_curve_file(TableReader& table, const Files& files, FlowLaw& law) {
 }
 
 void read_curve_lists(TableReader& table, FlowLaw& law) {
-  law.rates = read_positive(table, "rates", "[0.1, 1, 10, 100], or file = \"curve.csv\"");
-  law.viscosities = read_positive(table, "viscosities", "[\"20 Pa*s\", 8, 3, 1.5]");
+  law.rates = table.list_or_missing("rates", Bound::positive, "[0.1, 1, 10, 100], or file = \"curve.csv\"");
+  law.viscosities = table.list_or_missing("viscosities", Bound::positive, "[\"20 Pa*s\", 8, 3, 1.5]");
   if (law.rates.empty() || law.viscosities.empty())
     return; // reported
   if (law.rates.size() < least_rows)
@@ -156,14 +139,18 @@ constexpr std::array<std::string_view, words::flow_laws.size()> keys_of_laws{
 
 } // namespace
 
-Liquid read_flow_law(TableReader& table, const Files& files) {
-  Liquid liquid;
+void read_flow_law(TableReader& table, const Files& files, Liquid& liquid) {
   FlowLaw& law = liquid.law;
   const std::size_t choice = table.choice("law").value_or(0);
   law.kind = static_cast<FlowLawKind>(choice);
   switch (law.kind) {
   case FlowLawKind::newtonian:
-    liquid.viscosity = table.required("viscosity", Bound::not_negative);
+    if (const auto viscosity = reference_viscosity(liquid.temperature_law)) {
+      liquid.viscosity = *viscosity;
+      table.has_no_meaning({"viscosity"}, "viscosity_law has it, by temperature");
+    } else {
+      liquid.viscosity = table.required("viscosity", Bound::not_negative);
+    }
     break;
   case FlowLawKind::carreau:
     read_plateaus(table, liquid, std::numeric_limits<double>::infinity());
@@ -188,7 +175,6 @@ Liquid read_flow_law(TableReader& table, const Files& files) {
                         "infinite_viscosity", "time_constant", "transition", "rates", "viscosities", "file",
                         "rest_rate"},
                        fmt::format("law \"{}\" takes {}", words::flow_laws[choice], keys_of_laws[choice]));
-  return liquid;
 }
 
 } // namespace sheet::scene

@@ -6,8 +6,8 @@
 
 namespace sheet::scene {
 
-// A liquid with its viscosity and law; what is wrong is reported by the table. The rows of a `file` are the liquid's
-// own from then on.
-[[nodiscard]] Liquid read_flow_law(TableReader& table, const Files& files);
+// Viscosity and law into the liquid, whose temperature law is known; what is wrong is reported by the table. The rows
+// of a `file` are the liquid's own from then on.
+void read_flow_law(TableReader& table, const Files& files, Liquid& liquid);
 
 } // namespace sheet::scene

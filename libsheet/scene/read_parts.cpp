@@ -26,7 +26,7 @@ Motion read_motion(TableReader& parent, const Vector3d& center, const Files& fil
     if (table->absent("axis"))
       table->missing("axis", "[0, 1, 0]");
     motion = Rotating{table->direction_or("axis", Vector3d::UnitY()), table->vector("center").value_or(center),
-                      table->timed_rate("rate").value_or(Timed<double>{})};
+                      table->timed_number("rate").value_or(Timed<double>{})};
   } else if (kind == 3) {
     if (auto frames = read_keyframes(*table, center, files))
       motion = Keyframed{std::move(frames)};

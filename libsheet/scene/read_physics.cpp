@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [material], [environment], [model]
 #include "libsheet/scene/read_flow_law.h"
+#include "libsheet/scene/read_temperature_law.h"
 #include "libsheet/scene/tables.h"
 #include "libsheet/scene/words.h"
 
@@ -63,9 +64,13 @@ std::optional<Pressure> read_pressure(TableReader& parent, std::string& sheet) {
 } // namespace
 
 Liquid read_material(TableReader table, const Files& files) {
-  Liquid material = read_flow_law(table, files);
+  Liquid material;
+  read_temperature_law(table, material);
+  read_flow_law(table, files, material);
   material.density = table.quantity_or("density", 0, Bound::positive);
   material.surface_tension = table.quantity_or("surface_tension", 0, Bound::not_negative);
+  if (material.surface_tension_slope != 0 && !(material.surface_tension > 0))
+    table.missing("surface_tension", "\"0.3 N/m\"");
   table.finish();
   return material;
 }

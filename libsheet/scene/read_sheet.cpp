@@ -236,11 +236,28 @@ void read_thickness(TableReader& table, SheetTable& sheet) {
   sheet.thickness = std::move(data);
 }
 
+void read_temperature(TableReader& table, SheetTable& sheet) {
+  const Node* value = table.take("temperature");
+  if (!value || value->type != Node::Type::table) {
+    if (const auto uniform = table.quantity("temperature", Bound::positive))
+      sheet.temperature = *uniform;
+    return;
+  }
+  auto source = *table.table("temperature");
+  if (!std::holds_alternative<SheetMesh>(sheet.shape))
+    table.wrong("temperature", "only shape \"mesh\" has data to take it from; expected one such as \"900 degC\"");
+  if (source.absent("data"))
+    source.missing("data", "\"temperature\"");
+  TemperatureData data{source.text("data").value_or("")};
+  source.finish();
+  sheet.temperature = std::move(data);
+}
+
 // Whether a user's array may have this name: frames can have it, and nobody else does. The programs' own begin with one
 // of these words.
 bool is_free_name(std::string_view name) {
-  constexpr std::array<std::string_view, 9> taken{"emit.", "gas.",  "merge.",    "outflow.", "remesh.",
-                                                  "step.", "tear.", "enclosure", "thickness"};
+  constexpr std::array<std::string_view, 10> taken{"emit.",   "gas.",  "heat.", "merge.",    "outflow.",
+                                                   "remesh.", "step.", "tear.", "enclosure", "thickness"};
   return formats::is_array_name(name) && !formats::is_standard_array(name) &&
          std::ranges::none_of(taken, [&](std::string_view word) { return name.starts_with(word); });
 }
@@ -336,6 +353,7 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
   const auto plane = table.choice("plane");
   sheet.plane = plane ? static_cast<Plane>(*plane) : horizontal(environment);
   read_thickness(table, sheet);
+  read_temperature(table, sheet);
   read_arrays(table, sheet);
   read_perturbations(table, sheet);
   sheet.center = table.vector("center").value_or(Vector3d::Zero());

@@ -227,6 +227,12 @@ Solid read_solid(TableReader table, const Environment& environment, const Files&
   put_at_keyframes(table, solid);
   solid.surface_velocity = table.vector("surface_velocity").value_or(Vector3d::Zero());
   read_contact_with(table, solid);
+  solid.temperature = table.timed_number("temperature", Bound::positive);
+  solid.contact_conductance = table.quantity_or("contact_conductance", 0, Bound::not_negative);
+  if (solid.temperature && table.absent("contact_conductance"))
+    table.missing("contact_conductance", "\"500 W/(m^2*K)\"");
+  else if (solid.contact_conductance > 0 && table.absent("temperature"))
+    table.missing("temperature", "\"20 degC\"");
   table.finish();
   return solid;
 }
@@ -266,6 +272,7 @@ Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets) {
   if (table.absent("thickness") && !uniform)
     table.missing("thickness", "\"2.5 mm\"");
   inflow.thickness = thickness.value_or(uniform ? *uniform : 0);
+  inflow.temperature = table.timed_number("temperature", Bound::positive);
   inflow.until = table.quantity("until", Bound::positive);
   if (inflow.velocity.entries.size() == 1 && inflow.velocity.entries[0].value.isZero(0))
     table.wrong("velocity", "with no velocity nothing flows in");

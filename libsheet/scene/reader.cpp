@@ -123,6 +123,23 @@ std::optional<Eigen::Vector3d> TableReader::vector(std::string_view key) {
   return value ? vector(*value, key) : std::nullopt;
 }
 
+std::vector<double> TableReader::list_or_missing(std::string_view key, Bound bound, std::string_view example) {
+  std::vector<double> numbers;
+  const Node* list = take(key);
+  if (list == nullptr) {
+    missing(key, example);
+    return numbers;
+  }
+  if (list->type != Node::Type::list) {
+    wrong(key, fmt::format("expected a list, got {}", describe(list->type)));
+    return numbers;
+  }
+  for (const Node& item : list->items)
+    if (const auto number = quantity(item, key, bound))
+      numbers.push_back(*number);
+  return numbers.size() == list->items.size() ? numbers : std::vector<double>{};
+}
+
 Eigen::Vector3d TableReader::direction_or(std::string_view key, const Eigen::Vector3d& fallback) {
   const auto direction = vector(key);
   if (!direction)
@@ -206,8 +223,7 @@ std::optional<Timed<T>> TableReader::rows(const Node& list, std::string_view key
   Timed<T> result;
   for (const Node& row : list.items) {
     if (row.type != Node::Type::list || row.items.size() != width) {
-      problems_.add(row.place,
-                    fmt::format("{}: expected rows {}", key, width == 2 ? "[time, rate]" : "[time, x, y, z]"));
+      problems_.add(row.place, fmt::format("{}: expected rows [time, {}]", key, width == 2 ? key : "x, y, z"));
       return {};
     }
     const auto time = number(row.items[0], key, quantity::time, Bound::any);
@@ -232,14 +248,14 @@ std::optional<Timed<T>> TableReader::rows(const Node& list, std::string_view key
   return result;
 }
 
-std::optional<Timed<double>> TableReader::timed_rate(std::string_view key) {
+std::optional<Timed<double>> TableReader::timed_number(std::string_view key, Bound bound) {
   (void)declared(key, {Form::timed});
   const Node* value = take(key);
   if (!value)
     return {};
   if (value->type == Node::Type::list && !value->items.empty())
-    return rows<double>(*value, key, 2, [&](const Node& row) { return quantity(row.items[1], key, Bound::any); });
-  const auto constant = quantity(*value, key, Bound::any);
+    return rows<double>(*value, key, 2, [&](const Node& row) { return quantity(row.items[1], key, bound); });
+  const auto constant = quantity(*value, key, bound);
   if (!constant)
     return {};
   return Timed<double>{{{0, *constant}}};

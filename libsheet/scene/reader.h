@@ -43,6 +43,8 @@ public:
   // Without a good value: NaN, with which every later comparison is false, so that one mistake is one line.
   double required(std::string_view key, Bound bound = Bound::positive);
   std::optional<Eigen::Vector3d> vector(std::string_view key);
+  // All numbers of a list; none if it is absent or one of them is wrong, which is reported.
+  std::vector<double> list_or_missing(std::string_view key, Bound bound, std::string_view example);
   Eigen::Vector3d direction_or(std::string_view key, const Eigen::Vector3d& fallback); // not zero
   std::optional<std::string> text(std::string_view key);                               // or the name of a file
   std::optional<bool> boolean(std::string_view key);
@@ -50,7 +52,7 @@ public:
   // One of the key's words, as its index.
   std::optional<std::size_t> choice(std::string_view key);
   // A constant, or a list of rows [time, value] in the order of time.
-  std::optional<Timed<double>> timed_rate(std::string_view key);
+  std::optional<Timed<double>> timed_number(std::string_view key, Bound bound = Bound::any);
   // A constant vector, or a list of rows [time, x, y, z] in the order of time.
   std::optional<Timed<Eigen::Vector3d>> timed_velocity(std::string_view key);
   // A table below this one; nothing if it is absent or no table.

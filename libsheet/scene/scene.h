@@ -88,6 +88,12 @@ struct ThicknessProfile {
   bool operator==(const ThicknessProfile&) const = default;
 };
 
+// Temperature from an array of the mesh file, at vertices or faces, in K.
+struct TemperatureData {
+  std::string data; // its name in the file
+  bool operator==(const TemperatureData&) const = default;
+};
+
 // A small deviation d of the start: of the position, along the sheet's normal, or of the thickness.
 //   wave   d = amplitude * sin(2 pi s / wavelength + phase)
 //          s: the place along the direction; if radial less an annulus' inner radius
@@ -117,8 +123,9 @@ struct SheetTable {
   // rectangle: first, second letter; else: around, then along (radius, height)
   std::optional<std::array<int, 2>> segments;
   Pattern pattern = Pattern::irregular;
-  std::int64_t seed = 0;                                           // of the irregular pattern
-  std::variant<double, ThicknessData, ThicknessProfile> thickness; // [m]
+  std::int64_t seed = 0;                                            // of the irregular pattern
+  std::variant<double, ThicknessData, ThicknessProfile> thickness;  // [m]
+  std::optional<std::variant<double, TemperatureData>> temperature; // [K]; absent: that of [heat]
   std::vector<std::string> arrays; // names of the mesh file's that go along in the frames
   std::vector<Perturbation> perturbations;
   Plane plane = Plane::xz;
@@ -180,6 +187,30 @@ struct Model {
   bool forces = false; // those of holds and solids are wanted
   bool faces = false;  // tension acts on the faces' slopes and on rims, too; needs surface tension
   bool operator==(const Model&) const = default;
+};
+
+// ---- heat
+
+// What a face of the sheet loses heat to: transfer (T - ambient) + emissivity σ (T⁴ - radiant⁴) [W/m²].
+struct HeatedFace {
+  double ambient = 0;    // [K]
+  double transfer = 0;   // [W/(m² K)]
+  double emissivity = 0; // 0 to 1
+  double radiant = 0;    // of what it sees [K]
+  [[nodiscard]] bool exchanges() const { return transfer > 0 || emissivity > 0; }
+  bool operator==(const HeatedFace&) const = default;
+};
+
+// The liquid has a temperature, which it carries along. Upper: the face on the triangles' positive side.
+struct Heat {
+  double specific_heat = 0; // [J/(kg K)]
+  double conductivity = 0;  // along the sheet [W/(m K)]
+  double temperature = 0;   // at the start [K]
+  HeatedFace upper = {}, lower = {};
+  std::optional<int> profile =
+      {}; // modes of the temperature across the thickness; absent: it follows the losses at once
+  bool viscous_heating = false;
+  bool operator==(const Heat&) const = default;
 };
 
 // ---- holds, solids, inflow, tearing, contact
@@ -257,6 +288,8 @@ struct Solid {
   double slip_length = 0;              // of what flows: the drag is that of a layer thicker by three times this [m]
   std::optional<double> contact_angle; // of what flows or slips [rad]; absent: the wetted face pulls like a free one
   bool receding = false;               // of what flows: rims may retreat; else they leave a film behind
+  std::optional<Timed<double>> temperature; // [K]; absent: it takes no heat
+  double contact_conductance = 0;           // of what touches it [W/(m² K)]
   bool operator==(const Solid&) const = default;
 };
 
@@ -268,6 +301,7 @@ struct Inflow {
   Timed<Vector3d> velocity; // [m/s]
   double thickness = 0;     // [m]
   std::optional<double> until;
+  std::optional<Timed<double>> temperature = {}; // [K]; absent: that of [heat]
   bool operator==(const Inflow&) const = default;
 };
 
@@ -311,6 +345,7 @@ struct Scene {
   std::optional<Tear> tear;
   std::optional<Merge> merge;
   std::optional<Contact> contact;
+  std::optional<Heat> heat; // absent: temperature does not exist
   bool operator==(const Scene&) const = default;
 };
 

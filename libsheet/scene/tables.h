@@ -30,6 +30,7 @@ Outflow read_outflow(TableReader table);
 Tear read_tear(TableReader table, std::span<const SheetTable> sheets);
 Merge read_merge(TableReader table);
 Contact read_contact(TableReader table);
+Heat read_heat(TableReader table);
 
 // Rows of motions that a scene may have in all: every frame carries them, and a scene's text has 4 MiB at most.
 inline constexpr std::size_t most_keyframes = 16000;

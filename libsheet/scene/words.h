@@ -16,6 +16,8 @@ inline constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 inline constexpr std::array<std::string_view, 4> directions{"x", "y", "z", "radial"};
 inline constexpr std::array<std::string_view, 8> flow_laws{"newtonian",        "power",  "carreau", "cross", "bingham",
                                                            "herschel_bulkley", "casson", "table"};
+inline constexpr std::array<std::string_view, 6> temperature_laws{"constant", "arrhenius", "exponential",
+                                                                  "vft",      "wlf",       "table"};
 inline constexpr std::array<std::string_view, 4> pressures{"constant", "inverse_square", "draining", "gas"};
 inline constexpr std::array<std::string_view, 9> borders{"rim",   "inner_rim", "outer_rim", "x_min", "x_max",
                                                          "y_min", "y_max",     "z_min",     "z_max"};

@@ -168,6 +168,12 @@ void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) 
                                 : fmt::format("{{along = {}, rows = {}}}", word(words::directions, t.over), rows));
                  }},
       sheet.thickness);
+  if (sheet.temperature)
+    std::visit(Overloaded{[&](double uniform) { out.line("temperature", uniform); },
+                          [&](const TemperatureData& t) {
+                            out.line("temperature", fmt::format("{{data = {}}}", toml_text(t.data)));
+                          }},
+               *sheet.temperature);
   if (!sheet.arrays.empty())
     out.line("arrays", items(sheet.arrays, toml_text));
   write_perturbations(out, sheet);
@@ -276,6 +282,10 @@ void write_solid(Writer& out, const Solid& solid) {
   out.line("contact_angle", solid.contact_angle);
   if (solid.receding)
     out.line("receding", flag(true));
+  if (solid.temperature) {
+    out.line("temperature", timed(*solid.temperature));
+    out.line("contact_conductance", solid.contact_conductance);
+  }
 }
 
 // As read_flow_law.cpp reads it.
@@ -284,7 +294,8 @@ void write_flow_law(Writer& out, const Liquid& liquid) {
   const bool plateaus = law.kind == FlowLawKind::carreau || law.kind == FlowLawKind::cross;
   if (!law.newtonian())
     out.line("law", word(words::flow_laws, static_cast<std::size_t>(law.kind)));
-  if (law.kind != FlowLawKind::table)
+  const bool by_temperature = law.newtonian() && reference_viscosity(liquid.temperature_law);
+  if (law.kind != FlowLawKind::table && !by_temperature)
     out.line(plateaus ? "zero_viscosity" : "viscosity", liquid.viscosity);
   const auto unless_newtonian = [&](std::string_view key, double FlowLaw::*member) {
     if (law.*member != newtonian.*member)
@@ -304,6 +315,52 @@ void write_flow_law(Writer& out, const Liquid& liquid) {
   out.line("rest_rate", law.rest_rate);
 }
 
+// As read_temperature_law.cpp reads it.
+void write_temperature_law(Writer& out, const Liquid& liquid) {
+  const TemperatureLaw& law = liquid.temperature_law;
+  if (!law.constant())
+    out.line("viscosity_law", word(words::temperature_laws, law.kind));
+  if (liquid.thermal())
+    out.line("reference_temperature", law.reference_temperature);
+  const auto unless_zero = [&](std::string_view key, double value) {
+    if (value != 0)
+      out.line(key, value);
+  };
+  unless_zero("activation_energy", law.activation_energy);
+  unless_zero("temperature_coefficient", law.temperature_coefficient);
+  out.line("vft_a", law.vft_a);
+  unless_zero("vft_b", law.vft_b);
+  unless_zero("vft_temperature", law.vft_temperature);
+  unless_zero("wlf_c1", law.wlf_c1);
+  unless_zero("wlf_c2", law.wlf_c2);
+  if (!law.temperatures.empty()) {
+    out.line("temperatures", items(law.temperatures, number));
+    out.line("temperature_viscosities", items(law.viscosities, number));
+  }
+  unless_zero("surface_tension_slope", liquid.surface_tension_slope);
+}
+
+std::string face(const HeatedFace& face) {
+  return fmt::format("{{ambient = {}, transfer = {}, emissivity = {}, radiant = {}}}", number(face.ambient),
+                     number(face.transfer), number(face.emissivity), number(face.radiant));
+}
+
+void write_heat(Writer& out, const Heat& heat) {
+  out.open("[heat]");
+  out.line("specific_heat", heat.specific_heat);
+  if (heat.conductivity > 0)
+    out.line("conductivity", heat.conductivity);
+  out.line("temperature", heat.temperature);
+  if (heat.profile)
+    out.line("profile", fmt::format("{}", *heat.profile));
+  if (heat.upper.exchanges())
+    out.line("upper", face(heat.upper));
+  if (heat.lower.exchanges())
+    out.line("lower", face(heat.lower));
+  if (heat.viscous_heating)
+    out.line("viscous_heating", flag(true));
+}
+
 } // namespace
 
 std::string to_toml(const Scene& scene) {
@@ -313,6 +370,7 @@ std::string to_toml(const Scene& scene) {
     write_sheet(out, sheet, several ? "[[sheet]]" : "[sheet]");
   out.open("[material]");
   write_flow_law(out, scene.material);
+  write_temperature_law(out, scene.material);
   if (scene.material.density > 0)
     out.line("density", scene.material.density);
   if (scene.material.surface_tension > 0)
@@ -337,6 +395,8 @@ std::string to_toml(const Scene& scene) {
                                   inflow.region));
     out.line("velocity", timed(inflow.velocity));
     out.line("thickness", inflow.thickness);
+    if (inflow.temperature)
+      out.line("temperature", timed(*inflow.temperature));
     out.line("until", inflow.until);
   }
   for (const Outflow& outflow : scene.outflows) {
@@ -361,6 +421,8 @@ std::string to_toml(const Scene& scene) {
     out.line("adhesion", contact->adhesion);
     out.line("distance", contact->distance);
   }
+  if (scene.heat)
+    write_heat(out, *scene.heat);
   return std::move(out).text();
 }
 

@@ -59,6 +59,9 @@ std::vector<std::string> arrays_of(const Scene& scene, const scene::SheetTable& 
     if (array && &sheet_named(scene, sheet) == &table && std::ranges::find(names, array->array) == names.end())
       names.push_back(array->array);
   };
+  const auto* temperature = table.temperature ? std::get_if<scene::TemperatureData>(&*table.temperature) : nullptr;
+  if (temperature != nullptr && std::ranges::find(names, temperature->data) == names.end())
+    names.push_back(temperature->data);
   for (const scene::Hold& hold : scene.holds)
     add(hold.sheet, hold.region);
   for (const scene::Inflow& inflow : scene.inflows)
@@ -198,6 +201,31 @@ void put_arrays(const TriangleMesh& mesh, const scene::SheetTable& table, format
   }
 }
 
+// What the scene, or an array of the file, says [K].
+void put_temperature(const TriangleMesh& mesh, const Scene& scene, const scene::SheetTable& table,
+                     formats::Frame& frame) {
+  std::vector<double> temperature(mesh.triangles.size(), scene.heat->temperature);
+  const auto* data = table.temperature ? std::get_if<scene::TemperatureData>(&*table.temperature) : nullptr;
+  if (table.temperature && data == nullptr)
+    std::ranges::fill(temperature, std::get<double>(*table.temperature));
+  if (data != nullptr) {
+    const formats::MeshArray& from = *std::ranges::find(mesh.arrays, data->data, &formats::MeshArray::name);
+    if (from.components != 1)
+      fail(ExitCode::bad_input, "sheet.temperature: the array \"{}\" must have one number a vertex or face",
+           data->data);
+    for (std::size_t t = 0; t < temperature.size(); ++t) {
+      const auto& c = mesh.triangles[t];
+      temperature[t] = from.place == formats::MeshPlace::point
+                           ? (from.values[c[0]] + from.values[c[1]] + from.values[c[2]]) / 3
+                           : from.values[t];
+      if (!(temperature[t] > 0) || !std::isfinite(temperature[t]))
+        fail(ExitCode::bad_input, "sheet.temperature: triangle {} gets {} K, it must be above 0 (the array is in K)", t,
+             temperature[t]);
+    }
+  }
+  put_temperatures(temperature, frame);
+}
+
 // The borders where liquid enters.
 std::vector<std::uint64_t> inlets_of(const TriangleMesh& mesh, const Scene& scene, const scene::SheetTable& table) {
   std::vector<std::uint64_t> bits(mesh.positions.size());
@@ -278,6 +306,8 @@ formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) 
     put_inlets(mesh, inlets, frame);
   number_enclosures(scene, table, frame);
   put_arrays(mesh, table, frame);
+  if (scene.heat)
+    put_temperature(mesh, scene, table, frame);
   return frame;
 }
 

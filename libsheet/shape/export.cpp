@@ -140,7 +140,7 @@ ForeignMesh to_foreign_mesh(const Frame& frame) {
   add_arrays(frame, formats::Place::vertex, MeshPlace::point, mesh);
   add_arrays(frame, formats::Place::triangle, MeshPlace::cell, mesh);
   for (const Field& field : fields())
-    if (field.of_laws && has(frame, field) && frame.find(field.name) == nullptr)
+    if (field.needs == Needs::law && has(frame, field) && frame.find(field.name) == nullptr)
       mesh.arrays.push_back({std::string(field.name), MeshPlace::cell, 1, values_of(frame, field)});
   return mesh;
 }

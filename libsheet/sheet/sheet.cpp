@@ -57,6 +57,15 @@ std::span<const Corners> triangles(const Frame& frame) { return required(frame, 
 std::span<double> volumes(Frame& frame) { return required(frame, "volume").values<double>(); }
 std::span<const double> volumes(const Frame& frame) { return required(frame, "volume").values<double>(); }
 
+std::span<const double> temperatures(const Frame& frame) {
+  const Array* array = frame.find("temperature");
+  return array == nullptr ? std::span<const double>{} : array->values<double>();
+}
+
+void put_temperatures(std::span<const double> temperatures, Frame& frame) {
+  fill(frame.put(formats::make_standard_array("temperature", temperatures.size())), temperatures);
+}
+
 std::span<Eigen::Vector3d> velocities(Frame& frame) {
   Array* array = frame.find("velocity");
   if (array == nullptr)

@@ -21,6 +21,10 @@ namespace sheet {
 [[nodiscard]] std::span<const Corners> triangles(const formats::Frame& frame);
 [[nodiscard]] std::span<double> volumes(formats::Frame& frame); // [m³]
 [[nodiscard]] std::span<const double> volumes(const formats::Frame& frame);
+// Of each triangle [K]; empty if the frame has none.
+[[nodiscard]] std::span<const double> temperatures(const formats::Frame& frame);
+// Adds or replaces them.
+void put_temperatures(std::span<const double> temperatures, formats::Frame& frame);
 // Velocities [m/s]; a frame without them gets zeros.
 [[nodiscard]] std::span<Eigen::Vector3d> velocities(formats::Frame& frame);
 // Empty if the frame has none: it is at rest.

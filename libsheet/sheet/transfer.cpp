@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "libsheet/sheet/carried_springs.h"
 #include "libsheet/sheet/edge_rows.h"
@@ -86,6 +87,7 @@ void transfer_row(const Array& from, std::span<const Parent> parents, std::byte*
   case Transfer::copy:
     return copy_row(from, parents, to);
   case Transfer::interpolate:
+  case Transfer::mean:
     if (parents.size() == 1) // no rounding, and values that are no numbers stay where they are
       return copy_row(from, parents, to);
     return sum_row(from, parents, &Parent::weight, to);
@@ -110,11 +112,28 @@ void Lineage::add(std::span<const Parent> parents) {
   first_.push_back(parents_.size());
 }
 
+Lineage Lineage::by_volume(std::span<const double> volumes) const {
+  Lineage result = *this;
+  for (std::size_t row = 0; row < size(); ++row) {
+    const std::span<Parent> parents = std::span(result.parents_).subspan(first_[row], first_[row + 1] - first_[row]);
+    double volume = 0;
+    for (const Parent& p : parents)
+      volume += p.share * volumes[p.row];
+    for (Parent& p : parents)
+      if (volume > 0)
+        p.weight = p.share * volumes[p.row] / volume;
+  }
+  return result;
+}
+
 void transfer_frame(Frame& frame, const Lineage& vertices, const Lineage& triangles, std::span<const Corners> corners) {
   const EdgeRows old_edges(frame);
   CarriedSprings springs(frame);
   if (!springs.empty())
     springs.move(successors(vertices, frame.vertices));
+  const bool any_mean =
+      std::ranges::any_of(frame.arrays, [](const Array& array) { return array.transfer == Transfer::mean; });
+  const Lineage mean = any_mean ? triangles.by_volume(volumes(std::as_const(frame))) : Lineage{};
   std::vector<Array> arrays = std::move(frame.arrays);
   frame.arrays.clear();
   frame.vertices = vertices.size();
@@ -130,6 +149,8 @@ void transfer_frame(Frame& frame, const Lineage& vertices, const Lineage& triang
       frame.arrays.push_back(std::move(array)); // its place in the order; the rows are put below
     } else if (array.transfer == Transfer::drop) {
       continue;
+    } else if (array.transfer == Transfer::mean) {
+      frame.arrays.push_back(transferred(array, mean));
     } else if (array.place == Place::vertex || array.place == Place::triangle) {
       frame.arrays.push_back(transferred(array, array.place == Place::vertex ? vertices : triangles));
     } else {

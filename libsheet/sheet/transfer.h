@@ -20,6 +20,7 @@ struct Parent {
 
 // Writes one new row, size_of(type) * components bytes. `parents` is not empty, except under the rule conserve, where
 // no parents mean zero. The rule is not drop. copy: the parent with the largest weight, the first of them if several.
+// mean: weights are by volume (Lineage::by_volume).
 void transfer_row(const formats::Array& from, std::span<const Parent> parents, std::byte* to);
 
 // New rows 0, 1, ... and their parents.
@@ -32,12 +33,16 @@ public:
     return std::span(parents_).subspan(first_[row], first_[row + 1] - first_[row]);
   }
 
+  // The same with weights by the volume that parents give, where they give any, for arrays with the rule mean. Where
+  // each new row has the volume that its parents give, the sum of row x volume stays. `volumes`: of the old rows.
+  [[nodiscard]] Lineage by_volume(std::span<const double> volumes) const;
+
 private:
   std::vector<std::size_t> first_ = {0};
   std::vector<Parent> parents_;
 };
 
-// All rows of an array whose rule is not drop.
+// All rows of an array whose rule is not drop. Of one with the rule mean: `lineage` is by volume.
 [[nodiscard]] formats::Array transferred(const formats::Array& old, const Lineage& lineage);
 
 // The frame with new vertices, triangles and connectivity. Vertex and triangle arrays go by their rule (`position`,

@@ -61,17 +61,18 @@ double work_on_area(const Model& model, const State& start, const State& end) {
     pressure = std::max(pressure, std::abs(law.value));
   for (const Gas& gas : end.gas)
     pressure = std::max(pressure, std::abs(gas.pressure));
-  double work = 0;
+  double work = 0, tension = model.liquid.surface_tension;
+  for (const double temperature : start.temperatures)
+    tension = std::max(tension, model.liquid.surface_tension_at(temperature));
   if (model.faces)
-    work += model.liquid.surface_tension *
-            extra_area(*start.mesh, start.positions, start.volumes, FreeFaces{model.faces->rims, {}});
+    work += tension * extra_area(*start.mesh, start.positions, start.volumes, FreeFaces{model.faces->rims, {}});
   for (std::size_t t = 0; t < start.volumes.size(); ++t) {
     const Corners& c = start.mesh->triangles[t];
     const double before = area_of(start, c), after = area_of(end, c);
     double way = 0;
     for (const auto v : c)
       way = std::max(way, (end.positions[v] - start.positions[v]).norm());
-    work += 2 * model.liquid.surface_tension * std::max(0.0, before - after) + pressure * std::max(before, after) * way;
+    work += 2 * tension * std::max(0.0, before - after) + pressure * std::max(before, after) * way;
     if (!model.walls.empty() || model.bath)
       work += model.liquid.density * model.gravity.norm() * start.volumes[t] * start.volumes[t] / before;
   }

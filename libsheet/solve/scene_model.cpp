@@ -14,6 +14,7 @@
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
+#include "libsheet/sheet/account.h"
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
@@ -308,6 +309,37 @@ ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& 
   return {std::move(faces.rims), std::move(slopes)};
 }
 
+heat::Surroundings surroundings(const scene::HeatedFace& face) {
+  return {face.transfer, face.ambient, face.emissivity, face.radiant};
+}
+
+// With the solids that the sheet touches.
+HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<const solid::Solids>& solids) {
+  HeatModel model;
+  model.capacity = scene.material.density * scene.heat->specific_heat;
+  model.conductivity = scene.heat->conductivity;
+  const bool alike = scene.heat->upper == scene.heat->lower && scene.solids.empty();
+  if (scene.heat->profile)
+    model.profile = alike ? heat::even_modes(*scene.heat->profile) : heat::all_modes(*scene.heat->profile);
+  else if (model.conductivity > 0)
+    model.profile = heat::parabola();
+  model.surroundings = {surroundings(scene.heat->upper), surroundings(scene.heat->lower)};
+  model.viscous = scene.heat->viscous_heating;
+  const auto touched = touched_solids(frame, scene.solids.size());
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    WarmWall wall;
+    for (std::uint32_t v = 0; v < touched.size(); ++v)
+      if (touched[v] == static_cast<std::int32_t>(i))
+        wall.vertices.push_back(v);
+    wall.conductance = scene.solids[i].contact_conductance;
+    if (const auto& temperature = scene.solids[i].temperature)
+      wall.temperature = [timed = *temperature](double t) { return scene::value_at(timed, t); };
+    wall.normal = [solids, i](double t, const Vector3& x) { return solids->at(i, x, t).normal; };
+    model.walls.push_back(std::move(wall));
+  }
+  return model;
+}
+
 // What a model has of a scene in any frame.
 Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   Model model;
@@ -340,6 +372,16 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
     const auto angle = angles->values<double>();
     state.director_angles.assign(angle.begin(), angle.end());
   }
+  const auto take = [&](std::string_view name, std::vector<double>& to) {
+    if (const Array* array = frame.find(name)) {
+      const auto values = array->values<double>();
+      to.assign(values.begin(), values.end());
+    }
+  };
+  take("temperature", state.temperatures);
+  take("temperature_rate", state.temperature_rates);
+  take("temperature_mode", state.temperature_modes);
+  take("temperature_mode_rate", state.temperature_mode_rates);
   if (const Array* amounts = frame.find("gas.amount"))
     for (const double amount : amounts->values<double>())
       state.gas.push_back({.amount = amount});
@@ -373,6 +415,18 @@ void put_state(const State& state, Frame& frame) {
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());
+  const auto put_of_triangles = [&](std::string_view name, const std::vector<double>& values) {
+    if (values.empty())
+      return;
+    Array array = formats::make_standard_array(name, frame.triangles,
+                                               static_cast<std::uint32_t>(values.size() / frame.triangles));
+    std::ranges::copy(values, array.values<double>().begin());
+    frame.put(std::move(array));
+  };
+  put_of_triangles("temperature", state.temperatures);
+  put_of_triangles("temperature_rate", state.temperature_rates);
+  put_of_triangles("temperature_mode", state.temperature_modes);
+  put_of_triangles("temperature_mode_rate", state.temperature_mode_rates);
   put_director_angles(state.director_angles, frame);
   if (!state.gas.empty()) {
     put_of_gas(frame, "gas.amount", "m^3", state.gas, &Gas::amount);
@@ -380,6 +434,14 @@ void put_state(const State& state, Frame& frame) {
   }
   frame.time = state.time;
   ++frame.step;
+}
+
+void put_heat_moved(const State& state, Frame& frame) {
+  if (state.temperatures.empty())
+    return;
+  const HeatMoved& moved = state.heat_moved;
+  const std::array amounts{moved.generated, moved.upper, moved.lower, moved.solids};
+  add_to_account(frame, "heat.moved", "J", amounts);
 }
 
 void put_reactions(std::span<const Vector3> reactions, bool of_holds, Frame& frame) {
@@ -413,6 +475,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   add_inlets(scene, frame, mesh, model);
   if (scene.model.faces)
     model.faces = faces_of(scene, frame, mesh);
+  if (scene.heat)
+    model.heat = heat_of(scene, frame, solids);
   model.contacts = read_springs(frame); // as sheet-collide has set them up
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))
@@ -455,9 +519,17 @@ double next_event(const Scene& scene, double t) {
     if (hold.until)
       consider(*hold.until);
   }
-  for (const scene::Solid& solid : scene.solids)
+  const auto consider_rows = [&](const std::optional<scene::Timed<double>>& timed) {
+    if (timed && timed->entries.size() > 1)
+      for (const auto& entry : timed->entries)
+        consider(entry.time);
+  };
+  for (const scene::Solid& solid : scene.solids) {
     consider_motion(solid.motion);
+    consider_rows(solid.temperature);
+  }
   for (const scene::Inflow& inflow : scene.inflows) {
+    consider_rows(inflow.temperature);
     consider_motion(scene::Translating{inflow.velocity});
     if (inflow.until)
       consider(*inflow.until);

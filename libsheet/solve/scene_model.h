@@ -17,6 +17,10 @@ namespace sheet {
 // Writes the end of a step into the frame: positions, velocities, time, step + 1, and where the step started.
 void put_state(const State& state, formats::Frame& frame);
 
+// Adds to the frame's account "heat.moved" [J] what the step moved: by viscosity generated, lost through the upper and
+// the lower face, lost to solids; nothing without temperatures.
+void put_heat_moved(const State& state, formats::Frame& frame);
+
 // Puts vertices that a solid caught in the last step back to where that step had taken them (array "touch_overshoot";
 // energy/overshoot.h), where the model holds them on it; but none of a contact spring, whose forces would be those of
 // another place.

@@ -30,6 +30,11 @@ double farthest_behind(const Stage& stage, Eigen::VectorXd behind, const Eigen::
   return behind.cwiseQuotient(scale).cwiseAbs().maxCoeff();
 }
 
+// Of the warmest triangle [s].
+double longest_reduced_time(const Stage& stage) {
+  return stage.shift.empty() ? stage.duration : stage.duration / *std::ranges::min_element(stage.shift);
+}
+
 } // namespace
 
 StageSolve::StageSolve(LinearSystem& system, const Terms& terms, const std::vector<Hold>& holds,
@@ -97,7 +102,7 @@ bool StageSolve::solve_at_once(const Stage& stage, const Unknowns& guess, FirstE
   options.iterations = std::min(options.iterations, at_once);
   const Eigen::Index positions = 3 * static_cast<Eigen::Index>(stage.vertices());
   const double way = (guess - stage.begin).cwiseQuotient(scale_).head(positions).lpNorm<Eigen::Infinity>();
-  const bool moves = way > moving * yield_rate(stage.liquid) * stage.duration;
+  const bool moves = way > moving * yield_rate(stage.liquid) * longest_reduced_time(stage);
   options.force_left = moves ? force_left_moving : force_left_resting;
   const NewtonReport r = minimize(system_, terms_, scale_, guess, options, std::move(first), u);
   report += r;

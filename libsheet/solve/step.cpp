@@ -18,6 +18,7 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/solve/reactions.h"
+#include "libsheet/solve/step_heat.h"
 
 namespace sheet {
 
@@ -98,7 +99,9 @@ struct Beginning {
 };
 
 Beginning begin_step(const Model& model, const State& state, double duration) {
-  Beginning result{first_stage(state, model.liquid, duration, state.time + duration, model.has_angles()), {}, {}, {}};
+  const heat::Profile profile = model.heat ? model.heat->profile : heat::Profile{};
+  Beginning result{
+      first_stage(state, model.liquid, duration, state.time + duration, model.has_angles(), profile), {}, {}, {}};
   Stage& stage = result.stage;
   result.lengths = step_scale(state, stage.begin.size());
   result.scale = measures(stage, result.lengths);
@@ -124,6 +127,7 @@ struct Stepper::Cache {
   std::vector<std::uint32_t> signature;
   Terms terms;
   LinearSystem system;
+  std::optional<heat::Solver> heat; // if the model has some
 };
 
 Stepper::Stepper(Model model, StepOptions options) : model_(std::move(model)), options_(options) {}
@@ -151,6 +155,8 @@ void Stepper::prepare_cache(const State& state, StepReport& report) {
   }
   if (!cache_)
     cache_ = std::make_unique<Cache>(); // memory is kept from one mesh to the next
+  if (!same)
+    cache_->heat.reset();
   cache_->mesh = state.mesh;
   cache_->signature = std::move(signature);
   cache_->terms = std::move(terms);
@@ -189,20 +195,36 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
     return solver.solve(stage, guess, safe, options_.iterations - report.newton.spent(), report.newton, u);
   };
 
+  std::optional<StepHeat> heat;
+  if (model_.heat && !state.temperatures.empty()) {
+    if (!cache_->heat)
+      cache_->heat.emplace(state.mesh);
+    heat.emplace(model_, *cache_->heat, state);
+  }
+
   Unknowns first, last;
   if (!solve(beginning.guess, stage.begin, first))
     return Outcome::not_converged;
+  if (heat)
+    heat->first_stage(stage, cache_->terms, first);
   if (two) {
+    if (heat && !heat->goes_on((1 - gamma) / gamma))
+      return Outcome::cools_too_fast;
+    if (heat)
+      heat->extrapolate(gamma, stage);
     if (!second_stage(stage, first, gamma, dt))
       return Outcome::shrinks_to_nothing;
     set_wall_sites(model_.walls, stage);
     cache_->system.turn_slides(stage);
     if (!solve(stage.begin + (first - stage.begin) / gamma, first, last))
       return Outcome::not_converged;
+    if (heat)
+      heat->second_stage(stage, cache_->terms, last);
   } else {
     last = first;
   }
-  const Outcome outcome = finish_step(state, dt, stage, first, last, scale, estimate, end, report);
+  const Outcome outcome =
+      finish_step(state, dt, stage, first, last, scale, estimate, heat ? &*heat : nullptr, end, report);
   if (outcome == Outcome::done && slides_too_far(stage, last, dt, beginning.lengths))
     return Outcome::slides_too_far;
   return outcome;
@@ -210,8 +232,8 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
 
 // first: the first stage's result; last: that of the last stage, which is the end of the step.
 Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stage, const Unknowns& first,
-                                      const Unknowns& last, const Eigen::VectorXd& scale, Estimate estimate, State& end,
-                                      StepReport& report) {
+                                      const Unknowns& last, const Eigen::VectorXd& scale, Estimate estimate,
+                                      const StepHeat* heat, State& end, StepReport& report) {
   const bool two = stage.previous != nullptr;
   const std::size_t n = state.positions.size();
   end = state;
@@ -226,6 +248,10 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     end.velocities[v] = (x - reference) / stage.duration;
   }
   estimate_error(state, dt, stage, first, last, end, scale, estimate, report);
+  if (heat != nullptr) {
+    heat->put(end);
+    report.error = std::max(report.error, heat->error(stage));
+  }
   end.director_angles = director_angles(stage, last);
   set_prescribed_velocities(stage, end);
   for (const auto& term : cache_->terms)

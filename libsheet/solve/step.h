@@ -22,6 +22,8 @@
 
 namespace sheet {
 
+class StepHeat;
+
 enum class Scheme { sdirk2, backward_euler };
 enum class Thickness {
   coupled,   // indices raised with the predicted end-of-stage metric: thickness follows area within the step
@@ -66,13 +68,15 @@ public:
 private:
   struct Cache;
   class ChosenStep;
-  enum class Outcome { done, not_converged, shrinks_to_nothing, slides_too_far };
+  enum class Outcome { done, not_converged, shrinks_to_nothing, slides_too_far, cools_too_fast };
   // How the error is estimated: plainly where it is only told, filtered where steps are chosen by it.
   enum class Estimate { plain, filtered };
   Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate, State& end,
                   StepReport& report);
+  // heat: null without.
   Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
-                      const Eigen::VectorXd& scale, Estimate estimate, State& end, StepReport& report);
+                      const Eigen::VectorXd& scale, Estimate estimate, const StepHeat* heat, State& end,
+                      StepReport& report);
   void set_prescribed_velocities(const Stage& stage, State& end) const;
   void estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first, const Unknowns& last,
                       const State& end, const Eigen::VectorXd& scale, Estimate estimate, StepReport& report) const;

@@ -16,6 +16,7 @@
 #include "libsheet/base/whole_file.h"
 #include "libsheet/energy/term_table.h"
 #include "libsheet/health/teller.h"
+#include "libsheet/scene/frame_heat.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/frame_mesh.h"
@@ -69,9 +70,9 @@ void check_edges(const Frame& frame, const Connectivity& mesh) {
 }
 
 // Liquid that flows on solids has to know their surfaces, and so has what sticks to belts, which run along them, and
-// what is squeezed between two.
+// what is squeezed between two, and what takes heat.
 bool needs_surfaces(const Scene& scene) {
-  return flows_on_solids(scene) || solids_squeeze(scene) ||
+  return flows_on_solids(scene) || solids_squeeze(scene) || (scene.heat && !scene.solids.empty()) ||
          std::ranges::any_of(scene.solids, [](const scene::Solid& solid) { return !solid.surface_velocity.isZero(0); });
 }
 
@@ -124,6 +125,7 @@ struct StepStage::Impl {
     if (mesh.follow(frame))
       check_mesh(*mesh.mesh());
     check_edges(frame, *mesh.mesh());
+    scene::check_temperatures(scene, frame);
     check_bending(scene, options.bending);
     if (mesh.mesh()->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");
@@ -191,6 +193,7 @@ struct StepStage::Impl {
     rest.note(report.flat_fallbacks > 0);
     rest.put(frame);
     put_state(state, frame);
+    put_heat_moved(state, frame);
     put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), frame);
   }
 

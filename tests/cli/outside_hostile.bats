@@ -77,6 +77,14 @@ END
   attack layers.sheet hostile/contact_*.sheet hostile/scene_{stiffness,adhesion,without}*.sheet
 }
 
+@test "a sheet that cools on a solid while it flows in" {
+  sed 's/^until = .*//; s/0.12 s/9 s/' "$SHEET_SOURCE/tests/features/heat_pour.toml" > warm.toml
+  sheet-init warm.toml | sheet-loop -q --steps 12 --keep last -o warm.sheet -- 'sheet-emit | sheet-step --dt 0.01 | sheet-collide'
+  spoil 150 warm.sheet
+  [[ -e hostile/temperature_nan.sheet && -e hostile/temperature_rate_large.sheet ]]
+  attack warm.sheet hostile/temperature_*.sheet hostile/heat.moved_*.sheet
+}
+
 @test "a curtain that flows in" {
   cat > curtain.toml << 'END'
 [sheet]

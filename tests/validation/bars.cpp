@@ -98,6 +98,24 @@ TEST(Validation, RimsAndSlopes) {
   EXPECT_GT(of(13, 1.04, 60).value, 1.05); // the hole opens
 }
 
+// Sheets that cool, radiate and heat themselves while they flow. Their heat is in its accounts to round-off.
+TEST(Validation, Heat) {
+  for (const int set : {1, 2, 3, 4}) {
+    EXPECT_GE(order_in_time("V39", settings("V39", 0.5, 20, set), Scheme::sdirk2), 1.9) << "set " << set;
+    const Result fine = run(find_case("V39"), settings("V39", set == 3 ? 0.06 : 0.08, 40, set));
+    EXPECT_LT(std::abs(fine.error), 1e-3) << "set " << set;
+    EXPECT_LT(std::abs(fine.more[2].second), 1e-3) << "temperature, set " << set;
+    EXPECT_LT(std::abs(fine.more[3].second), 1e-13) << "balance, set " << set;
+  }
+  EXPECT_GE(space_order(find_case("V39"), settings("V39", 0.3, 20, 1)).order, 1.9);
+  Settings film = settings("V39", 1.0 / 16, 40, 5);
+  film.pattern = Pattern::irregular;
+  EXPECT_LT(error("V39", film), 2e-3);
+  EXPECT_GE(order_in_time("V39", film, Scheme::sdirk2), 1.9);
+  EXPECT_LT(error("V39", settings("V39", 0.05, 1, 6)), 1e-3);
+  EXPECT_GE(space_order(find_case("V39"), settings("V39", 0.1, 1, 6)).order, 1.8);
+}
+
 // What remeshing adds. The tables of docs/remeshing.md go on to finer meshes.
 TEST(Validation, RemeshedOnTheWay) {
   EXPECT_LT(error("V9r", settings("V9r", 0.05, 40)), 0.01);

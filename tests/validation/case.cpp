@@ -122,6 +122,12 @@ const std::vector<Case>& cases() {
        "1 width over thickness; 2 radius; 3 frequency; 4, 5, 9 to 11 rate; 6, 7 thickness; 8 speed of its radius; 12, "
        "13 radius over that at the start",
        "", 13, at(0.2, 100), true, true, v38},
+      {"V39",
+       "sheets that cool (set 1: balloon, by transfer; 2: by radiation; 3: power law 1/2; 4: heated by its own "
+       "viscosity; 5: viscous catenary; 6: tension that changes along a strip)",
+       "1 to 4: radius; 5: sag; 6: speed of the middle", "", 6, at(0.15, 40, Pattern::equilateral), true, true, v39},
+      {"V40", "film casting of a film that cools, (St, k) = (0.1, 1), (0.3, 1), (0.1, 3) (sets 1 to 3)",
+       "draw ratio from which on disturbances grow", "", 3, at(0.02, 4000), false, true, v40},
   };
   return list;
 }

@@ -4,7 +4,10 @@
 // grow from a draw ratio of 20.218 on (draw resonance): L/u0 times growth rate and angular frequency from the linear
 // eigenvalue problem of the isothermal film of constant width, by collocation and by shooting alike [Yeow 1974]. V34:
 // the draw ratio from which on they grow in a power law's film, m = 1 - 1/n: u = u0 (1 + (Dr^m - 1) x/L)^(1/m), pulled
-// by 2 K h0 (2 u0 (Dr^m - 1)/(m L))^n.
+// by 2 K h0 (2 u0 (Dr^m - 1)/(m L))^n. V40: the same of a film that cools, lumped, by a transfer coefficient H: with St
+// = 2 H L/(ρ c h0 u0), whatever the speed (T - T_a)/(T0 - T_a) = θ = e^(-St x/L), and of a viscosity μ0 e^(k (1 - θ))
+// u = u0 Dr^(I(x)/I(L)), I = ∫ e^(-k (1 - θ)) dx/L = e^-k/St (Ei(k) - Ei(k e^(-St x/L))), pulled by 4 μ0 h0 u0 ln(Dr)/
+// (L I(L)).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,21 +29,32 @@ namespace sheet::validation {
 
 namespace {
 
-constexpr double mu = 1, h0 = 1e-3;
+constexpr double mu = 1, h0 = 1e-3, ambient = 300, slot = 400; // [Pa s], [m], [K]
 
 struct Casting {
   double draw_ratio, growth, frequency, duration, disturbance;
   double flow_index = 1, settled = 0.3;
+  double stanton = 0, stiffening = 0; // St, k
+
+  // T - T_a over that at the slot; ∫ μ0/μ dx.
+  [[nodiscard]] double warmth(double x) const { return std::exp(-stanton * x); }
+  [[nodiscard]] double fluidity(double x) const {
+    return stanton == 0
+               ? x
+               : std::exp(-stiffening) / stanton * (std::expint(stiffening) - std::expint(stiffening * warmth(x)));
+  }
 
   // Over u0, L from the slot = 1.
   [[nodiscard]] double speed(double x) const {
     const double m = 1 - 1 / flow_index;
-    return m == 0 ? std::pow(draw_ratio, x) : std::pow(1 + (std::pow(draw_ratio, m) - 1) * x, 1 / m);
+    return m == 0 ? std::pow(draw_ratio, fluidity(x) / fluidity(1))
+                  : std::pow(1 + (std::pow(draw_ratio, m) - 1) * x, 1 / m);
   }
   // Per width, of a viscosity of 1 at the rate 1.
   [[nodiscard]] double force() const {
     const double m = 1 - 1 / flow_index;
-    const double slope = m == 0 ? std::log(draw_ratio) : (std::pow(draw_ratio, m) - 1) / m; // of the speed at the slot
+    const double slope =
+        m == 0 ? std::log(draw_ratio) / fluidity(1) : (std::pow(draw_ratio, m) - 1) / m; // of the speed at the slot
     return 2 * mu * h0 * std::pow(2 * slope, flow_index);
   }
 };
@@ -57,6 +71,8 @@ formats::Frame start_of(const Scene& scene, const Casting& c) {
   for (std::size_t t = 0; t < frame.triangles; ++t) {
     const Corners& k = triangles(frame)[t];
     const double at = std::min(1.0, (x[k[0]] + x[k[1]] + x[k[2]]).x() / 3);
+    if (scene.heat)
+      frame.find("temperature")->values<double>()[t] = ambient + (scene.heat->temperature - ambient) * c.warmth(at);
     volumes(frame)[t] *= (1 + c.disturbance * std::sin(pi * at)) / c.speed(at);
   }
   return frame;
@@ -109,10 +125,18 @@ Cast cast(const Settings& s, const Casting& c) {
                   "[[hold]]\nregion = {{box = [[-9, -9, -9], [9, 9, 9]]}}\naxes = \"y\"\n"
                   "[[hold]]\nregion = {{box = [[1, -9, -9], [9, 9, 9]]}}\nroll = true\n"
                   "motion = {{kind = \"translating\", velocity = [{}, 0, 0]}}\n"
-                  "[[outflow]]\npoint = [{}, 0, 0]\nnormal = [1, 0, 0]\n",
+                  "[[outflow]]\npoint = [{}, 0, 0]\nnormal = [1, 0, 0]\n{}",
                   length, width, length / 2, s.edge, h0, s.seed, mu,
-                  c.flow_index == 1 ? "" : fmt::format("law = \"power\"\nflow_index = {}\n", c.flow_index),
-                  c.draw_ratio, 1 + 2.5 * s.edge),
+                  c.flow_index != 1 ? fmt::format("law = \"power\"\nflow_index = {}\n", c.flow_index)
+                  : c.stanton == 0  ? ""
+                                    : fmt::format("viscosity_law = \"exponential\"\nreference_temperature = {}\n"
+                                                   "temperature_coefficient = {}\n",
+                                                  slot, c.stiffening / (slot - ambient)),
+                  c.draw_ratio, 1 + 2.5 * s.edge,
+                  c.stanton == 0 ? ""
+                                 : fmt::format("[heat]\nspecific_heat = 1\ntemperature = {}\nambient = {}\n"
+                                               "transfer = {}\n",
+                                               slot, ambient, c.stanton * h0 / 2)),
       "V26");
   formats::Frame frame = start_of(scene, c);
   StepStageOptions options;
@@ -135,7 +159,7 @@ Cast cast(const Settings& s, const Casting& c) {
       series.push_back({frame.time, forces.of(frame).back().force.x()});
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {fit(series, c.flow_index == 1 ? 13 : c.frequency), frame.vertices, seconds};
+  return {fit(series, c.flow_index == 1 && c.stanton == 0 ? 13 : c.frequency), frame.vertices, seconds};
 }
 
 Result result_of(const Settings& s, double value, std::size_t vertices, double seconds) {
@@ -160,28 +184,42 @@ Result v26(const Settings& s) {
   return r;
 }
 
-// Value: the draw ratio at which nothing grows, between two runs a tenth below and above that of theory (eigenvalues by
+namespace {
+
+// The draw ratio at which nothing grows, between two runs a tenth below and above that of theory (eigenvalues by
 // collocation and by shooting alike), over that. More: the same of the angular frequency there, and of the force.
-Result v34(const Settings& s) {
-  constexpr std::array<double, 4> indices = {0.5, 0.8, 1, 1.2}, critical = {4.834425, 11.117159, 20.217988, 39.572232},
-                                  frequencies = {8.4562, 11.1279, 14.0111, 18.6209};
-  constexpr std::array<double, 4> disturbances = {0.03, 0.06, 0.06, 0.1}; // what thins does not stay linear for long
-  const auto k = static_cast<std::size_t>(s.set - 1);
+Result critical_ratio(const Settings& s, const Casting& at) {
   std::array<Cast, 2> runs;
   double force = 0;
   for (const std::size_t above : {0, 1}) {
-    const Casting c{critical[k] * (above ? 1.1 : 0.9), 0, frequencies[k], 4, disturbances[k], indices[k], 1};
+    Casting c = at;
+    c.draw_ratio *= above ? 1.1 : 0.9;
     runs[above] = cast(s, c);
     force += runs[above].wave.mean / (c.force() * 3 * s.edge) / 2;
   }
   const double low = runs[0].wave.growth, high = runs[1].wave.growth, part = low / (low - high);
   const double frequency = (1 - part) * runs[0].wave.frequency + part * runs[1].wave.frequency;
   Result r = result_of(s, 0.9 * std::pow(1.1 / 0.9, part), runs[1].vertices, runs[0].seconds + runs[1].seconds);
-  r.more = {{"growth_below", low},
-            {"growth_above", high},
-            {"frequency", frequency / frequencies[k] - 1},
-            {"force", force - 1}};
+  r.more = {
+      {"growth_below", low}, {"growth_above", high}, {"frequency", frequency / at.frequency - 1}, {"force", force - 1}};
   return r;
+}
+
+} // namespace
+
+Result v34(const Settings& s) {
+  constexpr std::array<double, 4> indices = {0.5, 0.8, 1, 1.2}, critical = {4.834425, 11.117159, 20.217988, 39.572232},
+                                  frequencies = {8.4562, 11.1279, 14.0111, 18.6209};
+  constexpr std::array<double, 4> disturbances = {0.03, 0.06, 0.06, 0.1}; // what thins does not stay linear for long
+  const auto k = static_cast<std::size_t>(s.set - 1);
+  return critical_ratio(s, {critical[k], 0, frequencies[k], 4, disturbances[k], indices[k], 1});
+}
+
+Result v40(const Settings& s) {
+  constexpr std::array<double, 3> stanton = {0.1, 0.3, 0.1}, stiffening = {1, 1, 3};
+  constexpr std::array<double, 3> critical = {22.570928, 27.421167, 29.607983}, frequencies = {14.774, 16.229, 16.658};
+  const auto k = static_cast<std::size_t>(s.set - 1);
+  return critical_ratio(s, {critical[k], 0, frequencies[k], 4, 0.06, 1, 1, stanton[k], stiffening[k]});
 }
 
 } // namespace sheet::validation

@@ -24,7 +24,7 @@ Floats = npt.NDArray[np.float64]
 PLACES = ("vertex", "triangle", "edge", "frame")
 TYPES = ("", "int8", "uint8", "int32", "uint32", "int64", "uint64", "float32", "float64", "text")
 SIZES = (0, 1, 1, 4, 4, 8, 8, 4, 8, 1)
-TRANSFERS = ("drop", "copy", "interpolate", "conserve", "common")
+TRANSFERS = ("drop", "copy", "interpolate", "conserve", "common", "mean")
 
 # Exit codes of all programs of Sheet.
 USAGE, BAD_INPUT, CORRUPT, IO = 2, 3, 4, 6
@@ -43,6 +43,10 @@ _STANDARD = {
     "triangle": ("triangle", "uint32", 3, "1", "drop"),
     "volume": ("triangle", "float64", 1, "m^3", "conserve"),
     "velocity": ("vertex", "float64", 3, "m/s", "interpolate"),
+    "temperature": ("triangle", "float64", 1, "K", "mean"),
+    "temperature_rate": ("triangle", "float64", 1, "K/s", "mean"),
+    "temperature_mode": ("triangle", "float64", 0, "K", "mean"),
+    "temperature_mode_rate": ("triangle", "float64", 0, "K/s", "mean"),
     "start_position": ("vertex", "float64", 3, "m", "drop"),
     "start_time": ("frame", "float64", 1, "s", "copy"),
     "hold": ("vertex", "uint64", 1, "1", "common"),
@@ -245,8 +249,10 @@ def _find_entry_error(name: str, unit: str, place: str, kind: str, transfer: str
         return "text belongs to the frame, with one component"
     if transfer == "common" and (floating or kind == "text"):
         return 'transfer "common" is for integers'
-    if transfer in ("interpolate", "conserve") and not floating:
+    if transfer in ("interpolate", "conserve", "mean") and not floating:
         return f'transfer "{transfer}" is for floating point'
+    if transfer == "mean" and place != "triangle":
+        return 'transfer "mean" is for triangles, which have a volume'
     if place != "frame" and rows != expected_rows:
         return f"it has {rows} rows, the frame has {expected_rows} at place {place}"
     return None
@@ -337,6 +343,9 @@ def _find_standard_error(frame: Frame, name: str, array: Array) -> str | None:
     if name == "volume" and not (values > 0).all():
         i = int((values > 0).argmin())
         return f'array "volume": triangle {i} has volume {_number(values.flat[i])} m^3, it must be positive'
+    if name == "temperature" and not (values > 0).all():
+        i = int((values > 0).argmin())
+        return f'array "temperature": triangle {i} has {_number(values.flat[i])} K, it must be above 0'
     if name == "step_size" and not values.flat[0] > 0:
         return f'array "step_size" is {_number(values.flat[0])} s, it must be positive'
     return None

@@ -99,6 +99,21 @@ TEST(Units, OtherFactors) {
   EXPECT_EQ(read("3 m/min", quantity::velocity), 0.05);
 }
 
+TEST(Units, TemperaturesInCelsiusStandAlone) {
+  const auto read = [](const char* text) { return parse_quantity(text, quantity::temperature); };
+  EXPECT_EQ(read("900 degC"), 900 + 273.15);
+  EXPECT_EQ(read("-5 °C"), -5 + 273.15);
+  EXPECT_EQ(read("300 K"), 300);
+  EXPECT_EQ(read("300"), 300);
+  EXPECT_EQ(parse_quantity("1.2 W/(m K)", quantity::conductivity), 1.2);
+  EXPECT_EQ(parse_quantity("1.25 kJ/(kg K)", quantity::specific_heat), 1250);
+  EXPECT_EQ(parse_quantity("60 kJ/mol", quantity::molar_energy), 60000);
+  std::string problem;
+  EXPECT_FALSE(read_quantity("3 W/(m degC)", quantity::conductivity, problem));
+  EXPECT_NE(problem.find("counts from 273.15 K, so it stands behind a temperature alone: write K"), std::string::npos);
+  EXPECT_FALSE(read_quantity("3 degC", quantity::length, problem));
+}
+
 TEST(Units, BareNumbersAreSi) {
   EXPECT_EQ(read("0.025", quantity::length), 0.025);
   EXPECT_EQ(read(" +3 ", quantity::viscosity), 3);

@@ -212,6 +212,7 @@ struct Properties {
   bool translations = true, rotations = true; // the energy does not change with them
   double viscosity = 2;
   FlowLaw law = {};
+  bool warm = false; // triangles have temperatures, each its own
 };
 
 template <int n>
@@ -223,6 +224,8 @@ void check_all(Elements<n>& elements, Properties properties, bool second_stage_t
     const State s = state(random);
     const Liquid liquid{.viscosity = properties.viscosity, .density = 3, .surface_tension = 0.7, .law = properties.law};
     Stage stage = first_stage(s, liquid, 0.05, 0.05, elements.stencil() == Stencil::triangle_edges);
+    for (std::size_t t = 0; properties.warm && t < s.volumes.size(); ++t)
+      stage.shift.push_back(0.5 + 0.25 * static_cast<double>(t % 5));
     Unknowns first = stage.begin;
     if (second_stage_too && round % 2) {
       for (Eigen::Index k = 0; k < first.size(); ++k)
@@ -305,7 +308,8 @@ const std::vector<FlowLaw>& flow_laws() {
 }
 TEST(Derivatives, MembraneOfFlowCurves) {
   for (const FlowLaw& law : flow_laws())
-    check(Membrane(), {.law = law});
+    for (const bool warm : {false, true})
+      check(Membrane(), {.law = law, .warm = warm});
 }
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(), {}, true, crumpled, touch_walls); }
@@ -334,7 +338,8 @@ TEST(Derivatives, SlopeTension) {
 TEST(Derivatives, WallDrag) { check(WallDrag(), {false, false}, true, crumpled, touch_walls); }
 TEST(Derivatives, WallDragOfFlowCurves) {
   for (const FlowLaw& law : flow_laws())
-    check(WallDrag(), {false, false, 2, law}, true, crumpled, touch_walls);
+    for (const bool warm : {false, true})
+      check(WallDrag(), {false, false, 2, law, warm}, true, crumpled, touch_walls);
 }
 TEST(Derivatives, DragOfTwoWalls) { check(WallDrag(), {false, false}, true, crumpled, touch_two_walls); }
 TEST(Derivatives, ChannelPressure) { check(ChannelPressure(), {false, false}, true, crumpled, touch_two_walls); }
@@ -484,7 +489,8 @@ TEST(Derivatives, MidEdgeArcs) { check(MidEdgeShell(true), {true, false}); }
 
 TEST(Derivatives, MidEdgeArcsOfFlowCurves) {
   for (const FlowLaw& law : flow_laws())
-    check(MidEdgeShell(true), {.rotations = false, .law = law});
+    for (const bool warm : {false, true})
+      check(MidEdgeShell(true), {.rotations = false, .law = law, .warm = warm});
   check(MidEdgeShell(true), {.rotations = false, .law = flow_laws()[0]}, true, leaning);
   check(MidEdgeShell(AreaLoads{.tension = SurfaceTension()}), {.rotations = false, .law = flow_laws()[4]});
 }
@@ -592,7 +598,8 @@ TEST(Derivatives, ContactShear) {
 
 TEST(Derivatives, ContactShearOfFlowCurves) {
   for (const std::size_t law : {0U, 1U, 2U, 4U, 5U}) // Cross' curve is not smooth at rest, which some are near
-    check(ContactShear(springs), {false, false, 2, flow_laws()[law]}, true, crumpled, touch_walls);
+    for (const bool warm : {false, true})
+      check(ContactShear(springs), {false, false, 2, flow_laws()[law], warm}, true, crumpled, touch_walls);
 }
 
 TEST(Derivatives, SqueezeOfArcs) {

@@ -41,6 +41,7 @@ struct Batch {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const auto vector = [&] { return Vector3(uniform(random), uniform(random), uniform(random)); };
+    std::ranges::fill(start.crust, 1.0);
     for (int lane = 0; lane < lane_count; ++lane) {
       std::array<Vector3, 3> x{vector(), Vector3(2, 0, 0) + vector(), Vector3(0, 2, 0) + vector()};
       if (lane == 2)
@@ -103,7 +104,7 @@ TEST(MidEdgeKernels, FlowCurvesOfNewtonianLiquids) {
   const FlowCurve curve(Liquid{.viscosity = 6});
   for (const MidEdgeKernels* kernels : versions()) {
     Batch b(0.1);
-    b.start.duration = 1;
+    std::ranges::fill(b.start.duration, 1.0);
     for (double& stiffening : b.start.stiffening)
       stiffening = 1;
     kernels->reference(b.start, b.state, b.reference);

@@ -143,7 +143,7 @@ TEST(StreamText, RefusesWithLineAndColumn) {
       {"float64 1", "float 1",
        ":14:23: \"float\" is not a type: int8 uint8 int32 uint32 int64 uint64 float32 float64 text"},
       {"float64 1", "float64 0", ":14:7: array \"volume\": it has no components"},
-      {"m^3 conserve", "m^3 keep", ":14:37: \"keep\" is not a rule: drop copy interpolate conserve common"},
+      {"m^3 conserve", "m^3 keep", ":14:37: \"keep\" is not a rule: drop copy interpolate conserve common mean"},
       {"m^3 conserve", "m^3 common", ":14:7: array \"volume\": transfer \"common\" is for integers"},
       {"m^3 conserve", "m^3 conserve crit", ":14:46: \"crit\" stands where \"critical\" or nothing is expected"},
       {"end\n", "array n frame text 1 1 copy\n|x\nend\n", ":17:1: a line of text starts with \"| \""},

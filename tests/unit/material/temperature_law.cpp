@@ -100,6 +100,7 @@ TEST(TemperatureLaw, EndsWhereItSaysNothing) {
   EXPECT_TRUE(range_of(temperature_laws()[0]).holds(1e4));
   for (const double cold : {20.0, 519.25, 530.0}) {
     EXPECT_EQ(ViscosityShift(glass).factor(cold), glass.greatest_factor) << cold;
+    EXPECT_EQ(ViscosityShift(temperature_laws()[1]).factor(1e6), 1 / temperature_laws()[1].greatest_factor);
     EXPECT_EQ(ViscosityShift(glass).at(cold).log_slope, 0);
   }
   EXPECT_EQ(ViscosityShift(temperature_laws()[3]).factor(300), temperature_laws()[3].greatest_factor);

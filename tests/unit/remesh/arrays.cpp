@@ -76,6 +76,39 @@ TEST(Arrays, OfStrangersGoByTheirRules) {
   }
 }
 
+// Sum of the array's rows times volumes.
+double by_volume(const formats::Frame& frame, const char* name) {
+  const auto volume = volumes(frame), value = frame.find(name)->values<double>();
+  return std::inner_product(volume.begin(), volume.end(), value.begin(), 0.0);
+}
+
+TEST(Arrays, MeansKeepWhatVolumesCarry) {
+  for (const double wanted : {0.05, 0.3}) {
+    formats::Frame frame = disk(0.1);
+    Array wave = formats::make_standard_array("temperature", frame.triangles), even = wave;
+    even.name = "even";
+    for (std::size_t t = 0; t < frame.triangles; ++t) {
+      const Corners& c = triangles(frame)[t];
+      const double x = (positions(frame)[c[0]] + positions(frame)[c[1]] + positions(frame)[c[2]]).x() / 3;
+      wave.values<double>()[t] = 400 + 100 * std::sin(4 * x);
+      even.values<double>()[t] = 350;
+      volumes(frame)[t] *= 1.5 + std::cos(5 * x);
+    }
+    frame.put(wave);
+    frame.put(even);
+    const double before = by_volume(frame, "temperature");
+    ASSERT_GT(remesh(frame, nullptr, options(wanted)).edits(), 100U);
+    ASSERT_EQ(formats::find_value_error(frame), "");
+    EXPECT_NEAR(by_volume(frame, "temperature"), before, 1e-13 * before);
+    for (const double t : frame.find("temperature")->values<double>()) {
+      EXPECT_GT(t, 295);
+      EXPECT_LT(t, 505);
+    }
+    for (const double t : frame.find("even")->values<double>())
+      EXPECT_NEAR(t, 350, 1e-9);
+  }
+}
+
 TEST(Arrays, ALinearFieldStaysLinearInsideAFlatSheet) {
   formats::Frame frame = disk(0.1);
   Array array =

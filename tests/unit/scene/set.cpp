@@ -42,7 +42,8 @@ TEST(Set, ProblemsNameTheSet) {
             "--set sheet.rotation={axis = [0, 0, 0], angle = 1}: axis: a direction must not be zero");
   // Those of the file first.
   EXPECT_EQ(problem(disk + liquid + "x = 1\n", {"tear.y=1", "tear.below=1 mm"}),
-            "s:9:1: unknown key \"x\" in [material]; known: law, viscosity, density, surface_tension\n"
+            "s:9:1: unknown key \"x\" in [material]; known: viscosity_law, "
+            "surface_tension_slope, law, viscosity, density, surface_tension\n"
             "--set tear.y=1: unknown key \"y\" in [tear]; known: below, crumbs");
 }
 

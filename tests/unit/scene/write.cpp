@@ -159,6 +159,8 @@ public:
     sheet.angular_velocity = maybe(vector());
     s.material = {.viscosity = positive(), .density = positive(), .surface_tension = below(2) ? positive() : 0};
     s.material.law = law();
+    if (below(2))
+      add_heat(s);
     if (below(3) == 0) { // another one like it, which enters
       sheet.name = "first \"one\"";
       SheetTable other = sheet;
@@ -186,12 +188,12 @@ public:
     for (int i = below(4); i > 0; --i)
       s.holds.push_back(hold(s));
     for (int i = below(4); i > 0; --i)
-      s.solids.push_back(solid());
+      s.solids.push_back(solid(s));
     const auto borders = borders_of(s.sheets[0]);
     if (!borders.empty() && below(2))
       for (int i = below(2); i >= 0; --i)
         s.inflows.push_back({s.sheets.size() > 1 ? s.sheets.back().name : "", borders.back(), velocity(), positive(),
-                             maybe_positive()});
+                             maybe_positive(), s.heat && below(2) ? std::optional(temperature()) : std::nullopt});
     for (int i = below(3); i > 0; --i)
       s.outflows.push_back({vector(), direction()});
     if (below(2))
@@ -203,6 +205,34 @@ public:
   }
 
 private:
+  void add_heat(Scene& s) {
+    Heat made{.specific_heat = positive(), .conductivity = below(2) ? positive() : 0, .temperature = positive()};
+    for (HeatedFace* face : {&made.upper, &made.lower})
+      if (below(2))
+        *face = {positive(), positive(), below(2) ? 0.5 : 0, positive()};
+    made.viscous_heating = below(2) == 1;
+    s.heat = made;
+    s.material.temperature_law.reference_temperature = 300;
+    if (below(2)) {
+      s.material.temperature_law.kind = TemperatureLawKind::arrhenius;
+      s.material.temperature_law.activation_energy = positive();
+    } else {
+      s.material.temperature_law.kind = TemperatureLawKind::table;
+      s.material.temperature_law.temperatures = {250, 290, 310, 350};
+      s.material.temperature_law.viscosities = {9, 5, 2, 1};
+      if (s.material.law.newtonian())
+        s.material.viscosity = *reference_viscosity(s.material.temperature_law);
+    }
+    if (s.material.surface_tension > 0)
+      s.material.surface_tension_slope = maybe_positive().value_or(0);
+    if (below(2))
+      s.sheets[0].temperature = positive();
+  }
+  Timed<double> temperature() {
+    if (below(2))
+      return {{{0, positive()}}};
+    return {{{0, positive()}, {1.5, positive()}}};
+  }
   Hold hold(const Scene& s) {
     Hold h;
     const auto borders = borders_of(s.sheets[0]);
@@ -225,7 +255,7 @@ private:
     h.roll = !std::holds_alternative<Border>(h.region) && !std::holds_alternative<Fixed>(h.motion) && below(2);
     return h;
   }
-  Solid solid() {
+  Solid solid(const Scene& of) {
     Solid s;
     const int shape = below(6);
     if (shape == 0)
@@ -253,6 +283,10 @@ private:
     if (s.contact == SolidContact::flow) {
       s.slip_length = below(2) ? positive() : 0;
       s.receding = below(2);
+    }
+    if (of.heat && below(2)) {
+      s.temperature = temperature();
+      s.contact_conductance = positive();
     }
     return s;
   }

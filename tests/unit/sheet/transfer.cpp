@@ -68,6 +68,17 @@ TEST(TransferRow, ConserveSumsSharesAndNothingIsZero) {
   EXPECT_THAT(row<double>(a, {{0, 1, 0}}), ElementsAre(0));
 }
 
+TEST(Lineage, ByVolumeWeighsParentsByWhatTheyGive) {
+  Lineage lineage;
+  const std::vector<Parent> parents{{0, 0.5, 0.25}, {1, 0.5, 1}}, nothing{{0, 1, 0}};
+  lineage.add(parents);
+  lineage.add(nothing);
+  const Lineage by_volume = lineage.by_volume(std::vector<double>{8, 6});
+  EXPECT_EQ(by_volume[0][0].weight, 0.25);
+  EXPECT_EQ(by_volume[0][1].weight, 0.75);
+  EXPECT_EQ(by_volume[1][0].weight, 1); // what has no volume yet is like its parent
+}
+
 TEST(TransferRow, CommonKeepsTheBitsOfAll) {
   const Array a = column<std::uint64_t>("a", Place::vertex, Transfer::common, {0b1101, 0b0111, 1ULL << 63 | 0b0101});
   EXPECT_THAT(row<std::uint64_t>(a, {{0, 0.5, 0}, {1, 0.5, 0}}), ElementsAre(0b0101));
@@ -95,6 +106,7 @@ Frame square() {
   frame.put(column<double>("gone", Place::vertex, Transfer::drop, {0, 0, 0, 0}));
   frame.put(column<double>("mass", Place::vertex, Transfer::conserve, {1, 2, 3, 4}));
   frame.put(column<double>("heat", Place::triangle, Transfer::interpolate, {100, 300}));
+  frame.put(column<double>("warmth", Place::triangle, Transfer::mean, {300, 400}));
   frame.put(column<double>("dye", Place::triangle, Transfer::conserve, {1, 7}));
   frame.put(column<double>("note", Place::frame, Transfer::copy, {1, 2, 3}));
   frame.put(column<double>("mood", Place::frame, Transfer::drop, {1}));
@@ -130,6 +142,7 @@ TEST(TransferFrame, EveryArrayGoesByItsRule) {
   EXPECT_THAT(values<double>(frame, "mass"), ElementsAre(2, 3, 4, 0));
   EXPECT_THAT(values<double>(frame, "heat"), ElementsAre(300, 300));
   EXPECT_THAT(values<double>(frame, "dye"), ElementsAre(3.5, 3.5));
+  EXPECT_THAT(values<double>(frame, "warmth"), ElementsAre(400, 400));
   EXPECT_THAT(values<double>(frame, "note"), ElementsAre(1, 2, 3));
   EXPECT_EQ(frame.find("gone"), nullptr);
   EXPECT_EQ(frame.find("mood"), nullptr);

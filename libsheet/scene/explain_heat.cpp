@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/explain_heat.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "libsheet/material/shifted_liquid.h"
+#include "libsheet/scene/brief.h"
+#include "libsheet/scene/words.h"
+
+namespace sheet::scene {
+namespace {
+
+constexpr double stefan_boltzmann = 5.670374419e-8; // [W/(m² K⁴)]
+constexpr double hardly_moves = 1e12;               // [Pa s]: strained by its weight a part of 1e-8 a second
+
+double start_temperature(const Scene& scene) {
+  const auto& own = scene.sheets.front().temperature;
+  const double* uniform = own ? std::get_if<double>(&*own) : nullptr;
+  return uniform != nullptr ? *uniform : scene.heat->temperature;
+}
+
+// What leaves a square metre at the temperature, and how that rises with it.
+struct Loss {
+  double flux = 0, slope = 0; // [W/m²], [W/(m² K)]
+};
+Loss loss_of(const HeatedFace& face, double t) {
+  return {face.transfer * (t - face.ambient) +
+              face.emissivity * stefan_boltzmann * (std::pow(t, 4) - std::pow(face.radiant, 4)),
+          face.transfer + 4 * face.emissivity * stefan_boltzmann * std::pow(t, 3)};
+}
+Loss loss_of(const Heat& heat, double t) {
+  const Loss up = loss_of(heat.upper, t), down = loss_of(heat.lower, t);
+  return {up.flux + down.flux, up.slope + down.slope};
+}
+
+// The lowest temperature that anything around would bring the sheet to.
+double coldest(const Scene& scene) {
+  double least = start_temperature(scene);
+  for (const HeatedFace* face : {&scene.heat->upper, &scene.heat->lower}) {
+    if (face->transfer > 0)
+      least = std::min(least, face->ambient);
+    if (face->emissivity > 0)
+      least = std::min(least, face->radiant);
+  }
+  for (const Solid& solid : scene.solids)
+    if (solid.temperature)
+      for (const auto& entry : solid.temperature->entries)
+        least = std::min(least, entry.value);
+  return least;
+}
+
+DimensionlessNumber viscosity_range(const Scene& scene) {
+  const Liquid& liquid = scene.material;
+  const double start = start_temperature(scene), cold = coldest(scene);
+  const ViscosityShift shift(liquid.temperature_law);
+  const double first = liquid.viscosity * shift.factor(start), last = liquid.viscosity * shift.factor(cold);
+  std::string meaning = fmt::format("From {} Pa s at {} K to {} Pa s at {} K, the coldest that is around.",
+                                    brief(first), brief(start), brief(last), brief(cold));
+  if (last > hardly_moves)
+    meaning +=
+        fmt::format(" Below {} K it has {} Pa s and will hardly move.",
+                    brief(shift.temperature_of(hardly_moves / liquid.viscosity, cold, start)), brief(hardly_moves));
+  return {"range of viscosity", "mu(coldest) / mu(start)", last / first, meaning};
+}
+
+} // namespace
+
+Scene as_it_starts(const Scene& scene) {
+  Scene result = scene;
+  if (scene.heat)
+    result.material = at_temperature(scene.material, start_temperature(scene));
+  return result;
+}
+
+std::vector<Scale> heat_scales(const Scene& scene, const Scales& scales) {
+  if (!scene.heat || !scales.thickness)
+    return {};
+  const double t = start_temperature(scene), c = scene.material.density * scene.heat->specific_heat;
+  const Loss loss = loss_of(*scene.heat, t);
+  std::vector<Scale> list;
+  if (loss.slope > 0)
+    list.push_back({"t_h", "time of cooling", c * *scales.thickness / loss.slope, "s",
+                    "rho c h / (H + 4 emissivity sigma T^3) of both faces"});
+  for (const Solid& solid : scene.solids)
+    if (solid.temperature) {
+      list.push_back({"t_s", "time of cooling on a solid", c * *scales.thickness / solid.contact_conductance, "s",
+                      "rho c h / contact_conductance"});
+      break;
+    }
+  return list;
+}
+
+std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& scales) {
+  std::vector<DimensionlessNumber> list;
+  if (!scene.heat)
+    return list;
+  const double t = start_temperature(scene), k = scene.heat->conductivity;
+  if (!scene.material.temperature_law.constant())
+    list.push_back(viscosity_range(scene));
+  if (k > 0 && scales.thickness) {
+    const double biot = loss_of(*scene.heat, t).slope / 2 * *scales.thickness / (2 * k);
+    list.push_back({"Biot", "H h / (2 k)", biot,
+                    biot < 0.1 ? "It is as warm across its thickness as in the middle."
+                    : biot < 1
+                        ? "Its faces are colder than its middle; a parabola across the thickness takes that up."
+                        : "Its faces cool long before its middle: the mean temperature, by which it flows here, says "
+                          "less than a skin would."});
+  }
+  if (k > 0 && scales.length && scales.speed > 0) {
+    const double peclet = scene.material.density * scene.heat->specific_heat * scales.speed * *scales.length / k;
+    list.push_back({"Peclet", "rho c V L / k", peclet,
+                    peclet > 10 ? "Liquid carries its heat along; hardly any is conducted along the sheet."
+                                : "Heat is conducted along the sheet while it flows."});
+  }
+  if (scene.heat->viscous_heating && k > 0 && scales.speed > 0 && !scene.material.temperature_law.constant()) {
+    const double slope = -ViscosityShift(scene.material.temperature_law).at(t).log_slope;
+    const double nahme = slope * scales.viscosity * scales.speed * scales.speed / k;
+    list.push_back({"Nahme", "(-d ln mu / dT) mu V^2 / k", nahme,
+                    nahme < 0.1 ? "What viscosity dissipates hardly warms it."
+                                : "What viscosity dissipates makes it flow more easily where it flows most."});
+  }
+  return list;
+}
+
+std::string heat_in_words(const Scene& scene) {
+  const Heat& heat = *scene.heat;
+  std::string text = fmt::format("from {} K", brief(start_temperature(scene)));
+  const auto face = [](const HeatedFace& f) {
+    return f.transfer > 0 && f.emissivity > 0 ? "by air and radiation" : f.transfer > 0 ? "by air" : "by radiation";
+  };
+  if (heat.upper.exchanges() && heat.upper == heat.lower)
+    text += fmt::format(", both faces cool {}", face(heat.upper));
+  else
+    for (const bool upper : {true, false})
+      if (const HeatedFace& f = upper ? heat.upper : heat.lower; f.exchanges())
+        text += fmt::format(", the {} face cools {}", upper ? "upper" : "lower", face(f));
+  if (std::ranges::any_of(scene.solids, [](const Solid& solid) { return solid.temperature.has_value(); }))
+    text += ", solids take heat";
+  if (heat.conductivity > 0)
+    text += ", heat spreads along the sheet";
+  if (heat.viscous_heating)
+    text += ", viscosity heats";
+  const auto law = static_cast<std::size_t>(scene.material.temperature_law.kind);
+  return text + (law == 0 ? "; viscosity does not change with it"
+                          : fmt::format("; viscosity by {}", words::temperature_laws[law]));
+}
+
+} // namespace sheet::scene
