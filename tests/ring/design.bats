@@ -34,6 +34,16 @@ measured() { sheet-info --json | python3 -c "import json, sys; print(json.load(s
   find "$t/out" -name 'run-*' -exec stat -c '%n %Y %Z' {} + | sort | cmp - "$t/before"
 }
 
+@test "an even wall comes out of a pane that sticks to its mould" {
+  pipelines/meshes dish-mould.off
+  run -0 --separate-stderr pipelines/design pipelines/designing/dish/design.toml -o "$t/out"
+  [[ ${lines[0]} == "run 1: 3."*" to 4."*"; rows within 15 %" ]]
+  python3 -c "
+import json
+found = json.load(open('$t/out/design.json'))
+assert found['found'] and found['runs'] <= 3 and 4.6e-3 < found['thickness'][0] < 4.8e-3, found"
+}
+
 @test "what is not reached is said" {
   sed -i 's/^edge_length.*/edge_length = "4 mm"/' "$t/scene.toml"
   printf 'within = 0.001\nruns = 1\n' >> "$t/design.toml"
