@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
       sheet::formats::StreamReader reader(in.descriptor(), in.name());
       while (reader.read(frame)) {
         sheet::Measurements measured = sheet::measure(frame, density ? density : scene.of(frame));
+        scene.measure_heat(frame, measured);
         measured.forces = forces.of(frame);
         out.write(sheet::formats::printable(
             std::exchange(head, {}) +

@@ -58,7 +58,7 @@ struct alignas(64) MidEdgeStart {
   LaneNumbers rate, stiffening;  // μ/(2 τ), as stiffened, and by how much it is [Pa], [1]
   LaneNumbers sign[3];           // 1 where edge k runs from its lower to its higher vertex, else -1
   LaneNumbers held[3];           // 1 where edge k's director is held, else 0
-  LaneNumbers duration, crust;   // τ, reduced by temperature; by what bending is stiffer (stage.h) [s], [1]
+  LaneNumbers duration, bending; // τ, reduced by temperature; by what bending differs (stage.h) [s], [1]
   double ratio;                  // of the stage, see stage.h
 };
 

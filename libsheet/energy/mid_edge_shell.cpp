@@ -78,7 +78,7 @@ void MidEdgeShell::refer(const Stage& stage, std::size_t batch) {
     start.rate[lane] = stage.viscosity[t] / (2 * stage.duration) * stage.stiffening(t);
     start.stiffening[lane] = stage.stiffening(t);
     start.duration[lane] = stage.reduced_time(t);
-    start.crust[lane] = stage.crust(t);
+    start.bending[lane] = stage.bending(t);
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const std::uint32_t edge = mesh_->triangle_edges[t][at];

@@ -75,6 +75,7 @@ struct Stage {
   double channel_rate = 0;                   // at which what is too thick there gives way [1/s]
   std::vector<std::uint32_t> wall_edges;     // whose directors stand as the wall lets them, ascending
   std::vector<double> wall_turns;            // of these directors, by the predicted end of the stage [rad]
+  std::vector<double> wall_bending;          // of each triangle: the part of its bending that walls leave; empty: all
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] double stiffening(std::size_t triangle) const { return stiffened.empty() ? 1 : stiffened[triangle]; }
@@ -85,6 +86,10 @@ struct Stage {
     return shift.empty() ? duration : duration / shift[triangle];
   }
   [[nodiscard]] double crust(std::size_t triangle) const { return crusts.empty() ? 1 : crusts[triangle]; }
+  // By what its resistance to bending differs from that of a free sheet.
+  [[nodiscard]] double bending(std::size_t triangle) const {
+    return wall_bending.empty() ? crust(triangle) : wall_bending[triangle] * crust(triangle);
+  }
   [[nodiscard]] double surface_tension(std::size_t triangle) const { // [N/m]
     return temperatures.empty() || liquid.surface_tension_slope == 0
                ? liquid.surface_tension

@@ -123,17 +123,37 @@ int side_on_wall(const Stage& stage, std::size_t triangle) {
   return (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).dot(site.normal) > 0 ? 1 : -1;
 }
 
+// What lies on a wall bends as a sheet that is no thicker than its triangles are long: (l/h)² of its bending, where
+// that is below 1. As the directors there follow where the stage is predicted to end, triangles that a tool has crushed
+// to a part of their thickness would be driven on by their own prediction, to any speed.
+void ease_bending_on_walls(const std::vector<signed char>& sides, Stage& stage) {
+  stage.wall_bending.assign(sides.size(), 1);
+  bool any = false;
+  for (std::size_t t = 0; t < sides.size(); ++t) {
+    const double thickness = stage.start->volumes[t] / stage.raised[t].area();
+    const double part = stage.raised[t].lengths.maxCoeff() / (thickness * thickness); // these are squared
+    if (sides[t] == 0 || !(part < 1))
+      continue;
+    stage.wall_bending[t] = part;
+    any = true;
+  }
+  if (!any)
+    stage.wall_bending.clear();
+}
+
 // The directors of edges between triangles that lie on walls are not free to turn: they follow the sheet's normals. Not
 // so where the sheet is folded back on itself within the wall's plane: there the mean of the normals is about nothing,
 // and turns over as the fold passes 180 degrees.
 void set_wall_turns(Stage& stage) {
   stage.wall_edges.clear();
   stage.wall_turns.clear();
+  stage.wall_bending.clear();
   if (stage.frames.empty())
     return;
   const Connectivity& mesh = *stage.start->mesh;
   std::vector<signed char> sides(mesh.triangles.size());
   each_in_parallel(sides.size(), [&](std::size_t t) { sides[t] = static_cast<signed char>(side_on_wall(stage, t)); });
+  ease_bending_on_walls(sides, stage);
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
     const auto [left, right] = mesh.edge_triangles[e];
     const int one = sides[left == no_index ? right : left], other = sides[right == no_index ? left : right];
@@ -159,6 +179,7 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   stage.channels.clear();
   stage.wall_edges.clear();
   stage.wall_turns.clear();
+  stage.wall_bending.clear();
   if (std::ranges::all_of(walls, [](const Wall& w) { return w.vertices.empty(); }))
     return;
   if (!stage.liquid.law.newtonian() && !stage.wall_flow)

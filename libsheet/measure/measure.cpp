@@ -207,6 +207,17 @@ double area_of_faces(const formats::Frame& frame, const Scene& scene) {
   return extra_area(mesh, positions(frame), volumes(frame), scene::free_faces(scene, frame, mesh));
 }
 
+// Σ V T [m³ K]; NaN without temperatures.
+double warmth_of(const formats::Frame& frame) {
+  const auto temperature = temperatures(frame), volume = volumes(frame);
+  if (temperature.empty())
+    return absent;
+  Sum warmth;
+  for (std::size_t t = 0; t < volume.size(); ++t)
+    warmth.add(volume[t] * temperature[t]);
+  return warmth.value();
+}
+
 // By area [N/m].
 double mean_tension(const formats::Frame& frame, const Scene& scene) {
   const auto temperature = temperatures(frame);
@@ -235,15 +246,10 @@ void measure_energies(const formats::Frame& frame, const Scene& scene, Measureme
       moment += v[t] / 3 * (x[corners[t][0]] + x[corners[t][1]] + x[corners[t][2]]);
     measured.gravity_energy = -scene.material.density * scene.environment.gravity->dot(moment);
   }
-  const auto temperature = temperatures(frame), volume = volumes(frame);
   if (scene.material.surface_tension > 0)
     measured.surface_energy = mean_tension(frame, scene) * (2 * measured.area + area_of_faces(frame, scene));
-  if (!scene.heat || temperature.empty())
-    return;
-  Sum warmth;
-  for (std::size_t t = 0; t < volume.size(); ++t)
-    warmth.add(volume[t] * temperature[t]);
-  measured.heat = scene.material.density * scene.heat->specific_heat * warmth.value();
+  if (scene.heat)
+    measured.heat = scene.material.density * scene.heat->specific_heat * warmth_of(frame);
 }
 
 std::optional<double> SceneDensity::of(const formats::Frame& frame) {
@@ -253,15 +259,24 @@ std::optional<double> SceneDensity::of(const formats::Frame& frame) {
   if (scene->text() != scene_) {
     scene_ = scene->text();
     density_.reset();
+    heat_capacity_.reset();
     try {
-      const double density = parse_scene(scene_, "the frame's scene").material.density;
-      if (density > 0)
-        density_ = density;
+      const Scene said = parse_scene(scene_, "the frame's scene");
+      if (said.material.density > 0)
+        density_ = said.material.density;
+      if (said.heat)
+        heat_capacity_ = said.material.density * said.heat->specific_heat;
     } catch (const Error& error) {
       log::warning("no density: {}", error.what());
     }
   }
   return density_;
+}
+
+void SceneDensity::measure_heat(const formats::Frame& frame, Measurements& measured) {
+  (void)of(frame);
+  if (heat_capacity_)
+    measured.heat = *heat_capacity_ * warmth_of(frame);
 }
 
 } // namespace sheet

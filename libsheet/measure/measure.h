@@ -80,10 +80,12 @@ class SceneDensity {
 public:
   // Nothing: no scene, none that can be read (then a warning, once), or none with a density.
   [[nodiscard]] std::optional<double> of(const formats::Frame& frame);
+  // Sets the heat Σ ρ c V T [J], where the scene says ρ c and the frame has temperatures.
+  void measure_heat(const formats::Frame& frame, Measurements& measured);
 
 private:
   std::string scene_;
-  std::optional<double> density_;
+  std::optional<double> density_, heat_capacity_; // [kg/m³], [J/(m³ K)]
 };
 
 } // namespace sheet

@@ -42,6 +42,8 @@ std::string told_of(const Figure& figure, const Measurements& m) {
   if (figure.needs_density && std::isnan(m.kinetic_energy))
     return figure.name == "kinetic_energy" ? "unknown without a density (no scene states one; see --density)" : "";
   const std::vector<double> v = figure.values(m);
+  if (figure.needs != Needs::nothing && figure.form == Figure::Form::scalar && std::isnan(v[0]))
+    return ""; // of a liquid that has the rest of its kind
   const std::string unit = figure.unit == "1" ? "" : " " + figure.unit;
   switch (figure.form) {
   case Figure::Form::scalar:

@@ -179,14 +179,12 @@ void StepHeat::put(State& end) const {
 
 double StepHeat::error(const Stage& last) const {
   constexpr double of_viscosity = 0.1;
-  Stage there; // as warm as it has become
-  there.liquid = last.liquid;
-  set_temperatures(last_.means, last_.modes, model_.heat->profile, there);
+  const ViscosityShift shift(last.liquid.temperature_law);
   double greatest = 0;
   for (std::size_t t = 0; t < last_.means.size(); ++t) {
-    greatest = std::max(greatest, std::abs(last_.means[t] - last.temperatures[t]) / last_.means[t]);
-    if (!last.shift.empty())
-      greatest = std::max(greatest, of_viscosity * std::abs(std::log(there.shift[t] / last.shift[t])));
+    const double change = std::abs(last_.means[t] - last.temperatures[t]);
+    const double slope = last.shift.empty() ? 0 : std::abs(shift.at(last_.means[t]).log_slope);
+    greatest = std::max(greatest, change * std::max(1 / last_.means[t], of_viscosity * slope));
   }
   return greatest;
 }

@@ -72,7 +72,7 @@ assert m["part_at_rest"] == 0 and m["viscosity"]["max"] > m["viscosity"]["min"] 
     sheet-render bingham.sheet --frames -1 --look $look --size 64x36 -o $look.png
   done
   run -3 --separate-stderr sheet-render newtonian.sheet --frames -1 --look viscosity --size 64x36 -o none.png
-  [[ $stderr == *"Newtonian"*"[material] law"* ]]
+  [[ $stderr == *"one viscosity"*"[material] law"* ]]
   sheet-export bingham.sheet -o 'bingham_%d.vtu'
   sheet-export newtonian.sheet -o 'newtonian_%d.vtu'
   grep -q 'Name="log_viscosity"' bingham_2.vtu

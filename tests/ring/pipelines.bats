@@ -134,6 +134,10 @@ END
   interrupted KILL slip glass-mould 0.015 60
 }
 
+@test "glass-pane: interrupted and resumed = straight" {
+  interrupted INT cools glass-pane 0.015 20
+}
+
 @test "bottle: interrupted and resumed = straight" {
   interrupted INT bottle bottle 0.006 0.08 0.03
 }

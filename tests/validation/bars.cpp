@@ -307,6 +307,21 @@ TEST(Validation, FilmCastingOfAPowerLaw) {
   EXPECT_LT(std::abs(film.more[2].second), 0.01);
 }
 
+TEST(Validation, FilmCastingThatCools) {
+  const Result film = run(find_case("V40"), settings("V40", 0.04, 4000, 1));
+  EXPECT_LT(std::abs(film.error), 0.02);
+  ASSERT_EQ(film.more[2].first, "frequency");
+  EXPECT_LT(std::abs(film.more[2].second), 0.01);
+}
+
+TEST(Validation, LongFilmCastingThatCools) {
+  for (const int set : {1, 2, 3}) {
+    const Result film = run(find_case("V40"), settings("V40", 0.02, 8000, set));
+    EXPECT_LT(std::abs(film.error), 0.01) << "set " << set;
+    EXPECT_LT(std::abs(film.more[2].second), 0.01) << "set " << set;
+  }
+}
+
 TEST(Validation, LongFilmCastingOfPowerLaws) {
   for (const int set : {1, 2, 4}) {
     const Result film = run(find_case("V34"), settings("V34", 0.01, 12000, set));

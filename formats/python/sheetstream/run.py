@@ -90,10 +90,12 @@ class Run(Sequence[Frame]):
     def curves(self, density: float | None = None) -> dict[str, Floats]:
         """What CURVES names, over the frames, in SI units: arrays with an entry for each frame. The mean thickness is
         the whole sheet's, volume by area. Kinetic energy needs the density [kg/m^3], by default the scene's; else it is
-        nan.
+        nan. Of arrays that the first frame does not have, such as temperature, there are none.
         """
         rows = [_measure(frame, density) for frame in self]
-        return {name: np.array([row[i] for row in rows], float) for i, name in enumerate(CURVES)}
+        absent = [name for name in _ARRAYS if len(self) and name not in self[0]]
+        return {name: np.array([row[i] for row in rows], float) for i, name in enumerate(CURVES)
+                if name.rpartition("_")[0] not in absent}
 
 
 def _measure(frame: Frame, density: float | None) -> tuple[float, ...]:

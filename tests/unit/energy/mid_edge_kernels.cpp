@@ -41,7 +41,7 @@ struct Batch {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const auto vector = [&] { return Vector3(uniform(random), uniform(random), uniform(random)); };
-    std::ranges::fill(start.crust, 1.0);
+    std::ranges::fill(start.bending, 1.0);
     for (int lane = 0; lane < lane_count; ++lane) {
       std::array<Vector3, 3> x{vector(), Vector3(2, 0, 0) + vector(), Vector3(0, 2, 0) + vector()};
       if (lane == 2)

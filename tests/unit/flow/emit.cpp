@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -186,6 +187,34 @@ TEST(Emit, OnAWallTheInletIsAChannelOneRowLong) {
       EXPECT_EQ(count(frame, behind_inlet | in_inlet), channel ? 5 : 0);
       EXPECT_EQ(count(frame, behind_inlet), channel ? 0 : 5);
     }
+  }
+}
+
+// What was there keeps its temperature, what enters has its own, and lies behind it.
+TEST(Emit, WhatEntersIsAsWarmAsItEnters) {
+  Scene scene = scene_of("[0, -1, 0]");
+  scene.heat = scene::Heat{.specific_heat = 2, .temperature = 300};
+  scene.inflows[0].temperature = scene::Timed<double>{{{0, 400}, {10, 400}}};
+  for (const double dt : {0.25, 1.0, 4.75}) {
+    Frame frame = curtain();
+    put_temperatures(std::vector<double>(frame.triangles, 300), frame);
+    const double before = volume_of(frame);
+    double warmth = 0, coldest = 1e9, warmest = 0, entered = 0;
+    for (int k = 0; k < 8; ++k) {
+      move(frame, scene, dt);
+      entered += emit(frame, scene).volume;
+    }
+    for (std::size_t t = 0; t < frame.triangles; ++t) {
+      const double temperature = temperatures(frame)[t];
+      warmth += volumes(std::as_const(frame))[t] * temperature;
+      coldest = std::min(coldest, temperature);
+      warmest = std::max(warmest, temperature);
+    }
+    EXPECT_NEAR(warmth, 300 * before + 400 * entered, 1e-12 * warmth);
+    EXPECT_EQ(coldest, 300);
+    EXPECT_LE(warmest, 400 + 1e-10);
+    EXPECT_GT(warmest, 399.99);
+    EXPECT_NEAR(frame.find("emit.heat")->values<double>()[0], 2 * 400 * entered, 1e-12 * warmth); // density 1
   }
 }
 

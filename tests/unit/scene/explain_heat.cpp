@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What --check says of scenes with heat, by closed forms.
+#include "libsheet/scene/explain_heat.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "libsheet/scene/frame_heat.h"
+#include "libsheet/sheet/sheet.h"
+#include "tests/unit/scene/scenes.h"
+
+namespace sheet::scene {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Scene pane(const std::string& heat, const std::string& law = "") {
+  return parse_scene("[sheet]\nshape = \"disk\"\nradius = 0.1\nedge_length = 0.02\nthickness = 0.004\n"
+                     "[material]\ndensity = 2500\nviscosity = 1e4\nreference_temperature = 1100\n" +
+                         (law.empty() ? "viscosity_law = \"exponential\"\ntemperature_coefficient = 0.03\n" : law) +
+                         "[environment]\ngravity = [0, -10, 0]\n[heat]\nspecific_heat = 1200\nconductivity = 1.5\n"
+                         "temperature = 1100\n" +
+                         heat,
+                     "s");
+}
+
+DimensionlessNumber number_of(const Scene& scene, std::string_view name) {
+  const Scales scales = scales_of_sheets(as_it_starts(scene), {}).front();
+  for (DimensionlessNumber& number : heat_numbers(scene, scales))
+    if (number.name == name)
+      return number;
+  return {name, "", std::numeric_limits<double>::quiet_NaN(), ""};
+}
+
+TEST(ExplainHeat, SaysNothingWhereThereIsNone) {
+  const Scene scene = parse_scene(disk + liquid, "s");
+  const Scales scales = scales_of_sheets(scene, {}).front();
+  EXPECT_THAT(heat_scales(scene, scales), IsEmpty());
+  EXPECT_THAT(heat_numbers(scene, scales), IsEmpty());
+  EXPECT_EQ(as_it_starts(scene), scene);
+}
+
+TEST(ExplainHeat, TimesAndNumbersByTheirFormulas) {
+  const Scene scene = pane("ambient = 300\ntransfer = 20\nemissivity = 0.8\n"
+                           "[[solid]]\nshape = \"plane\"\ntemperature = 500\ncontact_conductance = 400\n");
+  const double slope = 2 * (20 + 4 * 0.8 * 5.670374419e-8 * std::pow(1100, 3)), c = 2500 * 1200 * 0.004;
+  const Scales scales = scales_of_sheets(as_it_starts(scene), {}).front();
+  const std::vector<Scale> list = heat_scales(scene, scales);
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_NEAR(list[0].value, c / slope, 1e-9 * c / slope);
+  EXPECT_NEAR(list[1].value, c / 400, 1e-9 * c / 400);
+  EXPECT_NEAR(number_of(scene, "Biot").value, slope / 2 * 0.004 / (2 * 1.5), 1e-9);
+  EXPECT_NEAR(number_of(scene, "Peclet").value, 2500.0 * 1200 * scales.speed * *scales.length / 1.5, 1e-3);
+  EXPECT_NEAR(std::log(number_of(scene, "range of viscosity").value), 0.03 * 800, 1e-6);
+  EXPECT_THAT(number_of(scene, "range of viscosity").meaning, HasSubstr("will hardly move"));
+  EXPECT_TRUE(std::isnan(number_of(scene, "Nahme").value));
+  const Scene heated = pane("viscous_heating = true\n");
+  const double viscous = 0.03 * 1e4 * scales.speed * scales.speed / 1.5;
+  EXPECT_NEAR(number_of(heated, "Nahme").value, viscous, 1e-6 * viscous);
+}
+
+// Numbers are those of the liquid as it starts.
+TEST(ExplainHeat, TheSceneIsJudgedAsItStarts) {
+  Scene scene = pane("");
+  scene.sheets[0].temperature = 1000.0;
+  EXPECT_NEAR(as_it_starts(scene).material.viscosity, 1e4 * std::exp(3), 1e-6 * 1e4 * std::exp(3));
+}
+
+TEST(ExplainHeat, TellsWhatFacesDo) {
+  EXPECT_EQ(heat_in_words(pane("ambient = 300\ntransfer = 20\n")),
+            "from 1.1e+03 K, both faces cool by air, heat spreads along the sheet; viscosity by exponential");
+  EXPECT_THAT(heat_in_words(pane("lower = {ambient = 300, emissivity = 0.5}\n")),
+              HasSubstr("the lower face cools by radiation"));
+}
+
+TEST(FrameHeat, AFrameMustHaveWhatItsSceneIsAbout) {
+  const Scene scene = pane("");
+  const std::vector<Eigen::Vector3d> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  formats::Frame frame = make_frame(x, std::vector<Corners>{{0, 1, 2}}, std::vector<double>{0.1});
+  const auto refused = [&] {
+    try {
+      check_temperatures(scene, frame);
+      return std::string("fine");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(refused(), HasSubstr("make the first frame with sheet-init"));
+  put_temperatures(std::vector<double>{900}, frame);
+  EXPECT_EQ(refused(), "fine");
+  put_temperatures(std::vector<double>{1e6}, frame);
+  EXPECT_THAT(refused(), HasSubstr("1e+06 K is too warm"));
+  EXPECT_NO_THROW(check_temperatures(parse_scene(disk + liquid, "s"), frame));
+}
+
+} // namespace
+} // namespace sheet::scene
