@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include <gmock/gmock.h>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "libsheet/scene/frame_heat.h"
