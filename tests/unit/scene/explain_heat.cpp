@@ -3,10 +3,9 @@
 #include "libsheet/scene/explain_heat.h"
 
 #include <cmath>
-
-#include <gmock/gmock.h>
 #include <limits>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/scene/frame_heat.h"
