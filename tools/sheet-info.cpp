@@ -6,6 +6,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/tool.h"
 #include "libsheet/measure/figures.h"
+#include "libsheet/measure/place_report.h"
 #include "libsheet/measure/report.h"
 
 int main(int argc, char** argv) {
@@ -15,10 +16,11 @@ int main(int argc, char** argv) {
       "energy and momentum, bounding box, quality of the mesh, topology. Quantities are SI.\n"
       "Energy and momentum need the density, which the frame's scene states; without it they are unknown: nan "
       "in CSV, null in JSON. Thickness is volume divided by area of each triangle; its mean is that of the "
-      "whole sheet. Where the scene has rolls, or asks for forces ([model] forces = true), those of holds and solids "
-      "on the sheet at the end of the step are printed [N].");
+      "whole sheet, its percentiles are by area. Where the scene has rolls, or asks for forces "
+      "([model] forces = true), those of holds and solids on the sheet at the end of the step are printed [N].");
   std::vector<std::string> inputs;
   bool json = false, csv = false, health = false, quantities = false;
+  std::vector<std::string> planes, points;
   std::optional<double> density;
   std::string output = "-";
   tool.arguments("INPUT", inputs, "streams to read; - for standard input, as is none");
@@ -30,15 +32,28 @@ int main(int argc, char** argv) {
       "--list-quantities", quantities,
       "instead, what is measured and shown, one a line: name (of a look of sheet-render, a column of --csv), where it "
       "is (triangle, vertex or frame), SI unit, caption, fitting units with their sizes, colours; separated by tabs");
+  tool.option(
+      "--cut", planes, "PLANE",
+      "instead, as CSV, thickness and more along the curves in which a plane (x=0, 0.3x+y=1mm) cuts the sheet: two "
+      "rows for each triangle that it cuts, s along the curve; may be given again");
+  tool.option("--at", points, "X,Y,Z",
+              "instead, as CSV, thickness and more over time, at the sheet's place that is nearest to a point; may be "
+              "given again");
   tool.option("--density", density, "KG/M3", "density to reckon with, whatever the scene states");
   tool.option("-o,--output", output, "FILE", "file to write; - for standard output");
   tool.example("sheet-info run.sheet | less", "all about every frame");
   tool.example("sheet-info --csv run.sheet > run.csv", "volume, area, thickness, energy over time");
+  tool.example("sheet-select --last run.sheet | sheet-info --cut z=0 > wall.csv", "thickness along a cut");
+  tool.example("sheet-info --at 0,0,0 run.sheet > middle.csv",
+               "thickness over time, where the sheet is nearest to there");
   tool.example("sheet-info --health run.sheet", "did anything go wrong on the way?");
   tool.example("sheet-select --last run.sheet | sheet-info --json", "the last frame, for a program");
   return tool.run(argc, argv, [&] {
     if (json + csv + health > 1)
       sheet::fail(sheet::ExitCode::usage, "--json, --csv and --health exclude each other");
+    if (json + health + !planes.empty() + !points.empty() > 1)
+      sheet::fail(sheet::ExitCode::usage,
+                  "--cut and --at exclude each other, --json and --health: each has a table of its own");
     if (density && !(*density > 0))
       sheet::fail(sheet::ExitCode::usage, "--density: {} is not positive", *density);
     if (quantities) {
@@ -51,10 +66,12 @@ int main(int argc, char** argv) {
       inputs.emplace_back("-");
     for (const std::string& input : inputs)
       sheet::claim_file(input, sheet::FileRole::input); // before the output is emptied
-    const auto report = json     ? sheet::make_json_report()
-                        : csv    ? sheet::make_csv_report()
-                        : health ? sheet::make_health_report()
-                                 : sheet::make_text_report();
+    const auto report = !planes.empty()   ? sheet::make_cut_report(planes)
+                        : !points.empty() ? sheet::make_point_report(points)
+                        : json            ? sheet::make_json_report()
+                        : csv             ? sheet::make_csv_report()
+                        : health          ? sheet::make_health_report()
+                                          : sheet::make_text_report();
     sheet::OutputFile out(output, sheet::OutputFile::Content::text);
     std::string head = report->begin();
     sheet::SceneDensity scene;

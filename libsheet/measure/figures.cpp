@@ -33,6 +33,14 @@ std::vector<Figure> make_figures() {
                      field.needs == Needs::law ? "" : std::string(field.caption), true, false, all.size() - 2,
                      field.needs});
   const std::vector<Figure> others = {
+      {"thickness_p", "thickness by area", "m", Form::percentiles,
+       [](const M& m, const F&) {
+         return Values{m.thickness_percentiles.begin(), m.thickness_percentiles.end()};
+       }},
+      {"thickness_min_at", "thinnest at", "m", Form::vector,
+       [](const M& m, const F&) { return vector_values(m.thinnest_at); }},
+      {"thickness_max_at", "thickest at", "m", Form::vector,
+       [](const M& m, const F&) { return vector_values(m.thickest_at); }},
       {"part_at_rest", "part at rest", "1", Form::scalar, [](const M& m, const F&) { return Values{m.part_at_rest}; },
        "", true, false, 0, Needs::law},
       {"heat", "heat", "J", Form::scalar, [](const M& m, const F&) { return Values{m.heat}; }, "heat", true, false, 0,
@@ -70,6 +78,18 @@ std::string line_of(std::string_view name, std::string_view where, std::string_v
   return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\n", name, where, unit, caption, units, colours);
 }
 
+// Of one of its columns.
+std::string caption_of(const Figure& figure, std::size_t i) {
+  switch (figure.form) {
+  case Form::range:
+    return fmt::format("{} {}", std::array{"least", "mean", "greatest"}[i], figure.caption);
+  case Form::percentiles:
+    return fmt::format("{} % of the {}", percents[i], figure.caption);
+  default:
+    return figure.caption;
+  }
+}
+
 } // namespace
 
 std::vector<std::string> Figure::columns() const {
@@ -80,6 +100,12 @@ std::vector<std::string> Figure::columns() const {
     return {name + "_x", name + "_y", name + "_z"};
   case Form::range:
     return {name + "_min", name + "_mean", name + "_max"};
+  case Form::percentiles: {
+    std::vector<std::string> names;
+    for (const int percent : percents)
+      names.push_back(fmt::format("{}{}", name, percent));
+    return names;
+  }
   case Form::ends: // the unit stands last
     return {"angle_min_degrees", "angle_max_degrees"};
   case Form::box:
@@ -99,11 +125,8 @@ std::string list_of_quantities() {
     text += line_of(field.name, name_of(field.where), field.unit, field.caption, field.palette.stops);
   for (const Figure& figure : figures()) {
     const std::vector<std::string> columns = figure.columns();
-    const bool range = figure.form == Form::range;
     for (std::size_t i = 0; i < columns.size(); ++i)
-      text += line_of(columns[i], "frame", figure.unit,
-                      range ? fmt::format("{} {}", std::array{"least", "mean", "greatest"}[i], figure.caption)
-                            : figure.caption);
+      text += line_of(columns[i], "frame", figure.unit, caption_of(figure, i));
   }
   return text;
 }

@@ -14,10 +14,11 @@ namespace sheet {
 struct Figure {
   enum class Form {
     scalar,
-    vector, // x, y, z
-    range,  // least, mean and greatest value
-    ends,   // least and greatest value
-    box     // least x, y, z, then the greatest
+    vector,      // x, y, z
+    range,       // least, mean and greatest value
+    percentiles, // those of measure.h
+    ends,        // least and greatest value
+    box          // least x, y, z, then the greatest
   };
   std::string name;    // in JSON, and of columns of CSV
   std::string caption; // in text and beside curves

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Geometry>
 
@@ -80,6 +81,31 @@ Range measure_triangles(const formats::Frame& frame, Measurements& m) {
   return thickness;
 }
 
+// Precondition: the area is measured.
+void measure_distribution(const formats::Frame& frame, const std::vector<double>& thickness, Measurements& m) {
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  std::vector<std::uint32_t> order; // from thin to thick
+  for (std::uint32_t t = 0; t < corners.size(); ++t)
+    if (!std::isnan(thickness[t]))
+      order.push_back(t);
+  if (order.empty())
+    return;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t t) { return thickness[t]; });
+  const auto middle = [&](const Corners& c) { return Vector3d((x[c[0]] + x[c[1]] + x[c[2]]) / 3); };
+  m.thinnest_at = middle(corners[order.front()]);
+  m.thickest_at = middle(corners[order.back()]);
+  std::size_t passed = 0;
+  double area = 0;
+  for (std::size_t i = 0; i < percents.size(); ++i) {
+    while (passed < order.size() && (passed == 0 || area < percents[i] / 100.0 * m.area)) {
+      const Corners& c = corners[order[passed++]];
+      area += (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
+    }
+    m.thickness_percentiles[i] = thickness[order[passed - 1]];
+  }
+}
+
 // Mean of values, one a triangle or vertex, by area.
 double mean_by_area(const formats::Frame& frame, const Field& field, const std::vector<double>& values) {
   const auto x = positions(frame);
@@ -101,8 +127,10 @@ void measure_fields(const formats::Frame& frame, const Range& thickness, Measure
       continue;
     Range& range = m.fields.emplace_back(&field).range;
     m.has[static_cast<std::size_t>(field.needs)] |= has(frame, field);
-    if (field.name == "thickness")
+    if (field.name == "thickness") {
       range = thickness;
+      measure_distribution(frame, values_of(frame, field), m);
+    }
     if (field.name == "thickness" || frame.triangles == 0 || !has(frame, field))
       continue;
     const std::vector<double> values = values_of(frame, field);

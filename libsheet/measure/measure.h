@@ -3,6 +3,7 @@
 // with compensation [Neumaier 1974], so that they are the same bits whatever the number of threads.
 // What does not exist is NaN: the thickness of no triangles, the momentum without a density.
 #pragma once
+#include <array>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -30,10 +31,18 @@ struct FieldRange {
   Range range;
 };
 
+// Percentiles that are measured.
+inline constexpr std::array<int, 5> percents = {1, 5, 50, 95, 99};
+
 struct Measurements {
   double area = 0;                // [m²]
   double volume = 0;              // [m³]
   std::vector<FieldRange> fields; // those in_figures, in their order; NaN of what the frame does not have
+  // For each of `percents`, the least thickness [m] of a triangle such that triangles that are not thicker have that
+  // part of the area.
+  std::array<double, percents.size()> thickness_percentiles;
+  Eigen::Vector3d thinnest_at = Eigen::Vector3d::Constant(absent); // middle of the thinnest triangle [m]
+  Eigen::Vector3d thickest_at = Eigen::Vector3d::Constant(absent);
   // Mass ρ V / 3 at each corner of a triangle, as the time step has it.
   double kinetic_energy = absent; // Σ m v² / 2 [J]
   double gravity_energy = absent; // measure_energies
@@ -51,6 +60,8 @@ struct Measurements {
   double aspect_max = absent; // longest side over the altitude on it, 1 for an equilateral triangle; inf: degenerate
   Topology topology;
   std::vector<NamedForce> forces; // in scenes that ask for them
+
+  Measurements() { thickness_percentiles.fill(absent); }
 
   // Precondition: the field is among them.
   [[nodiscard]] const Range& range_of(std::string_view field) const;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "libsheet/health/report.h"
+#include "libsheet/measure/csv.h"
 #include "libsheet/measure/figures.h"
 
 namespace sheet {
@@ -48,9 +49,14 @@ std::string told_of(const Figure& figure, const Measurements& m) {
   case Figure::Form::scalar:
     return fmt::format("{:.9g}{}", v[0], unit);
   case Figure::Form::vector:
-    return fmt::format("{}{}", vector_text(v[0], v[1], v[2]), unit);
+    return std::isnan(v[0]) ? "none" : fmt::format("{}{}", vector_text(v[0], v[1], v[2]), unit);
   case Figure::Form::range:
     return std::isnan(v[0]) ? "none" : fmt::format("{:.6g} to {:.6g}{}, mean {:.6g}{}", v[0], v[2], unit, v[1], unit);
+  case Figure::Form::percentiles:
+    return std::isnan(v[0]) ? "none"
+                            : fmt::format("{:.6g}{} (1 % of the area), {:.6g} (5 %), {:.6g} (50 %), {:.6g} (95 %), "
+                                          "{:.6g} (99 %)",
+                                          v[0], unit, v[1], v[2], v[3], v[4]);
   case Figure::Form::ends:
     return std::isnan(v[0]) ? "none"
                             : fmt::format("{:.4g} to {:.4g}{}, worst aspect {:.4g}", v[0], v[1], unit, m.aspect_max);
@@ -117,18 +123,6 @@ private:
   bool first_ = true;
 };
 
-std::string csv_quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos)
-    return text;
-  std::string out = "\"";
-  for (const char c : text)
-    out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
-// "nan" whatever the NaN's sign.
-std::string number(double x) { return std::isnan(x) ? "nan" : fmt::format("{}", x); }
-
 struct Cell {
   std::string column, text;
 };
@@ -186,7 +180,7 @@ std::vector<Cell> cells_of(const ReportEntry& e, const std::array<bool, 3>& has)
     const std::vector<std::string> columns = figure.columns();
     const std::vector<double> values = figure.values(e.measurements);
     for (std::size_t i = 0; i < columns.size(); ++i)
-      cells.push_back({columns[i], number(values[i])});
+      cells.push_back({columns[i], csv_number(values[i])});
   }
   std::ranges::stable_sort(cells, {}, [](const Cell& cell) { return std::ranges::find(first_columns, cell.column); });
   return cells;
@@ -208,7 +202,7 @@ public:
       out += (cell.column == first_columns[0] ? "" : ",") + cell.text;
     for (std::size_t i = 0; i < forces_.size(); ++i)
       for (int axis = 0; axis < 3; ++axis)
-        out += "," + number(i < m.forces.size() ? m.forces[i].force[axis] : absent);
+        out += "," + csv_number(i < m.forces.size() ? m.forces[i].force[axis] : absent);
     return out + (e.many_files ? "," + csv_quoted(e.file) : "") + "\n";
   }
   std::string end() override {

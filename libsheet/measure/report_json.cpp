@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "libsheet/measure/figures.h"
@@ -39,6 +40,14 @@ Json provenance_json(const formats::Frame& frame) {
   return out;
 }
 
+// By the percentages as texts.
+Json percentiles_json(const std::vector<double>& v) {
+  Json out = Json::object();
+  for (std::size_t i = 0; i < percents.size(); ++i)
+    out[fmt::format("{}", percents[i])] = v[i];
+  return out;
+}
+
 Json figure_json(const Figure& figure, const std::vector<double>& v) {
   switch (figure.form) {
   case Figure::Form::scalar:
@@ -47,6 +56,8 @@ Json figure_json(const Figure& figure, const std::vector<double>& v) {
     return v;
   case Figure::Form::range:
     return {{"min", v[0]}, {"mean", v[1]}, {"max", v[2]}};
+  case Figure::Form::percentiles:
+    return percentiles_json(v);
   case Figure::Form::ends:
     return {{"min", v[0]}, {"max", v[1]}};
   case Figure::Form::box:

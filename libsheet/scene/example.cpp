@@ -52,6 +52,12 @@ seed = 1?
 
 thickness = "10 mm"?
 
+# Or rows of a distance from the sheet's axis and the thickness there, linear in between, constant beyond; or of a
+# coordinate from its center.
+#thickness = {radial = [[0, "10 mm"], ["0.4 m", "12 mm"]]}
+
+#thickness = {along = "x", rows = [["-0.5 m", "8 mm"], ["0.5 m", "12 mm"]]}
+
 # Or any mesh file (.obj .off .ply .stl .vtu); also its thickness, from an array at each vertex or face.
 #shape = "mesh"
 #file = "leaf.ply"?

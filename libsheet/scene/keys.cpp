@@ -67,9 +67,13 @@ constexpr KeyTable motion_table{"motion", motion_keys};
 
 // ---- [sheet]
 
-constexpr std::array thickness_keys{text_key("data", "name of the mesh's array that has the thickness"),
-                                    word_key("place", words::places, "where the array has its values"),
-                                    number_key("scale", quantity::number, "metres per unit of the array (default 1)")};
+constexpr std::array thickness_keys{
+    text_key("data", "name of the mesh's array that has the thickness"),
+    word_key("place", words::places, "where the array has its values"),
+    number_key("scale", quantity::number, "metres per unit of the array (default 1)"),
+    list_key("radial", quantity::length, "[][2]", "or rows of distance from the sheet's axis and thickness there"),
+    word_key("along", words::axes, "or rows over a coordinate from its center"),
+    list_key("rows", quantity::length, "[][2]", "of that coordinate, increasing, and thickness there")};
 constexpr KeyTable thickness_table{"thickness", thickness_keys};
 constexpr std::array temperature_keys{text_key("data", "name of the PLY file's array that has it, in K")};
 constexpr KeyTable temperature_table{"temperature", temperature_keys};

@@ -155,6 +155,60 @@ void read_mesh_size(TableReader& table, SheetTable& sheet) {
                                            shortest(edge), triangles, most_triangles));
 }
 
+bool is_flat(const SheetShape& shape) { return shape.index() <= 2; }
+
+constexpr std::size_t most_profile_rows = 1000; // every frame of a run carries them
+
+// One row [place, thickness]; nothing if it is wrong, which is reported.
+std::optional<std::array<double, 2>> read_profile_row(TableReader& source, std::string_view key, const Node& row) {
+  if (row.type != Node::Type::list || row.items.size() != 2) {
+    source.problems().add(row.place, fmt::format("{}: {}: expected rows of a place and the thickness there, such as "
+                                                 "[\"20 mm\", \"1.2 mm\"]",
+                                                 source.where(), key));
+    return {};
+  }
+  const auto place = source.quantity(row.items[0], key, Bound::any);
+  const auto thickness = source.quantity(row.items[1], key, Bound::positive);
+  return place && thickness ? std::optional(std::array{*place, *thickness}) : std::nullopt;
+}
+
+ThicknessProfile read_profile(TableReader& source, const SheetTable& sheet) {
+  ThicknessProfile profile{SheetDirection::radial, {}};
+  std::string_view key = "radial";
+  if (source.absent("radial")) {
+    key = "rows";
+    const auto along = source.choice("along");
+    if (is_flat(sheet.shape) && along == static_cast<std::size_t>(axes_of(sheet.plane).normal))
+      source.wrong("along", "is the normal of the sheet's plane, along which a flat sheet has no extent");
+    profile.over = static_cast<SheetDirection>(along.value_or(0));
+    if (source.absent("rows"))
+      source.missing("rows", "[[0, \"1.9 mm\"], [\"20 mm\", \"1.2 mm\"]]");
+  } else {
+    source.has_no_meaning({"along", "rows"}, "the rows are those of radial");
+  }
+  const Node* rows = source.take(key);
+  if (rows == nullptr)
+    return profile;
+  if (rows->type != Node::Type::list || rows->items.size() < 2 || rows->items.size() > most_profile_rows) {
+    source.wrong(key, fmt::format("expected 2 to {} rows of a place and the thickness there", most_profile_rows));
+    return profile;
+  }
+  for (const Node& item : rows->items) {
+    const auto row = read_profile_row(source, key, item);
+    if (!row)
+      break;
+    if (!profile.rows.empty() && !((*row)[0] > profile.rows.back()[0])) {
+      source.problems().add(item.place,
+                            fmt::format("{}: {}: places must increase from each row to the next, but {} m "
+                                        "follows {} m",
+                                        source.where(), key, shortest((*row)[0]), shortest(profile.rows.back()[0])));
+      break;
+    }
+    profile.rows.push_back(*row);
+  }
+  return profile;
+}
+
 void read_thickness(TableReader& table, SheetTable& sheet) {
   const bool mesh = std::holds_alternative<SheetMesh>(sheet.shape);
   const Node* value = table.take("thickness");
@@ -163,8 +217,15 @@ void read_thickness(TableReader& table, SheetTable& sheet) {
     return;
   }
   auto source = *table.table("thickness");
+  if (!source.absent("radial") || !source.absent("along")) {
+    source.has_no_meaning({"data", "place", "scale"}, "the thickness is given by rows");
+    sheet.thickness = read_profile(source, sheet);
+    source.finish();
+    return;
+  }
   if (!mesh)
-    table.wrong("thickness", "only shape \"mesh\" has data to take it from; expected a length such as \"2.5 mm\"");
+    table.wrong("thickness", "only shape \"mesh\" has data to take it from; expected a length such as \"2.5 mm\", or "
+                             "{radial = [[0, \"1.9 mm\"], [\"20 mm\", \"1.2 mm\"]]}");
   ThicknessData data{};
   if (source.absent("data"))
     source.missing("data", "\"thickness\"");
@@ -245,11 +306,10 @@ Perturbation read_perturbation(TableReader table, const SheetTable& sheet) {
   } else {
     const PlaneAxes axes = axes_of(sheet.plane);
     const auto direction = table.choice("direction");
-    const bool flat = sheet.shape.index() <= 2;
-    if (flat && direction == static_cast<std::size_t>(axes.normal))
+    if (is_flat(sheet.shape) && direction == static_cast<std::size_t>(axes.normal))
       table.wrong("direction", "is the normal of the sheet's plane, along which a flat sheet has no extent");
     result.form = Wave{wavelength.value_or(1), table.quantity_or("phase", 0),
-                       static_cast<WaveDirection>(direction.value_or(static_cast<std::size_t>(axes.first)))};
+                       static_cast<SheetDirection>(direction.value_or(static_cast<std::size_t>(axes.first)))};
   }
   table.finish();
   return result;

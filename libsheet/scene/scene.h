@@ -77,6 +77,17 @@ struct ThicknessData {
   bool operator==(const ThicknessData&) const = default;
 };
 
+// Directions along which something changes over a sheet: x, y, z, a coordinate along a world axis from the sheet's
+// center, before `rotation`; radial, the distance from the sheet's axis (through its center along the plane's normal).
+enum class SheetDirection { x, y, z, radial };
+
+// Thickness over a place: linear between rows, constant before the first and after the last.
+struct ThicknessProfile {
+  SheetDirection over;
+  std::vector<std::array<double, 2>> rows; // place [m], increasing; thickness [m]
+  bool operator==(const ThicknessProfile&) const = default;
+};
+
 // Temperature from an array of the mesh file, at vertices or faces, in K.
 struct TemperatureData {
   std::string data; // its name in the file
@@ -85,16 +96,13 @@ struct TemperatureData {
 
 // A small deviation d of the start: of the position, along the sheet's normal, or of the thickness.
 //   wave   d = amplitude * sin(2 pi s / wavelength + phase)
-//          s: coordinate along a world axis from the sheet's center, before `rotation`;
-//          radial: distance from the sheet's axis (through its center along the plane's normal), less an annulus' inner
-//          radius
+//          s: the place along the direction; if radial less an annulus' inner radius
 //   noise  d uniform in [-amplitude, amplitude], independent at each vertex (position) or triangle (thickness), from
 //          `seed`
 // Those of the position go on in what enters at the sheet's inlets (libsheet/flow/row_perturbation.h).
-enum class WaveDirection { x, y, z, radial };
 struct Wave {
   double wavelength, phase; // [m], [rad]
-  WaveDirection direction;
+  SheetDirection direction;
   bool operator==(const Wave&) const = default;
 };
 struct Noise {
@@ -116,7 +124,7 @@ struct SheetTable {
   std::optional<std::array<int, 2>> segments;
   Pattern pattern = Pattern::irregular;
   std::int64_t seed = 0;                                            // of the irregular pattern
-  std::variant<double, ThicknessData> thickness;                    // [m]
+  std::variant<double, ThicknessData, ThicknessProfile> thickness;  // [m]
   std::optional<std::variant<double, TemperatureData>> temperature; // [K]; absent: that of [heat]
   std::vector<std::string> arrays; // names of the mesh file's that go along in the frames
   std::vector<Perturbation> perturbations;

@@ -12,6 +12,7 @@ inline constexpr std::array<std::string_view, 3> patterns{"structured", "equilat
 inline constexpr std::array<std::string_view, 3> planes{"xy", "xz", "yz"};
 inline constexpr std::array<std::string_view, 2> places{"vertex", "face"};
 inline constexpr std::array<std::string_view, 2> perturbed{"position", "thickness"};
+inline constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 inline constexpr std::array<std::string_view, 4> directions{"x", "y", "z", "radial"};
 inline constexpr std::array<std::string_view, 8> flow_laws{"newtonian",        "power",  "carreau", "cross", "bingham",
                                                            "herschel_bulkley", "casson", "table"};

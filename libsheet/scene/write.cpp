@@ -152,13 +152,22 @@ void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) 
     if (sheet.pattern == Pattern::irregular)
       out.line("seed", fmt::format("{}", sheet.seed));
   }
-  std::visit(Overloaded{[&](double uniform) { out.line("thickness", uniform); },
-                        [&](const ThicknessData& t) {
-                          out.line("thickness",
-                                   fmt::format("{{data = {}, place = {}, scale = {}}}", toml_text(t.data),
-                                               word(words::places, t.per_face ? 1UL : 0UL), number(t.scale)));
-                        }},
-             sheet.thickness);
+  std::visit(
+      Overloaded{[&](double uniform) { out.line("thickness", uniform); },
+                 [&](const ThicknessData& t) {
+                   out.line("thickness", fmt::format("{{data = {}, place = {}, scale = {}}}", toml_text(t.data),
+                                                     word(words::places, t.per_face ? 1UL : 0UL), number(t.scale)));
+                 },
+                 [&](const ThicknessProfile& t) {
+                   const std::string rows = items(t.rows, [](const std::array<double, 2>& row) {
+                     return fmt::format("[{}, {}]", number(row[0]), number(row[1]));
+                   });
+                   out.line("thickness",
+                            t.over == SheetDirection::radial
+                                ? fmt::format("{{radial = {}}}", rows)
+                                : fmt::format("{{along = {}, rows = {}}}", word(words::directions, t.over), rows));
+                 }},
+      sheet.thickness);
   if (sheet.temperature)
     std::visit(Overloaded{[&](double uniform) { out.line("temperature", uniform); },
                           [&](const TemperatureData& t) {

@@ -16,6 +16,7 @@
 #include "libsheet/shape/random.h"
 #include "libsheet/shape/regions.h"
 #include "libsheet/shape/shapes.h"
+#include "libsheet/shape/thickness_profile.h"
 #include "libsheet/shape/waves.h"
 #include "libsheet/sheet/append.h"
 #include "libsheet/sheet/enclosures.h"
@@ -108,6 +109,11 @@ std::vector<double> thicknesses(const TriangleMesh& mesh, const scene::SheetTabl
   std::vector<double> h(mesh.triangles.size());
   if (const auto* uniform = std::get_if<double>(&table.thickness)) {
     std::fill(h.begin(), h.end(), *uniform);
+  } else if (const auto* profile = std::get_if<scene::ThicknessProfile>(&table.thickness)) {
+    std::ranges::transform(mesh.triangles, h.begin(), [&](const Corners& c) {
+      return thickness_at((mesh.positions[c[0]] + mesh.positions[c[1]] + mesh.positions[c[2]]) / 3, *profile,
+                          table.plane);
+    });
   } else {
     const auto& data = std::get<scene::ThicknessData>(table.thickness);
     const std::vector<double>& values = data.per_face ? mesh.triangle_thickness : mesh.vertex_thickness;

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 HeightField wave_field(const scene::Perturbation& perturbation, const scene::Wave& wave,
                        const scene::SheetTable& table) {
   const double shift = -wave.phase / two_pi * wave.wavelength;
-  if (wave.direction == scene::WaveDirection::radial) {
+  if (wave.direction == scene::SheetDirection::radial) {
     const auto* annulus = std::get_if<scene::Annulus>(&table.shape);
     const Vector3d axis = Vector3d::Unit(scene::axes_of(table.plane).normal);
     const double start = annulus == nullptr ? 0 : annulus->inner_radius;

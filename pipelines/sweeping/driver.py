@@ -35,6 +35,12 @@ def add_options(parser):
     parser.add_argument("--retry", action="store_true", help="try again what has failed")
 
 
+def passed_on(args):
+    """The same options again, for a pipelines/sweep that is started."""
+    options = ["--engine", args.engine, "--there", args.there, "--jobs", str(args.jobs), "--threads", str(args.threads)]
+    return options + (["--hosts", args.hosts] if args.hosts else []) + (["--retry"] if args.retry else [])
+
+
 def drive(args, sweep, folder):
     """Returns when nothing is left that could be done; what has come of it lies in the folder."""
     found = states(folder, sweep.count)

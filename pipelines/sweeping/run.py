@@ -206,7 +206,8 @@ def unit_of(column):
     """The SI unit of a column of sheet-info --csv; "" for counts and ratios."""
     units = {
         r"time": "s", r"area": "m^2", r"volume|enclosed_volume": "m^3", r"kinetic_energy": "J", r"momentum_.": "kg*m/s",
-        r"angular_momentum_.": "kg*m^2/s", r"thickness_.*|edge_.*|[xyz]_(min|max)": "m", r"angle_.*": "deg",
+        r"angular_momentum_.": "kg*m^2/s", r"force_of_.*_[xyz]": "N",
+        r"thickness_.*|edge_.*|[xyz]_(min|max)": "m", r"angle_.*": "deg",
     }  # fmt: skip
     return next((unit for pattern, unit in units.items() if re.fullmatch(pattern, column)), "")
 

@@ -30,6 +30,38 @@ sys.exit(0 if $2 else f'{v} {e}')"
   find "$t/fit" -name run.sheet -exec stat -c '%n %Y %Z' {} + | sort | cmp - "$t/before"
 }
 
+@test "three parameters are found in three scenes" {
+  three() { # FIT.toml KEY TRUE KEY TRUE KEY TRUE
+    run -0 --separate-stderr pipelines/fit "pipelines/fitting/$1" -o "$t/fit"
+    for ((i = 2; i <= $#; i += 2)); do
+      found "${!i}" "abs(v - ${*:i+1:1}) < 3 * e and e < 0.1 * v"
+    done
+  }
+  three strip/weighed.toml material.viscosity 1e8 material.density 2500 sheet.thickness 5
+  three dome/fit.toml material.viscosity 1e5 sheet.thickness 1.5 environment.pressure.amount 64
+  three bubble/fit.toml material.viscosity 10 material.surface_tension 0.05 sheet.thickness 1
+}
+
+@test "how often a true value is within the stated error is counted" {
+  run -0 --separate-stderr pipelines/fitting/coverage "$t/fit.toml" material.viscosity=1e8 --seeds 3 -o "$t/coverage"
+  [[ ${lines[0]} =~ ^'material.viscosity: '[01].[036][037]' within the error; mean '[-+].*', deviation ' ]]
+  [[ ${lines[1]} == "all: "*" of 3" ]]
+  run -2 --separate-stderr pipelines/fitting/coverage "$t/fit.toml" material.density=1 -o "$t/coverage"
+  [[ $stderr == *"true values of material.viscosity are needed"* ]]
+}
+
+@test "a row of the thickness is a parameter like others" {
+  sed 's/^edge_length.*/edge_length = "4 mm"/' pipelines/designing/dome/scene.toml > "$t/scene.toml"
+  sheet-init "$t/scene.toml" --set 'sheet.thickness.radial.0.1=2 mm' |
+    sheet-loop -q --until 10 --fps 0.5 -- 'sheet-step --dt 0.5' | sheet-info --csv |
+    awk -F, 'NR == 1 { print "time [s], thickness_min [m]" } NR > 2 { print $2 "," $7 }' > "$t/thin.csv"
+  printf '%s\n' 'scene = "scene.toml"' 'ring = "sheet-step --dt 0.5"' 'until = 10' 'fps = 0.5' '[[parameter]]' \
+    'key = "sheet.thickness.radial.0.1"' 'from = "1.2 mm"' 'to = "3 mm"' '[[measured]]' 'file = "thin.csv"' \
+    'observer = "thickness_min"' 'sigma = "1 um"' > "$t/fit.toml"
+  run -0 --separate-stderr pipelines/fit "$t/fit.toml" -o "$t/fit"
+  found sheet.thickness.radial.0.1 'abs(v - 2) < 1e-3'
+}
+
 @test "what the data do not tell is said" {
   printf '\n[[parameter]]\nkey = "material.density"\nfrom = "1000 kg/m^3"\nto = "5000 kg/m^3"\n' >> "$t/fit.toml"
   run -0 --separate-stderr pipelines/fit "$t/fit.toml" -o "$t/fit"

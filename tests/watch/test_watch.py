@@ -75,7 +75,7 @@ class Test(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         os.chdir(cls.folder.name)
         subprocess.run(["bash", "-ec", "sheet-init --example | sed -e 's/^edge_length = .*/edge_length = 0.1/' "
-                        "-e 's/^#surface_tension = .*/surface_tension = 0.04/' > scene.toml; "
+                        "-e '0,/^#surface_tension = /s/^#surface_tension = .*/surface_tension = 0.04/' > scene.toml; "
                         "sheet-init scene.toml | sheet-loop -q --until 0.2 --keep 1 -o run.sheet -- 'sheet-step | sheet-collide';"
                         "sheet-info --csv run.sheet > run.csv"], check=True)
         with open("run.csv") as file:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/measure/measure.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -45,6 +46,39 @@ TEST(Measure, Square) {
   EXPECT_EQ(m.topology.euler_characteristic, 1);
 }
 
+TEST(Measure, PercentilesOfTheThicknessAreByArea) {
+  // strips of a square: 3 % of the area are 3 thick, 45 % 1, 52 % 2; one triangle is thickest, one thinnest
+  const std::array<double, 4> ends = {0, 0.03, 0.48, 1}, thickness = {3, 1, 2, 0};
+  std::vector<Vector3d> x;
+  std::vector<Corners> t;
+  std::vector<double> volume;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    x.emplace_back(ends[i], 0, 0);
+    x.emplace_back(ends[i], 1, 0);
+    if (i == 3)
+      break;
+    t.push_back({2 * i, 2 * i + 2, 2 * i + 3});
+    t.push_back({2 * i, 2 * i + 3, 2 * i + 1});
+    volume.insert(volume.end(), 2, (ends[i + 1] - ends[i]) / 2 * thickness[i]);
+  }
+  volume[0] *= 1.001;
+  volume[2] *= 0.999;
+  const Measurements m = measure(make_frame(x, t, volume), {});
+  const std::array<double, 5> due = {0.999, 0.999, 2, 2, 3.003};
+  for (std::size_t i = 0; i < due.size(); ++i)
+    EXPECT_NEAR(m.thickness_percentiles[i], due[i], 1e-12) << percents[i];
+  EXPECT_NEAR((m.thinnest_at - Vector3d(0.03 + 0.45 * 2 / 3, 1 / 3.0, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((m.thickest_at - Vector3d(0.03 * 2 / 3, 1 / 3.0, 0)).norm(), 0, 1e-12);
+}
+
+TEST(Measure, OfDegenerateTrianglesHasThePercentilesOfTheOthers) {
+  const std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const Measurements m =
+      measure(make_frame(x, std::vector<Corners>{{0, 1, 2}, {0, 1, 1}}, std::vector<double>{0.5, 0}), {});
+  EXPECT_EQ(m.thickness_percentiles[0], 1);
+  EXPECT_EQ(m.thickness_percentiles[4], 1);
+}
+
 TEST(Measure, WithoutDensityAndAtRest) {
   EXPECT_TRUE(std::isnan(measure(square(), {}).kinetic_energy));
   EXPECT_EQ(measure(square(), 1000).kinetic_energy, 0);
@@ -56,6 +90,8 @@ TEST(Measure, EmptyFrame) {
   EXPECT_EQ(m.volume, 0);
   EXPECT_EQ(m.kinetic_energy, 0);
   EXPECT_TRUE(std::isnan(m.range_of("thickness").mean));
+  EXPECT_TRUE(std::isnan(m.thickness_percentiles[2]));
+  EXPECT_TRUE(std::isnan(m.thinnest_at[0]));
   EXPECT_TRUE(std::isnan(m.low[0]));
   EXPECT_TRUE(std::isnan(m.edge.mean));
   EXPECT_FALSE(m.topology.closed);

@@ -3,6 +3,7 @@
 #include "libsheet/scene/explain_heat.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

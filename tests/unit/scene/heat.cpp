@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [heat], and what other tables say of temperature.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "libsheet/scene/write.h"

@@ -25,7 +25,7 @@ TEST(Read, EveryTable) {
   EXPECT_EQ(s.sheets[0].seed, 3);
   EXPECT_EQ(std::get<double>(s.sheets[0].thickness), 0.002);
   ASSERT_EQ(s.sheets[0].perturbations.size(), 2U);
-  EXPECT_EQ(std::get<Wave>(s.sheets[0].perturbations[0].form), (Wave{0.075, 0, WaveDirection::radial}));
+  EXPECT_EQ(std::get<Wave>(s.sheets[0].perturbations[0].form), (Wave{0.075, 0, SheetDirection::radial}));
   EXPECT_TRUE(s.sheets[0].perturbations[1].of_thickness);
   EXPECT_EQ(std::get<Noise>(s.sheets[0].perturbations[1].form).seed, 7);
   EXPECT_EQ(s.sheets[0].rotation->angle, std::numbers::pi / 4);
@@ -199,6 +199,38 @@ TEST(Read, ProblemsOfTheSheet) {
     EXPECT_EQ(problem("[sheet]\n" + text + rest), expected) << text;
 }
 
+TEST(Read, ThicknessByRows) {
+  const auto sheet = [](const std::string& thickness) {
+    return "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = " + thickness + "\n";
+  };
+  const auto profile = [&](const std::string& thickness) {
+    return std::get<ThicknessProfile>(
+        parse_scene(sheet(thickness) + "[material]\nviscosity = 1\ndensity = 1\n", "s").sheets[0].thickness);
+  };
+  EXPECT_EQ(profile(R"({radial = [[0, "1.9 mm"], ["20 mm", "1.2 mm"]]})"),
+            (ThicknessProfile{SheetDirection::radial, {{0, 0.0019}, {0.02, 0.0012}}}));
+  EXPECT_EQ(profile(R"({along = "z", rows = [[-1, 2], [1, 3], [2, 1]]})"),
+            (ThicknessProfile{SheetDirection::z, {{-1, 2}, {1, 3}, {2, 1}}}));
+  for (const auto& [text, expected] : std::vector<Case>{
+           {"{radial = [[0, 1]]}", "s:5:23: radial: expected 2 to 1000 rows of a place and the thickness there"},
+           {"{radial = 1}", "s:5:23: radial: expected 2 to 1000 rows of a place and the thickness there"},
+           {"{radial = [[0, 1], [1]]}", "s:5:32: thickness: radial: expected rows of a place and the thickness there, "
+                                        "such as [\"20 mm\", \"1.2 mm\"]"},
+           {"{radial = [[0, 1], [1, 0]]}", "s:5:36: radial must be positive, got 0 m"},
+           {"{radial = [[0, 1], [0, 2]]}",
+            "s:5:32: thickness: radial: places must increase from each row to the next, but 0 m follows 0 m"},
+           {"{along = \"x\"}", "s:5:13: missing key \"rows\" in thickness, such as rows = [[0, \"1.9 mm\"], "
+                               "[\"20 mm\", \"1.2 mm\"]]"},
+           {"{along = \"y\", rows = [[0, 1], [1, 1]]}",
+            "s:5:22: along: is the normal of the sheet's plane, along which a flat sheet has no extent"},
+           {"{radial = [[0, 1], [1, 1]], along = \"x\"}",
+            "s:5:41: key \"along\" has no meaning in thickness: the rows are those of radial"},
+           {"{radial = [[0, 1], [1, 1]], data = \"h\"}",
+            "s:5:41: key \"data\" has no meaning in thickness: the thickness is given by rows"},
+       })
+    EXPECT_EQ(problem(sheet(text) + "[material]\nviscosity = 1\ndensity = 1\n"), expected) << text;
+}
+
 TEST(Read, ProblemsOfMeshesAndCounts) {
   for (const auto& [text, expected] : std::vector<Case>{
            {"shape = \"mesh\"\nfile = \"a.step\"\nthickness = 1",
@@ -209,7 +241,8 @@ TEST(Read, ProblemsOfMeshesAndCounts) {
             "s:4:13: missing key \"data\" in thickness, such as data = \"thickness\"\n"
             "s:4:22: place: \"edge\" is none of \"vertex\", \"face\""},
            {"shape = \"sphere\"\nradius = 1\nedge_length = 0.1\nthickness = {data = \"h\"}",
-            "s:5:13: thickness: only shape \"mesh\" has data to take it from; expected a length such as \"2.5 mm\""},
+            "s:5:13: thickness: only shape \"mesh\" has data to take it from; expected a length such as \"2.5 mm\", or "
+            "{radial = [[0, \"1.9 mm\"], [\"20 mm\", \"1.2 mm\"]]}"},
            {"shape = \"sphere\"\nradius = 1\nthickness = 0.1",
             "s:1:1: missing key \"edge_length\" in [sheet], such as edge_length = \"20 mm\""},
            {"shape = \"sphere\"\nradius = 1\nthickness = 0.1\nsegments = [2, 5]",

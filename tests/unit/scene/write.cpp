@@ -142,12 +142,14 @@ public:
       if (sheet.pattern == Pattern::irregular)
         sheet.seed = static_cast<std::int64_t>(random_() >> 1);
     }
+    if (shape > 2 && below(3) == 0)
+      sheet.thickness = ThicknessProfile{pick<SheetDirection>(4), {{-1, positive()}, {positive(), positive()}}};
     for (int i = below(3); i > 0; --i) {
       Perturbation p{below(2) == 1, positive(), Noise{below(1000)}};
       if (const double* h = std::get_if<double>(&sheet.thickness); h && p.of_thickness)
         p.amplitude = 0.5 * *h;
       if (below(2))
-        p.form = Wave{positive(), number(), WaveDirection::radial};
+        p.form = Wave{positive(), number(), SheetDirection::radial};
       sheet.perturbations.push_back(p);
     }
     sheet.center = maybe(vector());

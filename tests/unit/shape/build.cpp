@@ -46,6 +46,32 @@ TEST(BuildFrame, ASheetTurnsAboutItsCenter) {
     EXPECT_LT((v[i] - Eigen::Vector3d(-3 * x[i].y(), 3 * (x[i].x() - 7), 5)).norm(), 1e-14) << i;
 }
 
+TEST(BuildFrame, ThicknessFollowsRowsWhereverTheSheetIs) {
+  const auto check = [](const std::string& shape, const std::string& profile, const auto& exact) {
+    const Frame frame = build_frame(
+        parse_scene("[sheet]\n" + shape +
+                        "edge_length = 0.2\nplane = \"xy\"\ncenter = [7, 8, 9]\nthickness = " + profile + "\n" + liquid,
+                    "scene"));
+    const auto x = positions(frame);
+    const Eigen::Vector3d center(7, 8, 9);
+    for (std::size_t t = 0; t < frame.triangles; ++t) {
+      const auto& c = triangles(frame)[t];
+      const Eigen::Vector3d middle = (x[c[0]] + x[c[1]] + x[c[2]]) / 3 - center;
+      const double area = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
+      EXPECT_NEAR(volumes(frame)[t] / area, exact(middle), 1e-12) << t;
+    }
+  };
+  using Eigen::Vector3d;
+  check("shape = \"disk\"\nradius = 2\n", "{radial = [[0.5, 0.3], [1.5, 0.1]]}",
+        [](const Vector3d& x) { return std::clamp(0.3 - 0.2 * (std::hypot(x.x(), x.y()) - 0.5), 0.1, 0.3); });
+  check("shape = \"sphere\"\nradius = 1\n", "{radial = [[0, 0.1], [1, 0.2]]}",
+        [](const Vector3d& x) { return 0.1 + 0.1 * std::hypot(x.x(), x.y()); });
+  check("shape = \"rectangle\"\nsize = [2, 1]\n", "{along = \"x\", rows = [[-1, 0.1], [0, 0.3], [1, 0.1]]}",
+        [](const Vector3d& x) { return 0.3 - 0.2 * std::abs(x.x()); });
+  check("shape = \"tube\"\nradius = 1\nheight = 2\n", "{along = \"z\", rows = [[-1, 0.1], [1, 0.3]]}",
+        [](const Vector3d& x) { return 0.2 + 0.1 * x.z(); });
+}
+
 TEST(BuildFrame, ARingIsAnInletAndNoInflowIsNone) {
   const std::string tube = "[sheet]\nshape = \"tube\"\nradius = 1\nheight = 2\nsegments = [12, 4]\npattern = "
                            "\"structured\"\nthickness = 0.1\n";
