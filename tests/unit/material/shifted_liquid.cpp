@@ -49,7 +49,8 @@ TEST(ShiftedLiquid, HasTheShiftedCurve) {
 
 TEST(ShiftedLiquid, YieldsAtTheSameStress) {
   for (const double temperature : {290.0, 380.0})
-    EXPECT_EQ(at_temperature(warm({.kind = FlowLawKind::bingham, .yield_stress = 12}), temperature).law.yield_stress, 12);
+    EXPECT_EQ(at_temperature(warm({.kind = FlowLawKind::bingham, .yield_stress = 12}), temperature).law.yield_stress,
+              12);
 }
 
 TEST(ShiftedLiquid, TensionIsLinearAndNeverNegative) {
