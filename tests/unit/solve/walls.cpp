@@ -258,6 +258,22 @@ TEST(Walls, DirectorsOfFlatFoldsAreFree) {
     EXPECT_NE(std::ranges::binary_search(stage.wall_edges, e), at_fold[e] != 0);
 }
 
+// Cells of 0.2 have edges of 0.283 at most.
+TEST(Walls, WhatIsCrushedBendsAsThickAsItIsLong) {
+  for (const double thickness : {0.28, 0.6}) {
+    State s = resting(thickness);
+    Stage stage = first_stage(s, heavy_layer().liquid, 0.01, 0.01, true);
+    set_wall_sites({floor_of(s)}, stage);
+    for (std::size_t t = 0; t < s.volumes.size(); ++t)
+      EXPECT_NEAR(stage.bending(t), std::min(1.0, 0.08 / (thickness * thickness)), 1e-12);
+    EXPECT_EQ(stage.wall_bending.empty(), thickness < 0.28284);
+    Wall far_away = floor_of(s);
+    far_away.vertices.clear();
+    set_wall_sites({far_away}, stage);
+    EXPECT_EQ(stage.bending(0), 1);
+  }
+}
+
 // Root mean square of the differences of thickness from triangle to triangle [m].
 double roughness(const State& s) {
   std::vector<double> thickness;
