@@ -161,8 +161,12 @@ void Tool::choice_of_word(std::string_view names, std::vector<std::string> words
   Option o;
   o.names = names;
   o.text = text;
-  for (const std::string& word : words)
-    o.placeholder += (o.placeholder.empty() ? "" : "|") + word;
+  constexpr std::size_t widest = 80; // of a line of help
+  o.placeholder = fmt::format("{}", fmt::join(words, "|"));
+  if (o.placeholder.size() > widest) {
+    o.placeholder = "WORD";
+    o.text += fmt::format("; one of {}", fmt::join(words, ", "));
+  }
   o.set = [set = std::move(set), words](const std::string& s) {
     const auto it = std::find(words.begin(), words.end(), s);
     if (it == words.end())

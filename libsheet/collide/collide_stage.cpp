@@ -35,9 +35,8 @@ namespace {
 
 // The mesh cannot tell apart what is nearer than two edges along the sheet.
 constexpr double edges_of_reach = 2;
-// Rounds of self-response that leave alone what would go into a solid, and those behind them that leave alone whatever
-// was moved.
-constexpr int rounds_with_solids = 4, rounds_that_hold = 3;
+// Rounds of self-response that leave alone what would go into a solid.
+constexpr int rounds_with_solids = 4;
 
 // Processor time of all threads since the last call [s]: other work on the machine disturbs it least.
 class Watch {
@@ -386,19 +385,13 @@ struct CollideStage::Impl {
     SelfReport report;
     for (int round = 1;; ++round) {
       report = resolve_self(path, *search, reach, asked.fixed, steps);
-      if (!solids || report.hits == 0 || round == rounds_with_solids + rounds_that_hold)
+      if (!solids || report.hits == 0 || round == rounds_with_solids)
         break;
-      const std::vector<std::uint32_t> unsafe = unsafe_triangles(path, *solids);
       std::vector<Axes> fixed = path.fixed;
-      const auto hold_if_moved = [&](std::size_t v) {
-        if (path.end[v] != asked.end[v])
-          fixed[v] = all_axes;
-      };
-      for (const std::uint32_t t : unsafe)
-        std::ranges::for_each(path.triangles[t], hold_if_moved);
-      if (round >= rounds_with_solids && !unsafe.empty())
-        for (std::size_t v = 0; v < fixed.size(); ++v)
-          hold_if_moved(v);
+      for (const std::uint32_t t : unsafe_triangles(path, *solids))
+        for (const std::uint32_t v : path.triangles[t])
+          if (path.end[v] != asked.end[v])
+            fixed[v] = all_axes;
       if (fixed == path.fixed)
         break;
       path = asked;
