@@ -138,6 +138,18 @@ END
   interrupted INT cools glass-pane 0.015 20
 }
 
+@test "redraw: killed and resumed = straight" {
+  interrupted KILL w50 redraw 0.01 20 50
+}
+
+@test "float-glass: interrupted and resumed = straight" {
+  interrupted INT held float-glass 0.5 100 40
+}
+
+@test "lava: killed and resumed = straight" {
+  interrupted KILL cools lava 0.08 6
+}
+
 @test "bottle: interrupted and resumed = straight" {
   interrupted INT bottle bottle 0.006 0.08 0.03
 }
