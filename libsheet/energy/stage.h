@@ -13,7 +13,6 @@
 #include "libsheet/energy/state.h"
 #include "libsheet/geometry/director.h"
 #include "libsheet/geometry/metric.h"
-#include "libsheet/heat/surroundings.h"
 #include "libsheet/material/flow_curve.h"
 #include "libsheet/material/wall_flow.h"
 
@@ -78,8 +77,8 @@ struct Stage {
   std::vector<std::uint32_t> wall_edges;     // whose directors stand as the wall lets them, ascending
   std::vector<double> wall_turns;            // of these directors, by the predicted end of the stage [rad]
   std::vector<double> wall_bending;          // of each triangle: the part of its bending that walls leave; empty: all
-  // Of each triangle: by what a wall on its upper or its lower face is dragged less, or more, than by that mean
-  // viscosity, as liquid flows where it is warm (stage_setup.h); empty: 1.
+  // Of each triangle: by what a wall on its upper or its lower face (heat::Face) is dragged less, or more, than by that
+  // mean viscosity, as liquid flows where it is warm (stage_setup.h); empty: 1.
   std::vector<std::array<double, 2>> wall_shifts;
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
@@ -89,9 +88,6 @@ struct Stage {
   // is strained at T in the stage's duration is what is strained at T_r in this time [s] [Morland and Lee 1960].
   [[nodiscard]] double reduced_time(std::size_t triangle) const {
     return shift.empty() ? duration : duration / shift[triangle];
-  }
-  [[nodiscard]] double wall_shift(std::size_t triangle, heat::Face face) const {
-    return wall_shifts.empty() ? 1 : wall_shifts[triangle][face];
   }
   [[nodiscard]] double crust(std::size_t triangle) const { return crusts.empty() ? 1 : crusts[triangle]; }
   // By what its resistance to bending differs from that of a free sheet.

@@ -50,7 +50,7 @@ public:
           const double depth = between > 0 ? between : thickness + 3 * site->slip_length;
           const double lies = lying(stage, i, *site), foot = thickness / 2 * length_on_wall(stage, corners, c);
           const double trebled = lies * area + (1 - lies) * 3 * foot;
-          const double shift = stage.wall_shift(i, face_on(stage, i, *site));
+          const double shift = wall_shift(stage, i, *site);
           corners_[i][c].stiffness = trebled * shift * stage.viscosity[i] / (stage.duration * depth);
           corners_[i][c].area = trebled / 3;
           corners_[i][c].time = stage.reduced_time(i) / shift;
@@ -172,13 +172,6 @@ private:
     const double both = channel->filled / channel->depth, sum = one + both;
     const double part = sum > 0 ? both / sum : 0;
     return {site.normal, site.carried + part * (channel->carried - site.carried), 1 / sum};
-  }
-
-  // Of a triangle, that which lies on the wall.
-  static heat::Face face_on(const Stage& stage, std::size_t triangle, const WallSite& site) {
-    const auto& x = stage.start->positions;
-    const auto& [a, b, c] = stage.start->mesh->triangles[triangle];
-    return (x[b] - x[a]).cross(x[c] - x[a]).dot(site.normal) > 0 ? heat::lower : heat::upper;
   }
 
   // Of the edges at a corner whose both ends touch its wall, at the start of the step [m].

@@ -126,6 +126,13 @@ END
   interrupted KILL run honey 0.006 1
 }
 
+@test "honey: runs the farther the warmer its plate" {
+  OUT=$BATS_TEST_TMPDIR/plates pipelines/honey/plates 0.006 3
+  awk -F, 'FNR == 1 { for (i = 1; i <= NF; ++i) if ($i == "x_max") x = i } { far[FILENAME] = $x }
+    END { exit !(far[ARGV[1]] < 0.97 * far[ARGV[2]] && far[ARGV[2]] < 0.8 * far[ARGV[3]]) }' \
+    "$BATS_TEST_TMPDIR"/plates/plate{5,20,60}.csv
+}
+
 @test "spin: interrupted and resumed = straight" {
   interrupted INT run spin 0.01 1.2
 }
