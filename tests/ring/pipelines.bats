@@ -190,6 +190,12 @@ END
   interrupted KILL free film-casting 0.02 1 0.5
 }
 
+@test "film-casting: what is cooled on its way necks in less" {
+  OUT=$BATS_TEST_TMPDIR/cooled pipelines/film-casting/cooled 0.02 3 "0 800"
+  awk -F, 'NR == 2 { hot = $2 } NR == 3 { cold = $2; warmth = $4 } END { exit !(cold > 1.05 * hot && warmth > 80 && warmth < 130) }' \
+    "$BATS_TEST_TMPDIR/cooled/cooled.csv"
+}
+
 @test "ice-shelf: killed and resumed = straight" {
   interrupted KILL tongue ice-shelf 4000 200
 }
