@@ -107,10 +107,11 @@ std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& 
     const double biot = loss_slope(*scene.heat, t) / 2 * *scales.thickness / (2 * k);
     list.push_back({"Biot", "H h / (2 k)", biot,
                     biot < 0.1 ? "It is as warm across its thickness as in the middle."
-                    : biot < 1
-                        ? "Its faces are colder than its middle; a parabola across the thickness takes that up."
-                        : "Its faces cool long before its middle: the mean temperature, by which it flows here, says "
-                          "less than a skin would."});
+                    : biot < 1 ? "Its faces are colder than its middle; a parabola across the thickness takes that up."
+                    : scene.heat->profile
+                        ? "Its faces cool long before its middle, which its modes across the thickness follow."
+                        : "Its faces cool long before its middle, which a parabola does not follow: profile = 3 in "
+                          "[heat] gives it modes across the thickness."});
   }
   if (k > 0 && scales.length && scales.speed > 0) {
     const double peclet = scene.material.density * scene.heat->specific_heat * scales.speed * *scales.length / k;

@@ -70,6 +70,13 @@ TEST(ExplainHeat, SurroundingsThatVaryCountByTheirExtremes) {
   EXPECT_NEAR(number_of(scene, "Biot").value, 20 * 0.004 / (2 * 1.5), 1e-9);
 }
 
+TEST(ExplainHeat, ThickOnesWantModesAcross) {
+  const std::string crust = "ambient = 300\ntransfer = 2000\n";
+  EXPECT_THAT(number_of(pane(crust), "Biot").meaning, HasSubstr("profile = 3"));
+  EXPECT_THAT(number_of(pane(crust + "profile = 4\n"), "Biot").meaning,
+              HasSubstr("its modes across the thickness follow"));
+}
+
 // Numbers are those of the liquid as it starts.
 TEST(ExplainHeat, TheSceneIsJudgedAsItStarts) {
   Scene scene = pane("");
