@@ -8,6 +8,7 @@
 #include "libsheet/energy/channels.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/heat/surroundings.h"
 
 namespace sheet {
 
@@ -107,6 +108,15 @@ Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint3
     if (held[3 * std::size_t{v} + static_cast<std::size_t>(a)] != 0)
       free[a] = 0;
   return free;
+}
+
+double wall_shift(const Stage& stage, std::size_t triangle, const WallSite& site) {
+  if (stage.wall_shifts.empty())
+    return 1;
+  const auto& x = stage.start->positions;
+  const auto& [a, b, c] = stage.start->mesh->triangles[triangle];
+  const Vector3 upwards = (x[b] - x[a]).cross(x[c] - x[a]);
+  return stage.wall_shifts[triangle][upwards.dot(site.normal) > 0 ? heat::lower : heat::upper];
 }
 
 double lying(const Stage& stage, std::size_t triangle, const WallSite& site) {

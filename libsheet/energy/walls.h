@@ -80,6 +80,9 @@ void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage,
   return common ? one->wall : no_index;
 }
 
+// By what the drag of a site's wall on a triangle differs from that of its mean viscosity (Stage::wall_shifts).
+[[nodiscard]] double wall_shift(const Stage& stage, std::size_t triangle, const WallSite& site);
+
 // Between a wall and what lies on it: 60 degrees.
 inline constexpr double least_lying_cosine = 0.5;
 

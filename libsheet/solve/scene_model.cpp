@@ -11,6 +11,7 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/capped_volume.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/heat/surroundings.h"
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/inlet_depth.h"
 #include "libsheet/scene/prescribed.h"
@@ -317,8 +318,15 @@ ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& 
   return {std::move(faces.rims), std::move(slopes)};
 }
 
-heat::Surroundings surroundings(const scene::HeatedFace& face) {
-  return {face.transfer, face.ambient, face.emissivity, face.radiant};
+heat::Surroundings surroundings(const scene::HeatedFace& face, double t, const Vector3& x) {
+  return {value_at(face.transfer, t, x), value_at(face.ambient, t, x), face.emissivity, value_at(face.radiant, t, x)};
+}
+
+void set_surroundings(const scene::HeatedFace& face, heat::Face which, HeatModel& model) {
+  if (is_constant(face.transfer) && is_constant(face.ambient) && is_constant(face.radiant))
+    model.surroundings[which] = surroundings(face, 0, Vector3::Zero());
+  else
+    model.local_surroundings[which] = [face](double t, const Vector3& x) { return surroundings(face, t, x); };
 }
 
 // With the solids that the sheet touches.
@@ -331,7 +339,8 @@ HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<
     model.profile = alike ? heat::even_modes(*scene.heat->profile) : heat::all_modes(*scene.heat->profile);
   else if (model.conductivity > 0)
     model.profile = heat::parabola();
-  model.surroundings = {surroundings(scene.heat->upper), surroundings(scene.heat->lower)};
+  set_surroundings(scene.heat->upper, heat::upper, model);
+  set_surroundings(scene.heat->lower, heat::lower, model);
   model.viscous = scene.heat->viscous_heating;
   const auto touched = touched_solids(frame, scene.solids.size());
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -528,17 +537,18 @@ double next_event(const Scene& scene, double t) {
     if (hold.until)
       consider(*hold.until);
   }
-  const auto consider_rows = [&](const std::optional<scene::Timed<double>>& timed) {
-    if (timed && timed->entries.size() > 1)
+  const auto consider_rows = [&](const scene::Timed<double>* timed) {
+    if (timed != nullptr && timed->entries.size() > 1)
       for (const auto& entry : timed->entries)
         consider(entry.time);
   };
+  const auto pointer_to = [](const auto& optional) { return optional ? &*optional : nullptr; };
   for (const scene::Solid& solid : scene.solids) {
     consider_motion(solid.motion);
-    consider_rows(solid.temperature);
+    consider_rows(pointer_to(solid.temperature));
   }
   for (const scene::Inflow& inflow : scene.inflows) {
-    consider_rows(inflow.temperature);
+    consider_rows(pointer_to(inflow.temperature));
     consider_motion(scene::Translating{inflow.velocity});
     if (inflow.until)
       consider(*inflow.until);
@@ -546,6 +556,10 @@ double next_event(const Scene& scene, double t) {
   for (const scene::SheetTable& sheet : scene.sheets)
     if (sheet.enters)
       consider(*sheet.enters);
+  if (scene.heat)
+    for (const scene::HeatedFace* face : {&scene.heat->upper, &scene.heat->lower})
+      for (const scene::Varying* varying : {&face->ambient, &face->transfer, &face->radiant})
+        consider_rows(std::get_if<scene::Timed<double>>(&varying->over));
   return next;
 }
 
