@@ -2,6 +2,7 @@
 #include "libsheet/render/lighting.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sheet::render {
@@ -39,6 +40,7 @@ float box_density(const Softbox& box, float x, float y) {
   return square * std::sqrt(square) / (4 * box.half_width * box.half_height);
 }
 
+constexpr int most_columns = 4096; // of the cells that directions are drawn from
 constexpr float below_one = 0.9999999F;
 
 // Bilinear between the centres of pixels; p in [0, 1), longitude goes round.
@@ -50,6 +52,38 @@ Colour look_up(const Image& map, Point2 p) {
   const int above = std::max(y, 0), below = std::min(y + 1, map.height - 1);
   return (1 - wy) * ((1 - wx) * map.at(left, above) + wx * map.at(right, above)) +
          wy * ((1 - wx) * map.at(left, below) + wx * map.at(right, below));
+}
+
+// The mean luminance of the map, bilinear, over each pixel: a small sun lights its neighbours' halves, too.
+std::vector<float> luminances_around(const Image& map) {
+  constexpr std::array<float, 3> weights{1 / 8.0F, 6 / 8.0F, 1 / 8.0F};
+  std::vector<float> along, result; // smoothed along rows, then along columns
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x)
+      along.push_back(weights[0] * luminance(map.at(x > 0 ? x - 1 : map.width - 1, y)) +
+                      weights[1] * luminance(map.at(x, y)) +
+                      weights[2] * luminance(map.at(x + 1 < map.width ? x + 1 : 0, y)));
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x)
+      result.push_back(weights[0] * along[map.index(x, std::max(y - 1, 0))] + weights[1] * along[map.index(x, y)] +
+                       weights[2] * along[map.index(x, std::min(y + 1, map.height - 1))]);
+  return result;
+}
+
+// The same image in fewer pixels, each the mean of those that fall into it.
+Image reduced(const Image& image, int columns, int rows) {
+  Image result(columns, rows);
+  std::vector<float> count(result.pixels.size());
+  std::fill(result.pixels.begin(), result.pixels.end(), Colour::Zero());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const std::size_t i = result.index(x * columns / image.width, y * rows / image.height);
+      result.pixels[i] += image.at(x, y);
+      ++count[i];
+    }
+  for (std::size_t i = 0; i < count.size(); ++i)
+    result.pixels[i] /= count[i];
+  return result;
 }
 
 // The index of the first entry above x in a rising list that starts anew at `begin`, and where x lies in its interval.
@@ -70,14 +104,15 @@ bool Softbox::holds(const Vec& direction) const {
 
 Lighting::Lighting(Image map, const Basis& axes, std::vector<Softbox> boxes)
     : map_(std::move(map)), axes_(axes), boxes_(std::move(boxes)) {
-  columns_ = std::min(map_.width, 512);
-  rows_ = std::min(map_.height, 256);
+  columns_ = std::min(map_.width, most_columns);
+  rows_ = std::min(map_.height, most_columns / 2);
+  const std::vector<float> around = luminances_around(map_);
   std::vector<float> power(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0F);
   for (int y = 0; y < map_.height; ++y) {
     const int row = y * rows_ / map_.height;
     const float ring = std::sin(float_pi * (static_cast<float>(y) + 0.5F) / static_cast<float>(map_.height));
     for (int x = 0; x < map_.width; ++x)
-      power[static_cast<std::size_t>(row * columns_ + x * columns_ / map_.width)] += luminance(map_.at(x, y)) * ring;
+      power[static_cast<std::size_t>(row * columns_ + x * columns_ / map_.width)] += around[map_.index(x, y)] * ring;
   }
   float all = 0;
   for (const float p : power)
@@ -113,6 +148,9 @@ void Lighting::share_out() {
 
 void Lighting::soften() {
   constexpr int columns = 128, rows = 64, soft_columns = 16, soft_rows = 8;
+  // A small sun may lie between these directions.
+  const bool is_fine = map_.width > columns && map_.height > rows;
+  const Image sky = is_fine ? reduced(map_, columns, rows) : map_;
   std::vector<Vec> directions;
   std::vector<Colour> power;
   std::vector<float> ring;
@@ -121,8 +159,15 @@ void Lighting::soften() {
       const float v = (static_cast<float>(y) + 0.5F) / rows;
       directions.push_back(from_map((static_cast<float>(x) + 0.5F) / columns, v));
       ring.push_back(std::sin(float_pi * v));
-      power.push_back(ring.back() * at(directions.back()).radiance);
+      power.push_back(ring.back() * (look_up(sky, to_map(directions.back())) + light_of_boxes(directions.back())));
     }
+  Colour all = Colour::Zero();
+  float rings = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    all += power[i];
+    rings += ring[i];
+  }
+  mean_ = luminance(all) / rings;
   soft_map_ = Image(soft_columns, soft_rows);
   for (int y = 0; y < soft_rows; ++y)
     for (int x = 0; x < soft_columns; ++x) {
@@ -173,6 +218,14 @@ Point2 Lighting::to_map(const Vec& direction) const {
 Vec Lighting::from_map(float x, float y) const {
   const float longitude = (x - 0.5F) * 2 * float_pi, polar = y * float_pi;
   return axes_.world(std::sin(polar) * std::cos(longitude), -std::sin(polar) * std::sin(longitude), std::cos(polar));
+}
+
+Colour Lighting::light_of_boxes(const Vec& direction) const {
+  Colour sum = Colour::Zero();
+  for (const Softbox& box : boxes_)
+    if (box.holds(direction))
+      sum += box.radiance;
+  return sum;
 }
 
 Colour Lighting::backdrop(const Vec& direction) const { return look_up(map_, to_map(direction)); }

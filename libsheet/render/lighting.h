@@ -42,6 +42,9 @@ public:
   // sampling cannot help.
   [[nodiscard]] Colour softened(const Vec& direction) const;
 
+  // The mean over all directions, of the luminance.
+  [[nodiscard]] float mean() const { return mean_; }
+
   struct Sample {
     Vec direction;
     Light light;
@@ -56,9 +59,11 @@ private:
   [[nodiscard]] Vec from_map(float x, float y) const;
   [[nodiscard]] Point2 to_map(const Vec& direction) const; // in [0, 1)
   [[nodiscard]] Light at(const Vec& direction, Point2 on_map) const;
+  [[nodiscard]] Colour light_of_boxes(const Vec& direction) const;
   [[nodiscard]] float map_density(Point2 on_map) const;
 
   Image map_, soft_map_;
+  float mean_ = 0;
   Basis axes_; // third is up, first is the middle of the map
   std::vector<Softbox> boxes_;
   // Cells of the map: their power summed up along each row, and the rows' sums.

@@ -8,13 +8,15 @@
 namespace sheet::render {
 namespace {
 
-constexpr int longest_path = 256; // meetings; Russian roulette ends nearly all paths long before
-constexpr int most_passed = 4096; // faces within the liquid, so that no ray hangs where they coincide
-constexpr int sure_meetings = 4;  // before Russian roulette starts, and
-constexpr float faint = 0.1F;     // the weight to which it brings those that are fainter
-constexpr int longest_look = 16;  // layers that features are looked for behind
-constexpr float middle = 0.5F;    // of what paths bridge, for those that are looked along
-constexpr float darkness = 1e-3F; // a shadow that lets less through is black
+constexpr int longest_path = 256;    // meetings; Russian roulette ends nearly all paths long before
+constexpr int most_passed = 4096;    // faces within the liquid, so that no ray hangs where they coincide
+constexpr int sure_meetings = 4;     // before Russian roulette starts, and
+constexpr float faint = 0.1F;        // the weight to which it brings those that are fainter
+constexpr int longest_look = 16;     // layers that features are looked for behind
+constexpr float middle = 0.5F;       // of what paths bridge, for those that are looked along
+constexpr float faint_lamp = 0.05F;  // in mean radiances: shadow rays for less are left to chance
+constexpr float most_by_chance = 30; // in mean radiances: what one path of chance may bring, against specks
+constexpr float darkness = 1e-3F;    // a shadow that lets less through is black
 
 Vec cosine_direction(const Vec& normal, Point2 p) { // density cos / pi [Malley]
   const float radius = std::sqrt(p.x), angle = 2 * float_pi * p.y;
@@ -147,7 +149,14 @@ Colour PathTracer::from_afar(const Path& path) const {
     return path.weight * lighting_->softened(direction);
   const Lighting::Light far = lighting_->at(direction);
   const float share = path.density ? *path.density / (*path.density + far.density) : 1.0F;
-  return path.weight * share * far.radiance;
+  const Colour light = path.weight * share * far.radiance;
+  return path.certain ? light : bounded(light);
+}
+
+// Of a path of chance, which may be one of few that are as bright.
+Colour PathTracer::bounded(const Colour& light) const {
+  const float most = most_by_chance * lighting_->mean(), brightest = light.maxCoeff();
+  return brightest <= most ? light : Colour(most / brightest * light);
 }
 
 // Goes on past a face within the liquid that the path has met already.
@@ -313,7 +322,18 @@ Colour PathTracer::lamp_at_sheet(const Hit& hit, const Path& path, const Crossin
   if (!(share.maxCoeff() > 0))
     return Colour::Zero();
   const Within within = body_.after(*world_, hit, lamp.direction, crossing.meeting.enters, path.within.bridged);
-  return share * lamp.light.radiance * visible(hit, lamp.direction, within, rays);
+  return arriving(hit, lamp, share, within, sampler.number(), rays);
+}
+
+// The light of a lamp at a hit times `share`. Where that is so faint that it is not worth a ray through many layers,
+// Russian roulette with a `number` of [0, 1).
+Colour PathTracer::arriving(const Hit& hit, const Lighting::Sample& lamp, const Colour& share, const Within& within,
+                            float number, std::uint64_t& rays) const {
+  const Colour light = bounded(share * lamp.light.radiance);
+  const float chance = light.maxCoeff() / (faint_lamp * lighting_->mean());
+  if (!(number < chance))
+    return Colour::Zero();
+  return light / std::min(chance, 1.0F) * visible(hit, lamp.direction, within, rays);
 }
 
 // Planes that the camera sees straight blend into the backdrop in the distance.
@@ -346,8 +366,9 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
   const float cosine = lamp.direction.dot(normal);
   if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0)
-    light.chance[path.layer] += path.weight * (cosine / float_pi / (lamp.light.density + cosine / float_pi)) *
-                                lamp.light.radiance * visible(hit, lamp.direction, {path.within.bridged}, rays);
+    light.chance[path.layer] +=
+        arriving(hit, lamp, path.weight * (cosine / float_pi / (lamp.light.density + cosine / float_pi)),
+                 {path.within.bridged}, sampler.number(), rays);
 
   Vec d = cosine_direction(normal, sampler.point());
   path.density = std::max(d.dot(normal), 1e-6F) / float_pi;
@@ -392,6 +413,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     if (path.certain)
       sight.certain += faded;
     layer.way = 31 * layer.way + hit.id;
+    layer.end = hit.id;
     layer.normal = meeting.normal;
     layer.position = hit.position;
     layer.length = length;

@@ -9,8 +9,8 @@
 // passes without a shift: a slab bends it back. Shadows of clear layers are coloured. Layers that touch are one slab,
 // as thick as they are deep together (body.h).
 //
-// One bias, against specks: where a turbid or matte surface sees a mirror image of the lights (caustics), it sees them
-// blurred.
+// Two biases, against specks: where a turbid or matte surface sees a mirror image of the lights (caustics), it sees
+// them blurred; and what a path that has been chosen at random brings of the lights is bounded.
 #pragma once
 #include <array>
 #include <vector>
@@ -46,6 +46,7 @@ struct SightLayer {
   Vec position = Vec::Zero();     // in the world's unit
   float length = 0;               // of the way there
   std::uint32_t way = 0;          // a number for all ids on the way; 0: there is nothing
+  std::uint32_t end = 0;          // the last id
 };
 
 // What the camera sees along a ray without any random decision.
@@ -84,8 +85,11 @@ private:
   Path split(const Hit& hit, Crossing& crossing, Path& path) const;
   Colour lamp_at_sheet(const Hit& hit, const Path& path, const Crossing& crossing, const std::array<float, 4>& chance,
                        Sampler& sampler, std::uint64_t& rays) const;
+  Colour arriving(const Hit& hit, const Lighting::Sample& lamp, const Colour& share, const Within& within, float number,
+                  std::uint64_t& rays) const;
   Colour visible(const Hit& hit, const Vec& direction, Within within, std::uint64_t& rays) const;
   [[nodiscard]] bool passes(const Hit& hit, Path& path) const;
+  [[nodiscard]] Colour bounded(const Colour& light) const;
   [[nodiscard]] Colour from_afar(const Path& path) const;
   [[nodiscard]] Colour fade(const Hit& hit, Path& path) const;
   [[nodiscard]] const Colour& albedo(const Hit& hit) const;
