@@ -10,6 +10,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "libsheet/render/camera_rays.h"
 #include "libsheet/render/display.h"
 #include "libsheet/render/smooth.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr int fewest_edge_rays = 4;           // of a pixel whose neighbours see different things; they are doubled
 constexpr int most_edge_rays = 32;            // as long as their levels differ by more than
+constexpr int most_blurred_rays = 128;        // of a pixel that a lens blurs
 constexpr float levels_a_ray = 2;             // so many times their number
 constexpr int edge_width = 2;                 // pixels so near to another surface, and
 constexpr int most_samples_factor = 4;        // noisy points get so many times the samples
@@ -32,7 +34,7 @@ class Painter {
 public:
   Painter(const World& world, const Camera& camera, const PathTracer& tracer, const DrawOptions& options,
           const Progress& progress)
-      : tracer_(&tracer), camera_(&camera), options_(options), progress_(&progress), eye_(world.to_world(camera.eye())),
+      : tracer_(&tracer), rays_of_(world, camera), options_(options), progress_(&progress),
         pixel_angle_(static_cast<float>(camera.pixel_angle(options.height))) {
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     first_.resize(pixels);
@@ -77,8 +79,7 @@ private:
   };
 
   [[nodiscard]] Ray ray_through(float x, float y) const { // in pixels
-    return {eye_,
-            camera_->direction(static_cast<double>(x) / options_.width, static_cast<double>(y) / options_.height)};
+    return rays_of_.middle(static_cast<double>(x) / options_.width, static_cast<double>(y) / options_.height);
   }
   [[nodiscard]] SurfacePoint point_of(const SightLayer& layer) const {
     return {layer.normal, layer.position, pixel_angle_ * layer.length, layer.way, layer.end};
@@ -106,7 +107,7 @@ private:
     const std::size_t i = index(x, y);
     const Ray ray = middle_ray(x, y);
     for (int s = first; s < end; ++s) {
-      Sampler sampler(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(s));
+      Sampler sampler(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(options_.first_sample + s));
       const Light light = tracer_->radiance(ray, first_[i], sampler, rays);
       for (std::size_t l = 0; l < layers_.size(); ++l) {
         Halves& sum = layers_[l].light[i];
@@ -174,6 +175,20 @@ private:
     return all;
   }
 
+  // Whether a lens mixes what pixels see: what is there, or what is somewhat before it and near.
+  [[nodiscard]] bool blurred(int x, int y) const {
+    constexpr float pixels = 0.3F;
+    constexpr int reach = 4; // farther, what is blurred is seen by a part of the lens too small to matter
+    if (!rays_of_.has_lens())
+      return false;
+    for (int j = -reach; j <= reach; j += reach)
+      for (int i = -reach; i <= reach; i += reach)
+        if (const Hit& hit = first_[nearest_index(x + i, y + j)];
+            hit.anything() && rays_of_.blur(hit.position) * static_cast<float>(options_.height) > pixels)
+          return true;
+    return false;
+  }
+
   // The least and the greatest level in the middles of the pixels around.
   [[nodiscard]] std::pair<float, float> levels_around(int x, int y) const {
     float low = 255, high = 0;
@@ -189,6 +204,8 @@ private:
   // Whether the pixels around see the same things, evenly enough that the middles of pixels tell all.
   [[nodiscard]] bool plain(int x, int y) const {
     const std::size_t here = index(x, y);
+    if (blurred(x, y))
+      return false;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) {
         const std::size_t there = nearest_index(x + i, y + j);
@@ -217,7 +234,9 @@ private:
     Halves sum;
     auto [low, high] = levels_around(x, y);
     int done = 0;
-    for (int end = fewest_edge_rays; end <= most_edge_rays; end *= 2) {
+    const bool is_blurred = blurred(x, y);
+    const int most = is_blurred ? most_blurred_rays : most_edge_rays;
+    for (int end = is_blurred ? most_edge_rays : fewest_edge_rays; end <= most; end *= 2) {
       for (; done < end; ++done) {
         const Halves light = light_near(x, y, done, rays);
         const float brightness = level(light.mean());
@@ -233,11 +252,20 @@ private:
 
   // Along one of the rays of a pixel.
   [[nodiscard]] Halves light_near(int x, int y, int number, std::uint64_t& rays) const {
-    Sampler sampler(static_cast<std::uint32_t>(index(x, y) + whole_.size()), static_cast<std::uint32_t>(number));
+    Sampler sampler(static_cast<std::uint32_t>(index(x, y) + whole_.size()),
+                    static_cast<std::uint32_t>(most_blurred_rays * options_.first_sample + number));
     const Point2 p = sampler.point();
-    const float fx = static_cast<float>(x) + 0.5F + tent(p.x), fy = static_cast<float>(y) + 0.5F + tent(p.y);
-    const Ray ray = ray_through(fx, fy);
+    float fx = static_cast<float>(x) + 0.5F + tent(p.x), fy = static_cast<float>(y) + 0.5F + tent(p.y);
+    Ray ray = ray_through(fx, fy);
+    if (rays_of_.has_lens())
+      ray = rays_of_.through(static_cast<double>(fx) / options_.width, static_cast<double>(fy) / options_.height,
+                             sampler.point());
     const Sight sight = tracer_->look(ray, rays);
+    if (rays_of_.has_lens() && sight.first.anything())
+      if (const auto place = rays_of_.place(sight.first.position)) { // where the middles of pixels see it
+        fx = static_cast<float>(place->x() * options_.width);
+        fy = static_cast<float>(place->y() * options_.height);
+      }
     Halves light{sight.certain, sight.certain};
     bool found = true;
     for (std::size_t l = 0; found && l < layers_.size(); ++l)
@@ -322,10 +350,9 @@ private:
   }
 
   const PathTracer* tracer_;
-  const Camera* camera_;
+  CameraRays rays_of_;
   DrawOptions options_;
   const Progress* progress_;
-  Vec eye_;
   float pixel_angle_;
   std::vector<Hit> first_;
   std::vector<Colour> certain_; // in the middles of the pixels

@@ -27,8 +27,10 @@ Basis level(const Vec& forward, const Vec& up) {
   return axes;
 }
 
-Softbox softbox(const Vec& toward, const Vec& up, float half_width, float half_height, const Colour& radiance) {
-  Softbox box{Basis(toward), half_width, half_height, radiance};
+// Half as bright at half_width, half_height.
+Softbox softbox(const Vec& toward, const Vec& up, float half_width, float half_height, float softness,
+                const Colour& radiance) {
+  Softbox box{Basis(toward), half_width + softness / 2, half_height + softness / 2, radiance, softness};
   box.basis.first = up.cross(toward).normalized();
   box.basis.second = toward.cross(box.basis.first);
   return box;
@@ -96,10 +98,13 @@ int search(const float* begin, int count, float x, float& place) {
 
 } // namespace
 
-bool Softbox::holds(const Vec& direction) const {
+float Softbox::brightness(const Vec& direction) const {
   const float z = direction.dot(basis.third);
-  return z > 0 && std::abs(direction.dot(basis.first)) <= half_width * z &&
-         std::abs(direction.dot(basis.second)) <= half_height * z;
+  if (!(z > 0))
+    return 0;
+  const float x = half_width - std::abs(direction.dot(basis.first)) / z,
+              y = half_height - std::abs(direction.dot(basis.second)) / z; // from the edges
+  return x < 0 || y < 0 ? 0 : smooth_step(0, softness, x) * smooth_step(0, softness, y);
 }
 
 Lighting::Lighting(Image map, const Basis& axes, std::vector<Softbox> boxes)
@@ -194,8 +199,8 @@ Lighting Lighting::studio(const Vec& to_camera, const Vec& up) {
   const Vec rim = (0.95F * axes.first - 0.65F * axes.second + 0.45F * up).normalized();
   return {std::move(map),
           axes,
-          {softbox(key, up, 0.24F, 0.30F, Colour(9.0F, 8.6F, 8.0F)),
-           softbox(rim, up, 0.09F, 0.42F, Colour(6.0F, 6.3F, 6.8F))}};
+          {softbox(key, up, 0.24F, 0.30F, 0.10F, Colour(9.0F, 8.6F, 8.0F)),
+           softbox(rim, up, 0.09F, 0.42F, 0.06F, Colour(6.0F, 6.3F, 6.8F))}};
 }
 
 Lighting Lighting::uniform(float radiance) {
@@ -204,8 +209,11 @@ Lighting Lighting::uniform(float radiance) {
   return {std::move(map), Basis(Vec::UnitZ()), {}};
 }
 
-Lighting Lighting::surroundings(Image image, const Vec& to_camera, const Vec& up) {
-  return {std::move(image), level(-to_camera, up), {}};
+Lighting Lighting::surroundings(Image image, const Vec& to_camera, const Vec& up, float turn) {
+  Basis axes = level(-to_camera, up);
+  axes.first = std::cos(turn) * axes.first + std::sin(turn) * axes.second;
+  axes.second = up.cross(axes.first);
+  return {std::move(image), axes, {}};
 }
 
 Point2 Lighting::to_map(const Vec& direction) const {
@@ -223,8 +231,7 @@ Vec Lighting::from_map(float x, float y) const {
 Colour Lighting::light_of_boxes(const Vec& direction) const {
   Colour sum = Colour::Zero();
   for (const Softbox& box : boxes_)
-    if (box.holds(direction))
-      sum += box.radiance;
+    sum += box.brightness(direction) * box.radiance;
   return sum;
 }
 
@@ -246,11 +253,11 @@ Lighting::Light Lighting::at(const Vec& direction) const { return at(direction, 
 Lighting::Light Lighting::at(const Vec& direction, Point2 on_map) const {
   Light light{look_up(map_, on_map), map_share_ * map_density(on_map)};
   for (std::size_t i = 0; i < boxes_.size(); ++i)
-    if (const Softbox& box = boxes_[i]; box.holds(direction)) {
+    if (const Softbox& box = boxes_[i]; box.brightness(direction) > 0) {
       const float z = direction.dot(box.basis.third), share = box_sums_[i] - (i > 0 ? box_sums_[i - 1] : map_share_);
       light.density +=
           share * box_density(box, direction.dot(box.basis.first) / z, direction.dot(box.basis.second) / z);
-      light.radiance += box.radiance;
+      light.radiance += box.brightness(direction) * box.radiance;
     }
   return light;
 }

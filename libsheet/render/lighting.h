@@ -11,13 +11,15 @@
 
 namespace sheet::render {
 
-// A rectangle infinitely far away, of even radiance: directions whose central projection on the plane at distance 1
-// along `basis.third` lies within half_width, half_height.
+// A rectangle infinitely far away: directions whose central projection on the plane at distance 1 along `basis.third`
+// lies within half_width, half_height. Its radiance is even but for its edges, towards which it fades over `softness`.
 struct Softbox {
   Basis basis;
   float half_width, half_height;
   Colour radiance;
-  [[nodiscard]] bool holds(const Vec& direction) const;
+  float softness;
+  // 0 outside, 1 within.
+  [[nodiscard]] float brightness(const Vec& direction) const;
 };
 
 class Lighting {
@@ -27,8 +29,9 @@ public:
   static Lighting studio(const Vec& to_camera, const Vec& up);
   // The same radiance from everywhere.
   static Lighting uniform(float radiance);
-  // An image of all directions: longitude across, the upper edge is up. -to_camera, turned level, is its middle.
-  static Lighting surroundings(Image image, const Vec& to_camera, const Vec& up);
+  // An image of all directions: longitude across, the upper edge is up. -to_camera, turned level, is its middle. Then
+  // it is turned about `up`, counter-clockwise as seen from above [rad].
+  static Lighting surroundings(Image image, const Vec& to_camera, const Vec& up, float turn = 0);
 
   struct Light {
     Colour radiance;

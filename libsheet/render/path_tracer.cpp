@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
+
+#include "libsheet/render/microfacets.h"
 
 namespace sheet::render {
 namespace {
@@ -33,6 +36,25 @@ std::pair<float, float> range_of(const std::vector<float>& values) {
       high = std::max(high, v);
     }
   return high > 0 ? std::pair(low, high) : std::pair(1.0F, 1.0F);
+}
+
+// Nothing is mirrored into a face: what would be goes off beside it.
+Vec beside(const Hit& hit, const Vec& direction, const Vec& image) {
+  const float below = image.dot(hit.face);
+  return below * direction.dot(hit.face) <= 0 ? image : (image - 2 * below * hit.face).normalized();
+}
+
+// A direction in the mirror image of a rough face, with its density if the lights' samples may go there too.
+std::pair<Vec, std::optional<float>> mirrored_in(const RoughMirror& rough, const Hit& hit, const Vec& direction,
+                                                 Point2 p) {
+  const Vec image = rough.sample(p), kept = beside(hit, direction, image);
+  return {kept, kept == image ? std::optional(rough.density(image)) : std::nullopt};
+}
+
+// The part of the light that a clear coat of index 1.5 mirrors.
+float coat_mirrors(float cosine) {
+  const Fresnel f = fresnel(cosine, 1.5F);
+  return 0.5F * (f.perpendicular + f.parallel);
 }
 
 // Ways on from a slab.
@@ -275,11 +297,27 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   const Vec direction = path.ray.direction;
   Crossing crossing = cross(hit, path, rays);
   const Meeting& meeting = crossing.meeting;
+  const RoughMirror rough(meeting.normal, direction, slab_.liquid().roughness);
+  std::optional<float> density; // of the mirror image
+  if (is_rough())
+    std::tie(crossing.mirrored, density) = mirrored_in(rough, hit, direction, sampler.point());
   if (path.splits > 0) {
-    const Path image = split(hit, crossing, path);
+    const Colour mirrored = path.weight * crossing.part[mirror];
+    Path image = split(hit, crossing, path);
+    if (is_rough()) {
+      light.chance[image.layer] += lamp_mirrored(hit, image, mirrored, rough, 1, sampler, rays);
+      image.certain = false;
+      image.density = density;
+    }
     follow(image, nearest(image, rays), sampler, rays, light);
   }
   const std::array<float, 4> chance = chances(path.weight, crossing.part);
+  if (is_rough() && chance[mirror] > 0) {
+    Path image = path;
+    go(hit, meeting, crossing.mirrored, image);
+    light.chance[path.layer] +=
+        lamp_mirrored(hit, image, path.weight * crossing.part[mirror], rough, chance[mirror], sampler, rays);
+  }
   if (chance[turbid_back] + chance[turbid_through] > 0)
     light.chance[path.layer] += lamp_at_sheet(hit, path, crossing, chance, sampler, rays);
   const std::size_t lobe = choose(chance, sampler.number());
@@ -295,7 +333,7 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   }
   path.straight = false;
   if (lobe == mirror) {
-    path.density.reset();
+    path.density = density ? std::optional(chance[mirror] * *density) : std::nullopt;
     go(hit, meeting, crossing.mirrored, path);
     return;
   }
@@ -305,6 +343,20 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   path.density = chance[lobe] * cosine / float_pi;
   path.indirect = true;
   go(hit, meeting, d, path);
+}
+
+// A sample of the lights in a rough face, which mirrors the part `mirrored` of the light to the path; that is followed
+// there by `chance`. `image`: a path that has been mirrored there.
+Colour PathTracer::lamp_mirrored(const Hit& hit, const Path& image, const Colour& mirrored, const RoughMirror& rough,
+                                 float chance, Sampler& sampler, std::uint64_t& rays) const {
+  const float choice = sampler.number();
+  const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
+  const bool before = lamp.direction.dot(hit.face) * image.ray.direction.dot(hit.face) > 0;
+  const float density = rough.density(lamp.direction);
+  if (!before || !(lamp.light.density > 0 && density > 0))
+    return Colour::Zero();
+  return arriving(hit, lamp, mirrored * (density / (lamp.light.density + chance * density)), image.within,
+                  sampler.number(), rays);
 }
 
 // A sample of the lights, scattered by a turbid sheet.
@@ -352,6 +404,22 @@ const Colour& PathTracer::albedo(const Hit& hit) const {
              : surroundings_.solids[hit.id - first_solid_id];
 }
 
+const std::optional<float>& PathTracer::gloss(const Hit& hit) const {
+  return hit.id == ground_id ? surroundings_.ground_gloss : surroundings_.solid_gloss;
+}
+
+Colour PathTracer::reflectance(const Hit& hit, const Vec& direction) const {
+  if (hit.id != sheet_id)
+    return albedo(hit);
+  std::uint64_t rays = 0;
+  Path path = start({hit.position, direction}, middle);
+  const Crossing crossing = cross(hit, path, rays);
+  Colour sum = Colour::Zero();
+  for (const Colour& part : crossing.part)
+    sum += part;
+  return sum;
+}
+
 void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const {
   const Vec direction = path.ray.direction;
   light.of(path.certain, path.layer) += fade(hit, path);
@@ -360,21 +428,30 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   Vec normal = side * hit.normal;
   if (direction.dot(normal) > -1e-3F)
     normal = face;
-  path.weight *= albedo(hit);
+  const std::optional<float>& coat = gloss(hit);
+  const RoughMirror rough(normal, direction, coat.value_or(1));
+  const float mirrored = coat ? coat_mirrors(-direction.dot(normal)) : 0;
 
   const float choice = sampler.number();
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
   const float cosine = lamp.direction.dot(normal);
-  if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0)
-    light.chance[path.layer] +=
-        arriving(hit, lamp, path.weight * (cosine / float_pi / (lamp.light.density + cosine / float_pi)),
-                 {path.within.bridged}, sampler.number(), rays);
+  if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0) {
+    const float matte = (1 - mirrored) * cosine / float_pi, coated = mirrored * rough.density(lamp.direction);
+    const Colour share = albedo(hit) * (matte / (lamp.light.density + matte)) + coated / (lamp.light.density + coated);
+    light.chance[path.layer] += arriving(hit, lamp, path.weight * share, {path.within.bridged}, sampler.number(), rays);
+  }
 
-  Vec d = cosine_direction(normal, sampler.point());
-  path.density = std::max(d.dot(normal), 1e-6F) / float_pi;
-  const float below = d.dot(face);
-  if (below < 0)
-    d = (d - 2 * below * face).normalized();
+  Vec d;
+  if (coat && sampler.number() < mirrored) {
+    std::tie(d, path.density) = mirrored_in(rough, hit, direction, sampler.point());
+    if (path.density)
+      *path.density *= mirrored;
+  } else {
+    d = cosine_direction(normal, sampler.point());
+    path.density = (1 - mirrored) * std::max(d.dot(normal), 1e-6F) / float_pi;
+    d = beside(hit, direction, d);
+    path.weight *= albedo(hit);
+  }
   path.straight = false;
   path.certain = false;
   path.splits = 0;
@@ -421,7 +498,14 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     if (hit.id != sheet_id)
       return;
     Crossing crossing = cross(hit, path, rays);
-    if (path.splits > 0) {
+    if (path.splits > 0 && is_rough()) {
+      SightLayer& image = sight.layers[1];
+      image = layer;
+      image.way = 31 * layer.way + 1;
+      image.weight = path.weight * crossing.part[mirror];
+      crossing.part[mirror].setZero();
+      path.splits = 0;
+    } else if (path.splits > 0) {
       Sight beyond;
       look(split(hit, crossing, path), beyond, rays);
       sight.certain += beyond.certain;

@@ -164,6 +164,16 @@ TEST(Denoised, ClearLayersAreNoCliff) {
             160); // 216 with 32 rays along all edges and a shadow ray for every glimmer
 }
 
+TEST(Denoised, ALensBlursAsItDoesWithoutSmoothing) {
+  Still still(0, studio());
+  const double distance_to_middle = still.camera.eye().norm();
+  const Picture sharp = still.plain(128);
+  still.camera.set_lens({0.1, 0.7 * distance_to_middle});
+  const Picture truth = still.plain(256), denoised = still.denoised(4);
+  EXPECT_LT(distance(denoised, truth), distance(sharp, truth) / 2);
+  EXPECT_LT(distance(denoised, truth), distance(still.plain(24), truth) / 2);
+}
+
 TEST(Denoised, NeitherTakesNorAddsLight) {
   for (std::size_t material = 0; material < liquid_names().size(); ++material) {
     const Still still(material, studio());
