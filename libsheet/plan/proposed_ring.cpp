@@ -14,6 +14,7 @@
 #include "libsheet/plan/forecast.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/piling.h"
+#include "libsheet/plan/running_down.h"
 #include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/sheet/sheet.h"
@@ -107,6 +108,8 @@ double until_of(const Scene& scene, const Frame& first) {
     until = 1;
   if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > 0)
     until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / gravity);
+  if (const auto down = runs_down(scene, first))
+    until = std::max(until, down->time);
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
   const auto comes_to_rest = [&](const scene::Motion& motion) {
     for (const double time : scene::events(motion))

@@ -258,6 +258,12 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   std::vector<std::string> left_out;
   if (std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact == SolidContact::stick; }))
     left_out.push_back("what sticks to a solid does not spread on it");
+  const auto has_an_underside = [](const Solid& s) {
+    return s.contact != SolidContact::stick && !std::holds_alternative<HalfSpace>(s.shape);
+  };
+  if (scene.environment.gravity && !(scene.contact && scene.contact->adhesion) &&
+      std::ranges::any_of(scene.solids, has_an_underside))
+    left_out.push_back("what comes to hang below a solid never drips off ([contact] adhesion)");
   if (scene.merge)
     left_out.push_back("layers become one where one lies wholly on another; tight folds stay two");
   else if (scene.contact && scene.contact->self)

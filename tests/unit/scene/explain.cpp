@@ -156,6 +156,20 @@ TEST(Explain, Warnings) {
                   "the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful"));
 }
 
+// On a ball liquid may come to hang below; on a level plate it cannot, and with an adhesion it drips off.
+TEST(Explain, TellsThatNothingDripsOff) {
+  const std::string disk =
+      "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.02\n" + liquid + fall;
+  const auto told = [&](const std::string& more) {
+    return std::ranges::count(of(disk + more).left_out,
+                              "what comes to hang below a solid never drips off ([contact] adhesion)");
+  };
+  const std::string ball = "[[solid]]\nshape = \"sphere\"\nradius = 1\ncontact = \"flow\"\n";
+  EXPECT_EQ(told(ball), 1);
+  EXPECT_EQ(told(ball + "[contact]\nadhesion = 10\n"), 0);
+  EXPECT_EQ(told("[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n"), 0);
+}
+
 // Edges that do not resolve sqrt(R h) = 0.1 m; 60 around are 0.105 m long, 130 less than half of it.
 TEST(Explain, WarnsWhereTheMeshWouldDecideHowItBuckles) {
   const auto cap = [](std::string_view mesh, std::string_view rest) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/running_down.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/layer_scales.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr std::size_t looked_at = 100; // vertices, about
+constexpr double lying = 0.75;         // of the thickness: so near to the solid is what lies on it
+constexpr double least_part = 0.5;     // of the sheet that lies
+constexpr double least_slope = 0.1;    // part of gravity along the solid
+
+} // namespace
+
+std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first) {
+  const Vector3 gravity = scene.environment.gravity.value_or(Vector3::Zero());
+  const scene::Measured sheet = measured(first);
+  if (!scene::flows_on_solids(scene) || gravity.isZero(0) || !sheet.length || !sheet.thickness || !(*sheet.length > 0))
+    return std::nullopt;
+  const solid::Solids solids(scene);
+  const auto x = positions(first);
+  const std::size_t stride = std::max<std::size_t>(1, x.size() / looked_at);
+  double lies = 0, along = 0, slip = 0, all = 0;
+  for (std::size_t v = 0; v < x.size(); v += stride, ++all)
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const solid::SolidPoint point = solids.at(i, x[v], first.time);
+      if (scene.solids[i].contact != SolidContact::flow || std::abs(point.distance) > lying * *sheet.thickness)
+        continue;
+      along += (gravity - gravity.dot(point.normal) * point.normal).norm();
+      slip += scene.solids[i].slip_length;
+      ++lies;
+      break;
+    }
+  if (lies < least_part * all || along < least_slope * gravity.norm() * lies)
+    return std::nullopt;
+  const double h = *sheet.thickness, stress = scene.material.density * h * along / lies;
+  const double speed = scene::speed_of_layer(scene.material, stress, h, slip / lies);
+  if (!(speed > 0) || !std::isfinite(speed))
+    return std::nullopt;
+  return RunningDown{speed, *sheet.length / speed};
+}
+
+} // namespace sheet

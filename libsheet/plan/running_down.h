@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sheets that start as layers on slopes along which they flow: they creep, and there is something to see only after a
+// time that their weight and viscosity say.
+#pragma once
+#include <optional>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+struct RunningDown {
+  double speed; // of a layer as thick as the sheet under its weight (scene/layer_scales.h) [m/s]
+  double time;  // in which it runs by its length [s]
+};
+
+// Nothing unless half of the sheet lies on solids along which it flows and which are, in the mean, steeper than 6
+// degrees.
+[[nodiscard]] std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first);
+
+} // namespace sheet

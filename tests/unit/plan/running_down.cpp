@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/running_down.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "libsheet/plan/first_frame.h"
+
+namespace sheet {
+namespace {
+
+// 4 mm of honey on a board that leans by this angle.
+std::optional<RunningDown> honey_on(double degrees, const std::string& contact = "flow", double above = 0) {
+  const double a = degrees * std::numbers::pi / 180, height = 0.002 + above;
+  return [&](const std::string& text) {
+    const Scene scene = scene::parse_scene(text, "s");
+    return runs_down(scene, first_frame(scene));
+  }(fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.1, 0.1]\nedge_length = 0.01\nthickness = 0.004\n"
+                "center = [0, {}, 0]\n[material]\nviscosity = 10\ndensity = 1400\n[environment]\n"
+                "gravity = [{}, {}, 0]\n[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncontact = \"{}\"\n",
+                height, 9.81 * std::sin(a), -9.81 * std::cos(a), contact));
+}
+
+TEST(RunningDown, TheSpeedIsTheFilms) {
+  const auto honey = honey_on(30);
+  ASSERT_TRUE(honey);
+  const double u = 1400 * 9.81 / 2 * 0.004 * 0.004 / (3 * 10); // [Nusselt 1916]
+  EXPECT_NEAR(honey->speed, u, 1e-9 * u);
+  EXPECT_NEAR(honey->time, 0.1 / u, 1e-6 * 0.1 / u);
+}
+
+TEST(RunningDown, NotWhereItIsLevelOrSticksOrFalls) {
+  EXPECT_FALSE(honey_on(2));
+  EXPECT_FALSE(honey_on(30, "stick"));
+  EXPECT_FALSE(honey_on(30, "slip"));
+  EXPECT_FALSE(honey_on(30, "flow", 0.01));
+}
+
+} // namespace
+} // namespace sheet
