@@ -7,6 +7,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct WallSite {
   std::uint32_t vertex = 0, wall = 0;
   std::uint32_t channel = no_index;  // its number, where another wall faces the own one
   Vector3 normal = Vector3::Zero();  // of the wall
+  std::optional<Vector3> force;      // of solids on it at the end of the step before, if that is known [N]
   Vector3 stuck = Vector3::Zero();   // where it would be had it stuck to the wall from the start of the step on [m]
   Vector3 carried = Vector3::Zero(); // the same, in a second stage extrapolated from the first: not dragged there [m]
   double slip_length = 0;            // [m]

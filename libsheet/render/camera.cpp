@@ -39,6 +39,14 @@ Vec Camera::direction(double x, double y) const {
   return (ahead_ + (2 * x - 1) * tangent_x_ * right_ + (1 - 2 * y) * tangent_y_ * up_).normalized().cast<float>();
 }
 
+std::optional<Eigen::Vector2d> Camera::place(const Vector3& from_eye) const {
+  const double depth = from_eye.dot(ahead_);
+  if (!(depth > 0))
+    return {};
+  return Eigen::Vector2d(0.5 + from_eye.dot(right_) / (2 * depth * tangent_x_),
+                         0.5 - from_eye.dot(up_) / (2 * depth * tangent_y_));
+}
+
 bool Camera::sees(const Vector3& x) const {
   const Vector3 d = x - eye_;
   const double depth = d.dot(ahead_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A pinhole camera. Lengths in metres; the tracer works in units of its own (world.h), so rays come as directions.
+// A camera: a pinhole, or a thin lens. Lengths in metres; the tracer works in units of its own (world.h), so rays come
+// as directions.
 #pragma once
 #include <array>
 #include <limits>
@@ -17,6 +18,10 @@ struct CameraOptions {
   double azimuth = 30, elevation = 25; // [degrees] of the camera as seen from what it looks at, if it is found
 };
 
+struct Lens {
+  double radius = 0, focus = 1; // [m]; of the plane that is sharp the distance along the axis
+};
+
 class Camera {
 public:
   // Looks from `eye` at `target`; both different. `aspect`: width / height.
@@ -27,12 +32,20 @@ public:
   [[nodiscard]] bool sees(const Vector3& x) const;
   [[nodiscard]] const Vector3& eye() const { return eye_; }
   [[nodiscard]] Vec axis() const { return ahead_.cast<float>(); } // where it looks
+  [[nodiscard]] Vec right() const { return right_.cast<float>(); }
+  [[nodiscard]] Vec above() const { return up_.cast<float>(); }
+  [[nodiscard]] double aspect() const { return tangent_x_ / tangent_y_; }
+  // Where a point is in the picture, if it lies before the camera; `from_eye` in any unit.
+  [[nodiscard]] std::optional<Eigen::Vector2d> place(const Vector3& from_eye) const;
+  void set_lens(const Lens& lens) { lens_ = lens; }
+  [[nodiscard]] const Lens& lens() const { return lens_; }
   // The angle that a pixel's edge spans, if the picture is `height` pixels high [rad].
   [[nodiscard]] double pixel_angle(int height) const { return 2 * tangent_y_ / height; }
 
 private:
   Vector3 eye_, ahead_, right_, up_;
   double tangent_x_, tangent_y_;
+  Lens lens_;
 };
 
 // The direction from what is looked at to the camera. Azimuth runs from the scene's z axis to its x axis if up is y; up

@@ -11,6 +11,8 @@ namespace sheet::render {
 inline constexpr int longest_side = 16384; // of a picture that is read or drawn [pixels]
 
 [[nodiscard]] Image decode_png(const std::string& bytes, const std::string& name);
+// Radiance's, in rows from the upper left, with or without run lengths [Ward 1991, Real Pixels].
+[[nodiscard]] Image decode_hdr(const std::string& bytes, const std::string& name);
 [[nodiscard]] Image decode_exr(const std::string& bytes, const std::string& name);
 
 } // namespace sheet::render

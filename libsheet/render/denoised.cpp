@@ -10,30 +10,36 @@
 
 #include <tbb/parallel_for.h>
 
+#include "libsheet/render/camera_rays.h"
 #include "libsheet/render/display.h"
 #include "libsheet/render/smooth.h"
 
 namespace sheet::render {
 namespace {
 
-constexpr int edge_rays = 32;           // of a pixel whose neighbours see different things
-constexpr int edge_width = 2;           // pixels so near to another surface
-constexpr int edge_factor = 4;          // get so many times the samples
-constexpr float least_weight = 0.02F;   // that random light is divided by
-constexpr float least_likeness = 1e-3F; // of a point whose light a ray takes, if it is the best there is
-constexpr float plain_likeness = 0.2F;  // of neighbours that see one thing, and
-constexpr float plain_levels = 6;       // their greatest difference, of 255
+constexpr int fewest_edge_rays = 4;           // of a pixel whose neighbours see different things; they are doubled
+constexpr int most_edge_rays = 32;            // as long as their levels differ by more than
+constexpr int most_blurred_rays = 128;        // of a pixel that a lens blurs
+constexpr float levels_a_ray = 2;             // so many times their number
+constexpr int edge_width = 2;                 // pixels so near to another surface, and
+constexpr int most_samples_factor = 4;        // noisy points get so many times the samples
+constexpr float noisy_levels = 12;            // of one sample, in the mean over the points around that see the same
+constexpr float least_weight = 0.02F;         // that random light is divided by
+constexpr float least_likeness = 1e-3F;       // of a point whose light a ray takes, if it is the best there is
+constexpr float least_likeness_behind = 0.2F; // likewise, if it sees the surface behind other layers
+constexpr float plain_likeness = 0.2F;        // of neighbours that see one thing, and
+constexpr float plain_levels = 6;             // their greatest difference, of 255
 
 class Painter {
 public:
   Painter(const World& world, const Camera& camera, const PathTracer& tracer, const DrawOptions& options,
           const Progress& progress)
-      : tracer_(&tracer), camera_(&camera), options_(options), progress_(&progress), eye_(world.to_world(camera.eye())),
+      : tracer_(&tracer), rays_of_(world, camera), options_(options), progress_(&progress),
         pixel_angle_(static_cast<float>(camera.pixel_angle(options.height))) {
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     first_.resize(pixels);
     certain_.resize(pixels);
-    samples_.resize(pixels);
+    samples_.assign(pixels, options.samples);
     whole_.resize(pixels);
     for (Layer& layer : layers_) {
       layer.points.resize(pixels);
@@ -44,14 +50,13 @@ public:
 
   Picture paint() {
     each_row([&](int x, int y, std::uint64_t& rays) { look_at(x, y, rays); });
-    each_row([&](int x, int y, std::uint64_t& rays) { sample_point(x, y, rays); });
+    each_row([&](int x, int y, std::uint64_t& rays) { sample_point(x, y, 0, options_.samples, rays); });
+    share_out_samples();
+    each_row([&](int x, int y, std::uint64_t& rays) { sample_more(x, y, rays); });
     for (Layer& layer : layers_)
       smooth(layer.light, layer.points, samples_, options_.width);
-    for (std::size_t i = 0; i < whole_.size(); ++i) {
-      whole_[i] = {certain_[i], certain_[i]};
-      for (const Layer& layer : layers_)
-        whole_[i].add(layer.weights[i], layer.light[i]);
-    }
+    for (std::size_t i = 0; i < whole_.size(); ++i)
+      whole_[i] = whole(i, 1);
     picture_.light = Image(options_.width, options_.height);
     std::vector<float> noise(whole_.size());
     each_row([&](int x, int y, std::uint64_t& rays) {
@@ -74,11 +79,10 @@ private:
   };
 
   [[nodiscard]] Ray ray_through(float x, float y) const { // in pixels
-    return {eye_,
-            camera_->direction(static_cast<double>(x) / options_.width, static_cast<double>(y) / options_.height)};
+    return rays_of_.middle(static_cast<double>(x) / options_.width, static_cast<double>(y) / options_.height);
   }
   [[nodiscard]] SurfacePoint point_of(const SightLayer& layer) const {
-    return {layer.normal, layer.position, pixel_angle_ * layer.length, layer.way};
+    return {layer.normal, layer.position, pixel_angle_ * layer.length, layer.way, layer.end};
   }
   static Colour divisor(const SightLayer& layer) { return layer.weight.max(least_weight); }
   [[nodiscard]] float level(const Colour& light) const { return display_level(luminance(options_.exposure * light)); }
@@ -98,6 +102,27 @@ private:
     }
   }
 
+  // Adds samples to the halves of a point: those before the middle of all that it is to have to the first.
+  void sample_point(int x, int y, int first, int end, std::uint64_t& rays) {
+    const std::size_t i = index(x, y);
+    const Ray ray = middle_ray(x, y);
+    for (int s = first; s < end; ++s) {
+      Sampler sampler(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(options_.first_sample + s));
+      const Light light = tracer_->radiance(ray, first_[i], sampler, rays);
+      for (std::size_t l = 0; l < layers_.size(); ++l) {
+        Halves& sum = layers_[l].light[i];
+        (2 * s < samples_[i] ? sum.a : sum.b) += light.chance[l] / layers_[l].weights[i];
+      }
+    }
+  }
+
+  // Of one sample at a point, by the difference of the halves there: of the displayed luminance.
+  [[nodiscard]] float variance_of_levels(std::size_t i) const {
+    const Halves halves = whole(i, 2.0F / static_cast<float>(samples_[i]));
+    const float difference = level(halves.a) - level(halves.b);
+    return difference * difference / 4 * static_cast<float>(samples_[i]);
+  }
+
   // Shadows next to what throws them are too narrow to be smoothed.
   [[nodiscard]] bool near_edge(int x, int y) const {
     const std::vector<SurfacePoint>& points = layers_[0].points;
@@ -108,25 +133,79 @@ private:
     return false;
   }
 
-  void sample_point(int x, int y, std::uint64_t& rays) {
+  // Noise that the points around cannot take away, since it is great, as in penumbras, or since few of them see the
+  // same, as along edges, takes more samples.
+  void share_out_samples() {
+    std::vector<float> variance(whole_.size());
+    for (std::size_t i = 0; i < variance.size(); ++i)
+      variance[i] = variance_of_levels(i);
+    std::vector<int> wanted(whole_.size());
+    each_row([&](int x, int y, std::uint64_t&) {
+      const auto [mean, points] = mean_around(variance, layers_[0].points, options_.width, x, y);
+      const float need = mean / (points * noisy_levels * noisy_levels);
+      int& factor = wanted[index(x, y)];
+      if (near_edge(x, y))
+        factor = most_samples_factor;
+      else
+        for (factor = 1; factor < most_samples_factor && static_cast<float>(factor) < need;)
+          factor *= 2;
+    });
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      samples_[i] *= wanted[i];
+  }
+
+  void sample_more(int x, int y, std::uint64_t& rays) {
     const std::size_t i = index(x, y);
-    const Ray ray = middle_ray(x, y);
-    samples_[i] = options_.samples * (near_edge(x, y) ? edge_factor : 1);
-    const int half = samples_[i] / 2;
-    for (int s = 0; s < samples_[i]; ++s) {
-      Sampler sampler(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(s));
-      const Light light = tracer_->radiance(ray, first_[i], sampler, rays);
-      for (std::size_t l = 0; l < layers_.size(); ++l) {
-        Halves& sum = layers_[l].light[i];
-        (s < half ? sum.a : sum.b) += light.chance[l] / (layers_[l].weights[i] * static_cast<float>(half));
-      }
+    if (samples_[i] > options_.samples) {
+      for (Layer& layer : layers_)
+        layer.light[i] = {layer.light[i].a + layer.light[i].b, Colour::Zero()};
+      sample_point(x, y, options_.samples, samples_[i], rays);
     }
+    for (Layer& layer : layers_) {
+      layer.light[i].a *= 2.0F / static_cast<float>(samples_[i]);
+      layer.light[i].b *= 2.0F / static_cast<float>(samples_[i]);
+    }
+  }
+
+  // All light of a point; `factor` on what is random about it.
+  [[nodiscard]] Halves whole(std::size_t i, float factor) const {
+    Halves all{certain_[i], certain_[i]};
+    for (const Layer& layer : layers_)
+      all.add(factor * layer.weights[i], layer.light[i]);
+    return all;
+  }
+
+  // Whether a lens mixes what pixels see: what is there, or what is somewhat before it and near.
+  [[nodiscard]] bool blurred(int x, int y) const {
+    constexpr float pixels = 0.3F;
+    constexpr int reach = 4; // farther, what is blurred is seen by a part of the lens too small to matter
+    if (!rays_of_.has_lens())
+      return false;
+    for (int j = -reach; j <= reach; j += reach)
+      for (int i = -reach; i <= reach; i += reach)
+        if (const Hit& hit = first_[nearest_index(x + i, y + j)];
+            hit.anything() && rays_of_.blur(hit.position) * static_cast<float>(options_.height) > pixels)
+          return true;
+    return false;
+  }
+
+  // The least and the greatest level in the middles of the pixels around.
+  [[nodiscard]] std::pair<float, float> levels_around(int x, int y) const {
+    float low = 255, high = 0;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) {
+        const float brightness = level(whole_[nearest_index(x + i, y + j)].mean());
+        low = std::min(low, brightness);
+        high = std::max(high, brightness);
+      }
+    return {low, high};
   }
 
   // Whether the pixels around see the same things, evenly enough that the middles of pixels tell all.
   [[nodiscard]] bool plain(int x, int y) const {
     const std::size_t here = index(x, y);
-    float low = 255, high = 0;
+    if (blurred(x, y))
+      return false;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) {
         const std::size_t there = nearest_index(x + i, y + j);
@@ -135,10 +214,8 @@ private:
             return false;
         if (likeness(layers_[0].points[here], layers_[0].points[there], 1) < plain_likeness)
           return false;
-        const float brightness = level(whole_[there].mean());
-        low = std::min(low, brightness);
-        high = std::max(high, brightness);
       }
+    const auto [low, high] = levels_around(x, y);
     return high - low < plain_levels;
   }
 
@@ -155,44 +232,82 @@ private:
 
   [[nodiscard]] Halves gather(int x, int y, std::uint64_t& rays) const {
     Halves sum;
-    for (int s = 0; s < edge_rays; ++s) {
-      Sampler sampler(static_cast<std::uint32_t>(index(x, y) + whole_.size()), static_cast<std::uint32_t>(s));
-      const Point2 p = sampler.point();
-      const float fx = static_cast<float>(x) + 0.5F + tent(p.x), fy = static_cast<float>(y) + 0.5F + tent(p.y);
-      const Ray ray = ray_through(fx, fy);
-      const Sight sight = tracer_->look(ray, rays);
-      Halves light{sight.certain, sight.certain};
-      bool found = true;
-      for (std::size_t l = 0; found && l < layers_.size(); ++l)
-        found = borrow(fx, fy, sight.layers[l], layers_[l], light);
-      if (!found)
-        light.a = light.b = tracer_->radiance(ray, sight.first, sampler, rays).sum();
-      sum.add(Colour::Constant(1.0F / edge_rays), light);
+    auto [low, high] = levels_around(x, y);
+    int done = 0;
+    const bool is_blurred = blurred(x, y);
+    const int most = is_blurred ? most_blurred_rays : most_edge_rays;
+    for (int end = is_blurred ? most_edge_rays : fewest_edge_rays; end <= most; end *= 2) {
+      for (; done < end; ++done) {
+        const Halves light = light_near(x, y, done, rays);
+        const float brightness = level(light.mean());
+        low = std::min(low, brightness);
+        high = std::max(high, brightness);
+        sum.add(Colour::Ones(), light);
+      }
+      if (high - low <= levels_a_ray * static_cast<float>(done))
+        break;
     }
-    return sum;
+    return {sum.a / static_cast<float>(done), sum.b / static_cast<float>(done)};
+  }
+
+  // Along one of the rays of a pixel.
+  [[nodiscard]] Halves light_near(int x, int y, int number, std::uint64_t& rays) const {
+    Sampler sampler(static_cast<std::uint32_t>(index(x, y) + whole_.size()),
+                    static_cast<std::uint32_t>(most_blurred_rays * options_.first_sample + number));
+    const Point2 p = sampler.point();
+    float fx = static_cast<float>(x) + 0.5F + tent(p.x), fy = static_cast<float>(y) + 0.5F + tent(p.y);
+    Ray ray = ray_through(fx, fy);
+    if (rays_of_.has_lens())
+      ray = rays_of_.through(static_cast<double>(fx) / options_.width, static_cast<double>(fy) / options_.height,
+                             sampler.point());
+    const Sight sight = tracer_->look(ray, rays);
+    if (rays_of_.has_lens() && sight.first.anything())
+      if (const auto place = rays_of_.place(sight.first.position)) { // where the middles of pixels see it
+        fx = static_cast<float>(place->x() * options_.width);
+        fy = static_cast<float>(place->y() * options_.height);
+      }
+    Halves light{sight.certain, sight.certain};
+    bool found = true;
+    for (std::size_t l = 0; found && l < layers_.size(); ++l)
+      found = borrow(fx, fy, sight.layers[l], layers_[l], light);
+    if (!found)
+      light.a = light.b = tracer_->radiance(ray, sight.first, sampler, rays).sum();
+    return light;
   }
 
   // Adds the light of the points around a place of the picture that see what is seen there, most of it from the nearest
-  // and most alike. False if there is none.
+  // and most alike; where there is none, of those that see the same surface behind other layers. False if there is
+  // none of these either.
   [[nodiscard]] bool borrow(float fx, float fy, const SightLayer& seen, const Layer& layer, Halves& light) const {
     if (seen.way == 0)
       return true;
-    const SurfacePoint point = point_of(seen);
+    SurfacePoint point = point_of(seen);
     const int left = static_cast<int>(std::floor(fx - 0.5F)), top = static_cast<int>(std::floor(fy - 0.5F));
-    float weights = 0;
-    Halves sum;
+    float weights = 0, weights_behind = 0;
+    Halves sum, sum_behind;
     for (int y = std::max(top - 1, 0); y <= std::min(top + 2, options_.height - 1); ++y)
       for (int x = std::max(left - 1, 0); x <= std::min(left + 2, options_.width - 1); ++x) {
-        if (layer.points[index(x, y)].way != seen.way)
+        const SurfacePoint& there = layer.points[index(x, y)];
+        if (there.end != seen.end)
           continue;
-        const float like = std::max(likeness(point, layer.points[index(x, y)], 1), least_likeness);
+        point.way = there.way;
+        const float like = likeness(point, there, 1);
         const float dx = static_cast<float>(x) + 0.5F - fx, dy = static_cast<float>(y) + 0.5F - fy;
-        const float weight = like * std::exp(-3 * (dx * dx + dy * dy));
-        weights += weight;
-        sum.add(Colour::Constant(weight), layer.light[index(x, y)]);
+        const float near = std::exp(-3 * (dx * dx + dy * dy));
+        if (there.way == seen.way) {
+          const float weight = near * std::max(like, least_likeness);
+          weights += weight;
+          sum.add(Colour::Constant(weight), layer.light[index(x, y)]);
+        } else if (like > least_likeness_behind) {
+          weights_behind += near * like;
+          sum_behind.add(Colour::Constant(near * like), layer.light[index(x, y)]);
+        }
       }
-    light.add(divisor(seen) / weights, sum);
-    return weights > 0;
+    if (weights > 0)
+      light.add(divisor(seen) / weights, sum);
+    else if (weights_behind > 0)
+      light.add(divisor(seen) / weights_behind, sum_behind);
+    return weights + weights_behind > 0;
   }
 
   void state_noise(const std::vector<float>& noise) {
@@ -223,7 +338,7 @@ private:
       rays_ += rays;
       const int done = ++rows_done_;
       if (const std::unique_lock lock(telling_, std::try_to_lock); lock && *progress_)
-        (*progress_)(done / (3.0 * options_.height));
+        (*progress_)(done / (5.0 * options_.height));
     });
   }
 
@@ -235,10 +350,9 @@ private:
   }
 
   const PathTracer* tracer_;
-  const Camera* camera_;
+  CameraRays rays_of_;
   DrawOptions options_;
   const Progress* progress_;
-  Vec eye_;
   float pixel_angle_;
   std::vector<Hit> first_;
   std::vector<Colour> certain_; // in the middles of the pixels

@@ -11,6 +11,12 @@ float shoulder(float x) {
   return x <= joint ? x : joint + (1 - joint) * (1 - std::exp(-(x - joint) / (1 - joint)));
 }
 
+float filmic(float x) {
+  if (!(x < 1e6F)) // the squares of more are without bound
+    return 1;
+  return std::clamp(x * (2.51F * x + 0.03F) / (x * (2.43F * x + 0.59F) + 0.14F), 0.0F, 1.0F);
+}
+
 float encode_srgb(float x) {
   x = std::clamp(x, 0.0F, 1.0F);
   return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
@@ -25,8 +31,9 @@ Bitmap to_bitmap(const Image& image, Tone tone) {
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c) {
       const float x = image.pixels[i][c];
-      const float level = tone == Tone::photographic ? display_level(x) : 255 * encode_srgb(x);
-      bitmap.bytes[3 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(level));
+      const float shown = tone == Tone::shoulder ? shoulder(x) : tone == Tone::filmic ? filmic(x) : x;
+      bitmap.bytes[3 * i + static_cast<std::size_t>(c)] =
+          static_cast<std::uint8_t>(std::lround(255 * encode_srgb(shown)));
     }
   return bitmap;
 }

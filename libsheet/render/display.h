@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From linear light to what a display shows: exposure, a shoulder that takes highlights to white without clipping, and
-// the transfer function of sRGB.
+// From linear light to what a display shows: exposure, a curve of tones that takes highlights to white without
+// clipping, and the transfer function of sRGB.
 #pragma once
 #include <cstdint>
 
@@ -17,9 +17,15 @@ namespace sheet::render {
 // 0 to 255, not rounded; photographic.
 [[nodiscard]] float display_level(float x);
 
+// Each channel by itself: contrast as of film, dark and bright rolled off: x (2.51 x + 0.03) / (x (2.43 x + 0.59) +
+// 0.14) [Narkowicz 2015, a fit of the Academy's curve, ACES].
+[[nodiscard]] float filmic(float x);
+
+// What becomes of linear light before the transfer function.
 enum class Tone {
-  photographic, // with the shoulder
-  plain,        // clipped at 1
+  shoulder,
+  filmic,
+  linear, // clipped at 1
 };
 [[nodiscard]] Bitmap to_bitmap(const Image& image, Tone tone);
 

@@ -9,6 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "libsheet/render/camera_rays.h"
 #include "libsheet/render/display.h"
 
 namespace sheet::render {
@@ -34,7 +35,7 @@ struct TileResult {
 class TilePainter {
 public:
   TilePainter(const World& world, const Camera& camera, const Shader& shader, const DrawOptions& options, Image& image)
-      : eye_(world.to_world(camera.eye())), camera_(&camera), shader_(&shader), options_(options), image_(&image) {}
+      : rays_(world, camera), shader_(&shader), options_(options), image_(&image) {}
 
   TileResult paint(const Tile& tile) const {
     TileResult result;
@@ -68,11 +69,13 @@ private:
   }
 
   [[nodiscard]] Colour sample(int x, int y, int number, std::uint64_t& rays) const {
-    Sampler sampler(static_cast<std::uint32_t>(image_->index(x, y)), static_cast<std::uint32_t>(number));
+    Sampler sampler(static_cast<std::uint32_t>(image_->index(x, y)),
+                    static_cast<std::uint32_t>(options_.first_sample + number));
     const Point2 p = sampler.point();
     const double fx = (x + 0.5 + static_cast<double>(tent(p.x))) / image_->width,
                  fy = (y + 0.5 + static_cast<double>(tent(p.y))) / image_->height;
-    return options_.exposure * (*shader_)({eye_, camera_->direction(fx, fy)}, sampler, rays);
+    const Ray ray = rays_.has_lens() ? rays_.through(fx, fy, sampler.point()) : rays_.middle(fx, fy);
+    return options_.exposure * (*shader_)(ray, sampler, rays);
   }
 
   // Of the mean of two pictures of so many samples each: half of their difference.
@@ -86,8 +89,7 @@ private:
     return sum;
   }
 
-  Vec eye_;
-  const Camera* camera_;
+  CameraRays rays_;
   const Shader* shader_;
   DrawOptions options_;
   Image* image_;
@@ -127,7 +129,7 @@ Picture draw(const World& world, const Camera& camera, const Shader& shader, con
   return picture;
 }
 
-void fill_layers(const World& world, const Camera& camera, Picture& picture) {
+void fill_layers(const World& world, const Camera& camera, const LayerSources& sources, Picture& picture) {
   const Image& image = picture.light;
   Layers& layers = picture.layers;
   const std::size_t pixels = image.pixels.size();
@@ -135,6 +137,8 @@ void fill_layers(const World& world, const Camera& camera, Picture& picture) {
   layers.normal.assign(pixels, Vec::Zero());
   layers.thickness.assign(pixels, 0);
   layers.id.assign(pixels, nothing_id);
+  layers.velocity.assign(pixels, Vec::Zero());
+  layers.albedo.assign(pixels, Colour::Zero());
   const Vec eye = world.to_world(camera.eye());
   tbb::parallel_for(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
@@ -146,6 +150,8 @@ void fill_layers(const World& world, const Camera& camera, Picture& picture) {
       layers.depth[i] = hit.distance * d.dot(camera.axis()) * static_cast<float>(world.unit());
       layers.normal[i] = d.dot(hit.normal) < 0 ? hit.normal : Vec(-hit.normal);
       layers.id[i] = hit.id;
+      layers.velocity[i] = sources.velocity(hit);
+      layers.albedo[i] = sources.albedo(hit, d);
       if (hit.id == sheet_id)
         layers.thickness[i] = world.thickness_at(hit);
     }

@@ -18,9 +18,10 @@ using Progress = std::function<void(double)>;
 
 struct DrawOptions {
   int width = 1280, height = 720;
-  int samples = 64;   // a pixel; even, at least 2; at most so many if noise is given
-  float noise = 0;    // > 0: go on until a tile's noise is below it (Picture::noise)
-  float exposure = 1; // factor on the light
+  int samples = 64;     // a pixel; even, at least 2; at most so many if noise is given
+  float noise = 0;      // > 0: go on until a tile's noise is below it (Picture::noise)
+  float exposure = 1;   // factor on the light
+  int first_sample = 0; // where the samples' numbers begin
 };
 
 // Noise is measured by comparing the pictures that the two halves of the samples make. With a noise target, the samples
@@ -33,7 +34,12 @@ inline constexpr int tile_edge = 16; // [pixels]; of the tiles whose noise is lo
 // Where in a tent of half width 1 a uniform number falls.
 [[nodiscard]] float tent(float u);
 
+// What the layers have of places that rays hit.
+struct LayerSources {
+  std::function<Colour(const Hit&, const Vec& direction)> albedo;
+  std::function<Vec(const Hit&)> velocity; // [m/s]
+};
 // The layers alone: one ray through the middle of each pixel.
-void fill_layers(const World& world, const Camera& camera, Picture& picture);
+void fill_layers(const World& world, const Camera& camera, const LayerSources& sources, Picture& picture);
 
 } // namespace sheet::render

@@ -59,10 +59,16 @@ std::string encode_exr(const Picture& picture) {
   const Layers& layers = picture.layers;
   if (!layers.depth.empty()) {
     channel("Z", Imf::FLOAT, layers.depth.data(), sizeof(float), Imf::FLOAT);
+    const char* const velocity_names[] = {"velocity.X", "velocity.Y", "velocity.Z"};
+    const char* const albedo_names[] = {"albedo.R", "albedo.G", "albedo.B"};
     const char* const axes[] = {"normal.X", "normal.Y", "normal.Z"};
     for (std::size_t c = 0; c < 3; ++c)
       channel(axes[c], Imf::FLOAT, layers.normal[0].data() + c, sizeof(Vec), Imf::FLOAT);
     channel("thickness", Imf::FLOAT, layers.thickness.data(), sizeof(float), Imf::FLOAT);
+    for (std::size_t c = 0; c < 3; ++c)
+      channel(velocity_names[c], Imf::FLOAT, layers.velocity[0].data() + c, sizeof(Vec), Imf::FLOAT);
+    for (std::size_t c = 0; c < 3; ++c)
+      channel(albedo_names[c], Imf::FLOAT, layers.albedo[0].data() + c, sizeof(Colour), Imf::FLOAT);
     channel("id", Imf::UINT, layers.id.data(), sizeof(std::uint32_t), Imf::UINT);
   }
   Imf::StdOSStream stream;

@@ -26,6 +26,8 @@ struct Layers {
   std::vector<Vec> normal;      // smoothed, towards the camera; 0: nothing
   std::vector<float> thickness; // of the sheet [m]; 0: not the sheet
   std::vector<std::uint32_t> id;
+  std::vector<Vec> velocity;  // [m/s]; 0: nothing
+  std::vector<Colour> albedo; // what comes back of even light from all sides; 0: nothing
 };
 // Values of Layers::id; the scene's i-th solid has first_solid_id + i.
 inline constexpr std::uint32_t nothing_id = 0, sheet_id = 1, ground_id = 2, first_solid_id = 3;

@@ -2,6 +2,7 @@
 #include "libsheet/render/lighting.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sheet::render {
@@ -26,8 +27,10 @@ Basis level(const Vec& forward, const Vec& up) {
   return axes;
 }
 
-Softbox softbox(const Vec& toward, const Vec& up, float half_width, float half_height, const Colour& radiance) {
-  Softbox box{Basis(toward), half_width, half_height, radiance};
+// Half as bright at half_width, half_height.
+Softbox softbox(const Vec& toward, const Vec& up, float half_width, float half_height, float softness,
+                const Colour& radiance) {
+  Softbox box{Basis(toward), half_width + softness / 2, half_height + softness / 2, radiance, softness};
   box.basis.first = up.cross(toward).normalized();
   box.basis.second = toward.cross(box.basis.first);
   return box;
@@ -39,6 +42,7 @@ float box_density(const Softbox& box, float x, float y) {
   return square * std::sqrt(square) / (4 * box.half_width * box.half_height);
 }
 
+constexpr int most_columns = 4096; // of the cells that directions are drawn from
 constexpr float below_one = 0.9999999F;
 
 // Bilinear between the centres of pixels; p in [0, 1), longitude goes round.
@@ -52,6 +56,38 @@ Colour look_up(const Image& map, Point2 p) {
          wy * ((1 - wx) * map.at(left, below) + wx * map.at(right, below));
 }
 
+// The mean luminance of the map, bilinear, over each pixel: a small sun lights its neighbours' halves, too.
+std::vector<float> luminances_around(const Image& map) {
+  constexpr std::array<float, 3> weights{1 / 8.0F, 6 / 8.0F, 1 / 8.0F};
+  std::vector<float> along, result; // smoothed along rows, then along columns
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x)
+      along.push_back(weights[0] * luminance(map.at(x > 0 ? x - 1 : map.width - 1, y)) +
+                      weights[1] * luminance(map.at(x, y)) +
+                      weights[2] * luminance(map.at(x + 1 < map.width ? x + 1 : 0, y)));
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x)
+      result.push_back(weights[0] * along[map.index(x, std::max(y - 1, 0))] + weights[1] * along[map.index(x, y)] +
+                       weights[2] * along[map.index(x, std::min(y + 1, map.height - 1))]);
+  return result;
+}
+
+// The same image in fewer pixels, each the mean of those that fall into it.
+Image reduced(const Image& image, int columns, int rows) {
+  Image result(columns, rows);
+  std::vector<float> count(result.pixels.size());
+  std::fill(result.pixels.begin(), result.pixels.end(), Colour::Zero());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const std::size_t i = result.index(x * columns / image.width, y * rows / image.height);
+      result.pixels[i] += image.at(x, y);
+      ++count[i];
+    }
+  for (std::size_t i = 0; i < count.size(); ++i)
+    result.pixels[i] /= count[i];
+  return result;
+}
+
 // The index of the first entry above x in a rising list that starts anew at `begin`, and where x lies in its interval.
 int search(const float* begin, int count, float x, float& place) {
   const int i = std::min(static_cast<int>(std::upper_bound(begin, begin + count, x) - begin), count - 1);
@@ -62,22 +98,26 @@ int search(const float* begin, int count, float x, float& place) {
 
 } // namespace
 
-bool Softbox::holds(const Vec& direction) const {
+float Softbox::brightness(const Vec& direction) const {
   const float z = direction.dot(basis.third);
-  return z > 0 && std::abs(direction.dot(basis.first)) <= half_width * z &&
-         std::abs(direction.dot(basis.second)) <= half_height * z;
+  if (!(z > 0))
+    return 0;
+  const float x = half_width - std::abs(direction.dot(basis.first)) / z,
+              y = half_height - std::abs(direction.dot(basis.second)) / z; // from the edges
+  return x < 0 || y < 0 ? 0 : smooth_step(0, softness, x) * smooth_step(0, softness, y);
 }
 
 Lighting::Lighting(Image map, const Basis& axes, std::vector<Softbox> boxes)
     : map_(std::move(map)), axes_(axes), boxes_(std::move(boxes)) {
-  columns_ = std::min(map_.width, 512);
-  rows_ = std::min(map_.height, 256);
+  columns_ = std::min(map_.width, most_columns);
+  rows_ = std::min(map_.height, most_columns / 2);
+  const std::vector<float> around = luminances_around(map_);
   std::vector<float> power(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0F);
   for (int y = 0; y < map_.height; ++y) {
     const int row = y * rows_ / map_.height;
     const float ring = std::sin(float_pi * (static_cast<float>(y) + 0.5F) / static_cast<float>(map_.height));
     for (int x = 0; x < map_.width; ++x)
-      power[static_cast<std::size_t>(row * columns_ + x * columns_ / map_.width)] += luminance(map_.at(x, y)) * ring;
+      power[static_cast<std::size_t>(row * columns_ + x * columns_ / map_.width)] += around[map_.index(x, y)] * ring;
   }
   float all = 0;
   for (const float p : power)
@@ -113,6 +153,9 @@ void Lighting::share_out() {
 
 void Lighting::soften() {
   constexpr int columns = 128, rows = 64, soft_columns = 16, soft_rows = 8;
+  // A small sun may lie between these directions.
+  const bool is_fine = map_.width > columns && map_.height > rows;
+  const Image sky = is_fine ? reduced(map_, columns, rows) : map_;
   std::vector<Vec> directions;
   std::vector<Colour> power;
   std::vector<float> ring;
@@ -121,8 +164,15 @@ void Lighting::soften() {
       const float v = (static_cast<float>(y) + 0.5F) / rows;
       directions.push_back(from_map((static_cast<float>(x) + 0.5F) / columns, v));
       ring.push_back(std::sin(float_pi * v));
-      power.push_back(ring.back() * at(directions.back()).radiance);
+      power.push_back(ring.back() * (look_up(sky, to_map(directions.back())) + light_of_boxes(directions.back())));
     }
+  Colour all = Colour::Zero();
+  float rings = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    all += power[i];
+    rings += ring[i];
+  }
+  mean_ = luminance(all) / rings;
   soft_map_ = Image(soft_columns, soft_rows);
   for (int y = 0; y < soft_rows; ++y)
     for (int x = 0; x < soft_columns; ++x) {
@@ -149,8 +199,8 @@ Lighting Lighting::studio(const Vec& to_camera, const Vec& up) {
   const Vec rim = (0.95F * axes.first - 0.65F * axes.second + 0.45F * up).normalized();
   return {std::move(map),
           axes,
-          {softbox(key, up, 0.24F, 0.30F, Colour(9.0F, 8.6F, 8.0F)),
-           softbox(rim, up, 0.09F, 0.42F, Colour(6.0F, 6.3F, 6.8F))}};
+          {softbox(key, up, 0.24F, 0.30F, 0.10F, Colour(9.0F, 8.6F, 8.0F)),
+           softbox(rim, up, 0.09F, 0.42F, 0.06F, Colour(6.0F, 6.3F, 6.8F))}};
 }
 
 Lighting Lighting::uniform(float radiance) {
@@ -159,8 +209,11 @@ Lighting Lighting::uniform(float radiance) {
   return {std::move(map), Basis(Vec::UnitZ()), {}};
 }
 
-Lighting Lighting::surroundings(Image image, const Vec& to_camera, const Vec& up) {
-  return {std::move(image), level(-to_camera, up), {}};
+Lighting Lighting::surroundings(Image image, const Vec& to_camera, const Vec& up, float turn) {
+  Basis axes = level(-to_camera, up);
+  axes.first = std::cos(turn) * axes.first + std::sin(turn) * axes.second;
+  axes.second = up.cross(axes.first);
+  return {std::move(image), axes, {}};
 }
 
 Point2 Lighting::to_map(const Vec& direction) const {
@@ -173,6 +226,13 @@ Point2 Lighting::to_map(const Vec& direction) const {
 Vec Lighting::from_map(float x, float y) const {
   const float longitude = (x - 0.5F) * 2 * float_pi, polar = y * float_pi;
   return axes_.world(std::sin(polar) * std::cos(longitude), -std::sin(polar) * std::sin(longitude), std::cos(polar));
+}
+
+Colour Lighting::light_of_boxes(const Vec& direction) const {
+  Colour sum = Colour::Zero();
+  for (const Softbox& box : boxes_)
+    sum += box.brightness(direction) * box.radiance;
+  return sum;
 }
 
 Colour Lighting::backdrop(const Vec& direction) const { return look_up(map_, to_map(direction)); }
@@ -193,11 +253,11 @@ Lighting::Light Lighting::at(const Vec& direction) const { return at(direction, 
 Lighting::Light Lighting::at(const Vec& direction, Point2 on_map) const {
   Light light{look_up(map_, on_map), map_share_ * map_density(on_map)};
   for (std::size_t i = 0; i < boxes_.size(); ++i)
-    if (const Softbox& box = boxes_[i]; box.holds(direction)) {
+    if (const Softbox& box = boxes_[i]; box.brightness(direction) > 0) {
       const float z = direction.dot(box.basis.third), share = box_sums_[i] - (i > 0 ? box_sums_[i - 1] : map_share_);
       light.density +=
           share * box_density(box, direction.dot(box.basis.first) / z, direction.dot(box.basis.second) / z);
-      light.radiance += box.radiance;
+      light.radiance += box.brightness(direction) * box.radiance;
     }
   return light;
 }

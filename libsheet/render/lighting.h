@@ -11,13 +11,15 @@
 
 namespace sheet::render {
 
-// A rectangle infinitely far away, of even radiance: directions whose central projection on the plane at distance 1
-// along `basis.third` lies within half_width, half_height.
+// A rectangle infinitely far away: directions whose central projection on the plane at distance 1 along `basis.third`
+// lies within half_width, half_height. Its radiance is even but for its edges, towards which it fades over `softness`.
 struct Softbox {
   Basis basis;
   float half_width, half_height;
   Colour radiance;
-  [[nodiscard]] bool holds(const Vec& direction) const;
+  float softness;
+  // 0 outside, 1 within.
+  [[nodiscard]] float brightness(const Vec& direction) const;
 };
 
 class Lighting {
@@ -27,8 +29,9 @@ public:
   static Lighting studio(const Vec& to_camera, const Vec& up);
   // The same radiance from everywhere.
   static Lighting uniform(float radiance);
-  // An image of all directions: longitude across, the upper edge is up. -to_camera, turned level, is its middle.
-  static Lighting surroundings(Image image, const Vec& to_camera, const Vec& up);
+  // An image of all directions: longitude across, the upper edge is up. -to_camera, turned level, is its middle. Then
+  // it is turned about `up`, counter-clockwise as seen from above [rad].
+  static Lighting surroundings(Image image, const Vec& to_camera, const Vec& up, float turn = 0);
 
   struct Light {
     Colour radiance;
@@ -41,6 +44,9 @@ public:
   // The same as the radiance of at(), blurred by a lobe cos^4 (some 30 degrees to all sides): for paths that light
   // sampling cannot help.
   [[nodiscard]] Colour softened(const Vec& direction) const;
+
+  // The mean over all directions, of the luminance.
+  [[nodiscard]] float mean() const { return mean_; }
 
   struct Sample {
     Vec direction;
@@ -56,9 +62,11 @@ private:
   [[nodiscard]] Vec from_map(float x, float y) const;
   [[nodiscard]] Point2 to_map(const Vec& direction) const; // in [0, 1)
   [[nodiscard]] Light at(const Vec& direction, Point2 on_map) const;
+  [[nodiscard]] Colour light_of_boxes(const Vec& direction) const;
   [[nodiscard]] float map_density(Point2 on_map) const;
 
   Image map_, soft_map_;
+  float mean_ = 0;
   Basis axes_; // third is up, first is the middle of the map
   std::vector<Softbox> boxes_;
   // Cells of the map: their power summed up along each row, and the rows' sums.

@@ -4,17 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
+
+#include "libsheet/render/microfacets.h"
 
 namespace sheet::render {
 namespace {
 
-constexpr int longest_path = 256; // meetings; Russian roulette ends nearly all paths long before
-constexpr int most_passed = 4096; // faces within the liquid, so that no ray hangs where they coincide
-constexpr int sure_meetings = 4;  // before Russian roulette starts, and
-constexpr float faint = 0.1F;     // the weight to which it brings those that are fainter
-constexpr int longest_look = 16;  // layers that features are looked for behind
-constexpr float middle = 0.5F;    // of what paths bridge, for those that are looked along
-constexpr float darkness = 1e-3F; // a shadow that lets less through is black
+constexpr int longest_path = 256;    // meetings; Russian roulette ends nearly all paths long before
+constexpr int most_passed = 4096;    // faces within the liquid, so that no ray hangs where they coincide
+constexpr int sure_meetings = 4;     // before Russian roulette starts, and
+constexpr float faint = 0.1F;        // the weight to which it brings those that are fainter
+constexpr int longest_look = 16;     // layers that features are looked for behind
+constexpr float middle = 0.5F;       // of what paths bridge, for those that are looked along
+constexpr float faint_lamp = 0.05F;  // in mean radiances: shadow rays for less are left to chance
+constexpr float most_by_chance = 30; // in mean radiances: what one path of chance may bring, against specks
+constexpr float darkness = 1e-3F;    // a shadow that lets less through is black
 
 Vec cosine_direction(const Vec& normal, Point2 p) { // density cos / pi [Malley]
   const float radius = std::sqrt(p.x), angle = 2 * float_pi * p.y;
@@ -31,6 +36,25 @@ std::pair<float, float> range_of(const std::vector<float>& values) {
       high = std::max(high, v);
     }
   return high > 0 ? std::pair(low, high) : std::pair(1.0F, 1.0F);
+}
+
+// Nothing is mirrored into a face: what would be goes off beside it.
+Vec beside(const Hit& hit, const Vec& direction, const Vec& image) {
+  const float below = image.dot(hit.face);
+  return below * direction.dot(hit.face) <= 0 ? image : (image - 2 * below * hit.face).normalized();
+}
+
+// A direction in the mirror image of a rough face, with its density if the lights' samples may go there too.
+std::pair<Vec, std::optional<float>> mirrored_in(const RoughMirror& rough, const Hit& hit, const Vec& direction,
+                                                 Point2 p) {
+  const Vec image = rough.sample(p), kept = beside(hit, direction, image);
+  return {kept, kept == image ? std::optional(rough.density(image)) : std::nullopt};
+}
+
+// The part of the light that a clear coat of index 1.5 mirrors.
+float coat_mirrors(float cosine) {
+  const Fresnel f = fresnel(cosine, 1.5F);
+  return 0.5F * (f.perpendicular + f.parallel);
 }
 
 // Ways on from a slab.
@@ -147,7 +171,14 @@ Colour PathTracer::from_afar(const Path& path) const {
     return path.weight * lighting_->softened(direction);
   const Lighting::Light far = lighting_->at(direction);
   const float share = path.density ? *path.density / (*path.density + far.density) : 1.0F;
-  return path.weight * share * far.radiance;
+  const Colour light = path.weight * share * far.radiance;
+  return path.certain ? light : bounded(light);
+}
+
+// Of a path of chance, which may be one of few that are as bright.
+Colour PathTracer::bounded(const Colour& light) const {
+  const float most = most_by_chance * lighting_->mean(), brightest = light.maxCoeff();
+  return brightest <= most ? light : Colour(most / brightest * light);
 }
 
 // Goes on past a face within the liquid that the path has met already.
@@ -266,11 +297,27 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   const Vec direction = path.ray.direction;
   Crossing crossing = cross(hit, path, rays);
   const Meeting& meeting = crossing.meeting;
+  const RoughMirror rough(meeting.normal, direction, slab_.liquid().roughness);
+  std::optional<float> density; // of the mirror image
+  if (is_rough())
+    std::tie(crossing.mirrored, density) = mirrored_in(rough, hit, direction, sampler.point());
   if (path.splits > 0) {
-    const Path image = split(hit, crossing, path);
+    const Colour mirrored = path.weight * crossing.part[mirror];
+    Path image = split(hit, crossing, path);
+    if (is_rough()) {
+      light.chance[image.layer] += lamp_mirrored(hit, image, mirrored, rough, 1, sampler, rays);
+      image.certain = false;
+      image.density = density;
+    }
     follow(image, nearest(image, rays), sampler, rays, light);
   }
   const std::array<float, 4> chance = chances(path.weight, crossing.part);
+  if (is_rough() && chance[mirror] > 0) {
+    Path image = path;
+    go(hit, meeting, crossing.mirrored, image);
+    light.chance[path.layer] +=
+        lamp_mirrored(hit, image, path.weight * crossing.part[mirror], rough, chance[mirror], sampler, rays);
+  }
   if (chance[turbid_back] + chance[turbid_through] > 0)
     light.chance[path.layer] += lamp_at_sheet(hit, path, crossing, chance, sampler, rays);
   const std::size_t lobe = choose(chance, sampler.number());
@@ -286,7 +333,7 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   }
   path.straight = false;
   if (lobe == mirror) {
-    path.density.reset();
+    path.density = density ? std::optional(chance[mirror] * *density) : std::nullopt;
     go(hit, meeting, crossing.mirrored, path);
     return;
   }
@@ -296,6 +343,20 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   path.density = chance[lobe] * cosine / float_pi;
   path.indirect = true;
   go(hit, meeting, d, path);
+}
+
+// A sample of the lights in a rough face, which mirrors the part `mirrored` of the light to the path; that is followed
+// there by `chance`. `image`: a path that has been mirrored there.
+Colour PathTracer::lamp_mirrored(const Hit& hit, const Path& image, const Colour& mirrored, const RoughMirror& rough,
+                                 float chance, Sampler& sampler, std::uint64_t& rays) const {
+  const float choice = sampler.number();
+  const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
+  const bool before = lamp.direction.dot(hit.face) * image.ray.direction.dot(hit.face) > 0;
+  const float density = rough.density(lamp.direction);
+  if (!before || !(lamp.light.density > 0 && density > 0))
+    return Colour::Zero();
+  return arriving(hit, lamp, mirrored * (density / (lamp.light.density + chance * density)), image.within,
+                  sampler.number(), rays);
 }
 
 // A sample of the lights, scattered by a turbid sheet.
@@ -313,7 +374,18 @@ Colour PathTracer::lamp_at_sheet(const Hit& hit, const Path& path, const Crossin
   if (!(share.maxCoeff() > 0))
     return Colour::Zero();
   const Within within = body_.after(*world_, hit, lamp.direction, crossing.meeting.enters, path.within.bridged);
-  return share * lamp.light.radiance * visible(hit, lamp.direction, within, rays);
+  return arriving(hit, lamp, share, within, sampler.number(), rays);
+}
+
+// The light of a lamp at a hit times `share`. Where that is so faint that it is not worth a ray through many layers,
+// Russian roulette with a `number` of [0, 1).
+Colour PathTracer::arriving(const Hit& hit, const Lighting::Sample& lamp, const Colour& share, const Within& within,
+                            float number, std::uint64_t& rays) const {
+  const Colour light = bounded(share * lamp.light.radiance);
+  const float chance = light.maxCoeff() / (faint_lamp * lighting_->mean());
+  if (!(number < chance))
+    return Colour::Zero();
+  return light / std::min(chance, 1.0F) * visible(hit, lamp.direction, within, rays);
 }
 
 // Planes that the camera sees straight blend into the backdrop in the distance.
@@ -332,6 +404,22 @@ const Colour& PathTracer::albedo(const Hit& hit) const {
              : surroundings_.solids[hit.id - first_solid_id];
 }
 
+const std::optional<float>& PathTracer::gloss(const Hit& hit) const {
+  return hit.id == ground_id ? surroundings_.ground_gloss : surroundings_.solid_gloss;
+}
+
+Colour PathTracer::reflectance(const Hit& hit, const Vec& direction) const {
+  if (hit.id != sheet_id)
+    return albedo(hit);
+  std::uint64_t rays = 0;
+  Path path = start({hit.position, direction}, middle);
+  const Crossing crossing = cross(hit, path, rays);
+  Colour sum = Colour::Zero();
+  for (const Colour& part : crossing.part)
+    sum += part;
+  return sum;
+}
+
 void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const {
   const Vec direction = path.ray.direction;
   light.of(path.certain, path.layer) += fade(hit, path);
@@ -340,20 +428,30 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   Vec normal = side * hit.normal;
   if (direction.dot(normal) > -1e-3F)
     normal = face;
-  path.weight *= albedo(hit);
+  const std::optional<float>& coat = gloss(hit);
+  const RoughMirror rough(normal, direction, coat.value_or(1));
+  const float mirrored = coat ? coat_mirrors(-direction.dot(normal)) : 0;
 
   const float choice = sampler.number();
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
   const float cosine = lamp.direction.dot(normal);
-  if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0)
-    light.chance[path.layer] += path.weight * (cosine / float_pi / (lamp.light.density + cosine / float_pi)) *
-                                lamp.light.radiance * visible(hit, lamp.direction, {path.within.bridged}, rays);
+  if (cosine > 0 && lamp.direction.dot(face) > 0 && lamp.light.density > 0) {
+    const float matte = (1 - mirrored) * cosine / float_pi, coated = mirrored * rough.density(lamp.direction);
+    const Colour share = albedo(hit) * (matte / (lamp.light.density + matte)) + coated / (lamp.light.density + coated);
+    light.chance[path.layer] += arriving(hit, lamp, path.weight * share, {path.within.bridged}, sampler.number(), rays);
+  }
 
-  Vec d = cosine_direction(normal, sampler.point());
-  path.density = std::max(d.dot(normal), 1e-6F) / float_pi;
-  const float below = d.dot(face);
-  if (below < 0)
-    d = (d - 2 * below * face).normalized();
+  Vec d;
+  if (coat && sampler.number() < mirrored) {
+    std::tie(d, path.density) = mirrored_in(rough, hit, direction, sampler.point());
+    if (path.density)
+      *path.density *= mirrored;
+  } else {
+    d = cosine_direction(normal, sampler.point());
+    path.density = (1 - mirrored) * std::max(d.dot(normal), 1e-6F) / float_pi;
+    d = beside(hit, direction, d);
+    path.weight *= albedo(hit);
+  }
   path.straight = false;
   path.certain = false;
   path.splits = 0;
@@ -392,6 +490,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     if (path.certain)
       sight.certain += faded;
     layer.way = 31 * layer.way + hit.id;
+    layer.end = hit.id;
     layer.normal = meeting.normal;
     layer.position = hit.position;
     layer.length = length;
@@ -399,7 +498,14 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     if (hit.id != sheet_id)
       return;
     Crossing crossing = cross(hit, path, rays);
-    if (path.splits > 0) {
+    if (path.splits > 0 && is_rough()) {
+      SightLayer& image = sight.layers[1];
+      image = layer;
+      image.way = 31 * layer.way + 1;
+      image.weight = path.weight * crossing.part[mirror];
+      crossing.part[mirror].setZero();
+      path.splits = 0;
+    } else if (path.splits > 0) {
       Sight beyond;
       look(split(hit, crossing, path), beyond, rays);
       sight.certain += beyond.certain;

@@ -9,14 +9,16 @@
 // passes without a shift: a slab bends it back. Shadows of clear layers are coloured. Layers that touch are one slab,
 // as thick as they are deep together (body.h).
 //
-// One bias, against specks: where a turbid or matte surface sees a mirror image of the lights (caustics), it sees them
-// blurred.
+// Two biases, against specks: where a turbid or matte surface sees a mirror image of the lights (caustics), it sees
+// them blurred; and what a path that has been chosen at random brings of the lights is bounded.
 #pragma once
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "libsheet/render/body.h"
 #include "libsheet/render/lighting.h"
+#include "libsheet/render/microfacets.h"
 #include "libsheet/render/slab.h"
 #include "libsheet/render/world.h"
 
@@ -25,6 +27,7 @@ namespace sheet::render {
 struct Surroundings {
   std::vector<Colour> solids; // reflectance of the scene's solids, matte
   Colour ground{0.68F, 0.66F, 0.63F};
+  std::optional<float> solid_gloss{}, ground_gloss{}; // roughness of a clear coat on it; absent: there is none
   float fade_from = 2,
         fade_to = 9; // planes seen directly blend into the backdrop between these distances, in the world's unit
 };
@@ -46,6 +49,7 @@ struct SightLayer {
   Vec position = Vec::Zero();     // in the world's unit
   float length = 0;               // of the way there
   std::uint32_t way = 0;          // a number for all ids on the way; 0: there is nothing
+  std::uint32_t end = 0;          // the last id
 };
 
 // What the camera sees along a ray without any random decision.
@@ -64,6 +68,8 @@ public:
   [[nodiscard]] Light radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const;
   // The same, if it is known what the ray hits.
   [[nodiscard]] Light radiance(const Ray& ray, const Hit& first, Sampler& sampler, std::uint64_t& rays) const;
+  // What comes back of even light from all sides, of what a ray of that direction hits.
+  [[nodiscard]] Colour reflectance(const Hit& hit, const Vec& direction) const;
   [[nodiscard]] Sight look(const Ray& ray, std::uint64_t& rays) const;
 
 private:
@@ -84,11 +90,18 @@ private:
   Path split(const Hit& hit, Crossing& crossing, Path& path) const;
   Colour lamp_at_sheet(const Hit& hit, const Path& path, const Crossing& crossing, const std::array<float, 4>& chance,
                        Sampler& sampler, std::uint64_t& rays) const;
+  Colour lamp_mirrored(const Hit& hit, const Path& image, const Colour& mirrored, const RoughMirror& rough,
+                       float chance, Sampler& sampler, std::uint64_t& rays) const;
+  Colour arriving(const Hit& hit, const Lighting::Sample& lamp, const Colour& share, const Within& within, float number,
+                  std::uint64_t& rays) const;
   Colour visible(const Hit& hit, const Vec& direction, Within within, std::uint64_t& rays) const;
   [[nodiscard]] bool passes(const Hit& hit, Path& path) const;
+  [[nodiscard]] Colour bounded(const Colour& light) const;
   [[nodiscard]] Colour from_afar(const Path& path) const;
   [[nodiscard]] Colour fade(const Hit& hit, Path& path) const;
   [[nodiscard]] const Colour& albedo(const Hit& hit) const;
+  [[nodiscard]] const std::optional<float>& gloss(const Hit& hit) const;
+  [[nodiscard]] bool is_rough() const { return slab_.liquid().roughness > 0; }
 
   const World* world_;
   const Lighting* lighting_;

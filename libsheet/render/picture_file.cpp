@@ -22,11 +22,13 @@ std::string encode_ppm(const Bitmap& bitmap) {
 
 Image read_picture(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending != ".png" && ending != ".exr")
-    fail(ExitCode::usage, "{}: an image of the surroundings must be a .png or .exr file", path);
+  if (ending != ".png" && ending != ".exr" && ending != ".hdr")
+    fail(ExitCode::usage, "{}: an image of the surroundings must be a .hdr, .exr or .png file", path);
   check_named_file(path);
   const std::string bytes = read_text_file(path);
-  Image image = ending == ".png" ? decode_png(bytes, path) : decode_exr(bytes, path);
+  Image image = ending == ".png"   ? decode_png(bytes, path)
+                : ending == ".exr" ? decode_exr(bytes, path)
+                                   : decode_hdr(bytes, path);
   for (Colour& c : image.pixels)
     for (float& x : c)
       x = x > 0 && std::isfinite(x) ? x : 0; // no light is negative or without bound

@@ -10,8 +10,8 @@ namespace sheet::render {
 // RGB, 8 bits, marked as sRGB.
 [[nodiscard]] std::string encode_png(const Bitmap& bitmap);
 
-// R, G, B linear as half floats; the layers as floats, if the picture has them: Z [m], normal.X, .Y, .Z, thickness [m]
-// and id (unsigned; image.h).
+// R, G, B linear as half floats; the layers as floats, if the picture has them: Z [m], normal.X, .Y, .Z, thickness [m],
+// velocity.X, .Y, .Z [m/s], albedo.R, .G, .B and id (unsigned; image.h).
 [[nodiscard]] std::string encode_exr(const Picture& picture);
 
 // One picture of a binary PPM stream.
@@ -22,7 +22,7 @@ namespace sheet::render {
 [[nodiscard]] std::string y4m_header(int width, int height, double frames_per_second);
 [[nodiscard]] std::string encode_y4m(const Bitmap& bitmap);
 
-// A .png (sRGB) or .exr file as linear light. Throws Error (io, bad_input), naming the file.
+// A .png (sRGB), .exr or .hdr file as linear light. Throws Error (io, bad_input), naming the file.
 [[nodiscard]] Image read_picture(const std::string& path);
 
 // Writes the file so that its name never stands for half of it (write_whole_file). Makes the folder. Throws Error (io).

@@ -42,16 +42,43 @@ void vector_option(Tool& tool, const char* name, std::optional<Vector3>& value, 
       [&value] { return value ? fmt::format("{},{},{}", value->x(), value->y(), value->z()) : std::string(); });
 }
 
+// Red, green and blue, none negative.
+Colour colour_of(const std::string& text) {
+  const auto v = numbers<3>(text, ',', "three numbers such as 10,40,200");
+  if (!(v[0] >= 0 && v[1] >= 0 && v[2] >= 0))
+    fail(ExitCode::usage, "\"{}\": none may be negative", text);
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+std::string text_of(const Colour& c) { return fmt::format("{},{},{}", c[0], c[1], c[2]); }
+
 void colour_option(Tool& tool, const char* name, std::optional<Colour>& value, const char* text) {
   tool.custom(
-      name, "R,G,B", text,
-      [&value](const std::string& s) {
-        const auto v = numbers<3>(s, ',', "three numbers such as 10,40,200");
-        if (!(v[0] >= 0 && v[1] >= 0 && v[2] >= 0))
-          fail(ExitCode::usage, "\"{}\": none may be negative", s);
-        value = Colour(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+      name, "R,G,B", text, [&value](const std::string& s) { value = colour_of(s); },
+      [&value] { return value ? text_of(*value) : std::string(); });
+}
+
+void colours_option(Tool& tool, const char* name, std::vector<Colour>& values, const char* text) {
+  tool.custom(
+      name, "R,G,B[/R,G,B...]", text,
+      [&values](const std::string& s) {
+        values.clear();
+        for (std::size_t start = 0, end = 0; end != std::string::npos; start = end + 1)
+          values.push_back(colour_of(s.substr(start, (end = s.find('/', start)) - start)));
       },
-      [&value] { return value ? fmt::format("{},{},{}", (*value)[0], (*value)[1], (*value)[2]) : std::string(); });
+      [&values] {
+        std::string all;
+        for (const Colour& c : values)
+          all += (all.empty() ? "" : "/") + text_of(c);
+        return all;
+      });
+}
+
+void quantity_option(Tool& tool, const char* name, const char* placeholder, double& value, const Quantity& kind,
+                     const char* text) {
+  tool.custom(
+      name, placeholder, text, [&value, kind](const std::string& s) { value = parse_quantity(s, kind); },
+      [&value] { return fmt::format("{}", value); });
 }
 
 void size_option(Tool& tool, DrawOptions& draw) {
@@ -141,22 +168,41 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.option("--index", o.index, "N", "index of refraction, instead of the material's");
   colour_option(tool, "--absorption", o.absorption, "absorption coefficients [1/m], instead of the material's");
   colour_option(tool, "--scattering", o.scattering, "reduced scattering coefficients [1/m], instead of the material's");
+  tool.option("--roughness", o.roughness, "R",
+              "of the liquid's faces, 0 to 1: how far their mirror images are blurred");
   tool.option("--optical-scale", o.optical_scale, "F",
               "factor on absorption and scattering: the sheet looks as if it were so many times as thick");
   vector_option(tool, "--eye", o.camera.eye, "where the camera stands [m]; without it, so that everything is seen");
   vector_option(tool, "--target", o.camera.target, "what it looks at [m]; without it, the middle of everything");
+  quantity_option(tool, "--aperture", "LENGTH", o.aperture, quantity::length,
+                  "diameter of the lens, such as 5mm: blurs what is not in focus. 0: all is sharp");
+  vector_option(tool, "--focus", o.focus, "a point that is sharp, with --aperture; without it, what is looked at");
+  quantity_option(tool, "--shutter", "TIME", o.shutter, quantity::time,
+                  "how long it is open, such as 20ms, half before the frame's time: blurs what moves. 0: not at all");
   tool.option("--fov", o.camera.field_of_view, "DEGREES", "field of view from the lower to the upper edge");
   tool.option("--azimuth", o.camera.azimuth, "DEGREES",
               "where the camera stands if it finds its place itself: angle about the upward axis, from z towards x");
   tool.option("--elevation", o.camera.elevation, "DEGREES", "likewise: angle above level");
   tool.option(
       "--environment", o.environment, "FILE",
-      "image of the surroundings to light the scene with instead of the studio, .exr or .png, longitude across");
+      "image of the surroundings to light the scene with instead of the studio, .hdr, .exr or .png, longitude across");
+  tool.option("--environment-turn", o.environment_turn, "DEGREES",
+              "turn it about the upward axis, counter-clockwise as seen from above");
+  tool.option("--environment-strength", o.environment_strength, "F", "factor on its light");
   tool.option("--exposure", o.exposure, "STOPS", "brighter by so many factors of two");
+  tool.choice("--tone", o.tone, {{"shoulder", Tone::shoulder}, {"filmic", Tone::filmic}, {"linear", Tone::linear}},
+              "how light becomes a .png picture or a film: true but for highlights, which go softly to white; with the "
+              "contrast of film; true, and cut off at white");
   tool.choice("--ground", o.ground, {{"auto", true}, {"none", false}},
               "the ground below a scene that has no plane of its own");
   tool.choice("--solids", o.solids, {{"all", true}, {"none", false}},
               "the scene's solids; none, to see what is within a mould");
+  colour_option(tool, "--ground-colour", o.ground_colour, "reflectance of the ground, 0 to 1");
+  colours_option(tool, "--solid-colour", o.solid_colours,
+                 "reflectance of the solids, 0 to 1, the first, the second, ..., and again from the first");
+  tool.option("--ground-gloss", o.ground_gloss, "R",
+              "a clear coat on the ground, of roughness 0 to 1; without it, matte");
+  tool.option("--solid-gloss", o.solid_gloss, "R", "likewise, on the solids");
   range_option(tool, o.range);
 }
 

@@ -12,6 +12,7 @@
 #include "libsheet/render/denoised.h"
 #include "libsheet/render/display.h"
 #include "libsheet/render/framing.h"
+#include "libsheet/render/motion.h"
 #include "libsheet/render/path_tracer.h"
 #include "libsheet/render/picture_file.h"
 #include "libsheet/render/scale_bar.h"
@@ -25,6 +26,7 @@ constexpr double largest = 1e30;                // subject, far from where singl
 constexpr double unknown_growth = 0.25;         // of a subject of which only the first frame is known
 constexpr double farthest = 1e9;                // eye, in sizes of the subject
 constexpr double thinnest = 1e-4;               // of the subject: a sheet below it is drawn as its mid-surface
+constexpr int most_times = 32;                  // at which what moves is drawn while the shutter is open
 constexpr std::size_t most_to_smooth = 200'000; // triangles of the middle surface
 
 void check(const RenderOptions& o) {
@@ -49,6 +51,26 @@ void check(const RenderOptions& o) {
     fail(ExitCode::usage, "--index: {} is not above 1 and at most 4", *o.index);
   if (!(o.optical_scale > 0))
     fail(ExitCode::usage, "--optical-scale: {} is not positive", o.optical_scale);
+  for (const auto& [name, value] :
+       {std::pair("--roughness", std::optional(o.roughness)), std::pair("--ground-gloss", o.ground_gloss),
+        std::pair("--solid-gloss", o.solid_gloss)})
+    if (value && !(*value >= 0 && *value <= 1))
+      fail(ExitCode::usage, "{}: {} is not between 0 and 1", name, *value);
+  std::vector<Colour> colours = o.solid_colours;
+  if (o.ground_colour)
+    colours.push_back(*o.ground_colour);
+  for (const Colour& r : colours)
+    if (!(r.maxCoeff() <= 1))
+      fail(ExitCode::usage, "--ground-colour, --solid-colour: {},{},{}: nothing reflects more than 1", r[0], r[1],
+           r[2]);
+  if (!(o.aperture >= 0 && o.shutter >= 0))
+    fail(ExitCode::usage, "--aperture and --shutter must not be negative");
+  if (o.shutter > 0 && o.draw.noise > 0)
+    fail(ExitCode::usage, "--shutter and --noise exclude each other");
+  if (!(o.environment_strength > 0))
+    fail(ExitCode::usage, "--environment-strength: {} is not positive", o.environment_strength);
+  if (o.environment.empty() && (o.environment_turn != 0 || o.environment_strength != 1))
+    fail(ExitCode::usage, "--environment-turn and --environment-strength are of the image that --environment names");
   if (!(std::abs(o.exposure) <= 30))
     fail(ExitCode::usage, "--exposure: {} is not between -30 and 30 stops", o.exposure);
 }
@@ -57,6 +79,7 @@ Liquid liquid_of(const RenderOptions& o) {
   Liquid liquid = preset(o.liquid);
   if (o.index)
     liquid.index = static_cast<float>(*o.index);
+  liquid.roughness = static_cast<float>(o.roughness);
   const auto scale = static_cast<float>(o.optical_scale);
   liquid.absorption = scale * o.absorption.value_or(liquid.absorption);
   liquid.scattering = scale * o.scattering.value_or(liquid.scattering);
@@ -122,11 +145,18 @@ struct RenderStage::Impl {
     else
       name.emplace(options.output);
     if (!options.environment.empty())
-      surroundings = read_picture(options.environment);
+      surroundings = environment();
     if (name) { // refused before anything is drawn
       claim_file(name->of(0), FileRole::output);
       release_file(name->of(0), FileRole::output);
     }
+  }
+
+  [[nodiscard]] Image environment() const {
+    Image image = read_picture(options.environment);
+    for (Colour& c : image.pixels)
+      c *= static_cast<float>(options.environment_strength);
+    return image;
   }
 
   void read_scene_of(const formats::Frame& frame) {
@@ -188,10 +218,14 @@ struct RenderStage::Impl {
     const double growth = surveyed ? 0 : unknown_growth;
     const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.middle();
     subject = {middle - reach, middle + reach};
-    const Camera camera = extent.view.camera(middle, 2 * growth);
+    Camera camera = extent.view.camera(middle, 2 * growth);
+    if (options.aperture > 0 && options.look.is_material())
+      camera.set_lens({options.aperture / 2, focus_distance(camera, middle)});
     const Vec toward = -camera.axis(), upward = up.cast<float>();
     Fixed f{subject, camera,
-            surroundings ? Lighting::surroundings(*surroundings, toward, upward) : Lighting::studio(toward, upward),
+            surroundings ? Lighting::surroundings(*surroundings, toward, upward,
+                                                  static_cast<float>(options.environment_turn) * float_pi / 180)
+                         : Lighting::studio(toward, upward),
             scale(), std::nullopt};
     if (const BathLiquid* bath = bath_in_view(); bath != nullptr)
       f.ground = bath_surface(bath->level, subject, up);
@@ -205,6 +239,14 @@ struct RenderStage::Impl {
                 target.x(), target.y(), target.z());
     if (options.look.has_scale())
       log::detail("scale: {:.9g} to {:.9g}", fixed->scale.low, fixed->scale.high);
+  }
+
+  [[nodiscard]] double focus_distance(const Camera& camera, const Vector3& middle) const {
+    const Vector3 sharp = options.focus.value_or(options.camera.target.value_or(middle));
+    const double distance = (sharp - camera.eye()).dot(camera.axis().cast<double>());
+    if (!(distance > 0))
+      fail(ExitCode::usage, "--focus {},{},{} lies behind the camera", sharp.x(), sharp.y(), sharp.z());
+    return distance;
   }
 
   [[nodiscard]] const BathLiquid* bath_in_view() const {
@@ -231,42 +273,113 @@ struct RenderStage::Impl {
                      : "give --eye and --target, or read the stream from a file, so that all frames are known");
   }
 
-  [[nodiscard]] Picture picture_of(const formats::Frame& frame, const World& world, const Progress& progress) const {
-    const int height = options.draw.height;
+  [[nodiscard]] Surroundings surroundings_of_liquid() const {
+    Surroundings around;
+    if (options.ground_colour || fixed->dark)
+      around.ground = options.ground_colour.value_or(dark_ground);
+    for (std::size_t i = 0; scene && i < scene->solids.size(); ++i) {
+      const auto& colours = options.solid_colours;
+      around.solids.push_back(std::holds_alternative<scene::HalfSpace>(scene->solids[i].shape) ? around.ground
+                              : colours.empty()                                                ? solid_colour(i)
+                                                : colours[i % colours.size()]);
+    }
+    if (bath_in_view() != nullptr && !options.ground_colour)
+      around.ground = bath_colour;
+    const auto gloss = [](const std::optional<double>& r) {
+      return r ? std::optional(static_cast<float>(*r)) : std::optional<float>();
+    };
+    around.ground_gloss = gloss(options.ground_gloss);
+    around.solid_gloss = gloss(options.solid_gloss);
+    return around;
+  }
+
+  [[nodiscard]] Picture picture_of(const formats::Frame& frame, const World& world, const DrawOptions& how,
+                                   const Progress& progress) const {
     if (const Field* field = options.look.field)
       return render::draw(world, fixed->camera, field_shader(world, *field, values_of(frame, *field), fixed->scale),
-                          options.draw, progress);
+                          how, progress);
     if (options.look.kind == Look::Kind::wireframe)
-      return render::draw(world, fixed->camera, wireframe_shader(world, fixed->camera.pixel_angle(height)),
-                          options.draw, progress);
-    Surroundings around;
-    if (fixed->dark)
-      around.ground = dark_ground;
-    for (std::size_t i = 0; scene && i < scene->solids.size(); ++i)
-      around.solids.push_back(std::holds_alternative<scene::HalfSpace>(scene->solids[i].shape) ? around.ground
-                                                                                               : solid_colour(i));
-    if (bath_in_view() != nullptr)
-      around.ground = bath_colour;
-    const PathTracer tracer(world, fixed->lighting, liquid_of(options), std::move(around),
-                            options.layers ? Body() : Body(world));
+      return render::draw(world, fixed->camera, wireframe_shader(world, fixed->camera.pixel_angle(how.height)), how,
+                          progress);
+    const PathTracer tracer = tracer_of(world);
     if (options.denoise)
-      return draw_denoised(world, fixed->camera, tracer, options.draw, progress);
+      return draw_denoised(world, fixed->camera, tracer, how, progress);
     return render::draw(
         world, fixed->camera,
         [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) {
           return tracer.radiance(ray, sampler, rays).sum();
         },
-        options.draw, progress);
+        how, progress);
   }
 
-  void write(Picture& picture, const World& world, const formats::Frame& frame, const std::string& file) {
+  [[nodiscard]] PathTracer tracer_of(const World& world) const {
+    return {world, fixed->lighting, liquid_of(options), surroundings_of_liquid(),
+            options.layers ? Body() : Body(world)};
+  }
+
+  // What there is to see at the time of a frame.
+  [[nodiscard]] std::unique_ptr<World> world_of(const formats::Frame& frame, double time) const {
+    std::vector<Eigen::Isometry3d> motions;
+    for (const SolidMesh& mesh : meshes)
+      motions.push_back(motion_of(scene->solids[mesh.solid], time));
+    std::vector<Plane> planes = scene && options.solids ? make_planes(*scene, time) : std::vector<Plane>{};
+    if (fixed->ground)
+      planes.push_back(*fixed->ground);
+    const Middle middle = middle_of(frame);
+    const bool smooth = options.look.is_material() && !options.facets;
+    const Surface surface = make_surface(smooth ? smoothed(middle, volumes(frame), most_to_smooth) : middle,
+                                         thinnest * fixed->subject.diagonal());
+    const bool bodies = options.look.is_material() && !options.layers;
+    return bodies ? world_of_bodies(surface, meshes, motions, planes, fixed->subject)
+                  : std::make_unique<World>(surface, meshes, motions, planes, fixed->subject);
+  }
+
+  // While the shutter is open, at times so near to each other that what moves moves by about a pixel between.
+  [[nodiscard]] Picture picture_while_open(const formats::Frame& frame, const Progress& progress) const {
+    const double pixels = pixels_moved(frame, scene, meshes, options.shutter, fixed->camera, options.draw.height);
+    const int times = std::clamp(static_cast<int>(std::ceil(pixels)), 1, most_times);
+    DrawOptions how = options.draw;
+    how.samples = std::max(2, how.samples / times & ~1);
+    std::vector<Picture> parts;
+    for (int i = 0; i < times; ++i) {
+      const double later = options.shutter * ((i + 0.5) / times - 0.5);
+      const formats::Frame then = moved(frame, later);
+      how.first_sample = i * how.samples;
+      parts.push_back(picture_of(then, *world_of(then, frame.time + later), how, [&](double part) {
+        if (progress)
+          progress((i + part) / times);
+      }));
+    }
+    return mean_of(parts);
+  }
+
+  [[nodiscard]] Picture picture_of(const formats::Frame& frame, const Progress& progress) const {
+    if (options.shutter > 0 && options.look.is_material())
+      return picture_while_open(frame, progress);
+    return picture_of(frame, *world_of(frame, frame.time), options.draw, progress);
+  }
+
+  void add_layers(const formats::Frame& frame, const World& world, Picture& picture) const {
+    LayerSources sources;
+    sources.velocity = [&](const Hit& hit) { return velocity_at(frame, scene, world, hit); };
+    sources.albedo = [](const Hit&, const Vec&) -> Colour { return Colour::Zero(); };
+    if (!options.look.is_material()) {
+      fill_layers(world, fixed->camera, sources, picture);
+      return;
+    }
+    const PathTracer tracer = tracer_of(world);
+    sources.albedo = [&](const Hit& hit, const Vec& direction) { return tracer.reflectance(hit, direction); };
+    fill_layers(world, fixed->camera, sources, picture);
+  }
+
+  void write(Picture& picture, const formats::Frame& frame, const std::string& file) {
     if (file.ends_with(".exr")) {
-      fill_layers(world, fixed->camera, picture);
+      add_layers(frame, *world_of(frame, frame.time), picture);
       write_whole(file, encode_exr(picture));
       return;
     }
     const bool photo = options.look.is_material();
-    Bitmap bitmap = to_bitmap(picture.light, photo ? Tone::photographic : Tone::plain);
+    Bitmap bitmap = to_bitmap(picture.light, photo ? options.tone : Tone::linear);
     if (!photo)
       draw_scale(bitmap, fixed->scale, options.look, frame.time);
     if (name) {
@@ -290,28 +403,14 @@ struct RenderStage::Impl {
     if (!fixed)
       fix(frame);
     warn_if_out_of_sight(frame);
-    std::vector<Eigen::Isometry3d> motions;
-    for (const SolidMesh& mesh : meshes)
-      motions.push_back(motion_of(scene->solids[mesh.solid], frame.time));
-    std::vector<Plane> planes = scene && options.solids ? make_planes(*scene, frame.time) : std::vector<Plane>{};
-    if (fixed->ground)
-      planes.push_back(*fixed->ground);
-    const Middle middle = middle_of(frame);
-    const bool smooth = options.look.is_material() && !options.facets;
-    const Surface surface = make_surface(smooth ? smoothed(middle, volumes(frame), most_to_smooth) : middle,
-                                         thinnest * fixed->subject.diagonal());
-    const bool bodies = options.look.is_material() && !options.layers;
-    const std::unique_ptr<World> world =
-        bodies ? world_of_bodies(surface, meshes, motions, planes, fixed->subject)
-               : std::make_unique<World>(surface, meshes, motions, planes, fixed->subject);
-    Picture picture = picture_of(frame, *world, progress);
+    Picture picture = picture_of(frame, progress);
     if (options.draw.noise > 0 && picture.worst_noise > options.draw.noise && !told_noisy) {
       log::warning("the noise of the frame at {} s stays above {:g} in places, at most {:.2g}: give more --samples",
                    frame.time, options.draw.noise, picture.worst_noise);
       told_noisy = true;
     }
     const std::string file = name ? name->of(index) : "";
-    write(picture, *world, frame, file);
+    write(picture, frame, file);
     ++pictures;
     return {picture.noise, picture.worst_noise, picture.samples, picture.rays, file};
   }

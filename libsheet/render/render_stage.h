@@ -4,10 +4,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/base/tool.h"
 #include "libsheet/render/camera.h"
+#include "libsheet/render/display.h"
 #include "libsheet/render/draw.h"
 #include "libsheet/render/looks.h"
 #include "libsheet/render/slab.h"
@@ -25,12 +27,22 @@ struct RenderOptions {
   Look look;
   std::size_t liquid = 0; // number of the preset
   std::optional<double> index;
-  std::optional<Colour> absorption, scattering; // [1/m]
-  double optical_scale = 1;                     // factor on absorption and scattering
-  double exposure = 0;                          // [stops]
-  std::string environment;                      // image file; "": the studio
-  bool ground = true, solids = true;            // whether they are drawn
-  std::optional<Scale> range;                   // of false colours, in SI; absent: that of the frames
+  std::optional<Colour> absorption, scattering;    // [1/m]
+  double optical_scale = 1;                        // factor on absorption and scattering
+  double roughness = 0;                            // of the liquid's mirror images
+  std::optional<Colour> ground_colour;             // reflectance
+  std::vector<Colour> solid_colours;               // in turn, from the first; empty: the built-in ones
+  std::optional<double> ground_gloss, solid_gloss; // roughness of a clear coat
+  double exposure = 0;                             // [stops]
+  Tone tone = Tone::shoulder;                      // of materials
+  double aperture = 0;                             // diameter of the lens [m]; 0: a pinhole
+  std::optional<Vector3> focus;                    // what is sharp [m]; absent: what is looked at
+  double shutter = 0;                              // open so long, half of it before the frame's time [s]
+  double environment_turn = 0;                     // [degrees]
+  double environment_strength = 1;                 // factor on its light
+  std::string environment;                         // image file; "": the studio
+  bool ground = true, solids = true;               // whether they are drawn
+  std::optional<Scale> range;                      // of false colours, in SI; absent: that of the frames
   double frames_per_second = 24;
 };
 

@@ -39,6 +39,7 @@ struct Liquid {
   float index = 1.5F;                 // of refraction
   Colour absorption = Colour::Zero(); // sigma_a [1/m]
   Colour scattering = Colour::Zero(); // reduced: sigma_s (1 - g) [1/m]
+  float roughness = 0;                // of its mirror images (microfacets.h), 0 to 1; 0: smooth
 };
 
 // The presets, by their place among liquid_names.

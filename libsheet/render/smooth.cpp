@@ -59,17 +59,23 @@ public:
     }
   }
 
+  // Of a quantity of the points, `step` apart. There is a surface.
+  template <class Value> MeanAround mean(int x, int y, int step, Value&& value) const {
+    float sum = 0, weights = 0, squares = 0;
+    around(x, y, step, [&](float weight, float unlike, std::size_t q) {
+      const float w = weight * falloff(unlike);
+      sum += w * value(q);
+      weights += w;
+      squares += w * w;
+    });
+    return {sum / weights, weights * weights / squares};
+  }
+
   // The variance of single points, from two halves of few samples, says next to nothing: that of the neighbourhood.
   [[nodiscard]] float variance_around(int x, int y, const std::vector<Noisy>& from) const {
     if ((*points_)[index(x, y)].way == 0)
       return 0;
-    float sum = 0, weights = 0;
-    around(x, y, 2, [&](float weight, float unlike, std::size_t q) {
-      const float w = weight * falloff(unlike);
-      sum += w * from[q].variance;
-      weights += w;
-    });
-    return sum / weights;
+    return mean(x, y, 2, [&](std::size_t q) { return from[q].variance; }).mean;
   }
 
   [[nodiscard]] Noisy smoothed(int x, int y, int step, const std::vector<Noisy>& from) const {
@@ -115,6 +121,15 @@ private:
 
 float likeness(const SurfacePoint& a, const SurfacePoint& b, float pixels) {
   return a.way == b.way ? falloff(unlikeness(a, b, pixels)) : 0;
+}
+
+MeanAround mean_around(const std::vector<float>& values, const std::vector<SurfacePoint>& points, int width, int x,
+                       int y) {
+  const Filter filter(points, width);
+  const std::size_t i = filter.index(x, y);
+  if (points[i].way == 0)
+    return {values[i], 1};
+  return filter.mean(x, y, 1, [&](std::size_t q) { return values[q]; });
 }
 
 void smooth(std::vector<Halves>& light, const std::vector<SurfacePoint>& points, const std::vector<int>& samples,

@@ -14,6 +14,7 @@ struct SurfacePoint {
   Vec normal = Vec::Zero(), position = Vec::Zero();
   float reach = 0;       // the distance that a pixel spans there, in units of the position
   std::uint32_t way = 0; // points of different ways have nothing in common; 0: there is no surface
+  std::uint32_t end = 0; // points of different ways that end in the same surface have some of the light in common
 };
 
 // 1 for points of one plane, 0 for those of different surfaces; `pixels` apart.
@@ -28,6 +29,14 @@ struct Halves {
   }
   [[nodiscard]] Colour mean() const { return 0.5F * (a + b); }
 };
+
+// The mean of a quantity of points over those around (x, y) that show the same surface, and how many of even weight
+// would tell it as well, about 1 to 14.
+struct MeanAround {
+  float mean, points;
+};
+[[nodiscard]] MeanAround mean_around(const std::vector<float>& values, const std::vector<SurfacePoint>& points,
+                                     int width, int x, int y);
 
 // Points row by row; so many samples each.
 void smooth(std::vector<Halves>& light, const std::vector<SurfacePoint>& points, const std::vector<int>& samples,

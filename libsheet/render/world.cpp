@@ -200,6 +200,7 @@ float World::thickness_at(const Hit& hit) const {
 
 const Surface& World::surface() const { return impl_->surface; }
 Vec World::to_world(const Vector3& x) const { return impl_->to_world(x); }
+Vector3 World::from_world(const Vec& x) const { return impl_->center + impl_->unit * x.cast<double>(); }
 double World::unit() const { return impl_->unit; }
 
 Ray leave(const Hit& hit, const Vec& direction) {

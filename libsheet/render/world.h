@@ -51,7 +51,8 @@ public:
   [[nodiscard]] float thickness_at(const Hit& hit) const;
   [[nodiscard]] const Surface& surface() const;
   [[nodiscard]] Vec to_world(const Vector3& x) const; // [m] to units of the world
-  [[nodiscard]] double unit() const;                  // [m]
+  [[nodiscard]] Vector3 from_world(const Vec& x) const;
+  [[nodiscard]] double unit() const; // [m]
 
 private:
   struct Impl;

@@ -79,8 +79,8 @@ TEST(Smooth, LeavesLightAloneThatHasNoNoiseOrNoSurface) {
 
 // A trough of liquid with a ball in it, on a ground.
 struct Still {
-  formats::Frame frame = test::trough(12, 0.03);
-  Box box = test::box_of(frame);
+  formats::Frame frame;
+  Box box;
   World world;
   Lighting lighting;
   PathTracer tracer;
@@ -92,8 +92,10 @@ struct Still {
     scene.solids[0].shape = scene::Sphere{0.3};
     return make_solids(scene)[0];
   }
-  explicit Still(std::size_t material, const Lighting& light)
-      : world(make_surface(middle_of(frame), 1e-4), {ball()}, {Eigen::Isometry3d::Identity()},
+  explicit Still(std::size_t material, const Lighting& light) : Still(test::trough(12, 0.03), material, light) {}
+  Still(formats::Frame sheet, std::size_t material, const Lighting& light)
+      : frame(std::move(sheet)), box(test::box_of(frame)),
+        world(make_surface(middle_of(frame), 1e-4), {ball()}, {Eigen::Isometry3d::Identity()},
               {{ground_id, {0, -0.52, 0}, Vector3::UnitY()}}, box),
         lighting(light), tracer(world, lighting, preset(material), {{Colour::Constant(0.6F)}}),
         camera(test::frame_box(box, {}, Vector3::UnitY(), 1, 0.05)) {}
@@ -136,6 +138,40 @@ TEST(Denoised, IsNearerToTheTruthThanSixTimesTheSamples) {
     EXPECT_LT(distance(denoised, truth), distance(rough, truth)) << liquid_names()[material];
     EXPECT_LT(denoised.noise, 0.5F * rough.noise) << liquid_names()[material];
   }
+}
+
+// Disks of clear honey one above the other, each with its two faces, before a ground.
+TEST(Denoised, ClearLayersAreNoCliff) {
+  constexpr int layers = 8;
+  formats::Frame frame;
+  std::vector<Vector3> x;
+  std::vector<Corners> triangles;
+  std::vector<double> volume;
+  for (int layer = 0; layer < layers; ++layer) {
+    const formats::Frame one = test::grid(6, 0.03, [&](double s, double t) {
+      const double a = 0.7 * layer, u = s - 0.5, v = 0.5 - t; // turned against the others
+      return Vector3(std::cos(a) * u - std::sin(a) * v, 0.06 * layer, std::sin(a) * u + std::cos(a) * v);
+    });
+    const auto first = static_cast<std::uint32_t>(x.size());
+    x.insert(x.end(), positions(one).begin(), positions(one).end());
+    for (const Corners& t : sheet::triangles(one))
+      triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    volume.insert(volume.end(), volumes(one).begin(), volumes(one).end());
+  }
+  const Still still(make_frame(x, triangles, volume), 2, studio());
+  const Picture picture = still.denoised(4);
+  EXPECT_LT(static_cast<double>(picture.rays) / static_cast<double>(picture.light.pixels.size()),
+            160); // 216 with 32 rays along all edges and a shadow ray for every glimmer
+}
+
+TEST(Denoised, ALensBlursAsItDoesWithoutSmoothing) {
+  Still still(0, studio());
+  const double distance_to_middle = still.camera.eye().norm();
+  const Picture sharp = still.plain(128);
+  still.camera.set_lens({0.1, 0.7 * distance_to_middle});
+  const Picture truth = still.plain(256), denoised = still.denoised(4);
+  EXPECT_LT(distance(denoised, truth), distance(sharp, truth) / 2);
+  EXPECT_LT(distance(denoised, truth), distance(still.plain(24), truth) / 2);
 }
 
 TEST(Denoised, NeitherTakesNorAddsLight) {

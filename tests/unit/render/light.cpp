@@ -93,6 +93,27 @@ TEST(Lighting, DensityIsOneOverTheSphereAndSamplesFollowIt) {
   }
 }
 
+TEST(Lighting, ASmallSunLightsEvenly) {
+  Image image(2048, 1024);
+  std::fill(image.pixels.begin(), image.pixels.end(), Colour::Constant(0.2F));
+  image.at(700, 300) = Colour::Constant(1e6F);
+  const Lighting light = Lighting::surroundings(std::move(image), Vec::UnitZ(), Vec::UnitY());
+  double sum = 0, squares = 0;
+  constexpr std::uint32_t n = 4096;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    Sampler sampler(0, i);
+    const float choice = sampler.number();
+    const Lighting::Sample s = light.sample(choice, sampler.point());
+    const double share = static_cast<double>(luminance(s.light.radiance) / s.light.density);
+    sum += share / n;
+    squares += share * share / n;
+  }
+  const double sun = 1e6 * 2 * pi * pi / (2048 * 1024) * std::sin(pi * 300.5 / 1024); // by solid angle
+  EXPECT_NEAR(sum / (sun + 0.2 * 4 * pi), 1, 0.02);
+  EXPECT_LT(std::sqrt(squares - sum * sum) / sum, 1); // of one sample; 3.8 from cells of 4 x 4 pixels
+  EXPECT_NEAR(static_cast<double>(light.mean()) * 4 * pi / sum, 1, 0.03);
+}
+
 TEST(Lighting, AnImageStandsUpright) {
   Image image(64, 32);
   for (int y = 0; y < 32; ++y)

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "libsheet/base/parallel.h"
@@ -19,6 +21,7 @@ struct Furnace {
   formats::Frame frame;
   std::vector<SolidMesh> solids;
   double thinnest = 1e-4;
+  std::optional<float> coat = {}; // roughness of the solids' coat
 };
 
 Picture draw_furnace(const Furnace& f, const Liquid& liquid, int pixels, int samples, double elevation = 25) {
@@ -31,6 +34,7 @@ Picture draw_furnace(const Furnace& f, const Liquid& liquid, int pixels, int sam
   const Lighting lighting = Lighting::uniform(1);
   Surroundings around;
   around.solids.assign(4, Colour::Ones());
+  around.solid_gloss = f.coat;
   const PathTracer tracer(world, lighting, liquid, around);
   CameraOptions options;
   options.elevation = elevation;
@@ -86,6 +90,17 @@ TEST(WhiteFurnace, AlsoOnAMatteSolidAndAsAFilm) {
     for (const double radius : {0.489, 0.5})
       expect_uniform(draw_furnace({test::ball(64, 0.02), {matte_ball(radius)}}, liquid, 24, 1024), "coated ball");
     expect_uniform(draw_furnace({test::trough(12, 1e-6), {}}, liquid, 24, 256), "film");
+  }
+}
+
+TEST(WhiteFurnace, AlsoRoughAndWithACoat) {
+  Liquid liquid = preset(3);
+  liquid.absorption.setZero();
+  for (const float roughness : {0.15F, 0.5F, 1.0F}) {
+    liquid.roughness = roughness;
+    expect_uniform(draw_furnace({test::ball(32, 0.02), {}}, liquid, 24, 256), "rough ball");
+    expect_uniform(draw_furnace({test::trough(12, 0.02), {}}, liquid, 24, 256), "rough trough");
+    expect_uniform(draw_furnace({test::trough(12, 0.02), {matte_ball(0.3)}, 1e-4, roughness}, liquid, 24, 512), "coat");
   }
 }
 

@@ -32,25 +32,63 @@ TEST(Display, ToneCurve) {
   EXPECT_NEAR((shoulder(0.6F + 1e-3F) - shoulder(0.6F)) / 1e-3F, 1, 1e-2);
   EXPECT_LT(shoulder(1), shoulder(3));
   EXPECT_LE(shoulder(1e6F), 1);
+  for (const float x : {0.0F, 0.01F, 0.18F, 0.6F, 1.0F, 5.0F, 1e5F, 1e20F}) {
+    EXPECT_LE(filmic(x), filmic(1.1F * x + 1e-3F));
+    EXPECT_LE(filmic(x), 1);
+  }
+  EXPECT_EQ(filmic(0), 0);
+  EXPECT_NEAR(filmic(0.18F), 0.267F, 1e-3F); // by hand
+  Image image(1, 1);
+  image.at(0, 0) = Colour::Constant(0.18F);
+  const auto shown = [&](Tone tone) { return to_bitmap(image, tone).bytes[0]; };
+  EXPECT_EQ(shown(Tone::linear), 118);
+  EXPECT_EQ(shown(Tone::shoulder), 118);
+  EXPECT_EQ(shown(Tone::filmic), 141);
 }
 
 TEST(Png, GoesRound) {
   const Image image = ramp(37, 20);
-  const Bitmap bitmap = to_bitmap(image, Tone::plain);
+  const Bitmap bitmap = to_bitmap(image, Tone::linear);
   const Image again = decode_png(encode_png(bitmap), "ramp");
   ASSERT_EQ(again.width, 37);
-  const Bitmap same = to_bitmap(again, Tone::plain);
+  const Bitmap same = to_bitmap(again, Tone::linear);
   EXPECT_EQ(same.bytes, bitmap.bytes);
+}
+
+// A pixel of Radiance's format: three mantissas and their exponent.
+std::string rgbe(int r, int g, int b, int e) {
+  return {static_cast<char>(r), static_cast<char>(g), static_cast<char>(b), static_cast<char>(e)};
+}
+
+TEST(Hdr, FlatAndRunLengthsAreTheSameLight) {
+  const std::string head = "#?RADIANCE\n# made by hand\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n";
+  std::string flat = head, runs = head + rgbe(2, 2, 0, 8);
+  for (int x = 0; x < 8; ++x)
+    flat += rgbe(128, x < 4 ? 64 : 32, 0, 130);
+  runs += std::string("\x88\x80", 2);                     // 8 times 128
+  runs += std::string("\x84\x40\x04\x20\x20\x20\x20", 7); // 4 times 64, then four as they are
+  runs += std::string("\x88\x00", 2) + std::string("\x88\x82", 2);
+  for (const std::string& file : {flat, runs}) {
+    const Image image = decode_hdr(file, "sky.hdr");
+    ASSERT_EQ(image.width, 8);
+    ASSERT_EQ(image.height, 1);
+    EXPECT_TRUE((image.at(0, 0) == Colour(2, 1, 0)).all());
+    EXPECT_TRUE((image.at(7, 0) == Colour(2, 0.5F, 0)).all());
+  }
+  for (std::size_t length = 0; length < runs.size(); ++length)
+    EXPECT_THROW((void)decode_hdr(runs.substr(0, length), "sky.hdr"), Error) << length;
+  EXPECT_THROW((void)decode_hdr(head + rgbe(2, 2, 0, 8) + std::string("\x89\x80", 2), "sky.hdr"), Error);
 }
 
 TEST(Exr, GoesRoundWithLayers) {
   Picture picture;
   picture.light = ramp(19, 30);
   const std::size_t n = picture.light.pixels.size();
-  picture.layers = {std::vector<float>(n, 2), std::vector<Vec>(n, Vec::UnitY()), std::vector<float>(n, 0.003F),
-                    std::vector<std::uint32_t>(n, sheet_id)};
+  picture.layers = {std::vector<float>(n, 2),          std::vector<Vec>(n, Vec::UnitY()),
+                    std::vector<float>(n, 0.003F),     std::vector<std::uint32_t>(n, sheet_id),
+                    std::vector<Vec>(n, Vec::UnitX()), std::vector<Colour>(n, Colour::Constant(0.5F))};
   const std::string bytes = encode_exr(picture);
-  for (const char* channel : {"Z", "normal.X", "normal.Y", "normal.Z", "thickness", "id"})
+  for (const char* channel : {"Z", "normal.X", "normal.Y", "normal.Z", "thickness", "id", "velocity.X", "albedo.B"})
     EXPECT_NE(bytes.find(std::string(channel) + '\0'), std::string::npos) << channel;
   const Image again = decode_exr(bytes, "ramp");
   ASSERT_EQ(again.pixels.size(), n);
@@ -61,7 +99,7 @@ TEST(Exr, GoesRoundWithLayers) {
 TEST(Decoders, RefuseWhatIsNoPicture) {
   Picture picture;
   picture.light = ramp(8, 8);
-  const std::string png = encode_png(to_bitmap(picture.light, Tone::plain)), exr = encode_exr(picture);
+  const std::string png = encode_png(to_bitmap(picture.light, Tone::linear)), exr = encode_exr(picture);
   for (std::size_t length = 0; length + 32 < png.size();
        length += 7) // without its end mark alone it is still a picture
     EXPECT_THROW(static_cast<void>(decode_png(png.substr(0, length), "cut.png")), Error) << length;

@@ -262,6 +262,35 @@ TEST(Walls, ACornerHoldsALine) {
   EXPECT_GT(furthest, 0.98);
 }
 
+// A wall lets go of what touches another one and would have to be pulled: what comes to rest in a corner flows on when
+// its weight points elsewhere. Pressed into the corner, or where forces are not known, it keeps to the line.
+TEST(Walls, ACornerLetsGoWhereItWouldPull) {
+  for (const double force : {-1.0, 1.0}) {
+    State s = resting(0.1);
+    Model m = heavy_layer();
+    m.inertia = false;
+    m.gravity.x() = -20; // away from the side
+    m.walls.push_back(floor_of(s));
+    m.walls[0].forces.assign(s.positions.size(), Vector3(-force, 0, 1));
+    Wall side;
+    side.vertices = {0};
+    side.nearest = [](double, const Vector3& x) { return WallPoint{1.05 - x.x(), -Vector3::UnitX()}; };
+    std::erase(m.walls[0].vertices, 0U);
+    m.walls[0].forces.pop_back();
+    m.walls.push_back(side);
+    Stepper stepper(m, {});
+    (void)stepper.step(s, 0.01);
+    double furthest = 0;
+    for (const Vector3& x : s.positions)
+      furthest = std::max(furthest, x.x());
+    if (force < 0) {
+      EXPECT_LT(furthest, 1 - 1e-5);
+    } else {
+      EXPECT_NEAR(furthest, 1, 1e-12);
+    }
+  }
+}
+
 // A fixed step in which liquid would pass edges is taken in parts.
 TEST(Walls, StepsPassHalfAnEdgeAtMost) {
   State s = resting(0.1);
