@@ -157,6 +157,10 @@ END
   interrupted KILL cools lava 0.08 6
 }
 
+@test "chocolate-shell: interrupted and resumed = straight" {
+  interrupted INT sets chocolate-shell 0.008 0.3
+}
+
 @test "bottle: interrupted and resumed = straight" {
   interrupted INT bottle bottle 0.006 0.08 0.03
 }
