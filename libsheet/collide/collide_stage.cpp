@@ -168,6 +168,7 @@ struct CollideStage::Impl {
     StepPath path;
     path.start_time = number(frame, "start_time", nan);
     path.end_time = frame.time;
+    path.gravity = scene->environment.gravity.value_or(Vector3::Zero());
     if (start == nullptr || !(path.start_time < path.end_time))
       fail(ExitCode::bad_input,
            "the frame does not say where and when its step started (start_position, start_time before {} s): "

@@ -26,6 +26,9 @@ constexpr int rounds = 10;
 constexpr double least_mass_part = 1 / (4 * longest_lever * longest_lever);
 // Gaps between two solids that are narrow, over the thickness of the sheet there.
 constexpr double narrow = 0.5;
+// Corners between two solids, as cosines between their normals, and how much less of the weight the second one may
+// carry than the first: in a groove both carry half.
+constexpr double flattest_corner = 0.9, same_load = 0.9;
 // What two hits may differ by that come together: of the step, and of the thickness.
 constexpr double same = 1e-7;
 
@@ -153,20 +156,45 @@ private:
           continue;
         if (rides_[v] != no_solid && is_off(v))
           rides_[v] = path_.touch[v] = no_solid;
-        if (rides_[v] != no_solid) {
+        if (const auto floor = floor_below(v))
+          come_to_touch(v, *floor);
+        else if (rides_[v] != no_solid) {
           const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
           const Vector3 own = view.own(view.pieces(), path_.end[v]);
           hold(v, own, kept_distance(v, own));
         } else if (const auto hit = first_hit(path_, views_, v, depth[v])) {
-          rides_[v] = static_cast<std::int32_t>(hit->solid);
-          caught_[v] = 1;
-          hold(v, slides(v) ? slid(v, *hit) : carried_on(*hit), caught_distance(v, *hit));
+          come_to_touch(v, *hit);
         }
       }
     });
     bring_out(depth);
     for (const std::uint8_t c : caught_)
       report_.caught += c;
+  }
+
+  void come_to_touch(std::uint32_t v, const VertexHit& hit) {
+    rides_[v] = static_cast<std::int32_t>(hit.solid);
+    caught_[v] = 1;
+    hold(v, slides(v) ? slid(v, hit) : carried_on(hit), caught_distance(v, hit));
+  }
+
+  // Where what flows down one solid meets another one that carries at least as much of its weight, at an angle: from
+  // then on it lies on that, and is free to flow on, away from the first one. Held by that still, it would be crushed
+  // in the corner by all that follows.
+  [[nodiscard]] std::optional<VertexHit> floor_below(std::uint32_t v) const {
+    if (views_.size() < 2 || !slides(v) || between_[v] != 0)
+      return std::nullopt;
+    double deepest = 0;
+    const auto hit = first_hit(path_, views_, v, deepest, rides_[v]);
+    if (!hit)
+      return std::nullopt;
+    const auto normal_of = [&](std::size_t solid) {
+      return solids_.at(solid, path_.start[v], path_.start_time).normal;
+    };
+    const Vector3 wall = normal_of(static_cast<std::size_t>(rides_[v])), floor = normal_of(hit->solid);
+    const double angle = wall.dot(floor), load = -path_.gravity.dot(floor);
+    const bool corner = angle < flattest_corner && angle > -least_facing;
+    return corner && load > 0 && load >= -path_.gravity.dot(wall) * same_load ? hit : std::nullopt;
   }
 
   // Whether what touches the vertex' solid flows along it.

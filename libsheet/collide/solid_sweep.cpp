@@ -56,7 +56,7 @@ std::optional<double> first_contact(const solid::SolidDistance& shape, const Vec
 }
 
 std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidView> views, std::uint32_t vertex,
-                                   double& deepest) {
+                                   double& deepest, std::int32_t rides) {
   std::optional<VertexHit> first;
   const double half = path.half_thickness(vertex);
   const Vector3 &start = path.start[vertex], &end = path.end[vertex];
@@ -67,7 +67,7 @@ std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidVi
   box.max().array() += reach;
   for (std::uint32_t i = 0; i < views.size(); ++i) {
     const SolidView& view = views[i];
-    if (!view.swept().intersects(box))
+    if (static_cast<std::int32_t>(i) == rides || !view.swept().intersects(box))
       continue;
     Vector3 a = view.own(0, start);
     const double offset = catching_distance(path, view, vertex, a, reach + way);

@@ -29,10 +29,10 @@ struct VertexHit {
   Vector3 place; // in the solid's frame
 };
 
-// The first solid that the vertex comes to touch (touch_distance.h). `deepest` becomes the least signed distance where
-// it starts, if that is less than what it was.
+// The first solid that the vertex comes to touch (touch_distance.h), of all but `rides`. `deepest` becomes the least
+// signed distance where it starts, if that is less than what it was.
 [[nodiscard]] std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidView> views,
-                                                 std::uint32_t vertex, double& deepest);
+                                                 std::uint32_t vertex, double& deepest, std::int32_t rides = no_solid);
 
 // A triangle that comes too close to a solid.
 struct FoundHit {

@@ -32,6 +32,7 @@ inline constexpr double longest_lever = 4;
 // vertex is changed by the same displacement divided by the step's length.
 struct StepPath {
   double start_time = 0, end_time = 0; // [s], start_time < end_time
+  Vector3 gravity = Vector3::Zero();   // [m/s²]
   std::span<const Corners> triangles;
   std::span<const Vector3> start; // [m], free of intersections unless the report says otherwise
   std::vector<Vector3> end;       // [m]

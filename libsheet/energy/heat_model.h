@@ -22,10 +22,12 @@ struct WarmWall {
 };
 
 struct HeatModel {
-  double capacity = 0;        // ρ c [J/(m³ K)]
-  double conductivity = 0;    // [W/(m K)]
-  heat::Profile profile = {}; // across the thickness
-  std::array<heat::Surroundings, 2> surroundings = {};
+  double capacity = 0;                                 // ρ c [J/(m³ K)]
+  double conductivity = 0;                             // [W/(m K)]
+  heat::Profile profile = {};                          // across the thickness
+  std::array<heat::Surroundings, 2> surroundings = {}; // of each face
+  // Of each face, where they change over time or from place to place, at a triangle's centroid.
+  std::array<std::function<heat::Surroundings(double t, const Vector3& x)>, 2> local_surroundings = {};
   bool viscous = false; // what viscosity dissipates becomes heat
   std::vector<WarmWall> walls = {};
 };

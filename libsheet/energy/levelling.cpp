@@ -102,7 +102,8 @@ double diffusivity(const WallSite& one, const WallSite& other, const Stage& stag
   if (one.slip_length == free_slip || other.slip_length == free_slip)
     return 0;
   const double tension = 0.5 * (stage.surface_tension(sides[0]) + stage.surface_tension(sides[1]));
-  const double shift = 0.5 * (stage.shift_of(sides[0]) + stage.shift_of(sides[1]));
+  const auto shift_of = [&](std::uint32_t t) { return stage.shift_of(t) * wall_shift(stage, t, one); };
+  const double shift = 0.5 * (shift_of(sides[0]) + shift_of(sides[1]));
   const double towards = std::max(0.0, -gravity.dot(one.normal + other.normal) / 2);
   const double stiffness = stage.liquid.density * towards + tension / (apart * apart);
   const double slip = std::min(one.slip_length, other.slip_length);

@@ -5,7 +5,9 @@
 // The unknowns are one vector: three coordinates [m] a vertex, then, if the sheet bends by directors, one angle [rad]
 // an edge.
 #pragma once
+#include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct WallSite {
   std::uint32_t vertex = 0, wall = 0;
   std::uint32_t channel = no_index;  // its number, where another wall faces the own one
   Vector3 normal = Vector3::Zero();  // of the wall
+  std::optional<Vector3> force;      // of solids on it at the end of the step before, if that is known [N]
   Vector3 stuck = Vector3::Zero();   // where it would be had it stuck to the wall from the start of the step on [m]
   Vector3 carried = Vector3::Zero(); // the same, in a second stage extrapolated from the first: not dragged there [m]
   double slip_length = 0;            // [m]
@@ -76,6 +79,9 @@ struct Stage {
   std::vector<std::uint32_t> wall_edges;     // whose directors stand as the wall lets them, ascending
   std::vector<double> wall_turns;            // of these directors, by the predicted end of the stage [rad]
   std::vector<double> wall_bending;          // of each triangle: the part of its bending that walls leave; empty: all
+  // Of each triangle: by what a wall on its upper or its lower face (heat::Face) is dragged less, or more, than by that
+  // mean viscosity, as liquid flows where it is warm (stage_setup.h); empty: 1.
+  std::vector<std::array<double, 2>> wall_shifts;
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
   [[nodiscard]] double stiffening(std::size_t triangle) const { return stiffened.empty() ? 1 : stiffened[triangle]; }

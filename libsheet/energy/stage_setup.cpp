@@ -89,12 +89,19 @@ void set_temperatures(std::vector<double> temperatures, std::span<const double> 
   }
   const heat::ThicknessRule rule(profile);
   stage.crusts.resize(count);
+  stage.wall_shifts.resize(count);
   each_in_parallel(count, [&](std::size_t t) {
     const double mean = stage.temperatures[t], least = 0.1 * mean; // whatever the modes, it is above 0
     const auto factor = [&](double temperature) { return shift.factor(std::max(least, temperature)); };
     const auto [zeroth, first, second] = rule.moments(mean, modes.subspan(beyond * t, beyond), factor);
     stage.shift[t] = zeroth;
     stage.crusts[t] = 12 * (second - first * first / zeroth) / zeroth;
+    const auto fluid =
+        rule.moments(mean, modes.subspan(beyond * t, beyond), [&](double there) { return 1 / factor(there); });
+    for (const heat::Face face : {heat::upper, heat::lower}) {
+      const double side = face == heat::upper ? 1 : -1, third = fluid.second + side * fluid.first + fluid.zeroth / 4;
+      stage.wall_shifts[t][face] = 1 / (3 * third * zeroth);
+    }
   });
 }
 

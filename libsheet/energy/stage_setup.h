@@ -20,7 +20,9 @@ namespace sheet {
 
 // How warm the triangles are taken to be at the stage's end, with the shift of their flow curves: the mean of a_T
 // across the thickness, by which they stretch. Crusts: the bending stiffness about the layer that is not strained, over
-// that of the mean. `modes`: of the profile beyond the mean, or none.
+// that of the mean. Wall shifts: a layer that flows along a wall by a force along it is sheared by it most at the wall,
+// as s, the part of the layer beyond, and moves with the mean velocity τ_w (h/μ_r) ∫ s²/a_T dζ; so it is dragged as by
+// a_T = 1/(3 ∫ s²/a_T dζ). `modes`: of the profile beyond the mean, or none.
 void set_temperatures(std::vector<double> temperatures, std::span<const double> modes, const heat::Profile& profile,
                       Stage& stage);
 

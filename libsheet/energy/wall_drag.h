@@ -9,6 +9,8 @@
 // another wall faces it across the gap g, 1/(ĥ + 3 b) becomes (1 - f)/(g + 3 b) + f/D, f the part filled, and x̄ the
 // mean with these weights of where the one wall and both carry it (channels.h).
 //
+// μ is that which the layer has for what it carries along: where it is warmer it flows more easily (stage_setup.h).
+//
 // A liquid that is not Newtonian has the potential Ψ of its own flow curve (wall_flow.h, curved_drag.h):
 //   W = (cos²φ Â/3 + sin²φ F) τ Ψ(u),   u² = |P (x - x̄)|²/τ² + (ε ĥ/3)²,
 // ε its rest rate, or one below which it is Newtonian.
@@ -48,9 +50,10 @@ public:
           const double depth = between > 0 ? between : thickness + 3 * site->slip_length;
           const double lies = lying(stage, i, *site), foot = thickness / 2 * length_on_wall(stage, corners, c);
           const double trebled = lies * area + (1 - lies) * 3 * foot;
-          corners_[i][c].stiffness = trebled * stage.viscosity[i] / (stage.duration * depth);
+          const double shift = wall_shift(stage, i, *site);
+          corners_[i][c].stiffness = trebled * shift * stage.viscosity[i] / (stage.duration * depth);
           corners_[i][c].area = trebled / 3;
-          corners_[i][c].time = stage.reduced_time(i);
+          corners_[i][c].time = stage.reduced_time(i) / shift;
           corners_[i][c].depth = between > 0 ? between : thickness;
           corners_[i][c].slip_length = between > 0 ? 0 : site->slip_length;
           corners_[i][c].site = stage.site_of[corners[c]];

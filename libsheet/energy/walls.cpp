@@ -8,6 +8,7 @@
 #include "libsheet/energy/channels.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/heat/surroundings.h"
 
 namespace sheet {
 
@@ -45,6 +46,15 @@ void add_plane_of(WallSite& site, const WallPoint& point, const Vector3& x, doub
   add_plane(site, point.normal, point.normal.dot(x) + distance - point.distance);
 }
 
+// Whether another wall holds a vertex that shall keep this distance from it: where it would come nearer, and where it
+// rests as long as the wall pushes. In a corner a wall that had to pull lets go, so that what has come down one wall
+// flows on along the other one.
+bool holds(const WallSite& site, const WallPoint& other, double kept) {
+  if (other.distance >= in_reach * kept)
+    return false;
+  return !site.force || other.distance < kept / in_reach || site.force->dot(other.normal) > 0;
+}
+
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
 // moves it across, but one that faces its own and would come too near.
 void keep_distances(const std::vector<Wall>& walls, const Stage& stage, WallSite& site) {
@@ -58,7 +68,7 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, WallSite
     if (w != site.wall && !walls[w].vertices.empty() && (channel == nullptr || w != channel->facing))
       if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
         const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
-        if (other.distance < in_reach * kept)
+        if (holds(site, other, kept))
           add_plane_of(site, other, x, kept);
       }
 }
@@ -98,6 +108,15 @@ Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint3
     if (held[3 * std::size_t{v} + static_cast<std::size_t>(a)] != 0)
       free[a] = 0;
   return free;
+}
+
+double wall_shift(const Stage& stage, std::size_t triangle, const WallSite& site) {
+  if (stage.wall_shifts.empty())
+    return 1;
+  const auto& x = stage.start->positions;
+  const auto& [a, b, c] = stage.start->mesh->triangles[triangle];
+  const Vector3 upwards = (x[b] - x[a]).cross(x[c] - x[a]);
+  return stage.wall_shifts[triangle][upwards.dot(site.normal) > 0 ? heat::lower : heat::upper];
 }
 
 double lying(const Stage& stage, std::size_t triangle, const WallSite& site) {
@@ -186,10 +205,13 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
     stage.wall_flow = wall_flow_of(stage.liquid);
   stage.site_of.assign(stage.vertices(), no_index);
   for (std::uint32_t w = 0; w < walls.size(); ++w)
-    for (const auto v : walls[w].vertices) {
+    for (std::size_t i = 0; i < walls[w].vertices.size(); ++i) {
+      const std::uint32_t v = walls[w].vertices[i];
       WallSite site;
       site.vertex = v;
       site.wall = w;
+      if (!walls[w].forces.empty())
+        site.force = walls[w].forces[i];
       site.slip_length = walls[w].slip_length;
       site.wetting = walls[w].wetting;
       site.stuck = stuck_to(walls[w], stage, v);

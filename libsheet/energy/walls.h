@@ -31,6 +31,7 @@ struct WallPoint {
 // One solid on which liquid flows.
 struct Wall {
   std::vector<std::uint32_t> vertices; // those that touch it; none: it only faces another wall (channels.h)
+  std::vector<Vector3> forces;         // of solids on each of them at the end of the step before [N]; none: not known
   double slip_length = 0;              // [m], or free_slip
   double wetting = 2;                  // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs
   std::function<WallPoint(double t, const Vector3& x)> nearest;
@@ -78,6 +79,9 @@ void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage,
       one != nullptr && two != nullptr && three != nullptr && one->wall == two->wall && one->wall == three->wall;
   return common ? one->wall : no_index;
 }
+
+// By what the drag of a site's wall on a triangle differs from that of its mean viscosity (Stage::wall_shifts).
+[[nodiscard]] double wall_shift(const Stage& stage, std::size_t triangle, const WallSite& site);
 
 // Between a wall and what lies on it: 60 degrees.
 inline constexpr double least_lying_cosine = 0.5;

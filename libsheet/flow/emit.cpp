@@ -8,6 +8,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
+#include "libsheet/flow/drowned_inlets.h"
 #include "libsheet/flow/entering.h"
 #include "libsheet/flow/heat_account.h"
 #include "libsheet/flow/inlet.h"
@@ -16,6 +17,7 @@
 #include "libsheet/flow/row_perturbation.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/frame_heat.h"
+#include "libsheet/scene/inlet_depth.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/carried_springs.h"
@@ -39,8 +41,8 @@ class Emission {
 public:
   // The inflow's inlet has this number, and these chains.
   Emission(Frame& frame, const Scene& scene, std::size_t number, const std::vector<InletChain>& chains)
-      : frame_(frame), old_(frame), scene_(scene), inflow_(scene.inflows[number]), number_(number), chains_(chains),
-        perturbation_(scene, number, frame) {
+      : frame_(frame), old_(frame), scene_(scene), inflow_(scene.inflows[number]), number_(number),
+        depth_(scene::inlet_depth(frame, scene, number)), chains_(chains), perturbation_(scene, number, frame) {
     const auto x = positions(old_);
     const auto origins = frame.find("inlet_origin")->values<Vector3>();
     const auto bits = masks(frame, "inlet");
@@ -152,11 +154,11 @@ private:
     }
   }
 
-  // What has entered through an edge of the border: the area that it has swept, thickness h.
+  // What has entered through an edge of the border: the area that it has swept, as thick as it enters.
   [[nodiscard]] double entered(const InletChain& chain, std::size_t edge) const {
     const std::uint32_t a = chain.border[edge], b = chain.border[chain.after(edge)];
     const auto now = positions(old_);
-    return inflow_.thickness *
+    return depth_ *
            (TriangleArea(origins_[a], origins_[b], now[b]).area + TriangleArea(origins_[a], now[b], now[a]).area);
   }
 
@@ -214,13 +216,19 @@ private:
     bits_[v] = (bits_[v] & ~(of_inlet(~std::uint64_t{0}, 0) << shift)) | bits << shift;
   }
 
+  // Whether the strip lies on a wall at the border's i-th vertex. The border itself is where the scene has put it,
+  // which may be a little above.
+  [[nodiscard]] bool lies(const InletChain& chain, std::size_t i) const {
+    return on_wall_[chain.border[i]] || on_wall_[lowest(chain)[i]];
+  }
+
   // The last row is the border, that before it the first one behind it.
   void mark(const InletChain& chain, const std::vector<Row>& rows) {
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::size_t i = 0; i < chain.border.size(); ++i) {
         const std::size_t from_border = rows.size() - 1 - r;
         set_bits(rows[r][i], from_border == 0   ? in_inlet | at_inlet_border
-                             : from_border == 1 ? behind_inlet | (on_wall_[chain.border[i]] ? in_inlet : 0)
+                             : from_border == 1 ? behind_inlet | (lies(chain, i) ? in_inlet : 0)
                                                 : 0);
       }
   }
@@ -259,7 +267,7 @@ private:
     if (chain.strip.empty()) {
       for (Made* m : made) {
         m->temperature = scene_.heat ? temperature_of_inflow() : 0;
-        sum += m->volume = inflow_.thickness * area_of(m->corners);
+        sum += m->volume = depth_ * area_of(m->corners);
         m->parents = {{chain.behind[edge], 1, 0}};
       }
       grown_ += sum;
@@ -278,10 +286,9 @@ private:
       area += areas.back();
       moment += areas.back() * ways.back();
     }
-    const double slope = (volume - inflow_.thickness * area) / moment;
+    const double slope = (volume - depth_ * area) / moment;
     for (std::size_t k = 0; k < made.size(); ++k)
-      sum += made[k]->volume =
-          areas[k] * std::max(inflow_.thickness + slope * ways[k], least_thickness * volume / area);
+      sum += made[k]->volume = areas[k] * std::max(depth_ + slope * ways[k], least_thickness * volume / area);
     double others = 0;
     for (Made* m : made) {
       m->volume = m == made.back() ? volume - others : m->volume * (volume / sum);
@@ -378,7 +385,8 @@ private:
     std::copy(bits_.begin(), bits_.end(), frame_.find("inlet")->values<std::uint64_t>().begin());
     std::copy(origins_.begin(), origins_.end(), frame_.find("inlet_origin")->values<Vector3>().begin());
     const auto v = velocities(frame_);
-    std::fill(v.begin() + old_vertices, v.end(), scene::value_at(inflow_.velocity, frame_.time));
+    std::fill(v.begin() + old_vertices, v.end(),
+              scene::value_at(scene::inlet_velocity(old_, scene_, number_), frame_.time));
   }
 
   [[nodiscard]] double& temperature(std::size_t triangle) {
@@ -390,6 +398,7 @@ private:
   const Scene& scene_;
   const scene::Inflow& inflow_;
   std::size_t number_;
+  double depth_; // of what enters [m]
   const std::vector<InletChain>& chains_;
   RowPerturbation perturbation_;
   std::vector<Vector3> x_, origins_;
@@ -458,8 +467,8 @@ Emitted emit(Frame& frame, const Scene& scene) {
     result.rows += at.rows;
   }
   if (ended) {
-    frame.erase("inlet");
-    frame.erase("inlet_origin");
+    for (const char* array : {"inlet", "inlet_origin", "emit.depth"})
+      frame.erase(array);
   }
   return result;
 }
@@ -475,6 +484,12 @@ void EmitStage::emit(Frame& frame) {
   if (scene.inflows.empty())
     return;
   const Emitted emitted = flow::emit(frame, scene);
+  if (scenes_.changed())
+    solids_.reset();
+  if (!solids_ && scene::flows_on_solids(scene))
+    solids_.emplace(scene);
+  if (solids_)
+    drown_inlets(frame, scene, *solids_);
   log::detail("step {}: {} m^3 entered, {} new rows of vertices", frame.step, emitted.volume, emitted.rows);
 }
 

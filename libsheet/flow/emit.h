@@ -8,8 +8,11 @@
 // they come in, whatever the time step, and are as long as the inlet's edges are on average (measured across the
 // border). Until the border has gone half a row for the first time, nothing enters.
 #pragma once
+#include <optional>
+
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/frame_scene.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet::flow {
 
@@ -26,13 +29,15 @@ struct Emitted {
 // that a [[hold]] holds fast.
 Emitted emit(formats::Frame& frame, const Scene& scene);
 
-// The stage: outflow (outflow.h), then inflow. Without [inflow] and [[outflow]] in the scene, frames pass unchanged.
+// The stage: outflow (outflow.h), then inflow, and how deep inlets are under liquid (drowned_inlets.h). Without
+// [inflow] and [[outflow]] in the scene, frames pass unchanged.
 class EmitStage {
 public:
   void emit(formats::Frame& frame);
 
 private:
   FrameScene scenes_;
+  std::optional<solid::Solids> solids_; // if liquid flows on some
 };
 
 } // namespace sheet::flow

@@ -40,17 +40,43 @@ std::vector<bool> beyond(const Frame& frame, const std::vector<scene::Outflow>& 
 
 double area_of(const Corners& c, std::span<const Vector3> x) { return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area; }
 
+// The frame's vertices, those beyond a plane back on it, and which those are.
+struct PulledBack {
+  std::vector<Vector3> positions;
+  std::vector<bool> moved;
+};
+PulledBack pulled_back(const Frame& frame, const std::vector<scene::Outflow>& outflows) {
+  const auto old = positions(frame);
+  PulledBack result{{old.begin(), old.end()}, std::vector<bool>(old.size(), false)};
+  for (const scene::Outflow& o : outflows)
+    for (std::size_t v = 0; v < old.size(); ++v)
+      if (const double d = past(o, result.positions[v]); d > 0) {
+        result.positions[v] -= d * o.normal.normalized();
+        result.moved[v] = true;
+      }
+  return result;
+}
+
+// Adds the triangles at vertices that cannot go back to the plane: of each triangle that would turn over, the vertex
+// that would go farthest.
+void add_overturned(const Frame& frame, const std::vector<scene::Outflow>& outflows, std::vector<bool>& leaves) {
+  const auto old = positions(frame);
+  const std::vector<Vector3> x = pulled_back(frame, outflows).positions;
+  std::vector<bool> leaving(old.size(), false);
+  for (std::size_t t = 0; t < leaves.size(); ++t) {
+    const Corners& c = triangles(frame)[t];
+    const Vector3 before = TriangleArea(old[c[0]], old[c[1]], old[c[2]]).normal;
+    if (!leaves[t] && before.dot(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).normal) < 0)
+      leaving[*std::ranges::max_element(c, {}, [&](std::uint32_t v) { return (x[v] - old[v]).squaredNorm(); })] = true;
+  }
+  for (std::size_t t = 0; t < leaves.size(); ++t)
+    leaves[t] = leaves[t] || std::ranges::any_of(triangles(frame)[t], [&](std::uint32_t v) { return leaving[v]; });
+}
+
 // Vertices that are still beyond a plane go back to it; triangles lose volume with their area.
 Dropped pull_back(Frame& frame, const Scene& scene) {
   const auto old = positions(static_cast<const Frame&>(frame));
-  std::vector<Vector3> x(old.begin(), old.end());
-  std::vector<bool> moved(x.size(), false);
-  for (const scene::Outflow& o : scene.outflows)
-    for (std::size_t v = 0; v < x.size(); ++v)
-      if (const double d = past(o, x[v]); d > 0) {
-        x[v] -= d * o.normal.normalized();
-        moved[v] = true;
-      }
+  const auto [x, moved] = pulled_back(frame, scene.outflows);
   Frame gone = frame; // with the volumes that leave
   std::vector<bool> loses(frame.triangles, false);
   for (std::size_t t = 0; t < frame.triangles; ++t) {
@@ -76,7 +102,9 @@ Dropped let_out(Frame& frame, const Scene& scene) {
     return {};
   // Where the sheet must not pass through itself nothing is moved: layers that lie on each other would.
   const bool straight = !(scene.contact && scene.contact->self);
-  const std::vector<bool> leaves = beyond(frame, scene.outflows, straight ? close : 0);
+  std::vector<bool> leaves = beyond(frame, scene.outflows, straight ? close : 0);
+  if (straight)
+    add_overturned(frame, scene.outflows, leaves);
   Dropped out = sum_of(frame, leaves, scene.material.density);
   if (out.triangles == frame.triangles)
     fail(ExitCode::bad_input,

@@ -79,8 +79,8 @@ template <int Count> typename LocalHeat<Count>::Modes LocalHeat<Count>::before(s
 
 template <int Count> typename LocalHeat<Count>::State LocalHeat<Count>::start(std::size_t t) const {
   State state{before(t), {}};
-  for (const Surroundings& around : problem_.surroundings)
-    if (around.emissivity > 0)
+  for (const Face face : {upper, lower})
+    if (const Surroundings& around = problem_.around(t, face); around.emissivity > 0)
       state.modes[0] = std::max(state.modes[0], least_start * around.radiant);
   return state;
 }
@@ -105,9 +105,9 @@ typename LocalHeat<Count>::Step LocalHeat<Count>::step(std::size_t t, State& sta
   std::array<double, 2> leaving{};
   for (const Face face : {upper, lower}) {
     const double seen = seen_area(t, face), there = face_temperature(state, face);
-    leaving[face] = seen * problem_.surroundings[face].flux(there);
+    leaving[face] = seen * problem_.around(t, face).flux(there);
     if (new_slopes)
-      state.slopes[face] = seen * problem_.surroundings[face].slope(there);
+      state.slopes[face] = seen * problem_.around(t, face).slope(there);
   }
   std::array<double, 2> slope = state.slopes;
   for (const WallContact& contact : contacts(t)) {
@@ -129,7 +129,7 @@ template <int Count>
 double LocalHeat<Count>::advance(std::size_t t, const Step& step, double to_edges, State& state) const {
   const Modes change = step.alone - to_edges * step.answer - state.modes;
   for (const Face face : {upper, lower}) {
-    const double leaving = seen_area(t, face) * problem_.surroundings[face].flux(face_temperature(state, face));
+    const double leaving = seen_area(t, face) * problem_.around(t, face).flux(face_temperature(state, face));
     state.surroundings[face] = leaving + state.slopes[face] * at_face_[face].dot(change);
   }
   state.modes += change;

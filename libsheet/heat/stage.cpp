@@ -2,6 +2,7 @@
 #include "libsheet/heat/stage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -30,7 +31,9 @@ void check(const Problem& problem, std::size_t triangles) {
   const bool right = has(problem.squared_lengths.size(), 1, false) && has(problem.volumes.size(), 1, false) &&
                      has(problem.temperatures.size(), 1, false) && has(problem.modes.size(), beyond, true) &&
                      has(problem.sources.size(), 1, true) && has(problem.exposed[upper].size(), 1, true) &&
-                     has(problem.exposed[lower].size(), 1, true);
+                     has(problem.exposed[lower].size(), 1, true) &&
+                     has(problem.local_surroundings[upper].size(), 1, true) &&
+                     has(problem.local_surroundings[lower].size(), 1, true);
   if (!right)
     throw std::logic_error("heat: an array has the wrong size");
   std::uint32_t last = 0;
@@ -42,7 +45,13 @@ void check(const Problem& problem, std::size_t triangles) {
 }
 
 bool radiates(const Problem& problem) {
-  return std::ranges::any_of(problem.surroundings, [](const Surroundings& s) { return s.emissivity > 0; });
+  const auto any = [](std::span<const Surroundings> list) {
+    return std::ranges::any_of(list, [](const Surroundings& s) { return s.emissivity > 0; });
+  };
+  return std::ranges::any_of(std::array{upper, lower}, [&](Face face) {
+    const std::span<const Surroundings> local = problem.local_surroundings[face];
+    return any(local.empty() ? std::span(&problem.surroundings[face], 1) : local);
+  });
 }
 
 } // namespace

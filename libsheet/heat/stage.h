@@ -28,8 +28,6 @@
 
 namespace sheet::heat {
 
-enum Face : int { upper = 0, lower = 1 }; // the positive side (triangles run counter-clockwise seen from it), the other
-
 // A part of a triangle's face that touches a wall.
 struct WallContact {
   std::uint32_t triangle = 0;
@@ -52,9 +50,14 @@ struct Problem {
   std::span<const double> modes = {};            // of T̄ beyond the mean, (modes - 1) a triangle; not if they follow
   std::span<const double> sources = {};          // [W], spread evenly across the thickness; none if empty
   std::array<Surroundings, 2> surroundings = {}; // of each face
+  std::array<std::span<const Surroundings>, 2> local_surroundings = {}; // of each triangle, in their place if not empty
   std::array<std::span<const double>, 2> exposed = {}; // part of each face that they see, 0 to 1; all if empty
   std::span<const WallContact> contacts = {};          // in ascending order of triangles
   std::size_t walls = 0;                               // how many `wall` counts
+
+  [[nodiscard]] const Surroundings& around(std::size_t triangle, Face face) const {
+    return local_surroundings[face].empty() ? surroundings[face] : local_surroundings[face][triangle];
+  }
 };
 
 // Heat that the stage moved [J]: stored = generated - Σ faces - Σ walls, to round-off.

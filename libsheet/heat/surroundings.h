@@ -8,6 +8,8 @@ namespace sheet::heat {
 
 inline constexpr double stefan_boltzmann = 5.670374419e-8; // σ [W/(m² K⁴)], exact since 2019
 
+enum Face : int { upper = 0, lower = 1 }; // the positive side (triangles run counter-clockwise seen from it), the other
+
 struct Surroundings {
   double transfer = 0;   // H [W/(m² K)]
   double ambient = 0;    // T_a, of the air [K]

@@ -336,6 +336,15 @@ self = true?
 #lower = {transfer = 0, emissivity = 0}
 #viscous_heating = true?
 
+# ambient, transfer and radiant may change over time, in rows [time, value], or over a coordinate of the world: an oven.
+#[heat]
+#specific_heat = "1250 J/(kg*K)"
+#temperature = "500 degC"
+#ambient = [["0 s", "500 degC"], ["10 s", "900 degC"]]
+#transfer = {along = "y", rows = [[0, "15 W/(m^2*K)"], ["0.1 m", 60]]}
+#emissivity = 0.9
+#radiant = {along = "x", rows = [["-0.1 m", "500 degC"], [0, "900 degC"], ["0.1 m", "500 degC"]]}
+
 # Solids take heat where they have a temperature, which stays as they say; rows are [time, temperature]. What enters may have
 # its own, and each sheet.
 #[heat]
@@ -394,7 +403,8 @@ self = true?
 #wlf_c1 = 17.44?
 #wlf_c2 = "51.6 K"?
 
-# or as measured. Surface tension may change with temperature, too.
+# or as measured; or temperature_file = "glass.csv", beside the scene: columns temperature [degC], viscosity [Pa*s]. Surface
+# tension may change with temperature, too.
 #[heat]
 #specific_heat = "2400 J/(kg*K)"
 #temperature = "60 degC"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,39 +23,38 @@ double start_temperature(const Scene& scene) {
   return uniform != nullptr ? *uniform : scene.heat->temperature;
 }
 
-// What leaves a square metre at the temperature, and how that rises with it.
-struct Loss {
-  double flux = 0, slope = 0; // [W/m²], [W/(m² K)]
-};
-Loss loss_of(const HeatedFace& face, double t) {
-  return {face.transfer * (t - face.ambient) +
-              face.emissivity * stefan_boltzmann * (std::pow(t, 4) - std::pow(face.radiant, 4)),
-          face.transfer + 4 * face.emissivity * stefan_boltzmann * std::pow(t, 3)};
-}
-Loss loss_of(const Heat& heat, double t) {
-  const Loss up = loss_of(heat.upper, t), down = loss_of(heat.lower, t);
-  return {up.flux + down.flux, up.slope + down.slope};
+// How what leaves a square metre through both faces rises with the temperature [W/(m² K)], at most.
+double loss_slope(const Heat& heat, double t) {
+  const auto of = [t](const HeatedFace& face) {
+    return range_of(face.transfer).second + 4 * face.emissivity * stefan_boltzmann * std::pow(t, 3);
+  };
+  return of(heat.upper) + of(heat.lower);
 }
 
-// The lowest temperature that anything around would bring the sheet to.
-double coldest(const Scene& scene) {
-  double least = start_temperature(scene);
+// The temperatures between which anything around, or its start, may bring the sheet.
+std::pair<double, double> temperatures_around(const Scene& scene) {
+  double least = start_temperature(scene), most = least;
+  const auto include = [&](const Varying& around) {
+    const auto [low, high] = range_of(around);
+    least = std::min(least, low);
+    most = std::max(most, high);
+  };
   for (const HeatedFace* face : {&scene.heat->upper, &scene.heat->lower}) {
-    if (face->transfer > 0)
-      least = std::min(least, face->ambient);
+    if (face->transfers())
+      include(face->ambient);
     if (face->emissivity > 0)
-      least = std::min(least, face->radiant);
+      include(face->radiant);
   }
   for (const Solid& solid : scene.solids)
     if (solid.temperature)
-      for (const auto& entry : solid.temperature->entries)
-        least = std::min(least, entry.value);
-  return least;
+      include(*solid.temperature);
+  return {least, most};
 }
 
 DimensionlessNumber viscosity_range(const Scene& scene) {
   const Liquid& liquid = scene.material;
-  const double start = start_temperature(scene), cold = coldest(scene);
+  const double start = start_temperature(scene);
+  const auto [cold, warm] = temperatures_around(scene);
   const ViscosityShift shift(liquid.temperature_law);
   const double first = liquid.viscosity * shift.factor(start), last = liquid.viscosity * shift.factor(cold);
   std::string meaning = fmt::format("From {} Pa s at {} K to {} Pa s at {} K, the coldest that is around.",
@@ -62,7 +62,10 @@ DimensionlessNumber viscosity_range(const Scene& scene) {
   if (last > hardly_moves)
     meaning +=
         fmt::format(" Below {} K it has {} Pa s and will hardly move.",
-                    brief(shift.temperature_of(hardly_moves / liquid.viscosity, cold, start)), brief(hardly_moves));
+                    brief(shift.temperature_of(hardly_moves / liquid.viscosity, cold, warm)), brief(hardly_moves));
+  if (warm > start)
+    meaning +=
+        fmt::format(" At {} K, the warmest, {} Pa s.", brief(warm), brief(liquid.viscosity * shift.factor(warm)));
   return {"range of viscosity", "mu(coldest) / mu(start)", last / first, meaning};
 }
 
@@ -79,10 +82,10 @@ std::vector<Scale> heat_scales(const Scene& scene, const Scales& scales) {
   if (!scene.heat || !scales.thickness)
     return {};
   const double t = start_temperature(scene), c = scene.material.density * scene.heat->specific_heat;
-  const Loss loss = loss_of(*scene.heat, t);
+  const double slope = loss_slope(*scene.heat, t);
   std::vector<Scale> list;
-  if (loss.slope > 0)
-    list.push_back({"t_h", "time of cooling", c * *scales.thickness / loss.slope, "s",
+  if (slope > 0)
+    list.push_back({"t_h", "time of cooling", c * *scales.thickness / slope, "s",
                     "rho c h / (H + 4 emissivity sigma T^3) of both faces"});
   for (const Solid& solid : scene.solids)
     if (solid.temperature) {
@@ -101,13 +104,14 @@ std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& 
   if (!scene.material.temperature_law.constant())
     list.push_back(viscosity_range(scene));
   if (k > 0 && scales.thickness) {
-    const double biot = loss_of(*scene.heat, t).slope / 2 * *scales.thickness / (2 * k);
+    const double biot = loss_slope(*scene.heat, t) / 2 * *scales.thickness / (2 * k);
     list.push_back({"Biot", "H h / (2 k)", biot,
                     biot < 0.1 ? "It is as warm across its thickness as in the middle."
-                    : biot < 1
-                        ? "Its faces are colder than its middle; a parabola across the thickness takes that up."
-                        : "Its faces cool long before its middle: the mean temperature, by which it flows here, says "
-                          "less than a skin would."});
+                    : biot < 1 ? "Its faces are colder than its middle; a parabola across the thickness takes that up."
+                    : scene.heat->profile
+                        ? "Its faces cool long before its middle, which its modes across the thickness follow."
+                        : "Its faces cool long before its middle, which a parabola does not follow: profile = 3 in "
+                          "[heat] gives it modes across the thickness."});
   }
   if (k > 0 && scales.length && scales.speed > 0) {
     const double peclet = scene.material.density * scene.heat->specific_heat * scales.speed * *scales.length / k;
@@ -129,7 +133,7 @@ std::string heat_in_words(const Scene& scene) {
   const Heat& heat = *scene.heat;
   std::string text = fmt::format("from {} K", brief(start_temperature(scene)));
   const auto face = [](const HeatedFace& f) {
-    return f.transfer > 0 && f.emissivity > 0 ? "by air and radiation" : f.transfer > 0 ? "by air" : "by radiation";
+    return f.transfers() && f.emissivity > 0 ? "by air and radiation" : f.transfers() ? "by air" : "by radiation";
   };
   if (heat.upper.exchanges() && heat.upper == heat.lower)
     text += fmt::format(", both faces cool {}", face(heat.upper));

@@ -29,8 +29,9 @@ constexpr Key word_key(std::string_view name, std::span<const std::string_view> 
                        const KeyTable* below = nullptr) {
   return {name, Form::word, help, nullptr, "", words, below};
 }
-constexpr Key file_key(std::span<const std::string_view> endings, std::string_view help) {
-  return {"file", Form::file, help, nullptr, "", endings};
+constexpr Key file_key(std::span<const std::string_view> endings, std::string_view help,
+                       std::string_view name = "file") {
+  return {name, Form::file, help, nullptr, "", endings};
 }
 constexpr Key text_key(std::string_view name, std::string_view help) { return {name, Form::text, help}; }
 constexpr Key texts_key(std::string_view name, std::string_view help) {
@@ -152,6 +153,7 @@ constexpr std::array material_keys{
     number_key("wlf_c2", quantity::temperature, "C2 of the same, in K"),
     list_key("temperatures", quantity::temperature, "[]", "of a table, ascending, in place of viscosity"),
     list_key("temperature_viscosities", quantity::viscosity, "[]", "of the same, at its temperatures"),
+    file_key(row_files, "of the same, in place of the two: columns temperature and viscosity", "temperature_file"),
     number_key("surface_tension_slope", quantity::tension_slope, "by how much it changes with temperature")};
 constexpr KeyTable material_table{"material", material_keys};
 
@@ -269,11 +271,23 @@ constexpr std::array contact_keys{
     number_key("distance", quantity::length, "between the middles of touching layers (default: their mean thickness)")};
 constexpr KeyTable contact_table{"contact", contact_keys};
 
+constexpr Key along_key = word_key("along", words::axes, "coordinate of the world over which it changes");
+constexpr std::array temperatures_along{along_key, list_key("rows", quantity::temperature, "[][2]",
+                                                            "of that coordinate, increasing, and temperature there")};
+constexpr std::array transfers_along{along_key, list_key("rows", quantity::heat_transfer, "[][2]",
+                                                         "of that coordinate, increasing, and its value there")};
+constexpr KeyTable ambient_table{"ambient", temperatures_along}, radiant_table{"radiant", temperatures_along},
+    transfer_table{"transfer", transfers_along};
+// Constant, over time, or over a place.
+constexpr Key varying_key(const Quantity& quantity, const KeyTable& along, std::string_view help) {
+  return {along.name, Form::timed, help, &quantity, "", {}, &along};
+}
 constexpr std::array face_keys{
-    number_key("ambient", quantity::temperature, "of the air, or what else is there"),
-    number_key("transfer", quantity::heat_transfer, "heat lost a second and kelvin above it (default 0)"),
+    varying_key(quantity::temperature, ambient_table,
+                "of the air, or what else is there; rows are [time, temperature]"),
+    varying_key(quantity::heat_transfer, transfer_table, "heat lost a second and kelvin above it (default 0)"),
     number_key("emissivity", quantity::number, "part of a black body's radiation, 0 to 1 (default 0)"),
-    number_key("radiant", quantity::temperature, "of what the face sees (default: ambient)")};
+    varying_key(quantity::temperature, radiant_table, "of what the face sees (default: ambient)")};
 constexpr KeyTable upper_table{"upper", face_keys}, lower_table{"lower", face_keys};
 
 constexpr std::array heat_keys{

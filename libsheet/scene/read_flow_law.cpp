@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/read_flow_law.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "libsheet/base/error.h"
 #include "libsheet/material/flow_curve.h"
-#include "libsheet/scene/row_file.h"
+#include "libsheet/scene/read_curve.h"
 #include "libsheet/scene/words.h"
 
 namespace sheet::scene {
 namespace {
 
-constexpr int looked_at_between = 8;  // places between two rows of a table
-constexpr std::size_t least_rows = 4; // of it
+constexpr int looked_at_between = 8; // places between two rows of a table
 
 // The first rate from which on the stress falls, if there is one: no steady flow is stable there.
 std::optional<double> falls_from(const Liquid& liquid) {
@@ -35,66 +31,22 @@ std::optional<double> falls_from(const Liquid& liquid) {
   return {};
 }
 
-constexpr std::size_t most_rows = 1000; // of a table
-const std::array<RowColumn, 2> curve_columns{{{"rate", quantity::strain_rate}, {"viscosity", quantity::viscosity}}};
-
-// Rows of rate and viscosity from a CSV file; none if they are wrong, which is reported.
-void read_curve_file(TableReader& table, const Files& files, FlowLaw& law) {
-  table.has_no_meaning({"rates", "viscosities"}, "the rows are those of the file");
-  const std::string path = read_file(table, files);
-  if (!files.must_exist) {
-    table.wrong("file", "rows by file need a scene that is a file; here they stand in the scene: rates, viscosities");
-    return;
-  }
-  if (!std::filesystem::is_regular_file(path)) // reported
-    return;
-  try {
-    const RowFile file = read_row_file(path, curve_columns, "rate [1/s], viscosity [Pa*s]", most_rows,
-                                       "every frame of a run carries them, and a spline goes through them");
-    file.require(0);
-    file.require(1);
-    for (std::size_t i = 0; i < file.rows.size(); ++i) {
-      if (!(file.rows[i][0] > 0) || !(file.rows[i][1] > 0))
-        file.wrong(file.lines[i], "a rate and a viscosity are positive");
-      if (i > 0 && !(file.rows[i][0] > file.rows[i - 1][0]))
-        file.wrong(file.lines[i], "rates must increase from each row to the next");
-    }
-    if (file.rows.size() < least_rows)
-      file.wrong(file.header_line, "a table takes four rows or more");
-    for (const std::vector<double>& row : file.rows) {
-      law.rates.push_back(row[0]);
-      law.viscosities.push_back(row[1]);
-    }
-  } catch (const Error& error) {
-    table.wrong("file", error.what());
-  }
-}
-
-void read_curve_lists(TableReader& table, FlowLaw& law) {
-  law.rates = table.list_or_missing("rates", Bound::positive, "[0.1, 1, 10, 100], or file = \"curve.csv\"");
-  law.viscosities = table.list_or_missing("viscosities", Bound::positive, "[\"20 Pa*s\", 8, 3, 1.5]");
-  if (law.rates.empty() || law.viscosities.empty())
-    return; // reported
-  if (law.rates.size() < least_rows)
-    table.wrong("rates", "a table takes four rows or more");
-  else if (law.viscosities.size() != law.rates.size())
-    table.wrong("viscosities", fmt::format("{} viscosities, but {} rates", law.viscosities.size(), law.rates.size()));
-  else if (std::ranges::adjacent_find(law.rates, std::greater_equal<>()) != law.rates.end())
-    table.wrong("rates", "they must increase from each row to the next");
-  else
-    return;
-  law.rates.clear();
-}
+constexpr CurveKeys flow_curve_keys{"rates",
+                                    "viscosities",
+                                    "file",
+                                    "[0.1, 1, 10, 100]",
+                                    "[\"20 Pa*s\", 8, 3, 1.5]",
+                                    {{{"rate", quantity::strain_rate}, {"viscosity", quantity::viscosity}}},
+                                    "rate [1/s], viscosity [Pa*s]"};
 
 void read_table(TableReader& table, const Files& files, Liquid& liquid) {
   const bool by_file = !table.absent("file");
-  if (by_file)
-    read_curve_file(table, files, liquid.law);
-  else
-    read_curve_lists(table, liquid.law);
+  auto curve = read_curve(table, files, flow_curve_keys);
   liquid.viscosity = std::numeric_limits<double>::quiet_NaN();
-  if (liquid.law.rates.empty() || liquid.law.viscosities.empty())
+  if (!curve)
     return; // reported
+  liquid.law.rates = std::move(curve->places);
+  liquid.law.viscosities = std::move(curve->values);
   if (const auto rate = falls_from(liquid))
     table.wrong(
         by_file ? "file" : "viscosities",

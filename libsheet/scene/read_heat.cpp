@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [heat]
+#include <string_view>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "libsheet/scene/tables.h"
@@ -9,17 +12,34 @@ namespace {
 
 constexpr int most_modes = 8; // heat/profile.h
 
+// Constant, rows over time, or rows along an axis of the world; as `otherwise` if it is absent or wrong.
+Varying read_varying(TableReader& table, std::string_view key, const Varying& otherwise, Bound bound) {
+  const Node* value = table.take(key);
+  if (value == nullptr || value->type != Node::Type::table) {
+    auto timed = table.timed_number(key, bound);
+    return timed ? Varying(std::move(*timed)) : otherwise;
+  }
+  auto source = *table.table(key);
+  for (const auto& [needed, example] : {std::pair("along", "\"x\""), std::pair("rows", "[[0, 300], [\"0.1 m\", 900]]")})
+    if (source.absent(needed))
+      source.missing(needed, example);
+  AlongAxis along{static_cast<int>(source.choice("along").value_or(0)), {}};
+  along.rows = read_place_rows(source, "rows", "the value", "[\"0.1 m\", 900]", bound);
+  source.finish();
+  return along.rows.size() < 2 ? otherwise : Varying(std::move(along)); // reported
+}
+
 // Keys that are absent are as in `both`.
 HeatedFace read_face(TableReader& table, const HeatedFace& both, bool has_ambient) {
   HeatedFace face = both;
   const bool told = !table.absent("ambient");
-  face.ambient = table.quantity_or("ambient", both.ambient, Bound::positive);
-  face.transfer = table.quantity_or("transfer", both.transfer, Bound::not_negative);
+  face.ambient = read_varying(table, "ambient", both.ambient, Bound::positive);
+  face.transfer = read_varying(table, "transfer", both.transfer, Bound::not_negative);
   face.emissivity = table.quantity_or("emissivity", both.emissivity, Bound::not_negative);
   if (face.emissivity > 1)
     table.wrong("emissivity", "expected a part from 0 to 1");
-  const auto radiant = table.quantity("radiant", Bound::positive);
-  face.radiant = radiant.value_or(told || !has_ambient ? face.ambient : both.radiant);
+  const Varying seen = told || !has_ambient ? face.ambient : both.radiant;
+  face.radiant = read_varying(table, "radiant", seen, Bound::positive);
   if (face.exchanges() && !told && !has_ambient)
     table.missing("ambient", "\"20 degC\"");
   return face;

@@ -94,11 +94,48 @@ std::optional<Rotation> read_rotation(TableReader& parent) {
   return rotation;
 }
 
-std::string read_file(TableReader& table, const Files& files) {
-  const std::span<const std::string_view> extensions = table.declared("file").words;
-  if (table.absent("file"))
-    table.missing("file", fmt::format("\"bunny{}\"", extensions.front()));
-  const auto name = table.text("file");
+namespace {
+
+constexpr std::size_t most_place_rows = 1000; // every frame of a run carries them
+
+} // namespace
+
+PlaceRows read_place_rows(TableReader& table, std::string_view key, std::string_view what, std::string_view example,
+                          Bound bound) {
+  PlaceRows rows;
+  const Node* list = table.take(key);
+  if (list == nullptr)
+    return rows;
+  if (list->type != Node::Type::list || list->items.size() < 2 || list->items.size() > most_place_rows) {
+    table.wrong(key, fmt::format("expected 2 to {} rows of a place and {} there", most_place_rows, what));
+    return rows;
+  }
+  for (const Node& row : list->items) {
+    if (row.type != Node::Type::list || row.items.size() != 2) {
+      table.problems().add(row.place, fmt::format("{}: {}: expected rows of a place and {} there, such as {}",
+                                                  table.where(), key, what, example));
+      break;
+    }
+    const auto place = table.number(row.items[0], key, quantity::length, Bound::any);
+    const auto value = table.quantity(row.items[1], key, bound);
+    if (!place || !value)
+      break;
+    if (!rows.empty() && !(*place > rows.back()[0])) {
+      table.problems().add(row.place, fmt::format("{}: {}: places must increase from each row to the next, but {} m "
+                                                  "follows {} m",
+                                                  table.where(), key, shortest(*place), shortest(rows.back()[0])));
+      break;
+    }
+    rows.push_back({*place, *value});
+  }
+  return rows;
+}
+
+std::string read_file(TableReader& table, const Files& files, std::string_view key) {
+  const std::span<const std::string_view> extensions = table.declared(key).words;
+  if (table.absent(key))
+    table.missing(key, fmt::format("\"bunny{}\"", extensions.front()));
+  const auto name = table.text(key);
   if (!name)
     return {};
   const std::filesystem::path path = (files.folder / *name).lexically_normal();
@@ -109,14 +146,14 @@ std::string read_file(TableReader& table, const Files& files) {
     std::string list;
     for (const auto known : extensions)
       list += fmt::format("{}{}", list.empty() ? "" : ", ", known);
-    table.wrong("file", fmt::format("\"{}\" is of no known kind; known: {}", *name, list));
+    table.wrong(key, fmt::format("\"{}\" is of no known kind; known: {}", *name, list));
   } else if (files.must_exist) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
-      table.wrong("file", fmt::format("there is no \"{}\"", path.string()));
+      table.wrong(key, fmt::format("there is no \"{}\"", path.string()));
     else if (!std::filesystem::is_regular_file(status))
-      table.wrong("file", fmt::format("\"{}\" is not a file", path.string()));
+      table.wrong(key, fmt::format("\"{}\" is not a file", path.string()));
     else
       claim_file(path.string(), FileRole::input);
   }

@@ -65,7 +65,7 @@ std::optional<Pressure> read_pressure(TableReader& parent, std::string& sheet) {
 
 Liquid read_material(TableReader table, const Files& files) {
   Liquid material;
-  read_temperature_law(table, material);
+  read_temperature_law(table, files, material);
   read_flow_law(table, files, material);
   material.density = table.quantity_or("density", 0, Bound::positive);
   material.surface_tension = table.quantity_or("surface_tension", 0, Bound::not_negative);

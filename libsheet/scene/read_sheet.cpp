@@ -157,21 +157,6 @@ void read_mesh_size(TableReader& table, SheetTable& sheet) {
 
 bool is_flat(const SheetShape& shape) { return shape.index() <= 2; }
 
-constexpr std::size_t most_profile_rows = 1000; // every frame of a run carries them
-
-// One row [place, thickness]; nothing if it is wrong, which is reported.
-std::optional<std::array<double, 2>> read_profile_row(TableReader& source, std::string_view key, const Node& row) {
-  if (row.type != Node::Type::list || row.items.size() != 2) {
-    source.problems().add(row.place, fmt::format("{}: {}: expected rows of a place and the thickness there, such as "
-                                                 "[\"20 mm\", \"1.2 mm\"]",
-                                                 source.where(), key));
-    return {};
-  }
-  const auto place = source.quantity(row.items[0], key, Bound::any);
-  const auto thickness = source.quantity(row.items[1], key, Bound::positive);
-  return place && thickness ? std::optional(std::array{*place, *thickness}) : std::nullopt;
-}
-
 ThicknessProfile read_profile(TableReader& source, const SheetTable& sheet) {
   ThicknessProfile profile{SheetDirection::radial, {}};
   std::string_view key = "radial";
@@ -186,26 +171,7 @@ ThicknessProfile read_profile(TableReader& source, const SheetTable& sheet) {
   } else {
     source.has_no_meaning({"along", "rows"}, "the rows are those of radial");
   }
-  const Node* rows = source.take(key);
-  if (rows == nullptr)
-    return profile;
-  if (rows->type != Node::Type::list || rows->items.size() < 2 || rows->items.size() > most_profile_rows) {
-    source.wrong(key, fmt::format("expected 2 to {} rows of a place and the thickness there", most_profile_rows));
-    return profile;
-  }
-  for (const Node& item : rows->items) {
-    const auto row = read_profile_row(source, key, item);
-    if (!row)
-      break;
-    if (!profile.rows.empty() && !((*row)[0] > profile.rows.back()[0])) {
-      source.problems().add(item.place,
-                            fmt::format("{}: {}: places must increase from each row to the next, but {} m "
-                                        "follows {} m",
-                                        source.where(), key, shortest((*row)[0]), shortest(profile.rows.back()[0])));
-      break;
-    }
-    profile.rows.push_back(*row);
-  }
+  profile.rows = read_place_rows(source, key, "the thickness", "[\"20 mm\", \"1.2 mm\"]", Bound::positive);
   return profile;
 }
 

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/read_temperature_law.h"
 
-#include <algorithm>
 #include <array>
-#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "libsheet/scene/read_curve.h"
 #include "libsheet/scene/words.h"
 
 namespace sheet::scene {
 namespace {
-
-constexpr std::size_t least_temperatures = 4, most_temperatures = 1000; // of a table
 
 constexpr std::array<std::string_view, words::temperature_laws.size()> keys_of_temperature_laws{
     "none of these",
@@ -20,26 +18,25 @@ constexpr std::array<std::string_view, words::temperature_laws.size()> keys_of_t
     "reference_temperature, temperature_coefficient",
     "reference_temperature, vft_a, vft_b, vft_temperature",
     "reference_temperature, wlf_c1, wlf_c2",
-    "reference_temperature, temperatures, temperature_viscosities"};
+    "reference_temperature, temperatures, temperature_viscosities, temperature_file"};
 
-void read_rows(TableReader& table, TemperatureLaw& law) {
-  law.temperatures = table.list_or_missing("temperatures", Bound::positive, "[\"700 degC\", \"800 degC\", ...]");
-  law.viscosities = table.list_or_missing("temperature_viscosities", Bound::positive, "[\"4e6 Pa*s\", 2e5, ...]");
-  if (law.temperatures.empty() || law.viscosities.empty())
-    return; // reported
-  if (law.temperatures.size() < least_temperatures || law.temperatures.size() > most_temperatures)
-    table.wrong("temperatures", fmt::format("a table takes {} to {} rows", least_temperatures, most_temperatures));
-  else if (law.viscosities.size() != law.temperatures.size())
-    table.wrong("temperature_viscosities",
-                fmt::format("{} viscosities, but {} temperatures", law.viscosities.size(), law.temperatures.size()));
-  else if (std::ranges::adjacent_find(law.temperatures, std::greater_equal<>()) != law.temperatures.end())
-    table.wrong("temperatures", "they must increase from each row to the next");
-  else
-    return;
-  law.temperatures.clear();
+constexpr CurveKeys temperature_curve_keys{
+    "temperatures",
+    "temperature_viscosities",
+    "temperature_file",
+    "[\"700 degC\", \"800 degC\", ...]",
+    "[\"4e6 Pa*s\", 2e5, ...]",
+    {{{"temperature", quantity::temperature}, {"viscosity", quantity::viscosity}}},
+    "temperature [degC], viscosity [Pa*s]"};
+
+void read_rows(TableReader& table, const Files& files, TemperatureLaw& law) {
+  if (auto curve = read_curve(table, files, temperature_curve_keys)) {
+    law.temperatures = std::move(curve->places);
+    law.viscosities = std::move(curve->values);
+  }
 }
 
-void read_constants(TableReader& table, TemperatureLaw& law) {
+void read_constants(TableReader& table, const Files& files, TemperatureLaw& law) {
   switch (law.kind) {
   case TemperatureLawKind::constant:
     break;
@@ -59,21 +56,21 @@ void read_constants(TableReader& table, TemperatureLaw& law) {
     law.wlf_c2 = table.required("wlf_c2");
     break;
   case TemperatureLawKind::table:
-    read_rows(table, law);
+    read_rows(table, files, law);
     break;
   }
 }
 
 } // namespace
 
-void read_temperature_law(TableReader& table, Liquid& liquid) {
+void read_temperature_law(TableReader& table, const Files& files, Liquid& liquid) {
   TemperatureLaw& law = liquid.temperature_law;
   const std::size_t choice = table.choice("viscosity_law").value_or(0);
   law.kind = static_cast<TemperatureLawKind>(choice);
   liquid.surface_tension_slope = table.quantity_or("surface_tension_slope", 0);
   if (!law.constant() || liquid.surface_tension_slope != 0)
     law.reference_temperature = table.required("reference_temperature");
-  read_constants(table, law);
+  read_constants(table, files, law);
   if (!law.constant() && law.reference_temperature > 0 &&
       (law.kind != TemperatureLawKind::table || !law.temperatures.empty()))
     if (const TemperatureRange range = range_of(law); !range.holds(law.reference_temperature))
@@ -81,7 +78,7 @@ void read_temperature_law(TableReader& table, Liquid& liquid) {
                   fmt::format("the law holds from {:.6g} to {:.6g} K", range.lowest, range.highest));
   table.has_no_meaning(
       {"activation_energy", "temperature_coefficient", "vft_a", "vft_b", "vft_temperature", "wlf_c1", "wlf_c2",
-       "temperatures", "temperature_viscosities"},
+       "temperatures", "temperature_viscosities", "temperature_file"},
       fmt::format("viscosity_law \"{}\" takes {}", words::temperature_laws[choice], keys_of_temperature_laws[choice]));
   table.has_no_meaning({"reference_temperature"}, "it is that of viscosity_law, or of surface_tension_slope");
 }

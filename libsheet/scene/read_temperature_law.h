@@ -8,6 +8,6 @@ namespace sheet::scene {
 
 // The law, and `surface_tension_slope`, into the liquid; what is wrong is reported by the table. To be read before the
 // flow law: the viscosity is the law's own, where it has one and the liquid is Newtonian.
-void read_temperature_law(TableReader& table, Liquid& liquid);
+void read_temperature_law(TableReader& table, const Files& files, Liquid& liquid);
 
 } // namespace sheet::scene

@@ -71,13 +71,14 @@ public:
   // The same for a single value of a key's list.
   std::optional<double> quantity(const Node& value, std::string_view key, Bound bound);
   std::optional<Eigen::Vector3d> vector(const Node& value, std::string_view key);
+  // Of another kind than the key's.
+  std::optional<double> number(const Node& value, std::string_view key, const Quantity& kind, Bound bound);
 
   // How the key is declared.
   [[nodiscard]] const Key& declared(std::string_view key) const;
 
 private:
   [[nodiscard]] const Key& declared(std::string_view key, std::initializer_list<Key::Form> forms) const;
-  std::optional<double> number(const Node& value, std::string_view key, const Quantity& kind, Bound bound);
   void wrong_type(const Node& value, std::string_view key, std::string_view expected);
   template <class T, class ReadRow>
   std::optional<Timed<T>> rows(const Node& list, std::string_view key, std::size_t width, ReadRow read_row);

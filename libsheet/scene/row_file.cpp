@@ -65,7 +65,7 @@ public:
 private:
   struct Column {
     std::size_t index;
-    double unit; // in SI
+    double unit, zero; // in SI; zero: of its scale, which is not 0 in degC
   };
 
   template <class... Args> [[noreturn]] void wrong(fmt::format_string<Args...> reason, Args&&... args) const {
@@ -88,15 +88,19 @@ private:
       wrong("column \"{}\" stands there twice", name);
     file_.present[index] = true;
     if (bracket == std::string_view::npos)
-      return {index, 1};
+      return {index, 1, 0};
     if (cell.back() != ']')
       wrong("column \"{}\": a unit stands in brackets, such as {} [{}]", cell.substr(0, 60), name, known->kind.unit);
     const std::string_view unit = trim(cell.substr(bracket + 1, cell.size() - bracket - 2));
     std::string problem;
-    const auto factor = read_quantity(fmt::format("1 {}", unit == "1" ? "" : unit), known->kind, problem);
-    if (!factor)
-      wrong("column \"{}\": {}", name, problem);
-    return {index, *factor};
+    const auto value_of = [&](int number) {
+      const auto value = read_quantity(fmt::format("{} {}", number, unit == "1" ? "" : unit), known->kind, problem);
+      if (!value)
+        wrong("column \"{}\": {}", name, problem);
+      return *value;
+    };
+    const double zero = value_of(0);
+    return {index, value_of(1) - zero, zero};
   }
 
   void read_header(std::string_view line) {
@@ -114,7 +118,7 @@ private:
       double& value = values[there_[i].index];
       const char* end = cells[i].data() + cells[i].size();
       const auto [stop, error] = std::from_chars(cells[i].data() + cells[i].starts_with('+'), end, value);
-      value *= there_[i].unit;
+      value = value * there_[i].unit + there_[i].zero;
       if (cells[i].empty() || error != std::errc{} || stop != end || !std::isfinite(value))
         wrong("column \"{}\": \"{}\" is not a finite number", file_.columns[there_[i].index].name,
               cells[i].substr(0, 60));

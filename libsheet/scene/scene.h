@@ -17,6 +17,7 @@
 #include "libsheet/material/bath_liquid.h"
 #include "libsheet/material/liquid.h"
 #include "libsheet/scene/motion.h"
+#include "libsheet/scene/varying.h"
 
 namespace sheet::scene {
 
@@ -81,10 +82,10 @@ struct ThicknessData {
 // center, before `rotation`; radial, the distance from the sheet's axis (through its center along the plane's normal).
 enum class SheetDirection { x, y, z, radial };
 
-// Thickness over a place: linear between rows, constant before the first and after the last.
+// Thickness over a place.
 struct ThicknessProfile {
   SheetDirection over;
-  std::vector<std::array<double, 2>> rows; // place [m], increasing; thickness [m]
+  PlaceRows rows; // of the thickness [m]
   bool operator==(const ThicknessProfile&) const = default;
 };
 
@@ -193,11 +194,12 @@ struct Model {
 
 // What a face of the sheet loses heat to: transfer (T - ambient) + emissivity σ (T⁴ - radiant⁴) [W/m²].
 struct HeatedFace {
-  double ambient = 0;    // [K]
-  double transfer = 0;   // [W/(m² K)]
+  Varying ambient;       // [K]
+  Varying transfer;      // [W/(m² K)]
   double emissivity = 0; // 0 to 1
-  double radiant = 0;    // of what it sees [K]
-  [[nodiscard]] bool exchanges() const { return transfer > 0 || emissivity > 0; }
+  Varying radiant;       // of what it sees [K]
+  [[nodiscard]] bool exchanges() const { return transfers() || emissivity > 0; }
+  [[nodiscard]] bool transfers() const { return range_of(transfer).second > 0; }
   bool operator==(const HeatedFace&) const = default;
 };
 

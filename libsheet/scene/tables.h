@@ -43,8 +43,11 @@ Motion read_motion_or_velocity(TableReader& parent, const Vector3d& center, cons
 // The rows of a motion: `times` with `places`, `rotations` or both, or a CSV `file` of them. Null if they are wrong.
 std::shared_ptr<const Keyframes> read_keyframes(TableReader& motion, const Vector3d& center, const Files& files);
 std::optional<Rotation> read_rotation(TableReader& parent);
-// The file that the key "file" names, of a kind that the key takes.
-std::string read_file(TableReader& table, const Files& files);
+// A list of rows of a place and a value of the key's kind; what they are in words, and an example, for messages.
+PlaceRows read_place_rows(TableReader& table, std::string_view key, std::string_view what, std::string_view example,
+                          Bound bound);
+// The file that the key names, of a kind that the key takes.
+std::string read_file(TableReader& table, const Files& files, std::string_view key = "file");
 // The sheet that the key "sheet" names, and its name. Without the key: none, if that is enough (`any`), or the only
 // one.
 struct WhichSheet {

@@ -69,6 +69,10 @@ template <class T, class Item> std::string items(const std::vector<T>& values, I
   return "[" + text + "]";
 }
 
+std::string place_rows(const PlaceRows& rows) {
+  return items(rows, [](const auto& row) { return fmt::format("[{}, {}]", number(row[0]), number(row[1])); });
+}
+
 std::string keyframes(const Keyframes& frames) {
   std::string text = "{kind = \"keyframed\", times = " + items(frames.times(), number);
   if (!frames.places().empty())
@@ -159,9 +163,7 @@ void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) 
                                                      word(words::places, t.per_face ? 1UL : 0UL), number(t.scale)));
                  },
                  [&](const ThicknessProfile& t) {
-                   const std::string rows = items(t.rows, [](const std::array<double, 2>& row) {
-                     return fmt::format("[{}, {}]", number(row[0]), number(row[1]));
-                   });
+                   const std::string rows = place_rows(t.rows);
                    out.line("thickness",
                             t.over == SheetDirection::radial
                                 ? fmt::format("{{radial = {}}}", rows)
@@ -340,9 +342,19 @@ void write_temperature_law(Writer& out, const Liquid& liquid) {
   unless_zero("surface_tension_slope", liquid.surface_tension_slope);
 }
 
+std::string varying(const Varying& value) {
+  return std::visit(Overloaded{[](const Timed<double>& rows) { return timed(rows); },
+                               [](const AlongAxis& along) {
+                                 return fmt::format("{{along = {}, rows = {}}}",
+                                                    word(words::axes, static_cast<std::size_t>(along.axis)),
+                                                    place_rows(along.rows));
+                               }},
+                    value.over);
+}
+
 std::string face(const HeatedFace& face) {
-  return fmt::format("{{ambient = {}, transfer = {}, emissivity = {}, radiant = {}}}", number(face.ambient),
-                     number(face.transfer), number(face.emissivity), number(face.radiant));
+  return fmt::format("{{ambient = {}, transfer = {}, emissivity = {}, radiant = {}}}", varying(face.ambient),
+                     varying(face.transfer), number(face.emissivity), varying(face.radiant));
 }
 
 void write_heat(Writer& out, const Heat& heat) {

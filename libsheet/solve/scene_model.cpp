@@ -11,7 +11,9 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/capped_volume.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/heat/surroundings.h"
 #include "libsheet/scene/free_faces.h"
+#include "libsheet/scene/inlet_depth.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/account.h"
@@ -238,6 +240,7 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
   for (std::uint32_t v = 0; v < touched.size(); ++v)
     if (touched[v] != no_solid)
       touching[static_cast<std::size_t>(touched[v])].push_back(v);
+  const Array* forces = frame.find("touch_force");
   const std::vector<char> films = flows_on_solids(scene) ? thin_films(frame) : std::vector<char>{};
   std::vector<char> listed(touching.size(), 0);
   bool any = false;
@@ -263,6 +266,9 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
     if (solid.contact == SolidContact::flow)
       std::ranges::copy_if(touching[i], std::back_inserter(hold.vertices), [&](std::uint32_t v) { return films[v]; });
     model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
+    if (forces != nullptr)
+      for (const std::uint32_t v : model.walls.back().vertices)
+        model.walls.back().forces.push_back(forces->values<Vector3>()[v]);
     listed[i] = 1;
     if (!hold.vertices.empty())
       model.holds.push_back(std::move(hold));
@@ -272,7 +278,10 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
   return any;
 }
 
-// What is in an inlet moves at its inflow's velocity, and does not turn.
+// Whether what flows may touch two solids.
+bool flows_in_corners(const Scene& scene) { return scene.solids.size() > 1 && flows_on_solids(scene); }
+
+// What is in an inlet moves as liquid flows in there, and does not turn.
 void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
   const auto masks = sheet::masks(frame, "inlet");
   for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
@@ -287,7 +296,7 @@ void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh
     for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
       if ((of_inlet(masks[mesh.edges[e][0]] & masks[mesh.edges[e][1]], i) & in_inlet) != 0)
         hold.clamped_edges.push_back(e);
-    move(hold, scene::Translating{scene.inflows[i].velocity});
+    move(hold, scene::Translating{scene::inlet_velocity(frame, scene, i)});
     model.holds.push_back(std::move(hold));
   }
 }
@@ -309,8 +318,15 @@ ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& 
   return {std::move(faces.rims), std::move(slopes)};
 }
 
-heat::Surroundings surroundings(const scene::HeatedFace& face) {
-  return {face.transfer, face.ambient, face.emissivity, face.radiant};
+heat::Surroundings surroundings(const scene::HeatedFace& face, double t, const Vector3& x) {
+  return {value_at(face.transfer, t, x), value_at(face.ambient, t, x), face.emissivity, value_at(face.radiant, t, x)};
+}
+
+void set_surroundings(const scene::HeatedFace& face, heat::Face which, HeatModel& model) {
+  if (is_constant(face.transfer) && is_constant(face.ambient) && is_constant(face.radiant))
+    model.surroundings[which] = surroundings(face, 0, Vector3::Zero());
+  else
+    model.local_surroundings[which] = [face](double t, const Vector3& x) { return surroundings(face, t, x); };
 }
 
 // With the solids that the sheet touches.
@@ -323,7 +339,8 @@ HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<
     model.profile = alike ? heat::even_modes(*scene.heat->profile) : heat::all_modes(*scene.heat->profile);
   else if (model.conductivity > 0)
     model.profile = heat::parabola();
-  model.surroundings = {surroundings(scene.heat->upper), surroundings(scene.heat->lower)};
+  set_surroundings(scene.heat->upper, heat::upper, model);
+  set_surroundings(scene.heat->lower, heat::lower, model);
   model.viscous = scene.heat->viscous_heating;
   const auto touched = touched_solids(frame, scene.solids.size());
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -481,7 +498,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))
     model.reactions = Reactions::at_end;
-  else if (scene::has_rolls(scene) || (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene))))
+  else if (scene::has_rolls(scene) ||
+           (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene) || flows_in_corners(scene))))
     model.reactions = Reactions::of_stage;
   return model;
 }
@@ -498,7 +516,7 @@ Model model_of(const Scene& scene) {
     }
   if (scene.model.faces)
     model.faces.emplace();
-  model.may_squeeze = solids_squeeze(scene) || (scene.solids.size() > 1 && flows_on_solids(scene));
+  model.may_squeeze = solids_squeeze(scene) || flows_in_corners(scene);
   if (scene.contact && scene.contact->self)
     model.contacts.resize(1);
   return model;
@@ -519,17 +537,18 @@ double next_event(const Scene& scene, double t) {
     if (hold.until)
       consider(*hold.until);
   }
-  const auto consider_rows = [&](const std::optional<scene::Timed<double>>& timed) {
-    if (timed && timed->entries.size() > 1)
+  const auto consider_rows = [&](const scene::Timed<double>* timed) {
+    if (timed != nullptr && timed->entries.size() > 1)
       for (const auto& entry : timed->entries)
         consider(entry.time);
   };
+  const auto pointer_to = [](const auto& optional) { return optional ? &*optional : nullptr; };
   for (const scene::Solid& solid : scene.solids) {
     consider_motion(solid.motion);
-    consider_rows(solid.temperature);
+    consider_rows(pointer_to(solid.temperature));
   }
   for (const scene::Inflow& inflow : scene.inflows) {
-    consider_rows(inflow.temperature);
+    consider_rows(pointer_to(inflow.temperature));
     consider_motion(scene::Translating{inflow.velocity});
     if (inflow.until)
       consider(*inflow.until);
@@ -537,6 +556,10 @@ double next_event(const Scene& scene, double t) {
   for (const scene::SheetTable& sheet : scene.sheets)
     if (sheet.enters)
       consider(*sheet.enters);
+  if (scene.heat)
+    for (const scene::HeatedFace* face : {&scene.heat->upper, &scene.heat->lower})
+      for (const scene::Varying* varying : {&face->ambient, &face->transfer, &face->radiant})
+        consider_rows(std::get_if<scene::Timed<double>>(&varying->over));
   return next;
 }
 

@@ -17,6 +17,7 @@
 #include "libsheet/energy/wall_distance.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/solve/free_turning.h"
 #include "libsheet/solve/reactions.h"
 #include "libsheet/solve/step_heat.h"
 
@@ -247,6 +248,8 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     end.positions[v] = x;
     end.velocities[v] = (x - reference) / stage.duration;
   }
+  if (turns_freely(model_))
+    stop_turning(*state.mesh, end.positions, model_.gravity, end.velocities);
   estimate_error(state, dt, stage, first, last, end, scale, estimate, report);
   if (heat != nullptr) {
     heat->put(end);

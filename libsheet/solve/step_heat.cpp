@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/base/each.h"
 #include "libsheet/energy/stage_setup.h"
 
 namespace sheet {
@@ -71,6 +72,18 @@ Touching touching_of(const Model& model, const State& start, std::span<const Vec
   return touching;
 }
 
+// Of a face of each triangle; none where they are the same everywhere.
+std::vector<heat::Surroundings> surroundings_of(const HeatModel& model, heat::Face face, const State& start,
+                                                std::span<const Vector3> x, double time) {
+  const auto& local = model.local_surroundings[face];
+  std::vector<heat::Surroundings> all(local ? start.mesh->triangles.size() : 0);
+  each_in_parallel(all.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = start.mesh->triangles[t];
+    all[t] = local(time, (x[a] + x[b] + x[c]) / 3);
+  });
+  return all;
+}
+
 } // namespace
 
 StepHeat::StepHeat(const Model& model, heat::Solver& solver, const State& start)
@@ -105,6 +118,10 @@ void StepHeat::solve(const Stage& stage, const Terms& terms, const Unknowns& u, 
     problem.modes = reference_.modes;
   problem.sources = sources;
   problem.surroundings = of_heat.surroundings;
+  const std::array local = {surroundings_of(of_heat, heat::upper, start_, x, stage.end_time),
+                            surroundings_of(of_heat, heat::lower, start_, x, stage.end_time)};
+  for (std::size_t face = 0; face < 2; ++face)
+    problem.local_surroundings[face] = local[face];
   for (std::size_t face = 0; face < 2; ++face)
     problem.exposed[face] = touching.exposed[face];
   problem.contacts = touching.contacts;

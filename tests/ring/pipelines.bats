@@ -126,6 +126,13 @@ END
   interrupted KILL run honey 0.006 1
 }
 
+@test "honey: runs the farther the warmer its plate" {
+  OUT=$BATS_TEST_TMPDIR/plates pipelines/honey/plates 0.006 3
+  awk -F, 'FNR == 1 { for (i = 1; i <= NF; ++i) if ($i == "x_max") x = i } { far[FILENAME] = $x }
+    END { exit !(far[ARGV[1]] < 0.97 * far[ARGV[2]] && far[ARGV[2]] < 0.8 * far[ARGV[3]]) }' \
+    "$BATS_TEST_TMPDIR"/plates/plate{5,20,60}.csv
+}
+
 @test "spin: interrupted and resumed = straight" {
   interrupted INT run spin 0.01 1.2
 }
@@ -136,6 +143,18 @@ END
 
 @test "glass-pane: interrupted and resumed = straight" {
   interrupted INT cools glass-pane 0.015 20
+}
+
+@test "redraw: killed and resumed = straight" {
+  interrupted KILL w50 redraw 0.01 20 50
+}
+
+@test "float-glass: interrupted and resumed = straight" {
+  interrupted INT held float-glass 0.5 100 40
+}
+
+@test "lava: killed and resumed = straight" {
+  interrupted KILL cools lava 0.08 6
 }
 
 @test "bottle: interrupted and resumed = straight" {
@@ -169,6 +188,12 @@ END
 
 @test "film-casting: killed and resumed = straight" {
   interrupted KILL free film-casting 0.02 1 0.5
+}
+
+@test "film-casting: what is cooled on its way necks in less" {
+  OUT=$BATS_TEST_TMPDIR/cooled pipelines/film-casting/cooled 0.02 3 "0 800"
+  awk -F, 'NR == 2 { hot = $2 } NR == 3 { cold = $2; warmth = $4 } END { exit !(cold > 1.05 * hot && warmth > 80 && warmth < 130) }' \
+    "$BATS_TEST_TMPDIR/cooled/cooled.csv"
 }
 
 @test "ice-shelf: killed and resumed = straight" {

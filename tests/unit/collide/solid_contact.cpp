@@ -53,6 +53,30 @@ TEST(SolidContact, NothingToDo) {
   EXPECT_TRUE(unsafe_triangles(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).empty());
 }
 
+// What flows down a wall and meets a floor lies on that from then on; what flows along the floor stays on it. In a
+// groove of two slopes as steep, too, it goes on to the second one.
+TEST(SolidContact, WhatComesDownAWallLiesOnTheFloor) {
+  scene::Solid floor = solid(scene::HalfSpace{{0, 1, 0}}), wall = solid(scene::HalfSpace{{1, 0, 0}}, {-0.051, 0, 0});
+  floor.contact = wall.contact = SolidContact::flow;
+  const auto touched_after = [&](const Vector3& gravity) {
+    FallingSheet sheet = falling(0, thickness_of_sheet / 2, Vector3(-0.1, 0, 0)); // along y = 0, towards the wall
+    std::ranges::fill(sheet.path.touch, 0);
+    sheet.path.gravity = gravity;
+    resolve_solids(sheet.path, solids_of({floor, wall}));
+    std::size_t on_wall = 0;
+    for (std::size_t v = 0; v < sheet.path.start.size(); ++v)
+      if (sheet.path.touch[v] == 1) {
+        ++on_wall;
+        EXPECT_GT(sheet.path.end[v].x(), -0.051 + thickness_of_sheet / 8);
+      }
+    return on_wall;
+  };
+  EXPECT_EQ(touched_after({0, -9.81, 0}), 0U);
+  EXPECT_EQ(touched_after({0, 0, 0}), 0U);
+  EXPECT_EQ(touched_after({-9.81, 0, 0}), 11U);     // the wall is the floor
+  EXPECT_EQ(touched_after({-6.93, -6.94, 0}), 11U); // a groove
+}
+
 // Between two plates a sheet of 2 mm touches the lower one. Where the upper one leaves it less room than that it
 // slides, though it sticks to solids; where it leaves less than half, that is counted.
 TEST(SolidContact, WhatIsSqueezedBetweenSolidsSlidesAndIsCounted) {

@@ -8,11 +8,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "libsheet/flow/drowned_inlets.h"
 #include "libsheet/flow/emit.h"
 #include "libsheet/flow/entering.h"
 #include "libsheet/flow/inlet.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/remesh/remesh.h"
+#include "libsheet/scene/inlet_depth.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/transfer.h"
 #include "tests/unit/remesh/sheets.h"
@@ -340,6 +342,53 @@ TEST(Emit, OpenAndClosedPiecesTogether) {
   }
   EXPECT_NEAR(volume_of(frame), start + thickness * (6 + 1) * frame.time, 1e-12); // a hexagon of side 1, and 1
   EXPECT_EQ(value_error(frame), "");
+}
+
+// Under a layer twice as thick as what enters the inlet takes up its depth, and rises to its middle; as much liquid
+// enters as before, slower. When the layer has run away, all is as the scene has it.
+TEST(Emit, ADrownedInletLetsInAsMuch) {
+  const Scene scene =
+      scene_of("[0, -1, 0]", "[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncenter = [0, 0, -0.125]\n"
+                             "contact = \"flow\"\n");
+  const solid::Solids solids(scene);
+  Frame frame = curtain();
+  put_touched_solids(frame, std::vector<std::int32_t>(frame.vertices, 0), 1);
+  for (double& volume : volumes(frame))
+    volume *= 2;
+  const double start = volume_of(frame);
+  const auto flow = [&](int steps) {
+    for (int k = 0; k < steps; ++k) {
+      const Vector3 way = scene::integral(scene::inlet_velocity(frame, scene, 0), frame.time, frame.time + 0.1);
+      for (Vector3& x : positions(frame))
+        x += way;
+      frame.time += 0.1;
+      emit(frame, scene);
+      drown_inlets(frame, scene, solids);
+      if (frame.time > 0.51) {
+        EXPECT_NEAR(volume_of(frame), start + thickness * 4 * frame.time, 1e-13 * start) << frame.time;
+      }
+      EXPECT_EQ(value_error(frame), "");
+    }
+  };
+  flow(25);
+  const double depth = scene::inlet_depth(frame, scene, 0);
+  EXPECT_GT(depth, 1.5 * thickness);
+  EXPECT_LE(depth, 2 * thickness);
+  for (std::size_t v = 0; v < frame.vertices; ++v)
+    if (masks(frame, "inlet")[v] != 0) {
+      EXPECT_NEAR(positions(frame)[v].z(), (depth - thickness) / 2, 1e-15);
+    }
+  for (std::size_t t = 0; t < frame.triangles; ++t)
+    volumes(frame)[t] = thickness / 2 * test::area(frame, t);
+  drown_inlets(frame, scene, solids);
+  EXPECT_LT(scene::inlet_depth(frame, scene, 0), depth);
+  for (int k = 0; k < 20; ++k)
+    drown_inlets(frame, scene, solids);
+  EXPECT_EQ(scene::inlet_depth(frame, scene, 0), thickness);
+  for (std::size_t v = 0; v < frame.vertices; ++v)
+    if (masks(frame, "inlet")[v] != 0) {
+      EXPECT_NEAR(positions(frame)[v].z(), 0, 1e-15);
+    }
 }
 
 TEST(Emit, OneTriangle) {

@@ -80,6 +80,21 @@ TEST(Outflow, LeavesNoSlivers) {
   EXPECT_NEAR(end, 2, 0.01);
 }
 
+// Of two vertices beyond the plane the one that is far beyond lies to the left of the other seen from behind, but to
+// the right of it on the plane.
+TEST(Outflow, TurnsNoTriangleOver) {
+  const std::vector<Vector3> x{{2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {2.92, 0.95, 0}, {4, 0.9, 0}, {2.95, 1.8, 0}};
+  const std::vector<Corners> t{{0, 3, 1}, {1, 3, 4}, {1, 4, 5}, {1, 5, 2}};
+  Frame frame = make_frame(x, t, std::vector<double>(4, 0.05));
+  const Dropped out = let_out(frame, with_outflow("[[outflow]]\npoint = [2.9, 0, 0]\nnormal = [1, 0, 0]\n"));
+  EXPECT_EQ(out.triangles, 2U);
+  ASSERT_EQ(frame.triangles, 2U);
+  const auto at = positions(static_cast<const Frame&>(frame));
+  for (const Corners& c : triangles(static_cast<const Frame&>(frame)))
+    EXPECT_GT((at[c[1]] - at[c[0]]).cross(at[c[2]] - at[c[0]]).z(), 0);
+  EXPECT_DOUBLE_EQ(volume_of(frame) + account(frame, "outflow.volume"), 0.2);
+}
+
 TEST(Outflow, LeavesOtherFramesAsTheyAre) {
   Frame frame = moving();
   const Frame before = frame;

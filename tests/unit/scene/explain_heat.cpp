@@ -63,6 +63,20 @@ TEST(ExplainHeat, TimesAndNumbersByTheirFormulas) {
   EXPECT_NEAR(number_of(heated, "Nahme").value, viscous, 1e-6 * viscous);
 }
 
+TEST(ExplainHeat, SurroundingsThatVaryCountByTheirExtremes) {
+  const Scene scene = pane("ambient = {along = \"x\", rows = [[0, 600], [1, 1300]]}\ntransfer = [[0, 5], [3, 20]]\n");
+  EXPECT_NEAR(std::log(number_of(scene, "range of viscosity").value), 0.03 * 500, 1e-6);
+  EXPECT_THAT(number_of(scene, "range of viscosity").meaning, HasSubstr("At 1.3e+03 K, the warmest, 24.8 Pa s."));
+  EXPECT_NEAR(number_of(scene, "Biot").value, 20 * 0.004 / (2 * 1.5), 1e-9);
+}
+
+TEST(ExplainHeat, ThickOnesWantModesAcross) {
+  const std::string crust = "ambient = 300\ntransfer = 2000\n";
+  EXPECT_THAT(number_of(pane(crust), "Biot").meaning, HasSubstr("profile = 3"));
+  EXPECT_THAT(number_of(pane(crust + "profile = 4\n"), "Biot").meaning,
+              HasSubstr("its modes across the thickness follow"));
+}
+
 // Numbers are those of the liquid as it starts.
 TEST(ExplainHeat, TheSceneIsJudgedAsItStarts) {
   Scene scene = pane("");

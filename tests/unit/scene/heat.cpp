@@ -62,6 +62,54 @@ TEST(Heat, SheetsInflowsAndSolidsHaveTheirOwn) {
   EXPECT_EQ(parsed(to_toml(s)), s);
 }
 
+TEST(Heat, SurroundingsOverTimeAndPlace) {
+  const Scene s = parsed(disk + liquid + heat_table +
+                         "ambient = [[0, 300], [2, \"60 degC\"]]\ntransfer = {along = \"z\", rows = [[0, 10], "
+                         "[\"20 mm\", 30]]}\nlower = {emissivity = 0.9, radiant = {along = \"x\", rows = "
+                         "[[-0.1, \"500 degC\"], [0, \"900 degC\"], [0.1, \"500 degC\"]]}}\n");
+  const Eigen::Vector3d x(0.05, 9, 0.005);
+  EXPECT_DOUBLE_EQ(value_at(s.heat->upper.ambient, 1, x), (300 + 333.15) / 2);
+  EXPECT_EQ(value_at(s.heat->upper.ambient, 5, x), 333.15);
+  EXPECT_DOUBLE_EQ(value_at(s.heat->upper.transfer, 1, x), 15);
+  EXPECT_EQ(value_at(s.heat->upper.transfer, 1, {0, 0, -1}), 10);
+  EXPECT_EQ(s.heat->upper.radiant, s.heat->upper.ambient);
+  EXPECT_DOUBLE_EQ(value_at(s.heat->lower.radiant, 1, x), 973.15);
+  EXPECT_EQ(range_of(s.heat->lower.radiant), std::pair(773.15, 1173.15));
+  EXPECT_EQ(range_of(s.heat->lower.ambient), std::pair(300.0, 333.15));
+  EXPECT_TRUE(is_constant(parsed(disk + liquid + heat_table + "ambient = 300\ntransfer = 2\n").heat->upper.ambient));
+  EXPECT_EQ(parsed(to_toml(s)), s);
+}
+
+TEST(Heat, SaysWhatIsWrongWithSurroundings) {
+  const auto with = [](const std::string& keys) {
+    return problem(disk + liquid + heat_table + "transfer = 3\n" + keys);
+  };
+  EXPECT_EQ(with("ambient = {along = \"x\"}\n"),
+            "s:13:11: missing key \"rows\" in ambient, such as rows = [[0, 300], [\"0.1 m\", 900]]");
+  EXPECT_EQ(with("ambient = {along = \"x\", rows = [[0, 300]]}\n"),
+            "s:13:32: rows: expected 2 to 1000 rows of a place and the value there");
+  EXPECT_EQ(with("ambient = {along = \"x\", rows = [[0, 300], [0, 400]]}\n"),
+            "s:13:43: ambient: rows: places must increase from each row to the next, but 0 m follows 0 m");
+  EXPECT_EQ(with("ambient = {along = \"x\", rows = [[0, 300], [1, -4]]}\n"),
+            "s:13:47: rows must be positive, got -4 K");
+  EXPECT_EQ(with("ambient = [[0, 300], [0, 400]]\n"), "s:13:22: ambient: times must increase, but 0 s follows 0 s");
+}
+
+class TemperatureCurve : public FolderOfScene {};
+
+TEST_F(TemperatureCurve, IsTheListsOfTheScene) {
+  const std::string glass = disk + "[material]\ndensity = 2500\nviscosity_law = \"table\"\nreference_temperature = "
+                                   "\"800 degC\"\n";
+  const Scene scene =
+      read_beside("glass.csv", "temperature [degC], viscosity [P]\n600, 1e11\n700,1e8\n800, 3e6\n900, 2e5\n",
+                  glass + "temperature_file = \"glass.csv\"\n" + heat_table);
+  EXPECT_EQ(scene, parsed(glass +
+                          "temperatures = [873.15, 973.15, 1073.15, 1173.15]\n"
+                          "temperature_viscosities = [1e10, 1e7, 3e5, 2e4]\n" +
+                          heat_table));
+  EXPECT_EQ(parsed(to_toml(scene)), scene); // it needs the file no more
+}
+
 TEST(Heat, SaysWhatIsWrong) {
   const auto with = [](const std::string& keys) { return problem(disk + liquid + keys); };
   EXPECT_EQ(with("[heat]\ntemperature = 300\n"), "s:9:1: missing key \"specific_heat\" in [heat], such as "

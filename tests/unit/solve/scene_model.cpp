@@ -106,6 +106,22 @@ TEST(SceneModel, EventsAreKinksAndReleases) {
   EXPECT_TRUE(std::isinf(next_event(scene, 0.5)));
 }
 
+TEST(SceneModel, RowsOfSurroundingsAreEventsAndVaryThem) {
+  Frame frame = two_squares();
+  const std::string text = std::string(scene_text) +
+                           "[heat]\nspecific_heat = 1000\ntemperature = 400\nambient = 300\ntransfer = 20\n"
+                           "upper = {ambient = [[0, 300], [0.125, 500]]}\n";
+  put_temperatures(std::vector<double>(frame.triangles, 400), frame);
+  const Scene scene = parse_scene(text, "test");
+  EXPECT_EQ(next_event(scene, 0), 0.125);
+  const Model model = model_of(scene, frame, connect(frame.vertices, triangles(frame)), Bending::mid_edge, false);
+  ASSERT_TRUE(model.heat && model.heat->local_surroundings[heat::upper]);
+  EXPECT_EQ(model.heat->local_surroundings[heat::upper](0.0625, Vector3::Zero()),
+            (heat::Surroundings{20, 400, 0, 400}));
+  EXPECT_FALSE(model.heat->local_surroundings[heat::lower]);
+  EXPECT_EQ(model.heat->surroundings[heat::lower], (heat::Surroundings{20, 300, 0, 300}));
+}
+
 TEST(SceneModel, WhatTouchesASolidMovesWithItsSurface) {
   Frame frame = two_squares();
   put_masks(frame, "touch", {1, 1, 0, 1, 1, 0});

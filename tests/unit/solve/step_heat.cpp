@@ -57,6 +57,38 @@ TEST(StepHeat, FacesCoolItLumped) {
   EXPECT_GT(std::log2(error[0] / error[1]), 1.9);
 }
 
+// A film that flies at U through air whose temperature rises by G a metre and R a second comes to T_a - (G U + R) t_c.
+TEST(StepHeat, SurroundingsMayDependOnTimeAndPlace) {
+  constexpr double speed = 2, gradient = 30, rise = -20, tc = capacity * film_height / 200;
+  Model m = film_model();
+  const auto around = [](double t, const Vector3& x) {
+    return heat::Surroundings{.transfer = 150, .ambient = cold + gradient * x.x() + rise * t};
+  };
+  m.heat->local_surroundings[heat::upper] = around;
+  m.heat->surroundings[heat::lower] = {.transfer = 50, .ambient = cold};
+  double before = 0;
+  for (const int count : {8, 16, 32}) {
+    State s = resting_film();
+    for (Vector3& v : s.velocities)
+      v = speed * Vector3::UnitX();
+    const Corners c = s.mesh->triangles[5];
+    const double start = (s.positions[c[0]] + s.positions[c[1]] + s.positions[c[2]]).x() / 3;
+    Stepper stepper(m, {});
+    for (int k = 0; k < count; ++k)
+      (void)stepper.step(s, tc / count);
+    // T' = (a + b t - T)/t_c, by the mean of what both faces have; here at t = t_c.
+    const double a = cold + 0.75 * gradient * start, b = 0.75 * (gradient * speed + rise);
+    const double exact = a + (hot - a + b * tc) * std::exp(-1);
+    const double error = std::abs(s.temperatures[5] - exact);
+    if (before > 0) {
+      EXPECT_GT(std::log2(before / error), 1.9) << count;
+    }
+    before = error;
+    EXPECT_NEAR(capacity * (hot * film_height - warmth(s)), s.heat_moved.upper + s.heat_moved.lower, 1e-6);
+  }
+  EXPECT_LT(before, 0.3);
+}
+
 // The face that lies on a wall sees nothing else.
 TEST(StepHeat, AWallTakesTheHeatOfTheFaceThatLiesOnIt) {
   for (const double side : {1.0, -1.0}) { // of the normal out of the wall

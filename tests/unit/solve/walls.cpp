@@ -75,6 +75,40 @@ TEST(Walls, ForcesAndMomentumBalance) {
     EXPECT_EQ(v.z(), 0);
 }
 
+// A layer that is warmer at its upper face by 2 a runs down a slope with the mean velocity
+//   (ρ g_t h²/μ) ∫ s² exp(2 b a ζ) dζ, s the part of it beyond, seen from the wall:
+// on its warm side it slides, on its cold one it hardly moves, by the same mean viscosity.
+TEST(Walls, ALayerRunsWhereItIsWarm) {
+  constexpr double thickness = 0.1, a = 40, b = 0.05, warm = 400, pull = 1.5;
+  for (const double side : {1.0, -1.0}) { // of the wall's normal
+    State s = resting(thickness);
+    for (Vector3& x : s.positions)
+      x.z() *= side;
+    s.temperatures.assign(s.volumes.size(), warm);
+    s.temperature_modes.assign(s.volumes.size(), a);
+    Model m;
+    m.liquid = {.viscosity = 3, .density = 2};
+    m.liquid.temperature_law = {
+        .kind = TemperatureLawKind::exponential, .reference_temperature = warm, .temperature_coefficient = b};
+    m.heat = HeatModel{.capacity = 1e30, .conductivity = 1e-9, .profile = heat::all_modes(2)};
+    m.inertia = false;
+    m.gravity = {pull, 0, 0};
+    m.walls.push_back(floor_of(s));
+    m.walls[0].nearest = [side](double, const Vector3& x) { return WallPoint{side * x.z(), side * Vector3::UnitZ()}; };
+    double integral = 0;
+    constexpr int count = 1000;
+    for (int k = 0; k < count; ++k) {
+      const double zeta = (k + 0.5) / count - 0.5, beyond = 0.5 - side * zeta;
+      integral += beyond * beyond * std::exp(2 * b * a * zeta) / count;
+    }
+    Stepper stepper(m, {});
+    (void)stepper.step(s, 1e-3);
+    const double exact = 2 * pull * thickness * thickness / 3 * integral;
+    for (const Vector3& v : s.velocities)
+      EXPECT_NEAR(v.x(), exact, 1e-4 * exact) << side;
+  }
+}
+
 // Wall and layer turn together, far and fast, without inertia: nothing is spent.
 TEST(Walls, RigidTurnCostsNothing) {
   State s = resting(0.1);
@@ -226,6 +260,35 @@ TEST(Walls, ACornerHoldsALine) {
     furthest = std::max(furthest, x.x());
   EXPECT_LT(furthest, 1.01);
   EXPECT_GT(furthest, 0.98);
+}
+
+// A wall lets go of what touches another one and would have to be pulled: what comes to rest in a corner flows on when
+// its weight points elsewhere. Pressed into the corner, or where forces are not known, it keeps to the line.
+TEST(Walls, ACornerLetsGoWhereItWouldPull) {
+  for (const double force : {-1.0, 1.0}) {
+    State s = resting(0.1);
+    Model m = heavy_layer();
+    m.inertia = false;
+    m.gravity.x() = -20; // away from the side
+    m.walls.push_back(floor_of(s));
+    m.walls[0].forces.assign(s.positions.size(), Vector3(-force, 0, 1));
+    Wall side;
+    side.vertices = {0};
+    side.nearest = [](double, const Vector3& x) { return WallPoint{1.05 - x.x(), -Vector3::UnitX()}; };
+    std::erase(m.walls[0].vertices, 0U);
+    m.walls[0].forces.pop_back();
+    m.walls.push_back(side);
+    Stepper stepper(m, {});
+    (void)stepper.step(s, 0.01);
+    double furthest = 0;
+    for (const Vector3& x : s.positions)
+      furthest = std::max(furthest, x.x());
+    if (force < 0) {
+      EXPECT_LT(furthest, 1 - 1e-5);
+    } else {
+      EXPECT_NEAR(furthest, 1, 1e-12);
+    }
+  }
 }
 
 // A fixed step in which liquid would pass edges is taken in parts.

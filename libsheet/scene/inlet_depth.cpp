@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/scene/inlet_depth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsheet/base/error.h"
+
+namespace sheet::scene {
+
+namespace {
+
+constexpr std::string_view depth_array = "emit.depth";
+
+} // namespace
+
+double inlet_depth(const formats::Frame& frame, const Scene& scene, std::size_t number) {
+  const double thickness = scene.inflows[number].thickness;
+  const formats::Array* array = frame.find(depth_array);
+  if (array == nullptr)
+    return thickness;
+  if (array->place != formats::Place::frame || array->type != formats::Type::float64 || array->components != 1 ||
+      array->rows != scene.inflows.size())
+    fail(ExitCode::bad_input, "array \"{}\" must be frame[{}] float64, a row for each [inflow]", depth_array,
+         scene.inflows.size());
+  const double depth = array->values<double>()[number];
+  if (!std::isfinite(depth))
+    fail(ExitCode::bad_input, "array \"{}\", row {}: {} is no depth", depth_array, number, depth);
+  return std::max(thickness, depth);
+}
+
+Timed<Eigen::Vector3d> inlet_velocity(const formats::Frame& frame, const Scene& scene, std::size_t number) {
+  const Inflow& inflow = scene.inflows[number];
+  const double depth = inlet_depth(frame, scene, number);
+  Timed<Eigen::Vector3d> velocity = inflow.velocity;
+  if (depth > inflow.thickness)
+    for (auto& entry : velocity.entries)
+      entry.value *= inflow.thickness / depth;
+  return velocity;
+}
+
+void put_inlet_depth(formats::Frame& frame, const Scene& scene, std::size_t number, double depth) {
+  if (frame.find(depth_array) == nullptr) {
+    if (!(depth > scene.inflows[number].thickness))
+      return;
+    formats::Array& array =
+        frame.put(formats::make_array(depth_array, formats::Place::frame, formats::Type::float64, 1, "m",
+                                      formats::Transfer::copy, static_cast<std::uint32_t>(scene.inflows.size())));
+    std::ranges::transform(scene.inflows, array.values<double>().begin(), &Inflow::thickness);
+  }
+  frame.find(depth_array)->values<double>()[number] = std::max(depth, scene.inflows[number].thickness);
+}
+
+} // namespace sheet::scene

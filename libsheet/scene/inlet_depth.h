@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How deep liquid is where it flows in along a wall. A scene says the thickness h of what enters and its velocity v, so
+// the flux h v; where the layer in front of the inlet has become deeper than h, as it flows away slower than v, the
+// inlet is under it: as much flows in, as deep as the layer and slower, H and h v/H, as under a weir that is drowned
+// [Chow 1959, section 14-1]. The frame array `emit.depth` has H of each [inflow] [m]; absent, all are h.
+#pragma once
+#include <cstddef>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet::scene {
+
+// H of the inflow of this number [m], at least its thickness. Throws Error (bad_input) where the array is another one.
+[[nodiscard]] double inlet_depth(const formats::Frame& frame, const Scene& scene, std::size_t number);
+
+// The velocity with which it flows in, from now on [m/s].
+[[nodiscard]] Timed<Eigen::Vector3d> inlet_velocity(const formats::Frame& frame, const Scene& scene,
+                                                    std::size_t number);
+
+// Sets H of the inflow; where that is its thickness and the frame has no such array, there still is none.
+void put_inlet_depth(formats::Frame& frame, const Scene& scene, std::size_t number, double depth);
+
+} // namespace sheet::scene

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/solve/free_turning.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/solve/step.h"
+#include "tests/support/meshes.h"
+
+namespace sheet {
+namespace {
+
+TEST(FreeTurning, EachPieceStopsAndKeepsTheRest) {
+  const std::vector<Vector3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+  const Connectivity mesh = connect(6, std::vector<Corners>{{0, 1, 2}, {3, 4, 5}});
+  std::vector<Vector3> v, rest;
+  for (std::size_t k = 0; k < x.size(); ++k) { // stretching and drifting, and each turning by its own rate
+    const Vector3 middle = (x[k / 3 * 3] + x[k / 3 * 3 + 1] + x[k / 3 * 3 + 2]) / 3;
+    rest.push_back(0.3 * (x[k] - middle) + Vector3(1, -2, 0.5));
+    v.push_back(rest[k] + (k < 3 ? 2.0 : -7.0) * Vector3::UnitZ().cross(x[k] - middle));
+  }
+  stop_turning(mesh, x, {0, 0, -9.81}, v);
+  for (std::size_t k = 0; k < x.size(); ++k)
+    EXPECT_LT((v[k] - rest[k]).norm(), 1e-14);
+}
+
+// Without, it turned six times as fast after each step, the other way round, until steps were short.
+TEST(FreeTurning, APuddleOnABathDoesNotTurn) {
+  constexpr double thickness = 0.012;
+  State s = test::at_rest(test::rectangle(0.6, 0.6, 8, 8, 0.25), thickness);
+  for (Vector3& x : s.positions)
+    x.z() = -thickness * 2400 / 6500;
+  Model m;
+  m.liquid = {.viscosity = 1390, .density = 2400, .surface_tension = 0.1775};
+  m.gravity = {0, 0, -9.81};
+  m.bath = BathLiquid{.density = 6500, .spreads = true};
+  m.inertia = false;
+  Stepper stepper(m, {});
+  for (int k = 0; k < 10; ++k)
+    (void)stepper.step(s, 5);
+  double turning = 0, moment = 0;
+  Vector3 middle = Vector3::Zero();
+  for (const Vector3& x : s.positions)
+    middle += x / static_cast<double>(s.positions.size());
+  double fastest = 0;
+  for (std::size_t v = 0; v < s.positions.size(); ++v) {
+    const Vector3 tangent = Vector3::UnitZ().cross(s.positions[v] - middle);
+    turning += tangent.dot(s.velocities[v]);
+    moment += tangent.squaredNorm();
+    fastest = std::max(fastest, s.velocities[v].norm());
+  }
+  EXPECT_LT(std::abs(turning / moment), 1e-3 * fastest);
+}
+
+} // namespace
+} // namespace sheet
