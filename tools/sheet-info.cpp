@@ -8,6 +8,7 @@
 #include "libsheet/measure/figures.h"
 #include "libsheet/measure/place_report.h"
 #include "libsheet/measure/report.h"
+#include "libsheet/quantities/wanted.h"
 
 int main(int argc, char** argv) {
   sheet::Tool tool(
@@ -21,7 +22,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> inputs;
   bool json = false, csv = false, health = false, quantities = false;
   std::vector<std::string> planes, points;
-  std::optional<double> density;
+  std::optional<double> density, wanted;
   std::string output = "-";
   tool.arguments("INPUT", inputs, "streams to read; - for standard input, as is none");
   tool.flag("--csv", csv, "a time series: one row a frame");
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   tool.option("--at", points, "X,Y,Z",
               "instead, as CSV, thickness and more over time, at the sheet's place that is nearest to a point; may be "
               "given again");
+  sheet::declare_wanted(tool, wanted);
   tool.option("--density", density, "KG/M3", "density to reckon with, whatever the scene states");
   tool.option("-o,--output", output, "FILE", "file to write; - for standard output");
   tool.example("sheet-info run.sheet | less", "all about every frame");
@@ -46,6 +48,7 @@ int main(int argc, char** argv) {
   tool.example("sheet-select --last run.sheet | sheet-info --cut z=0 > wall.csv", "thickness along a cut");
   tool.example("sheet-info --at 0,0,0 run.sheet > middle.csv",
                "thickness over time, where the sheet is nearest to there");
+  tool.example("sheet-info --csv --wanted 2mm run.sheet > run.csv", "and how far it is from that thickness");
   tool.example("sheet-info --health run.sheet", "did anything go wrong on the way?");
   tool.example("sheet-select --last run.sheet | sheet-info --json", "the last frame, for a program");
   return tool.run(argc, argv, [&] {
@@ -81,6 +84,8 @@ int main(int argc, char** argv) {
       const sheet::InputFile in(input);
       sheet::formats::StreamReader reader(in.descriptor(), in.name());
       while (reader.read(frame)) {
+        if (wanted)
+          sheet::want_thickness(frame, *wanted);
         sheet::Measurements measured = sheet::measure(frame, density ? density : scene.of(frame));
         scene.measure_heat(frame, measured);
         measured.forces = forces.of(frame);

@@ -5,6 +5,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/loop/film.h"
 #include "libsheet/loop/select.h"
+#include "libsheet/quantities/wanted.h"
 #include "libsheet/render/render_stage.h"
 #include "libsheet/render/slab.h"
 
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   sheet::render::RenderOptions o;
   sheet::FilmOptions film;
   bool list_liquids = false;
+  std::optional<double> wanted;
   tool.argument("INPUT", film.input, "stream to read; - for standard input");
   sheet::render::declare_render_options(tool, o);
   tool.option("--frames", film.frames, "LIST",
@@ -27,6 +29,7 @@ int main(int argc, char** argv) {
   tool.option("--view-of", film.view, "LIST",
               "place camera, scale and ground as for these frames of a file; without it, as for those to draw. With 0- "
               "parts of a film that are drawn by themselves fit together");
+  sheet::declare_wanted(tool, wanted);
   tool.flag("--list-liquids", list_liquids,
             "instead, the presets of --material, one a line: name, index of refraction, absorption and reduced "
             "scattering of red, green and blue [1/m]; separated by tabs",
@@ -34,6 +37,8 @@ int main(int argc, char** argv) {
   tool.example("sheet-render run.sheet -o frames/%04d.png --material honey", "a picture of each frame");
   tool.example("sheet-render run.sheet --denoise --samples 4 --y4m | ffmpeg -i - bunny.mp4", "a film");
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look thickness", "where the sheet is thin at the end");
+  tool.example("sheet-render run.sheet --frames -1 -o end.png --look deviation --wanted 2mm",
+               "where it is thicker and thinner than that");
   tool.example("sheet-render run.sheet --frames -1 -o end.exr --noise 1 --samples 4096",
                "light, depth, normals, thickness for other programs");
   return tool.run(argc, argv, [&] {
@@ -44,10 +49,18 @@ int main(int argc, char** argv) {
       return;
     }
     sheet::render::RenderStage stage(o);
+    sheet::formats::Frame changed;
+    const auto with_deviation = [&](const sheet::formats::Frame& frame) -> const sheet::formats::Frame& {
+      if (!wanted)
+        return frame;
+      changed = frame;
+      sheet::want_thickness(changed, *wanted);
+      return changed;
+    };
     sheet::run_film(
-        film, [&](const sheet::formats::Frame& frame) { stage.survey(frame); },
+        film, [&](const sheet::formats::Frame& frame) { stage.survey(with_deviation(frame)); },
         [&](const sheet::formats::Frame& frame, std::uint64_t index, const std::function<void(double)>& progress) {
-          const auto report = stage.draw(frame, index, progress);
+          const auto report = stage.draw(with_deviation(frame), index, progress);
           return fmt::format("{:.4g} samples a pixel, {:.3g} Mrays, noise {:.2g} of 255 levels (worst tile {:.2g}){}{}",
                              report.samples, 1e-6 * static_cast<double>(report.rays), report.noise, report.worst_noise,
                              report.file.empty() ? "" : ", ", report.file);

@@ -2,6 +2,7 @@
 // sheet-view: a page for a browser that shows streams.
 #include "libsheet/base/tool.h"
 #include "libsheet/base/whole_file.h"
+#include "libsheet/quantities/wanted.h"
 #include "libsheet/view/page.h"
 
 int main(int argc, char** argv) {
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
   tool.option("-o,--output", o.output, "FILE",
               "file to write; - for standard output. Its folder is made if it is missing");
   tool.option("--title", o.title, "TEXT", "title of the page; without it, the names of the streams");
+  sheet::declare_wanted(tool, o.wanted);
   tool.example("sheet-view run.sheet -o run.html", "then open run.html by a double click");
   tool.example("sheet-view a.sheet b.sheet -o compare.html", "two runs side by side, with one clock");
   tool.example("sheet-select --every 4 run.sheet | sheet-view > run.html", "every fourth frame: a smaller file");

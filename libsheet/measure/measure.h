@@ -51,11 +51,11 @@ struct Measurements {
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Constant(absent); // Σ m x × v, about the origin [kg m²/s]
   Eigen::Vector3d low = Eigen::Vector3d::Constant(absent);              // bounding box of all vertices [m]
   Eigen::Vector3d high = Eigen::Vector3d::Constant(absent);
-  Range edge;                                  // lengths, each edge once [m]
-  std::array<bool, 3> has{true, false, false}; // by Needs
-  double heat = absent;                        // measure_energies
-  double part_at_rest = absent;                // quantities/fields.h
-  double angle_min = absent;                   // of the triangles' corners [rad]
+  Range edge;                                 // lengths, each edge once [m]
+  std::array<bool, kinds_of_needs> has{true}; // by Needs
+  double heat = absent;                       // measure_energies
+  double part_at_rest = absent;               // quantities/fields.h
+  double angle_min = absent;                  // of the triangles' corners [rad]
   double angle_max = absent;
   double aspect_max = absent; // longest side over the altitude on it, 1 for an equilateral triangle; inf: degenerate
   Topology topology;

@@ -162,7 +162,7 @@ constexpr std::array<std::string_view, 32> first_columns = {"frame",
                                                             "euler_characteristic"};
 
 // A row's cells, in the order of the columns; forces stand last. `has`: by Needs.
-std::vector<Cell> cells_of(const ReportEntry& e, const std::array<bool, 3>& has) {
+std::vector<Cell> cells_of(const ReportEntry& e, const std::array<bool, kinds_of_needs>& has) {
   const Frame& f = *e.frame;
   const Topology& t = e.measurements.topology;
   std::vector<Cell> cells = {{"frame", fmt::format("{}", e.index)},
@@ -229,7 +229,7 @@ private:
     return line + (entry.many_files ? ",file\n" : "\n");
   }
   bool first_ = true;
-  std::array<bool, 3> has_{true, false, false}; // of the first frame's scene, as
+  std::array<bool, kinds_of_needs> has_{true, false, false}; // of the first frame's scene, as
   std::vector<std::string> forces_;
 };
 

@@ -146,12 +146,13 @@ std::vector<double> log_viscosity(const Frame& frame) {
   return values;
 }
 
-const std::array<Field, 8> all_fields = {{
+const std::array<Field, 9> all_fields = {{
     {"thickness", "thickness", "m", Place::triangle, thickness, amounts, true},
     {"curvature", "mean curvature", "1/m", Place::vertex, mean_curvature, two_sided, false},
     {"speed", "speed", "m/s", Place::vertex, speed, amounts, false},
     {"contacts", "contacts", "1", Place::vertex, contacts, contact_kinds, false},
     {"temperature", "temperature", "K", Place::triangle, nullptr, amounts, true, Needs::heat},
+    {"deviation", "thickness less wanted", "m", Place::triangle, nullptr, two_sided, true, Needs::wanted},
     {"strain_rate", "rate of strain", "1/s", Place::triangle, strain_rates, amounts, true, Needs::law},
     {"viscosity", "viscosity", "Pa s", Place::triangle, viscosity, amounts, true, Needs::law},
     {"log_viscosity", "viscosity log10 Pa s", "1", Place::triangle, log_viscosity, amounts, false, Needs::law},
@@ -195,6 +196,8 @@ std::vector<double> values_of(const Frame& frame, const Field& field) {
     fail(ExitCode::bad_input,
          "the frame's liquid has one viscosity, so it has no {} of its own: [material] law or viscosity_law give one",
          field.caption);
+  if (field.needs == Needs::wanted && !has(frame, field))
+    fail(ExitCode::bad_input, "a deviation is from a wanted thickness: give --wanted, such as --wanted 2mm");
   if (field.get != nullptr)
     return field.get(frame);
   const formats::Array* array = array_of(frame, field);

@@ -12,7 +12,13 @@
 namespace sheet {
 
 // What frames have that a quantity is of.
-enum class Needs { nothing, law, heat }; // a law of viscosity, by rate or temperature; temperatures
+enum class Needs {
+  nothing,
+  law,   // a law of viscosity, by rate or temperature
+  heat,  // temperatures
+  wanted // a wanted thickness (wanted.h)
+};
+inline constexpr std::size_t kinds_of_needs = 4;
 
 struct Field {
   std::string_view name;    // of sheet-render's look and of columns of CSV
@@ -33,6 +39,7 @@ struct Field {
 //   speed      |velocity| at vertices [m/s]
 //   contacts   at vertices: 0 none, 1 touches a solid, 2 has a contact spring
 //   temperature  of triangles, where the frame has it [K]
+//   deviation    of triangles, by how much they are thicker than is wanted, where that is known [m]
 // Where the frame's scene has a law of viscosity (material/flow_law.h, temperature_law.h), of each triangle:
 //   strain_rate    sqrt(2 D:D) of the middle of the sheet, in its plane, by the frame's velocities [1/s]: what bending
 //                  and the shear along walls add is left out

@@ -17,6 +17,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/whole_file.h"
 #include "libsheet/quantities/scaled_unit.h"
+#include "libsheet/quantities/wanted.h"
 #include "libsheet/render/framing.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/view/packed_frame.h"
@@ -228,13 +229,16 @@ void write_scripts(const Sink& write, const Json& streams) {
 }
 
 // Returns what was wrong with the stream behind its last whole frame, if anything was.
-std::exception_ptr write_stream(const std::string& input, StreamWriter& writer) {
+std::exception_ptr write_stream(const std::string& input, const std::optional<double>& wanted, StreamWriter& writer) {
   const InputFile in(input);
   formats::StreamReader reader(in.descriptor(), in.name());
   formats::Frame frame;
   try {
-    while (reader.read(frame))
+    while (reader.read(frame)) {
+      if (wanted)
+        want_thickness(frame, *wanted);
       writer.add(frame);
+    }
   } catch (const formats::StreamError& error) {
     if (reader.frames() == 0 || error.kind() != formats::StreamError::Kind::corrupt)
       throw;
@@ -258,7 +262,7 @@ void write_page(const ViewOptions& options) {
     Json streams = Json::array();
     for (const std::string& input : options.inputs) {
       StreamWriter writer(write, streams.size(), input == "-" ? "standard input" : input);
-      if (const std::exception_ptr error = write_stream(input, writer); error && !cut)
+      if (const std::exception_ptr error = write_stream(input, options.wanted, writer); error && !cut)
         cut = error;
       streams.push_back(writer.description());
     }

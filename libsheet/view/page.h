@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A page for a browser that shows streams, in one file: scripts, styles and data.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace sheet::view {
 struct ViewOptions {
   std::vector<std::string> inputs; // files of streams, "-" for standard input
   std::string output = "-";
-  std::string title; // "": made of the names of the inputs
+  std::string title;                 // "": made of the names of the inputs
+  std::optional<double> wanted = {}; // thickness, to show the deviation from it [m]
 };
 
 // Writes the page. Of a stream that is cut short the whole frames are in it; the error is thrown when it is written.

@@ -10,6 +10,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/quantities/scaled_unit.h"
+#include "libsheet/quantities/wanted.h"
 #include "libsheet/sheet/sheet.h"
 #include "tests/unit/render/scenes.h"
 
@@ -27,6 +28,19 @@ TEST(Fields, HaveNamesOfTheirOwnAndAValueARow) {
       EXPECT_EQ(values_of(frame, field).size(), frame.rows_at(field.where));
     }
   }
+}
+
+TEST(Fields, DeviationIsThicknessLessWhatIsWanted) {
+  formats::Frame frame = render::test::flat(2, 0.01);
+  const Field& deviation = field_named("deviation");
+  EXPECT_FALSE(has(frame, deviation));
+  EXPECT_THROW((void)values_of(frame, deviation), Error);
+  for (const double wanted : {0.008, 0.0125}) {
+    want_thickness(frame, wanted);
+    for (const double value : values_of(frame, deviation))
+      EXPECT_NEAR(value, 0.01 - wanted, 1e-12);
+  }
+  EXPECT_TRUE(deviation.palette.symmetric);
 }
 
 TEST(Fields, WithoutAFormulaAreTheFramesArrayOfThatName) {
