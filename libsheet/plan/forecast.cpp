@@ -73,7 +73,7 @@ bool only_falls(const Scene& scene, const std::vector<Landing>& all) {
 // Steps besides those that end at output times.
 double steps_of_motion(const Scene& scene, const Frame& first, double until, double edge, double tolerance) {
   constexpr double falls = 2.25;
-  if (const auto down = runs_down(scene, first); down && scene.inflows.empty() && scene.holds.empty())
+  if (const auto down = runs_down(scene, first, first.time); down && scene.inflows.empty() && scene.holds.empty())
     return until * down->speed / (edge / 2); // energy/walls.h: longest_step_on_walls
   const std::vector<Landing> all = landings(scene, first);
   const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm();

@@ -108,8 +108,6 @@ double until_of(const Scene& scene, const Frame& first) {
     until = 1;
   if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > 0)
     until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / gravity);
-  if (const auto down = runs_down(scene, first))
-    until = std::max(until, down->time);
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
   const auto comes_to_rest = [&](const scene::Motion& motion) {
     for (const double time : scene::events(motion))
@@ -119,8 +117,14 @@ double until_of(const Scene& scene, const Frame& first) {
     ends(hold.until.value_or(0));
     comes_to_rest(hold.motion);
   }
-  for (const scene::Solid& solid : scene.solids)
+  double at_rest = first.time; // all solids
+  for (const scene::Solid& solid : scene.solids) {
     comes_to_rest(solid.motion);
+    for (const double time : scene::events(solid.motion))
+      at_rest = std::max(at_rest, time);
+  }
+  if (const auto down = runs_down(scene, first, at_rest))
+    until = std::max(until, at_rest + down->time);
   for (const scene::Inflow& inflow : scene.inflows) {
     ends(inflow.until.value_or(0));
     if (const double speed = scene::value_at(inflow.velocity, first.time).norm(); speed > 0 && !inflow.until)

@@ -14,13 +14,13 @@ namespace sheet {
 namespace {
 
 constexpr std::size_t looked_at = 100; // vertices, about
-constexpr double lying = 0.75;         // of the thickness: so near to the solid is what lies on it
+constexpr double near_enough = 0.75;   // of the thickness: from the solid, of what lies on it
 constexpr double least_part = 0.5;     // of the sheet that lies
 constexpr double least_slope = 0.1;    // part of gravity along the solid
 
 } // namespace
 
-std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first) {
+std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t) {
   const Vector3 gravity = scene.environment.gravity.value_or(Vector3::Zero());
   const scene::Measured sheet = measured(first);
   if (!scene::flows_on_solids(scene) || gravity.isZero(0) || !sheet.length || !sheet.thickness || !(*sheet.length > 0))
@@ -32,9 +32,11 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
   for (std::size_t v = 0; v < x.size(); v += stride, ++all)
     for (std::size_t i = 0; i < solids.size(); ++i) {
       const solid::SolidPoint point = solids.at(i, x[v], first.time);
-      if (scene.solids[i].contact != SolidContact::flow || std::abs(point.distance) > lying * *sheet.thickness)
+      if (scene.solids[i].contact != SolidContact::flow || std::abs(point.distance) > near_enough * *sheet.thickness)
         continue;
-      along += (gravity - gravity.dot(point.normal) * point.normal).norm();
+      const Vector3 normal =
+          solids.pose(i, t).linear() * (solids.pose(i, first.time).linear().transpose() * point.normal);
+      along += (gravity - gravity.dot(normal) * normal).norm();
       slip += scene.solids[i].slip_length;
       ++lies;
       break;

@@ -14,15 +14,16 @@ namespace sheet {
 namespace {
 
 // 4 mm of honey on a board that leans by this angle.
-std::optional<RunningDown> honey_on(double degrees, const std::string& contact = "flow", double above = 0) {
+std::optional<RunningDown> honey_on(double degrees, const std::string& contact = "flow", double above = 0,
+                                    const std::string& motion = "") {
   const double a = degrees * std::numbers::pi / 180, height = 0.002 + above;
   return [&](const std::string& text) {
     const Scene scene = scene::parse_scene(text, "s");
-    return runs_down(scene, first_frame(scene));
+    return runs_down(scene, first_frame(scene), 2);
   }(fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.1, 0.1]\nedge_length = 0.01\nthickness = 0.004\n"
                 "center = [0, {}, 0]\n[material]\nviscosity = 10\ndensity = 1400\n[environment]\n"
-                "gravity = [{}, {}, 0]\n[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncontact = \"{}\"\n",
-                height, 9.81 * std::sin(a), -9.81 * std::cos(a), contact));
+                "gravity = [{}, {}, 0]\n[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncontact = \"{}\"\n{}",
+                height, 9.81 * std::sin(a), -9.81 * std::cos(a), contact, motion));
 }
 
 TEST(RunningDown, TheSpeedIsTheFilms) {
@@ -38,6 +39,16 @@ TEST(RunningDown, NotWhereItIsLevelOrSticksOrFalls) {
   EXPECT_FALSE(honey_on(30, "stick"));
   EXPECT_FALSE(honey_on(30, "slip"));
   EXPECT_FALSE(honey_on(30, "flow", 0.01));
+}
+
+// On a board that turns until it is steep.
+TEST(RunningDown, WhenTheSolidHasTurned) {
+  const auto honey =
+      honey_on(0, "flow", 0,
+               "motion = {kind = \"rotating\", axis = [0, 0, 1], rate = [[0, \"30 deg/s\"], [1, \"30 deg/s\"], "
+               "[1.001, 0]]}\n");
+  ASSERT_TRUE(honey);
+  EXPECT_NEAR(honey->speed, honey_on(30)->speed, 1e-3 * honey->speed);
 }
 
 } // namespace

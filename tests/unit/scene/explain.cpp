@@ -158,8 +158,8 @@ TEST(Explain, Warnings) {
 
 // On a ball liquid may come to hang below; on a level plate it cannot, and with an adhesion it drips off.
 TEST(Explain, TellsThatNothingDripsOff) {
-  const std::string disk =
-      "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.02\n" + liquid + fall;
+  const std::string disk = "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.02\n" + liquid +
+                           "[environment]\ngravity = [0, -9.81, 0]\n";
   const auto told = [&](const std::string& more) {
     return std::ranges::count(of(disk + more).left_out,
                               "what comes to hang below a solid never drips off ([contact] adhesion)");
