@@ -200,6 +200,13 @@ END
     "$BATS_TEST_TMPDIR/cooled/cooled.csv"
 }
 
+@test "bottle: what cools is blown more slowly" {
+  OUT=$BATS_TEST_TMPDIR/cooled FILM=no pipelines/bottle/cooled 0.008 1
+  awk -F, 'FNR == 1 { for (i = 1; i <= NF; ++i) if ($i == "area") c = i } { area[FILENAME] = $c } END {
+    exit !(area[ARGV[1]] < 0.9 * area[ARGV[2]] && area[ARGV[1]] > 0.006) }' \
+    "$BATS_TEST_TMPDIR/cooled/cooled.csv" "$BATS_TEST_TMPDIR/cooled/hot.csv"
+}
+
 @test "ice-shelf: killed and resumed = straight" {
   interrupted KILL tongue ice-shelf 4000 200
 }
