@@ -5,6 +5,8 @@
 
 #include "libsheet/flow/inlet.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/box.h"
+#include "libsheet/geometry/triangle_pair.h"
 #include "libsheet/scene/inlet_depth.h"
 #include "libsheet/scene/prescribed.h"
 
@@ -71,6 +73,23 @@ void raise(formats::Frame& frame, std::size_t number, const solid::Solids& solid
     }
 }
 
+// Whether triangles at the inlet's strip meet others.
+bool crosses(const formats::Frame& frame, std::size_t number) {
+  const auto x = positions(frame);
+  const auto bits = masks(frame, "inlet");
+  const auto corners = triangles(frame);
+  const auto moved = [&](std::uint32_t v) { return of_inlet(bits[v], number) != 0; };
+  std::vector<Box> boxes;
+  for (const Corners& c : corners)
+    boxes.push_back(box_of(x, c));
+  for (std::size_t t = 0; t < corners.size(); ++t)
+    if (std::ranges::any_of(corners[t], moved))
+      for (std::size_t other = 0; other < corners.size(); ++other)
+        if (other != t && boxes[t].overlaps(boxes[other]) && triangles_intersect(x, corners[t], corners[other]))
+          return true;
+  return false;
+}
+
 } // namespace
 
 void drown_inlets(formats::Frame& frame, const Scene& scene, const solid::Solids& solids) {
@@ -87,8 +106,11 @@ void drown_inlets(formats::Frame& frame, const Scene& scene, const solid::Solids
         std::clamp(std::max(scene.inflows[i].thickness, layer.depth), before / fastest, before * fastest);
     if (depth == before)
       continue;
-    scene::put_inlet_depth(frame, scene, i, depth);
     raise(frame, i, solids, layer.wall, (depth - before) / 2);
+    if (crosses(frame, i))
+      raise(frame, i, solids, layer.wall, (before - depth) / 2);
+    else
+      scene::put_inlet_depth(frame, scene, i, depth);
   }
 }
 

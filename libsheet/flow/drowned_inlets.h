@@ -12,7 +12,8 @@ namespace sheet::flow {
 
 // Sets depth and height of the frame's inlets by what lies before them, the depth by at most a twentieth: the greatest
 // mean thickness of any of the first four rows of triangles beyond the strip whose corners touch a wall along which
-// liquid flows. Bit for bit the same frame where no inlet is drowned. `solids`: the scene's.
+// liquid flows. Where the strip would meet what has come to lie there, all stays as it is. Bit for bit the same frame
+// where no inlet is drowned. `solids`: the scene's.
 void drown_inlets(formats::Frame& frame, const Scene& scene, const solid::Solids& solids);
 
 } // namespace sheet::flow
