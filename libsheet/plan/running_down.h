@@ -14,8 +14,8 @@ struct RunningDown {
   double time;  // in which it runs by its length [s]
 };
 
-// At the time t [s], when the solids have turned and carried what lies on them. Nothing unless half of the sheet lies on
-// solids along which it flows and which are, in the mean, steeper than 6 degrees then.
+// At the time t [s], when the solids have turned and carried what lies on them. Nothing unless half of the sheet lies
+// on solids along which it flows and which are, in the mean, steeper than 6 degrees then.
 [[nodiscard]] std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t);
 
 } // namespace sheet
