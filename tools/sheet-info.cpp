@@ -86,7 +86,8 @@ int main(int argc, char** argv) {
       while (reader.read(frame)) {
         if (wanted)
           sheet::want_thickness(frame, *wanted);
-        sheet::Measurements measured = sheet::measure(frame, density ? density : scene.of(frame));
+        sheet::Measurements measured =
+            sheet::measure(frame, density ? std::optional<sheet::Densities>(*density) : scene.of(frame));
         scene.measure_heat(frame, measured);
         measured.forces = forces.of(frame);
         out.write(sheet::formats::printable(

@@ -21,6 +21,7 @@
 #include "libsheet/collide/solid_sweep.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/health/teller.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/frame_mesh.h"
@@ -112,13 +113,17 @@ void put_overshoot(Frame& frame, const std::vector<Vector3>& overshoot) {
 }
 
 // a_T at vertices, the mean of their triangles by volume; empty where viscosity does not depend on temperature.
-std::vector<double> vertex_shifts(const Frame& frame, const Liquid& liquid) {
+std::vector<double> vertex_shifts(const Frame& frame, const FrameLiquids& liquids) {
   const auto temperature = temperatures(frame), volume = volumes(frame);
-  if (temperature.empty() || liquid.temperature_law.constant())
+  const auto constant = [](const Liquid& liquid) { return liquid.temperature_law.constant(); };
+  if (temperature.empty() || std::ranges::all_of(liquids.all(), constant))
     return {};
-  const ViscosityShift shift(liquid.temperature_law);
+  std::vector<ViscosityShift> by_liquid;
+  for (const Liquid& liquid : liquids.all())
+    by_liquid.emplace_back(liquid.temperature_law);
   const auto of = [&](auto value) { return vertex_shares(frame.vertices, triangles(frame), value); };
-  std::vector<double> shifts = of([&](std::uint32_t t) { return volume[t] * shift.factor(temperature[t]); });
+  std::vector<double> shifts =
+      of([&](std::uint32_t t) { return volume[t] * by_liquid[liquids.number(t)].factor(temperature[t]); });
   const std::vector<double> carried = of([&](std::uint32_t t) { return volume[t]; });
   for (std::size_t v = 0; v < shifts.size(); ++v)
     shifts[v] = carried[v] > 0 ? shifts[v] / carried[v] : 1;
@@ -183,10 +188,13 @@ struct CollideStage::Impl {
     path.touch = touched_solids(frame, scene->solids.size());
     path.fixed = scene::prescribed_axes(frame, *scene, path.start_time);
     at_start = shares(path.triangles, volumes(frame), path.start);
-    const double density = scene->material.density > 0 ? scene->material.density : 1;
     path.thickness = thicknesses(path.triangles, at_start);
-    for (const double volume : at_start.volume)
-      path.mass.push_back(volume * density);
+    const FrameLiquids liquids(*scene, frame);
+    const std::vector<std::uint32_t> numbers = liquids.numbers_at_vertices(frame);
+    for (std::size_t i = 0; i < at_start.volume.size(); ++i) {
+      const double density = liquids.all()[numbers.empty() ? 0 : numbers[i]].density;
+      path.mass.push_back(at_start.volume[i] * (density > 0 ? density : 1));
+    }
     if (layers_flow(*scene))
       path.end_thickness = thicknesses(path.triangles, shares(path.triangles, volumes(frame), path.end));
     return path;
@@ -414,9 +422,11 @@ struct CollideStage::Impl {
   void set_springs(Frame& frame, StepPath& path, const std::vector<Axes>& fixed, std::span<const double> reach,
                    double taken) {
     const Shares at_end = shares(path.triangles, volumes(frame), path.end);
-    const std::vector<double> shift = vertex_shifts(frame, scene->material);
-    const SpringSheet sheet{path.start,    path.end,           reach, path.thickness, at_end.area, fixed,
-                            path.length(), path.end_thickness, shift};
+    const FrameLiquids liquids(*scene, frame);
+    const std::vector<double> shift = vertex_shifts(frame, liquids);
+    const std::vector<std::uint32_t> numbers = liquids.numbers_at_vertices(frame);
+    const SpringSheet sheet{path.start,    path.end,           reach, path.thickness, at_end.area,  fixed,
+                            path.length(), path.end_thickness, shift, numbers,        liquids.all()};
     std::vector<ContactSpring> springs = read_springs(frame);
     drop_within_layers(springs, search->layers(), sheet);
     weld_anew(springs, *mesh.mesh(), path.start);

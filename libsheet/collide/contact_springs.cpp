@@ -33,16 +33,23 @@ double time_of(const ContactSpring& s, double g, double d, const SpringSheet& sh
   return coming > 0 ? 0.1 * d / coming : sheet.step;
 }
 
+// Of the liquids of its two features.
 double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   if (scene.contact && scene.contact->stiffness)
     return *scene.contact->stiffness;
+  const auto liquid_at = [&](std::size_t corner) -> const Liquid& {
+    return sheet.liquid.empty() ? scene.material : sheet.liquids[sheet.liquid[s.vertices[corner]]];
+  };
+  const Liquid &one = liquid_at(0), &other = liquid_at(3);
   const double area = s.area(sheet.area), h = s.mean(sheet.thickness), d = s.mean(sheet.reach);
-  const double mass = area * scene.material.density * h;
+  const double mass = area * (0.5 * (one.density + other.density)) * h;
   const double g = scene.environment.gravity ? scene.environment.gravity->norm() : 0;
   const double time = time_of(s, g, d, sheet);
   const double inertia = scene.model.inertia ? mass / (time * time) : 0;
   const double shift = sheet.shift.empty() ? 1 : s.mean(sheet.shift);
-  const double viscosity = shift * viscosity_of(scene.material, {shift * shift / (time * time)});
+  const StrainRate rate{shift * shift / (time * time)};
+  const double viscosity =
+      shift * (&one == &other ? viscosity_of(one, rate) : 0.5 * (viscosity_of(one, rate) + viscosity_of(other, rate)));
   return inertia + 200 * mass * g / d + 0.5 * viscosity * h / time;
 }
 

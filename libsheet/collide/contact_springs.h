@@ -39,6 +39,8 @@ struct SpringSheet {
   double step = 0;                            // its length [s]
   std::span<const double> end_thickness = {}; // where layers flow; their springs rest at what they thin to [m]
   std::span<const double> shift = {};         // a_T by which temperature shifts the flow curve; empty: 1
+  std::span<const std::uint32_t> liquid = {}; // its number in `liquids`; empty: 0
+  std::span<const Liquid> liquids = {};       // of the scene (scene::liquids_of)
 };
 
 // Takes away the springs within one layer, by the positions and contact distances at the start: those of a layer that

@@ -33,7 +33,7 @@ public:
       const double volume = stage.start->volumes[t];
       for (const auto v : triangles[t])
         if (up_.dot(x[v]) < level_)
-          thrust_[t] += stage.liquid.density * gravity_ / 3 * volume * volume / 2;
+          thrust_[t] += stage.liquid_of(t).liquid.density * gravity_ / 3 * volume * volume / 2;
       start_[t] = projection(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
       if (!(start_[t] > 0)) // it does not float
         thrust_[t] = 0;

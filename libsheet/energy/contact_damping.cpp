@@ -10,11 +10,12 @@ namespace sheet {
 void ContactDamping::begin(const Stage& stage) {
   const LayerShares shares = layer_shares(stage);
   const std::vector<double> viscosities = vertex_means(stage, stage.viscosity);
-  const double density = inertia_ ? stage.liquid.density : 0;
   dampers_.assign(springs_.size(), {});
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
     const double area = s.area(shares.area), h = s.mean(shares.thickness);
+    const auto density_at = [&](std::size_t corner) { return stage.liquid_at(s.vertices[corner]).liquid.density; };
+    const double density = inertia_ ? (density_at(0) + density_at(3)) / 2 : 0; // of one feature and of the other
     const auto critical = [&](double k) { return std::sqrt(2 * k * area * density * h); };
     dampers_[i].normal = (0.5 * mean_between(s, viscosities) * h + critical(s.stiffness[0])) / stage.duration;
     dampers_[i].tangential = critical(s.stiffness[1]) / stage.duration;

@@ -12,6 +12,7 @@
 #pragma once
 #include "libsheet/energy/contact.h"
 #include "libsheet/energy/curved_drag.h"
+#include "libsheet/energy/liquid_flows.h"
 
 namespace sheet {
 
@@ -51,7 +52,7 @@ public:
 
   // See term.h.
   void follow(const Unknowns& u, const Unknowns& step);
-  void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
+  void rest_at(std::span<const double> rates) { flows_.rest_at(rates); }
 
   // What the wall takes of the shear: what the layers do not give each other.
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const;
@@ -64,13 +65,15 @@ private:
     double shear = 0, squeeze = 0;   // stiffnesses [N/m]
     double area = 0, depth = 0;      // for a flow curve [m²], [m]
     double time = 0;                 // likewise: τ, reduced by temperature (stage.h) [s]
+    std::uint32_t liquid = 0;        // by its number
   };
 
   [[nodiscard]] CurvedDrag drag_of(const Link& link, const Vector3& slid) const {
-    if (flow_.newtonian() || link.area == 0)
+    const FlowCurve& curve = flows_.numbered(link.liquid);
+    if (curve.newtonian() || link.area == 0)
       return {0.5 * link.shear * slid.squaredNorm(), link.shear, 0};
     const double per = 1 / (link.time * link.depth);
-    const FlowPoint flow = flow_.at(per * per * slid.squaredNorm());
+    const FlowPoint flow = curve.at(per * per * slid.squaredNorm());
     return {link.area * link.time * link.depth * flow.potential, link.area * per * flow.viscosity,
             link.area * per * per * per * flow.slope};
   }
@@ -87,8 +90,7 @@ private:
 
   std::span<const ContactSpring> springs_;
   std::vector<Link> links_;
-  Liquid liquid_;
-  FlowCurve flow_;
+  LiquidFlows flows_;
   std::vector<Vector3> own_force_; // of what is not Newtonian, once Newton has gone a step [N]
 };
 

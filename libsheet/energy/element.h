@@ -11,7 +11,7 @@
 //     term keeps what it needs of it, and no reference
 //   void prepare(const Unknowns&);                            optional: what is global (an enclosed volume)
 //   void follow(const Unknowns&, const Unknowns& step);       optional: see term.h
-//   void rest_at(double rate);                                optional: see term.h
+//   void rest_at(std::span<const double> rates);              optional: see term.h
 //   void add_wall_forces(const Unknowns&, span<Vector3>) const;   optional: what walls do along themselves, see term.h
 //   void add_dissipated(const Unknowns&, span<double>) const; optional: of each triangle, see term.h
 //   void finish(const Unknowns&, State&);                     optional: what a step leaves in the state, see term.h

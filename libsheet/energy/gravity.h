@@ -16,15 +16,18 @@ public:
   void begin(const Stage& stage) {
     volumes_ = stage.vertex_volumes;
     start_ = stage.start->positions;
-    weight_ = stage.liquid.density * gravity_;
+    numbers_ = stage.vertex_liquids;
+    weights_.clear();
+    for (const StageLiquid& of : stage.liquids)
+      weights_.emplace_back(of.liquid.density * gravity_);
   }
 
   [[nodiscard]] double value(std::size_t i, const Vector3& u) const {
-    return -volumes_[i] * weight_.dot(u - start_[i]);
+    return -volumes_[i] * weight(i).dot(u - start_[i]);
   }
 
   double gradient(std::size_t i, const Vector3& u, Vector3& gradient) const {
-    gradient = -volumes_[i] * weight_;
+    gradient = -volumes_[i] * weight(i);
     return value(i, u);
   }
 
@@ -34,10 +37,13 @@ public:
   }
 
 private:
-  Vector3 gravity_;                  // [m/s²]
-  Vector3 weight_ = Vector3::Zero(); // of a cubic metre [N/m³]
-  std::vector<double> volumes_;      // of the vertices [m³]
-  std::vector<Vector3> start_;       // x0 [m]
+  [[nodiscard]] const Vector3& weight(std::size_t i) const { return weights_[numbers_.empty() ? 0 : numbers_[i]]; }
+
+  Vector3 gravity_;                    // [m/s²]
+  std::vector<Vector3> weights_;       // of a cubic metre of each liquid [N/m³]
+  std::vector<std::uint32_t> numbers_; // Stage::vertex_liquids
+  std::vector<double> volumes_;        // of the vertices [m³]
+  std::vector<Vector3> start_;         // x0 [m]
 };
 
 } // namespace sheet

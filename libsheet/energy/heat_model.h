@@ -23,6 +23,7 @@ struct WarmWall {
 
 struct HeatModel {
   double capacity = 0;                                 // ρ c [J/(m³ K)]
+  std::vector<double> capacities = {};                 // of each triangle, of several liquids; else empty
   double conductivity = 0;                             // [W/(m K)]
   heat::Profile profile = {};                          // across the thickness
   std::array<heat::Surroundings, 2> surroundings = {}; // of each face

@@ -17,7 +17,7 @@ public:
     free_ = stage.inertial;
     weight_.resize(stage.vertices());
     for (std::size_t v = 0; v < weight_.size(); ++v)
-      weight_[v] = stage.liquid.density * stage.vertex_volumes[v] / (stage.duration * stage.inertial_time);
+      weight_[v] = stage.liquid_at(v).liquid.density * stage.vertex_volumes[v] / (stage.duration * stage.inertial_time);
   }
 
   [[nodiscard]] double value(std::size_t i, const Vector3& u) const {

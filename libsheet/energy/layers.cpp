@@ -44,11 +44,11 @@ double mean_between(const ContactSpring& contact, std::span<const double> means)
 
 LayerShear shear_on_wall(double lower, double upper, double slip_length) {
   if (slip_length == free_slip)
-    return {1, (lower + upper) / 3};
+    return {1, (lower + upper) / 3, upper / 3};
   const double face = slip_length + lower / 2, mean = slip_length + lower / 3;
-  return {face / mean, slip_length + lower + upper / 3 - face * face / mean};
+  return {face / mean, slip_length + lower + upper / 3 - face * face / mean, upper / 3};
 }
 
-LayerShear shear_in_stack(double lower, double upper) { return {1, (lower + upper) / 2}; }
+LayerShear shear_in_stack(double lower, double upper) { return {1, (lower + upper) / 2, upper / 2}; }
 
 } // namespace sheet

@@ -27,6 +27,7 @@ struct LayerShares {
 struct LayerShear {
   double carries = 1; // the lower layer's upper face over its mean, when nothing lies on it
   double depth = 0;   // [m]
+  double upper = 0; // the part of the depth that is in the upper layer; of two liquids each part is sheared by its own
 };
 // Lower layer on a wall of the slip length b.
 [[nodiscard]] LayerShear shear_on_wall(double lower, double upper, double slip_length);

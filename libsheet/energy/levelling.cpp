@@ -105,11 +105,12 @@ double diffusivity(const WallSite& one, const WallSite& other, const Stage& stag
   const auto shift_of = [&](std::uint32_t t) { return stage.shift_of(t) * wall_shift(stage, t, one); };
   const double shift = 0.5 * (shift_of(sides[0]) + shift_of(sides[1]));
   const double towards = std::max(0.0, -gravity.dot(one.normal + other.normal) / 2);
-  const double stiffness = stage.liquid.density * towards + tension / (apart * apart);
+  const auto& [liquid, flow, lagged, wall_flow] = stage.liquid_of(sides[0]);
+  const double stiffness = liquid.density * towards + tension / (apart * apart);
   const double slip = std::min(one.slip_length, other.slip_length);
-  if (stage.wall_flow)
-    return stage.wall_flow->velocity(stiffness * h * step / apart, h, slip) * h * apart / (step * shift);
-  return stiffness * h * h * (h + 3 * slip) / (3 * shift * stage.liquid.viscosity);
+  if (wall_flow)
+    return wall_flow->velocity(stiffness * h * step / apart, h, slip) * h * apart / (step * shift);
+  return stiffness * h * h * (h + 3 * slip) / (3 * shift * liquid.viscosity);
 }
 
 // What is given takes its heat with it.
@@ -121,7 +122,7 @@ void mix_in(double temperature, double amount, double& of_taker, double volume) 
 
 bool level_layers(const Stage& stage, const Vector3& gravity, const std::vector<Hold>& holds, bool sloped, double dt,
                   State& end) {
-  if (stage.sites.empty() || !stage.liquid.viscous())
+  if (stage.sites.empty() || !stage.viscous())
     return false;
   const Connectivity& mesh = *end.mesh;
   const Layers layers = layers_of(end, held_unknowns(holds, stage), sloped);

@@ -21,8 +21,7 @@ Vector3 dual_factor(const RaisedMetric& a, const FlowPoint& flow, StrainRate rat
 
 void Membrane::begin(const Stage& stage) {
   raised_ = stage.raised;
-  liquid_ = stage.liquid;
-  flow_ = stage.flow;
+  flows_.begin(stage);
   stress_.clear();
   mesh_ = stage.start->mesh;
   const auto& triangles = stage.start->mesh->triangles;
@@ -36,7 +35,7 @@ void Membrane::begin(const Stage& stage) {
     };
     const Vector3 start = lengths(stage.begin);
     duration_[t] = stage.reduced_time(t);
-    const double rate = flow_.newtonian() ? stage.viscosity[t] / (4 * stage.duration) : 1 / (4 * duration_[t]);
+    const double rate = flows_.newtonian() ? stage.viscosity[t] / (4 * stage.duration) : 1 / (4 * duration_[t]);
     weight_[t] = 2 * rate * stage.start->volumes[t] * stage.stiffening(t);
     reference_[t] = stage.previous ? Vector3(start + stage.ratio * (lengths(*stage.previous) - start)) : start;
   }
@@ -45,8 +44,9 @@ void Membrane::begin(const Stage& stage) {
 double Membrane::value(std::size_t i, const VectorN<9>& u) const {
   const Vector3 m = squared_lengths(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)) - reference_[i];
   const RaisedMetric& a = raised_[i];
-  if (!flow_.newtonian())
-    return 2 * duration_[i] * duration_[i] * weight_[i] * flow_.at(strain_rate(a, m, duration_[i]).squared).potential;
+  if (!flows_.newtonian())
+    return 2 * duration_[i] * duration_[i] * weight_[i] *
+           flows_.of(i).at(strain_rate(a, m, duration_[i]).squared).potential;
   const double trace = a.trace.dot(m);
   return weight_[i] * (trace * trace - form_determinant(m) / a.determinant);
 }
@@ -58,7 +58,7 @@ double Membrane::curved_derivatives(std::size_t i, const VectorN<9>& u, VectorN<
   const Vector3 m = springs.squared_lengths() - reference_[i];
   const RaisedMetric& a = raised_[i];
   const double duration = duration_[i];
-  const FlowPoint flow = flow_.at(strain_rate(a, m, duration).squared);
+  const FlowPoint flow = flows_.of(i).at(strain_rate(a, m, duration).squared);
   const double volume = 2 * duration * weight_[i];
   const Vector3 c = a.dissipated(m) / (2 * duration), s = volume * flow.viscosity * c;
   springs.gradient(s, gradient);
@@ -73,7 +73,7 @@ double Membrane::curved_derivatives(std::size_t i, const VectorN<9>& u, VectorN<
 }
 
 void Membrane::follow(const Unknowns& u, const Unknowns& step) {
-  if (flow_.newtonian())
+  if (flows_.newtonian())
     return;
   const auto& triangles = mesh_->triangles;
   std::vector<Vector3> next(triangles.size());
@@ -86,7 +86,7 @@ void Membrane::follow(const Unknowns& u, const Unknowns& step) {
       m[k] = e.squaredNorm() - reference_[t][k];
       dm[k] = 2 * e.dot(Stage::position(step, to) - Stage::position(step, from));
     }
-    const FlowPoint flow = flow_.at(strain_rate(raised_[t], m, duration_[t]).squared);
+    const FlowPoint flow = flows_.of(t).at(strain_rate(raised_[t], m, duration_[t]).squared);
     const Vector3 r = m / (2 * duration_[t]), dr = dm / (2 * duration_[t]);
     const Vector3 p = stress_.empty() ? Vector3(flow.viscosity * r) : stress_[t];
     next[t] = flow.viscosity * (r + dr) + (flow.slope / flow.viscosity * 2 * raised_[t].dissipated(r).dot(dr)) * p;
@@ -101,12 +101,12 @@ void Membrane::add_dissipated(const Unknowns& u, std::span<double> energy) const
     const Vector3 q = squared_lengths(Stage::position(u, v[0]), Stage::position(u, v[1]), Stage::position(u, v[2]));
     const Vector3 m = q - reference_[t];
     const double work = weight_[t] * m.dot(raised_[t].dissipated(m)); // with a viscosity of 1, of a flow curve
-    energy[t] += flow_.newtonian() ? work : work * flow_.viscosity(strain_rate(raised_[t], m, duration_[t]));
+    energy[t] += flows_.newtonian() ? work : work * flows_.of(t).viscosity(strain_rate(raised_[t], m, duration_[t]));
   });
 }
 
 double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
-  if (!flow_.newtonian())
+  if (!flows_.newtonian())
     return curved_derivatives(i, u, gradient, nullptr, false);
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];
@@ -117,7 +117,7 @@ double Membrane::gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradie
 
 double Membrane::derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                              bool definite) const {
-  if (!flow_.newtonian())
+  if (!flows_.newtonian())
     return curved_derivatives(i, u, gradient, &hessian, definite);
   const EdgeSprings springs(u);
   const Vector3 m = springs.squared_lengths() - reference_[i];

@@ -9,6 +9,7 @@
 // explicit thickness.
 #pragma once
 #include "libsheet/energy/element.h"
+#include "libsheet/energy/liquid_flows.h"
 
 namespace sheet {
 
@@ -26,7 +27,7 @@ public:
   // See term.h.
   void follow(const Unknowns& u, const Unknowns& step);
   void add_dissipated(const Unknowns& u, std::span<double> energy) const;
-  void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
+  void rest_at(std::span<const double> rates) { flows_.rest_at(rates); }
 
 private:
   [[nodiscard]] double curved_derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>* hessian,
@@ -35,8 +36,7 @@ private:
   std::vector<RaisedMetric> raised_; // â
   std::vector<Vector3> reference_;   // squared edge lengths ā [m²]
   std::vector<double> weight_;       // V μ/(2τ) [J]; of a liquid that is not Newtonian V/(2τ)
-  Liquid liquid_;
-  FlowCurve flow_;
+  LiquidFlows flows_;
   std::vector<double> duration_; // τ, reduced by temperature (stage.h) [s]
   std::vector<Vector3> stress_;  // of a liquid that is not Newtonian, once Newton has gone a step [Pa m²]
   std::shared_ptr<const Connectivity> mesh_;

@@ -40,9 +40,11 @@ struct alignas(64) MidEdgeStress {
   LaneNumbers at[flow_points_through][3];
 };
 
-// What a liquid does that is not Newtonian (curve: null if it is); the stress, once Newton has gone a step.
+// What a liquid does that is not Newtonian (curve: null if it is); the stress, once Newton has gone a step. Lanes that
+// are of different liquids have their own curves.
 struct MidEdgeFlow {
   const FlowCurve* curve = nullptr;
+  const FlowCurve* const* lanes = nullptr;
   const MidEdgeStress* stress = nullptr;
 };
 

@@ -50,9 +50,9 @@ void MidEdgeShell::begin(const Stage& stage) {
   if (stage.previous)
     prepare(*stage.previous);
   area_loads_.begin(stage);
-  curved_ = arcs_ && !stage.flow.newtonian();
-  liquid_ = stage.liquid;
-  flow_ = stage.flow;
+  flows_.begin(stage);
+  curved_ = arcs_ && !flows_.newtonian();
+  find_lanes();
   stresses_.clear();
   loads_.resize(area_loads_.any() ? references_.size() : 0);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references_.size(), at_once / lane_count),
@@ -63,6 +63,28 @@ void MidEdgeShell::begin(const Stage& stage) {
                           load(stage, batch);
                       }
                     });
+}
+
+// Lanes beyond the last triangle are like it.
+void MidEdgeShell::find_lanes() {
+  lanes_.resize(curved_ && flows_.several() ? references_.size() : 0);
+  for (std::size_t batch = 0; batch < lanes_.size(); ++batch)
+    for (int lane = 0; lane < lane_count; ++lane)
+      lanes_[batch][static_cast<std::size_t>(lane)] =
+          &flows_.of(std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1));
+}
+
+MidEdgeFlow MidEdgeShell::flow_of(std::size_t i) const {
+  if (!curved_)
+    return {};
+  const MidEdgeStress* stress = stresses_.empty() ? nullptr : &stresses_[i / lane_count];
+  if (lanes_.empty())
+    return {&flows_.numbered(0), nullptr, stress};
+  const LaneCurves& lanes = lanes_[i / lane_count];
+  const bool mixed = std::ranges::any_of(lanes, [&](const FlowCurve* other) { return other != lanes[0]; });
+  if (mixed)
+    return {lanes[0], lanes.data(), stress};
+  return lanes[0]->newtonian() ? MidEdgeFlow{} : MidEdgeFlow{lanes[0], nullptr, stress};
 }
 
 // What stays during the stage, of lane_count triangles; lanes beyond the last triangle are like it.
@@ -136,10 +158,13 @@ void MidEdgeShell::follow(const Unknowns& u, const Unknowns& step) {
                     [&](const auto& range) {
                       for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
                         const std::size_t first = batch * lane_count;
+                        const MidEdgeFlow flow = flow_of(first);
+                        if (flow.curve == nullptr)
+                          continue;
                         const MidEdgeState state = global_state(u, first);
                         LaneNumbers by[12];
                         gather(step, first, by);
-                        mid_edge_kernels().stress(references_[batch], state, by, flow_of(first), next[batch]);
+                        mid_edge_kernels().stress(references_[batch], state, by, flow, next[batch]);
                       }
                     });
   stresses_ = std::move(next);

@@ -34,9 +34,12 @@
 //   (d/η) (c (𝔇p)ᵀ + (𝔇p) cᵀ)/2,   (2 pᵀ𝔇p)^½ <= η²/|dη/dγ̇|,
 // and a direction δ takes p to η (r + δr) + (d/η) (2 rᵀ𝔇δr) p. At the solution p = η r, where this is the Hessian.
 #pragma once
+#include <array>
+
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/energy_sum.h"
+#include "libsheet/energy/liquid_flows.h"
 #include "libsheet/energy/mid_edge_kernels.h"
 
 namespace sheet {
@@ -62,7 +65,7 @@ public:
   // See term.h.
   void follow(const Unknowns& u, const Unknowns& step);
   void add_dissipated(const Unknowns& u, std::span<double> energy) const;
-  void rest_at(double rate) { flow_ = FlowCurve(liquid_, rate); }
+  void rest_at(std::span<const double> rates) { flows_.rest_at(rates); }
 
   // Elements first to last-1, their unknowns `stride` apart; see term.h. Gradients, unless null, are set or added to,
   // of Hessians (none: null) the lower triangles.
@@ -86,14 +89,14 @@ private:
   [[nodiscard]] MidEdgeState state_of(std::size_t first, int used, const double* u, int stride) const;
   [[nodiscard]] static MidEdgeState state_of(const VectorN<12>& u);
 
-  [[nodiscard]] MidEdgeFlow flow_of(std::size_t i) const {
-    return curved_ ? MidEdgeFlow{&flow_, stresses_.empty() ? nullptr : &stresses_[i / lane_count]} : MidEdgeFlow{};
-  }
+  using LaneCurves = std::array<const FlowCurve*, lane_count>;
+  void find_lanes();
+  [[nodiscard]] MidEdgeFlow flow_of(std::size_t i) const;
 
   bool arcs_;
-  bool curved_ = false; // the liquid is not Newtonian
-  Liquid liquid_;
-  FlowCurve flow_;
+  bool curved_ = false; // a liquid is not Newtonian
+  LiquidFlows flows_;
+  std::vector<LaneCurves> lanes_; // of lane_count triangles each; empty where the liquid is the same everywhere
   AreaLoads area_loads_;
   std::shared_ptr<const Connectivity> mesh_;
   std::size_t triangles_ = 0;

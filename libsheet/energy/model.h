@@ -2,6 +2,7 @@
 // The physics of a sheet as plain numbers. What terms follow from it says term_table.h: one exists only if it is asked
 // for.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "libsheet/energy/holds.h"
 #include "libsheet/energy/inertia.h"
 #include "libsheet/energy/pressure.h"
+#include "libsheet/energy/state.h"
 #include "libsheet/energy/walls.h"
 #include "libsheet/geometry/faces.h"
 #include "libsheet/material/bath_liquid.h"
@@ -31,6 +33,7 @@ enum class Bending { none, mid_edge, hinge, hinge_paper };
 
 struct Model {
   Liquid liquid;
+  std::vector<Liquid> other_liquids;  // numbers 1 and on of triangles (State::liquids); all viscous or none, all dense
   Vector3 gravity = Vector3::Zero();  // [m/s²]
   std::vector<PressureLaw> pressures; // one an enclosure
   std::optional<BathLiquid> bath;     // needs gravity
@@ -47,6 +50,24 @@ struct Model {
   bool contacts_adhere = false;
   bool contacts_flow = false; // they let layers flow along each other, and press them flat
 
+  // By their numbers.
+  [[nodiscard]] std::vector<Liquid> liquids() const {
+    std::vector<Liquid> all{liquid};
+    all.insert(all.end(), other_liquids.begin(), other_liquids.end());
+    return all;
+  }
+  [[nodiscard]] const Liquid& liquid_of(std::size_t number) const {
+    return number == 0 ? liquid : other_liquids[number - 1];
+  }
+  [[nodiscard]] double density(const State& state, std::size_t triangle) const { // [kg/m³]
+    return other_liquids.empty() ? liquid.density : liquid_of(state.liquids[triangle]).density;
+  }
+  [[nodiscard]] double greatest_tension() const { // [N/m]
+    double greatest = liquid.surface_tension;
+    for (const Liquid& other : other_liquids)
+      greatest = std::max(greatest, other.surface_tension);
+    return greatest;
+  }
   [[nodiscard]] bool has_weight() const { return liquid.density > 0 && gravity.squaredNorm() > 0; }
   [[nodiscard]] bool has_inertia() const { return inertia && liquid.density > 0; }
   [[nodiscard]] bool has_angles() const { return bending == Bending::mid_edge && liquid.viscous(); }

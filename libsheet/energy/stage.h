@@ -48,6 +48,13 @@ struct Channel {
   Vector3 carried = Vector3::Zero();    // as WallSite::carried, by both walls [m]
 };
 
+// One of the liquids that the sheet is of.
+struct StageLiquid {
+  Liquid liquid;
+  FlowCurve flow, lagged;                         // of it; for Stage::viscosity
+  std::shared_ptr<const WallFlow> wall_flow = {}; // along walls, where anything touches; null: Newtonian, or none
+};
+
 struct Stage {
   const State* start = nullptr;
   double duration = 0;                // of the implicit solve: dt, or gamma dt [s]
@@ -60,9 +67,8 @@ struct Stage {
   std::vector<EdgeFrame> frames;      // of the directors, at the start of the step; empty without directors
   std::vector<char> clamped;          // of each edge: whether its director is held; empty where none is
   std::vector<RaisedMetric> raised;   // for each triangle: the metric that raises indices and weighs by area
-  Liquid liquid;
-  FlowCurve flow, lagged;                    // of the liquid; for `viscosity`
-  std::shared_ptr<const WallFlow> wall_flow; // likewise along walls, where anything touches; null: Newtonian, or none
+  std::vector<StageLiquid> liquids = {{}};   // one or more, by their numbers
+  std::vector<std::uint32_t> vertex_liquids; // of each vertex its number; empty: all 0. Layers of two share no vertex.
   std::vector<double> viscosity;             // of each triangle, strained as the stage predicts, lagged [Pa s]
   std::vector<double> temperatures;          // of each triangle, predicted for the end of the stage [K]; or none
   std::vector<double> shift;                 // of each triangle: a_T there (temperature_law.h); empty: 1
@@ -84,6 +90,14 @@ struct Stage {
   std::vector<std::array<double, 2>> wall_shifts;
 
   [[nodiscard]] std::size_t vertices() const { return start->positions.size(); }
+  [[nodiscard]] const StageLiquid& liquid_of(std::size_t triangle) const {
+    return liquids.size() == 1 ? liquids[0] : liquids[start->liquids[triangle]];
+  }
+  [[nodiscard]] const StageLiquid& liquid_at(std::size_t vertex) const {
+    return liquids.size() == 1 ? liquids[0] : liquids[vertex_liquids[vertex]];
+  }
+  // These are true of all liquids, or of none.
+  [[nodiscard]] bool viscous() const { return liquids[0].liquid.viscous(); }
   [[nodiscard]] double stiffening(std::size_t triangle) const { return stiffened.empty() ? 1 : stiffened[triangle]; }
   [[nodiscard]] double shift_of(std::size_t triangle) const { return shift.empty() ? 1 : shift[triangle]; }
   // The one place where flow depends on temperature: as all of a flow curve is shifted, τ(γ̇, T) = τ(a_T γ̇, T_r), what
@@ -97,6 +111,7 @@ struct Stage {
     return wall_bending.empty() ? crust(triangle) : wall_bending[triangle] * crust(triangle);
   }
   [[nodiscard]] double surface_tension(std::size_t triangle) const { // [N/m]
+    const Liquid& liquid = liquid_of(triangle).liquid;
     return temperatures.empty() || liquid.surface_tension_slope == 0
                ? liquid.surface_tension
                : liquid.surface_tension_at(temperatures[triangle]);

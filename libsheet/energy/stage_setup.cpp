@@ -53,7 +53,8 @@ std::vector<EdgeFrame> mean_normal_frames_of(const Stage& stage, const Unknowns&
 
 // Of a triangle whose squared edge lengths change so during the stage [Pa s].
 double lagged_viscosity(const Stage& stage, std::size_t t, const Vector3& change) {
-  return ShiftedCurve{stage.lagged, stage.shift_of(t)}.viscosity(strain_rate(stage.raised[t], change, stage.duration));
+  return ShiftedCurve{stage.liquid_of(t).lagged, stage.shift_of(t)}.viscosity(
+      strain_rate(stage.raised[t], change, stage.duration));
 }
 
 // T0 + τ dT/dt, by no more than a tenth of T0: what cools or warms so fast that this counts is not known better.
@@ -77,14 +78,19 @@ std::vector<double> predicted_modes(const State& state, double duration) {
 void set_temperatures(std::vector<double> temperatures, std::span<const double> modes, const heat::Profile& profile,
                       Stage& stage) {
   stage.temperatures = std::move(temperatures);
-  const TemperatureLaw& law = stage.liquid.temperature_law;
   const std::size_t count = stage.temperatures.size(), beyond = static_cast<std::size_t>(profile.modes()) - 1;
-  if (count == 0 || law.constant())
+  const auto constant = [](const StageLiquid& of) { return of.liquid.temperature_law.constant(); };
+  if (count == 0 || std::ranges::all_of(stage.liquids, constant))
     return;
-  const ViscosityShift shift(law);
+  std::vector<ViscosityShift> shifts;
+  for (const StageLiquid& of : stage.liquids)
+    shifts.emplace_back(of.liquid.temperature_law);
+  const auto shift_of = [&](std::size_t t) -> const ViscosityShift& {
+    return shifts[shifts.size() == 1 ? 0 : stage.start->liquids[t]];
+  };
   stage.shift.resize(count);
   if (beyond == 0 || modes.size() != beyond * count) {
-    each_in_parallel(count, [&](std::size_t t) { stage.shift[t] = shift.factor(stage.temperatures[t]); });
+    each_in_parallel(count, [&](std::size_t t) { stage.shift[t] = shift_of(t).factor(stage.temperatures[t]); });
     return;
   }
   const heat::ThicknessRule rule(profile);
@@ -92,7 +98,7 @@ void set_temperatures(std::vector<double> temperatures, std::span<const double> 
   stage.wall_shifts.resize(count);
   each_in_parallel(count, [&](std::size_t t) {
     const double mean = stage.temperatures[t], least = 0.1 * mean; // whatever the modes, it is above 0
-    const auto factor = [&](double temperature) { return shift.factor(std::max(least, temperature)); };
+    const auto factor = [&](double temperature) { return shift_of(t).factor(std::max(least, temperature)); };
     const auto [zeroth, first, second] = rule.moments(mean, modes.subspan(beyond * t, beyond), factor);
     stage.shift[t] = zeroth;
     stage.crusts[t] = 12 * (second - first * first / zeroth) / zeroth;
@@ -105,15 +111,30 @@ void set_temperatures(std::vector<double> temperatures, std::span<const double> 
   });
 }
 
-Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles,
+namespace {
+
+// Of each vertex, of one of its triangles.
+std::vector<std::uint32_t> numbers_at_vertices(const State& state) {
+  std::vector<std::uint32_t> numbers(state.positions.size(), 0);
+  for (std::size_t t = 0; t < state.liquids.size(); ++t)
+    for (const std::uint32_t v : state.mesh->triangles[t])
+      numbers[v] = state.liquids[t];
+  return numbers;
+}
+
+} // namespace
+
+Stage first_stage(const State& state, std::span<const Liquid> liquids, double duration, double end_time, bool angles,
                   const heat::Profile& profile) {
   Stage stage;
   const Connectivity& mesh = *state.mesh;
   const std::size_t n = state.positions.size();
   stage.start = &state;
-  stage.liquid = liquid;
-  stage.flow = FlowCurve(liquid);
-  stage.lagged = soft_curve(liquid);
+  stage.liquids.clear();
+  for (const Liquid& liquid : liquids)
+    stage.liquids.push_back({liquid, FlowCurve(liquid), soft_curve(liquid)});
+  if (liquids.size() > 1)
+    stage.vertex_liquids = numbers_at_vertices(state);
   stage.duration = duration;
   stage.inertial_time = duration;
   stage.end_time = end_time;

@@ -8,9 +8,14 @@
 
 namespace sheet {
 
-// The first (or only) stage: refers to the start; metrics and viscosities predicted from the velocities.
-[[nodiscard]] Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time, bool angles,
-                                const heat::Profile& profile = {});
+// The first (or only) stage: refers to the start; metrics and viscosities predicted from the velocities. `liquids`: by
+// their numbers (State::liquids).
+[[nodiscard]] Stage first_stage(const State& state, std::span<const Liquid> liquids, double duration, double end_time,
+                                bool angles, const heat::Profile& profile = {});
+[[nodiscard]] inline Stage first_stage(const State& state, const Liquid& liquid, double duration, double end_time,
+                                       bool angles, const heat::Profile& profile = {}) {
+  return first_stage(state, std::span(&liquid, 1), duration, end_time, angles, profile);
+}
 
 // Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it). False if a
 // triangle shrank so much that its reference metric is none, or nearly none: a principal stretch, squared, below 1/4 of

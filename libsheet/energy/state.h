@@ -3,6 +3,7 @@
 // where it bends by directors, the angle [rad] of each edge's from the mean of the normals there.
 // Thickness is volume / area, everywhere. Connectivity is shared and constant during a step.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct State {
   std::vector<Vector3> positions;
   std::vector<Vector3> velocities;
   std::vector<double> volumes;
+  std::vector<std::uint32_t> liquids;                            // of each triangle its liquid's number; none: all 0
   std::vector<double> temperatures;                              // of each triangle [K]; none: the liquid has none
   std::vector<double> temperature_rates;                         // how fast they changed last [K/s]; none: all are 0
   std::vector<double> temperature_modes, temperature_mode_rates; // likewise, across the thickness (heat/profile.h)

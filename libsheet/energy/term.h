@@ -25,8 +25,8 @@ public:
   virtual void prepare(const Unknowns& u) = 0;
   // Newton goes from u by a step, or by a part of it: what its next Hessian needs of that.
   virtual void follow(const Unknowns&, const Unknowns&) {}
-  // From now on what yields does so at this rest rate (flow_curve.h) [1/s].
-  virtual void rest_at(double) {}
+  // From now on what yields does so at these rest rates (flow_curve.h), one a liquid [1/s].
+  virtual void rest_at(std::span<const double>) {}
   // Elements first to last-1; u: their unknowns, `stride` apart.
   [[nodiscard]] virtual EnergySum values(std::size_t first, std::size_t last, const double* u, int stride) const = 0;
   // Adds to gradients (`stride` apart), or sets those of its own unknowns.
@@ -88,9 +88,9 @@ public:
       element_.follow(u, step);
   }
 
-  void rest_at(double rate) override {
-    if constexpr (requires { element_.rest_at(rate); })
-      element_.rest_at(rate);
+  void rest_at(std::span<const double> rates) override {
+    if constexpr (requires { element_.rest_at(rates); })
+      element_.rest_at(rates);
   }
 
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const override {

@@ -59,7 +59,7 @@ namespace {
 
 bool spreads(const Model& m) { return m.bath && m.bath->spreads; }
 bool has_bath(const Model& m) { return m.bath && m.gravity.squaredNorm() > 0; }
-bool has_faces(const Model& m) { return m.faces && m.liquid.surface_tension > 0; }
+bool has_faces(const Model& m) { return m.faces && m.greatest_tension() > 0; }
 bool layers_flow(const Model& m) { return !m.contacts.empty() && m.contacts_flow; }
 
 std::string no_contact(const Model&) { return "no [contact], or self = false: the sheet may pass through itself"; }
@@ -67,8 +67,8 @@ std::string no_layers(const Model& m) {
   return m.contacts.empty() ? no_contact(m) : "layers do not flow along each other";
 }
 std::string no_faces(const Model& m) {
-  return m.liquid.surface_tension > 0 ? "tension pulls on the middle surface alone (faces = true in [model])"
-                                      : "no surface_tension in [material]";
+  return m.greatest_tension() > 0 ? "tension pulls on the middle surface alone (faces = true in [model])"
+                                  : "no surface_tension in [material]";
 }
 std::string inviscid(const Model&) { return "viscosity is 0"; }
 
@@ -92,8 +92,8 @@ constexpr std::array table = {
         [](const Model&) -> std::string { return "viscosity resists bending (bending = false leaves a membrane)"; },
         [](const Model& m) { return m.liquid.viscous() ? "[model] bending = false" : inviscid(m); }, make_bending},
     TermEntry{
-        "surface tension", [](const Model& m) { return m.liquid.surface_tension > 0; },
-        [](const Model& m) { return fmt::format("{:.3g} N/m on each of the two surfaces", m.liquid.surface_tension); },
+        "surface tension", [](const Model& m) { return m.greatest_tension() > 0; },
+        [](const Model& m) { return fmt::format("{:.3g} N/m on each of the two surfaces", m.greatest_tension()); },
         [](const Model&) -> std::string { return "no surface_tension in [material]"; },
         [](const Model&, TermMaker& maker) { maker.add_load(&AreaLoads::tension, SurfaceTension()); }},
     TermEntry{"rim tension", has_faces, [](const Model&) -> std::string { return "rims are round"; }, no_faces,

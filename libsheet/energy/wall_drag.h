@@ -38,8 +38,12 @@ public:
     for (const WallSite& site : stage.sites)
       walls_.push_back(touched(stage, site));
     corners_.assign(walls_.empty() ? 0 : triangles_, {});
-    flow_ = stage.wall_flow;
-    rest_rate_ = flow_ ? std::max(rest_rate(stage.liquid), flow_->newtonian_below()) : 0;
+    flows_.clear();
+    rest_rates_.clear();
+    for (const StageLiquid& of : stage.liquids) {
+      flows_.push_back(of.wall_flow);
+      rest_rates_.push_back(of.wall_flow ? std::max(rest_rate(of.liquid), of.wall_flow->newtonian_below()) : 0);
+    }
     own_force_.clear();
     each_in_parallel(corners_.size(), [&](std::size_t i) {
       const Corners& corners = mesh_->triangles[i];
@@ -57,6 +61,7 @@ public:
           corners_[i][c].depth = between > 0 ? between : thickness;
           corners_[i][c].slip_length = between > 0 ? 0 : site->slip_length;
           corners_[i][c].site = stage.site_of[corners[c]];
+          corners_[i][c].liquid = flows_.size() > 1 ? stage.start->liquids[i] : 0;
         }
     });
   }
@@ -95,9 +100,10 @@ public:
   }
 
   // See term.h.
-  void rest_at(double rate) { rest_rate_ = rate; }
+  void rest_at(std::span<const double> rates) { rest_rates_.assign(rates.begin(), rates.end()); }
   void follow(const Unknowns& u, const Unknowns& step) {
-    if (!flow_ || corners_.empty())
+    const bool curved = std::ranges::any_of(flows_, [](const auto& flow) { return flow != nullptr; });
+    if (!curved || corners_.empty())
       return;
     std::vector<std::array<Vector3, 3>> next(triangles_, {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()});
     each_in_parallel(triangles_, [&](std::size_t t) {
@@ -150,15 +156,16 @@ private:
     double stiffness = 0;                        // of a Newtonian liquid [N/m]; 0: it is not dragged
     double area = 0, depth = 0, slip_length = 0; // for a flow curve [m²], [m], [m]
     double time = 0;                             // likewise: τ, reduced by temperature (stage.h) [s]
-    std::uint32_t site = 0;
+    std::uint32_t site = 0, liquid = 0;          // the latter by its number
   };
 
   [[nodiscard]] CurvedDrag slide_of(const Corner& corner, const Vector3& slid) const {
-    if (!flow_)
+    const WallFlow* flow = flows_[corner.liquid].get();
+    if (flow == nullptr)
       return {0.5 * corner.stiffness * slid.squaredNorm(), corner.stiffness, 0};
-    const double still = rest_rate_ * corner.depth / 3;
+    const double still = rest_rates_[corner.liquid] * corner.depth / 3;
     const double time = corner.time, u = std::sqrt(slid.squaredNorm() / (time * time) + still * still);
-    const WallFlow::Drag drag = flow_->drag(u, corner.depth, corner.slip_length);
+    const WallFlow::Drag drag = flow->drag(u, corner.depth, corner.slip_length);
     const double stiffness = corner.area * drag.stress / (time * u);
     const double change = corner.area * (drag.slope - drag.stress / u) / (time * time * time * u * u);
     return {corner.area * time * drag.potential, stiffness, change};
@@ -199,11 +206,11 @@ private:
 
   std::shared_ptr<const Connectivity> mesh_;
   std::size_t triangles_ = 0;
-  std::shared_ptr<const WallFlow> flow_;          // of a liquid that is not Newtonian
-  double rest_rate_ = 0;                          // [1/s]
-  std::vector<std::array<Vector3, 3>> own_force_; // once Newton has gone a step [N]
-  std::vector<Touched> walls_;                    // of what touches
-  std::vector<std::array<Corner, 3>> corners_;    // of each triangle; empty where nothing touches
+  std::vector<std::shared_ptr<const WallFlow>> flows_; // of each liquid; null: it is Newtonian
+  std::vector<double> rest_rates_;                     // likewise [1/s]
+  std::vector<std::array<Vector3, 3>> own_force_;      // once Newton has gone a step [N]
+  std::vector<Touched> walls_;                         // of what touches
+  std::vector<std::array<Corner, 3>> corners_;         // of each triangle; empty where nothing touches
 };
 
 } // namespace sheet

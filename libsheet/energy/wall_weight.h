@@ -27,11 +27,11 @@ public:
   void begin(const Stage& stage) {
     const auto& triangles = stage.start->mesh->triangles;
     const auto& x = stage.start->positions;
-    const Vector3 weight = stage.liquid.density * gravity_; // of a cubic metre [N/m³]
     thrust_.assign(triangles.size(), 0);
     start_area_.assign(triangles.size(), 1);
     for (std::size_t t = 0; t < triangles.size() && !stage.sites.empty(); ++t) {
       double towards = 0;
+      const Vector3 weight = stage.liquid_of(t).liquid.density * gravity_; // of a cubic metre [N/m³]
       for (const auto v : triangles[t])
         if (const WallSite* site = site_at(stage, v))
           towards += std::max(0.0, -weight.dot(site->normal)) / 3 * lying(stage, t, *site);

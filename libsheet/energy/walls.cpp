@@ -201,8 +201,9 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   stage.wall_bending.clear();
   if (std::ranges::all_of(walls, [](const Wall& w) { return w.vertices.empty(); }))
     return;
-  if (!stage.liquid.law.newtonian() && !stage.wall_flow)
-    stage.wall_flow = wall_flow_of(stage.liquid);
+  for (StageLiquid& of : stage.liquids)
+    if (!of.liquid.law.newtonian() && !of.wall_flow)
+      of.wall_flow = wall_flow_of(of.liquid);
   stage.site_of.assign(stage.vertices(), no_index);
   for (std::uint32_t w = 0; w < walls.size(); ++w)
     for (std::size_t i = 0; i < walls[w].vertices.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace sheet::flow {
 
-Dropped drop(formats::Frame& frame, std::vector<bool> leaves, double density) {
+Dropped drop(formats::Frame& frame, std::vector<bool> leaves, const Scene& scene) {
   const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const formats::Frame&>(frame)));
   const auto x = positions(static_cast<const formats::Frame&>(frame));
   for (;;) {
@@ -26,7 +26,7 @@ Dropped drop(formats::Frame& frame, std::vector<bool> leaves, double density) {
       }
     if (any)
       continue;
-    const Dropped dropped = sum_of(frame, leaves, density);
+    const Dropped dropped = sum_of(frame, leaves, scene);
     if (dropped.triangles > 0)
       put_fans(frame, fans, leaves, opened);
     return dropped;

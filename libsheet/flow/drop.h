@@ -9,7 +9,7 @@ namespace sheet::flow {
 
 // Takes these triangles away. Vertices at which what stays would only touch itself come apart, as in tearing. Parts of
 // a crumpled sheet that hang together by such triangles alone, and would cross when they come apart, stay together for
-// now: what joins them leaves later. density [kg/m³]. Gives what has left; bit for bit the same frame if nothing has.
-Dropped drop(formats::Frame& frame, std::vector<bool> leaves, double density);
+// now: what joins them leaves later. Gives what has left; bit for bit the same frame if nothing has.
+Dropped drop(formats::Frame& frame, std::vector<bool> leaves, const Scene& scene);
 
 } // namespace sheet::flow

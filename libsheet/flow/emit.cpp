@@ -66,8 +66,11 @@ public:
       return {};
     put();
     add_to_account(frame_, "emit.volume", "m^3", {&grown_, 1});
-    if (scene_.heat)
-      add_heat_to_account(frame_, "emit.heat", scene_, grown_ * temperature_of_inflow());
+    if (scene_.heat) {
+      const Liquid liquid = sheet_named(scene_, inflow_.sheet).material.value_or(scene_.material);
+      const double weight = liquid.density / scene_.material.density;
+      add_heat_to_account(frame_, "emit.heat", scene_, weight * (grown_ * temperature_of_inflow()));
+    }
     return {.volume = grown_, .rows = rows_};
   }
 

@@ -6,6 +6,7 @@
 
 #include "libsheet/flow/heat_account.h"
 #include "libsheet/scene/frame_heat.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -46,7 +47,8 @@ double let_enter(Frame& frame, const Scene& scene) {
     const auto volumes = sheet::volumes(sheet);
     volume += std::accumulate(volumes.begin(), volumes.end(), 0.0);
     const auto temperatures = sheet::temperatures(sheet);
-    warmth += std::inner_product(temperatures.begin(), temperatures.end(), volumes.begin(), 0.0);
+    const double weight = FrameLiquids(scene, sheet).relative_density(0);
+    warmth += weight * std::inner_product(temperatures.begin(), temperatures.end(), volumes.begin(), 0.0);
   }
   if (volume > 0) {
     put_number(frame, "entered", "1", static_cast<double>(count));

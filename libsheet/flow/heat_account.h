@@ -6,7 +6,8 @@
 
 namespace sheet {
 
-// Adds the heat of `warmth`, a sum of volume x temperature [m³ K]; nothing in scenes without heat.
+// Adds the heat of `warmth`, a sum of volume x temperature, of liquids by their densities over that of the scene's own
+// (FrameLiquids::relative_density) [m³ K]; nothing in scenes without heat.
 inline void add_heat_to_account(formats::Frame& frame, std::string_view name, const Scene& scene, double warmth) {
   if (!scene.heat)
     return;

@@ -15,6 +15,7 @@
 #include "libsheet/flow/put_fans.h"
 #include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/carried_springs.h"
 
@@ -81,25 +82,26 @@ public:
     const std::vector<double> area = vertex_shares(mesh_.vertices, mesh_.triangles, area_of);
     const std::vector<double> thickness = thickness_around(mesh_.vertices, mesh_.triangles, volumes(frame_), area_of);
     std::vector<ContactSpring> welds;
+    const FrameLiquids liquids(scene, frame_);
     for (std::uint32_t v = 0; v < mesh_.vertices; ++v)
       if (!lower_[v].empty() && !welded[v])
         if (ContactSpring s = nearest_spring(v, lower_[v], mesh_, x_); s.rest > 0) {
           s.since = ContactSpring::always;
-          s.stiffness.fill(stiffness(scene, s.mean(thickness), s.area(area)));
+          s.stiffness.fill(stiffness(scene, liquids.of(lower_[v].front()), s.mean(thickness), s.area(area)));
           welds.push_back(s);
         }
     return welds;
   }
 
 private:
-  [[nodiscard]] double stiffness(const Scene& scene, double h, double area) const {
+  [[nodiscard]] double stiffness(const Scene& scene, const Liquid& liquid, double h, double area) const {
     const double step = frame_.time - number(frame_, "start_time", frame_.time);
     const double g = scene.environment.gravity ? scene.environment.gravity->norm() : 0;
     const double time = g > 0 ? 0.1 * std::sqrt(h / g) : step;
     if (!(time > 0))
       return 0;
-    const double inertia = scene.model.inertia ? area * scene.material.density * h / (time * time) : 0;
-    return 0.5 * scene.material.viscosity * h / time + inertia;
+    const double inertia = scene.model.inertia ? area * liquid.density * h / (time * time) : 0;
+    return 0.5 * liquid.viscosity * h / time + inertia;
   }
 
   const Frame& frame_;
@@ -139,12 +141,13 @@ void hand_down(std::vector<ContactSpring>& springs, const Connectivity& mesh, co
   }
 }
 
-double kinetic_energy(const Frame& frame, double density) {
+double kinetic_energy(const Frame& frame, const Scene& scene) {
   double energy = 0;
+  const FrameLiquids liquids(scene, frame);
   const auto v = velocities(frame);
   for (std::size_t t = 0; t < frame.triangles && !v.empty(); ++t)
     for (const std::uint32_t c : triangles(frame)[t])
-      energy += density * volumes(frame)[t] / 6 * v[c].squaredNorm();
+      energy += liquids.density(t) * volumes(frame)[t] / 6 * v[c].squaredNorm();
   return energy;
 }
 
@@ -183,7 +186,7 @@ Merged merge(Frame& frame, const Scene& scene) {
     merged.volume += l.part * volumes(std::as_const(frame))[l.upper];
   merged.ripe = std::max(0.0, patches.ripe - merged.volume);
   merged.triangles = static_cast<std::size_t>(std::ranges::count(patches.taken, true));
-  const double before = kinetic_energy(frame, scene.material.density);
+  const double before = kinetic_energy(frame, scene);
   std::vector<ContactSpring> springs = read_springs(frame);
   for (ContactSpring& s : springs)
     s.since = std::min(s.since, frame.time); // of streams without dates
@@ -196,7 +199,7 @@ Merged merge(Frame& frame, const Scene& scene) {
   merged.staying = keep_clear(mesh, patches.taken, positions(std::as_const(frame)), welds, ways);
   move(frame, ways);
   take_away(frame, mesh, patches.taken);
-  merged.energy = before - kinetic_energy(frame, scene.material.density);
+  merged.energy = before - kinetic_energy(frame, scene);
   add_to_account(frame, "merge.volume", "m^3", {&merged.volume, 1});
   add_to_account(frame, "merge.energy", "J", {&merged.energy, 1});
   return merged;

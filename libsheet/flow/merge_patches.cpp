@@ -6,6 +6,7 @@
 #include "libsheet/flow/contact_dates.h"
 #include "libsheet/flow/whole_patches.h"
 #include "libsheet/geometry/disjoint_sets.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::flow {
@@ -42,12 +43,13 @@ struct Pieces {
   }
 };
 
-// Which of two layers is taken up, and what may not be.
+// Which of two layers is taken up, and what may not be: layers of two liquids stay two.
 class Order {
 public:
   Order(const Frame& frame, const Connectivity& mesh, const Scene& scene)
-      : mesh_(mesh), pieces_(mesh, volumes(frame)), held_(mesh.vertices, false), on_solid_(mesh.vertices, false),
-        only_on_solids_(scene.merge->on_solids), up_(scene::up(scene.environment).value_or(Vector3::Zero())) {
+      : mesh_(mesh), liquids_(scene, frame), pieces_(mesh, volumes(frame)), held_(mesh.vertices, false),
+        on_solid_(mesh.vertices, false), only_on_solids_(scene.merge->on_solids),
+        up_(scene::up(scene.environment).value_or(Vector3::Zero())) {
     const std::vector<std::int32_t> touched = touched_solids(frame);
     for (std::size_t v = 0; v < touched.size(); ++v)
       on_solid_[v] = touched[v] != no_solid;
@@ -64,7 +66,7 @@ public:
 
   // Whether the upper one, which may go, is the one of the two that does.
   [[nodiscard]] bool goes(const Lying& l) const {
-    if (any_corner(l.lower, held_))
+    if (any_corner(l.lower, held_) || liquids_.number(l.upper) != liquids_.number(l.lower))
       return false;
     const bool on_solid = std::ranges::all_of(mesh_.triangles[l.lower], [&](std::uint32_t v) { return on_solid_[v]; });
     if (on_solid || only_on_solids_)
@@ -84,6 +86,7 @@ private:
   }
 
   const Connectivity& mesh_;
+  FrameLiquids liquids_;
   Pieces pieces_;
   std::vector<bool> held_, on_solid_; // vertices
   bool only_on_solids_;
@@ -94,7 +97,7 @@ private:
 class Candidates {
 public:
   Candidates(const Frame& frame, const Connectivity& mesh, const Scene& scene)
-      : frame_(frame), mesh_(mesh), scene_(scene), shift_(scene.material.temperature_law),
+      : frame_(frame), mesh_(mesh), scene_(scene), liquids_(scene, frame), shifts_(shifts_of(liquids_)),
         areas_(areas_of(frame, mesh)), thickness_(thickness_of(frame, areas_)),
         dates_(contact_dates(frame, mesh, areas_)), order_(frame, mesh, scene),
         layers_(mesh, positions(frame), areas_, thickness_, ripe_triangles()), on_(mesh.triangles.size()) {
@@ -108,6 +111,13 @@ public:
   [[nodiscard]] double ripe() const { return ripe_; } // volume of all that would go, enough or not [m³]
 
 private:
+  static std::vector<ViscosityShift> shifts_of(const FrameLiquids& liquids) {
+    std::vector<ViscosityShift> shifts;
+    for (const Liquid& liquid : liquids.all())
+      shifts.emplace_back(liquid.temperature_law);
+    return shifts;
+  }
+
   static std::vector<TriangleArea> areas_of(const Frame& frame, const Connectivity& mesh) {
     const auto x = positions(frame);
     std::vector<TriangleArea> areas;
@@ -129,11 +139,12 @@ private:
 
   [[nodiscard]] double viscosity(std::uint32_t t) const {
     const auto temperature = temperatures(frame_);
-    return scene_.material.viscosity * (temperature.empty() ? 1 : shift_.factor(temperature[t]));
+    return liquids_.of(t).viscosity * (temperature.empty() ? 1 : shifts_[liquids_.number(t)].factor(temperature[t]));
   }
   [[nodiscard]] double tension(std::uint32_t t) const {
     const auto temperature = temperatures(frame_);
-    return temperature.empty() ? scene_.material.surface_tension : scene_.material.surface_tension_at(temperature[t]);
+    const Liquid& liquid = liquids_.of(t);
+    return temperature.empty() ? liquid.surface_tension : liquid.surface_tension_at(temperature[t]);
   }
 
   [[nodiscard]] bool ripe(std::uint32_t t, std::size_t side) const {
@@ -186,7 +197,8 @@ private:
   const Frame& frame_;
   const Connectivity& mesh_;
   const Scene& scene_;
-  ViscosityShift shift_;
+  FrameLiquids liquids_;
+  std::vector<ViscosityShift> shifts_; // of each liquid
   std::vector<TriangleArea> areas_;
   std::vector<double> thickness_;
   std::vector<Dates> dates_;

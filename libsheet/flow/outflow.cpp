@@ -89,7 +89,7 @@ Dropped pull_back(Frame& frame, const Scene& scene) {
     volumes(frame)[t] -= volumes(gone)[t];
   }
   std::ranges::copy(x, positions(frame).begin());
-  return sum_of(gone, loses, scene.material.density);
+  return sum_of(gone, loses, scene);
 }
 
 } // namespace
@@ -105,13 +105,13 @@ Dropped let_out(Frame& frame, const Scene& scene) {
   std::vector<bool> leaves = beyond(frame, scene.outflows, straight ? close : 0);
   if (straight)
     add_overturned(frame, scene.outflows, leaves);
-  Dropped out = sum_of(frame, leaves, scene.material.density);
+  Dropped out = sum_of(frame, leaves, scene);
   if (out.triangles == frame.triangles)
     fail(ExitCode::bad_input,
          "all of the sheet is beyond an [[outflow]]: nothing is left at {:.6g} s; end the run before (--until)",
          frame.time);
   if (out.triangles > 0)
-    out = drop(frame, leaves, scene.material.density);
+    out = drop(frame, leaves, scene);
   const Dropped cut = straight ? pull_back(frame, scene) : Dropped{};
   if (out.triangles == 0 && cut.volume == 0)
     return {};

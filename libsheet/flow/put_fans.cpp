@@ -2,6 +2,7 @@
 #include "libsheet/flow/put_fans.h"
 
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/sheet/carried_springs.h"
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/transfer.h"
@@ -81,8 +82,9 @@ void put_fans(Frame& frame, const Fans& fans, const std::vector<bool>& dropped, 
   directors.put(vertices, frame);
 }
 
-Dropped sum_of(const Frame& frame, const std::vector<bool>& dropped, double density) {
+Dropped sum_of(const Frame& frame, const std::vector<bool>& dropped, const Scene& scene) {
   Dropped sum;
+  const FrameLiquids liquids(scene, frame);
   const auto v = velocities(frame);
   const auto volume = volumes(frame), temperature = temperatures(frame);
   for (std::size_t t = 0; t < frame.triangles; ++t) {
@@ -91,7 +93,8 @@ Dropped sum_of(const Frame& frame, const std::vector<bool>& dropped, double dens
     ++sum.triangles;
     sum.volume += volume[t];
     if (!temperature.empty())
-      sum.warmth += volume[t] * temperature[t];
+      sum.warmth += liquids.relative_density(t) * volume[t] * temperature[t];
+    const double density = liquids.density(t);
     for (const std::uint32_t c : triangles(frame)[t])
       if (!v.empty()) {
         sum.momentum += density * volume[t] / 3 * v[c];

@@ -4,6 +4,7 @@
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/flow/fans.h"
 #include "libsheet/geometry/types.h"
+#include "libsheet/scene/scene.h"
 
 namespace sheet::flow {
 
@@ -18,8 +19,8 @@ struct Dropped {
   double volume = 0;                  // [m³]
   Vector3 momentum = Vector3::Zero(); // [kg m/s]
   double energy = 0;                  // kinetic [J]
-  double warmth = 0;                  // sum of volume x temperature [m³ K]; 0 without temperatures
+  double warmth = 0;                  // see heat_account.h [m³ K]; 0 without temperatures
 };
-[[nodiscard]] Dropped sum_of(const formats::Frame& frame, const std::vector<bool>& dropped, double density);
+[[nodiscard]] Dropped sum_of(const formats::Frame& frame, const std::vector<bool>& dropped, const Scene& scene);
 
 } // namespace sheet::flow

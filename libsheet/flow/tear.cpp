@@ -88,7 +88,7 @@ Torn tear(Frame& frame, const Scene& scene) {
   torn.edges = cuts.edges;
   if (cuts.edges == 0)
     return torn;
-  const Dropped dropped = sum_of(frame, cuts.dropped, scene.material.density);
+  const Dropped dropped = sum_of(frame, cuts.dropped, scene);
   torn.dropped = dropped.triangles;
   torn.volume = dropped.volume;
   torn.momentum = dropped.momentum;

@@ -108,7 +108,7 @@ Dropped cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
   add_crumbs(mesh, fixed, leaves);
   if (std::ranges::count(leaves, false) == 0)
     return {};
-  const Dropped dropped = drop(frame, std::move(leaves), scene.material.density);
+  const Dropped dropped = drop(frame, std::move(leaves), scene);
   if (dropped.triangles > 0) {
     add_to_account(frame, "tear.volume", "m^3", {&dropped.volume, 1});
     add_to_account(frame, "tear.momentum", "kg*m/s", {dropped.momentum.data(), 3});

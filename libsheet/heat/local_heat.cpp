@@ -97,7 +97,7 @@ typename LocalHeat<Count>::Step LocalHeat<Count>::step(std::size_t t, State& sta
     if (k > 0 && problem_.profile.follows)
       break;
     const double capacity =
-        problem_.heat_capacity * volume / (problem_.duration * (2 * degrees_[static_cast<std::size_t>(k)] + 1));
+        problem_.capacity(t) * volume / (problem_.duration * (2 * degrees_[static_cast<std::size_t>(k)] + 1));
     j(k, k) += capacity;
     residual[k] += capacity * (state.modes[k] - before[k]);
   }

@@ -181,14 +181,14 @@ template <int Count> Result Work<Count>::result() const {
       gain -= mesh.edge_triangles[e][0] == t ? fluxes[e] : -fluxes[e];
     gain -= local.lost(t, states[t]);
     result.temperatures[t] =
-        problem.temperatures[t] + problem.duration * gain / (problem.heat_capacity * problem.volumes[t]);
+        problem.temperatures[t] + problem.duration * gain / (problem.capacity(t) * problem.volumes[t]);
     for (std::size_t k = 0; k < static_cast<std::size_t>(local.modes()) - 1; ++k)
       result.modes[t * beyond + k] = states[t].modes[static_cast<Eigen::Index>(k + 1)];
   });
   Account& account = result.account;
   account.walls.resize(problem.walls);
   for (std::size_t t = 0; t < triangles; ++t) {
-    account.stored += problem.heat_capacity * problem.volumes[t] * (result.temperatures[t] - problem.temperatures[t]);
+    account.stored += problem.capacity(t) * problem.volumes[t] * (result.temperatures[t] - problem.temperatures[t]);
     account.generated += problem.sources.empty() ? 0 : problem.duration * problem.sources[t];
     for (const Face face : {upper, lower})
       account.faces[face] += problem.duration * states[t].surroundings[face];

@@ -39,9 +39,10 @@ struct WallContact {
 
 // What a stage starts from. Spans are of one entry a triangle.
 struct Problem {
-  double heat_capacity = 0; // ρ c [J/(m³ K)], positive
-  double conductivity = 0;  // k [W/(m K)]
-  double duration = 0;      // τ [s], positive
+  double heat_capacity = 0;                     // ρ c [J/(m³ K)], positive
+  std::span<const double> heat_capacities = {}; // of each triangle, in its place if not empty
+  double conductivity = 0;                      // k [W/(m K)]
+  double duration = 0;                          // τ [s], positive
   Profile profile = {};
 
   std::span<const Vector3> squared_lengths;      // of its edges, edge i opposite its corner i, at the stage's end [m²]
@@ -55,6 +56,9 @@ struct Problem {
   std::span<const WallContact> contacts = {};          // in ascending order of triangles
   std::size_t walls = 0;                               // how many `wall` counts
 
+  [[nodiscard]] double capacity(std::size_t triangle) const {
+    return heat_capacities.empty() ? heat_capacity : heat_capacities[triangle];
+  }
   [[nodiscard]] const Surroundings& around(std::size_t triangle, Face face) const {
     return local_surroundings[face].empty() ? surroundings[face] : local_surroundings[face][triangle];
   }

@@ -11,6 +11,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/faces.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/sheet/sheet.h"
@@ -154,7 +155,7 @@ void measure_edges(const formats::Frame& frame, std::span<const Side> sides, Mea
     m.edge.mean = length.value() / static_cast<double>(edges);
 }
 
-void measure_motion(const formats::Frame& frame, double density, Measurements& m) {
+void measure_motion(const formats::Frame& frame, const Densities& densities, Measurements& m) {
   Sum energy;
   VectorSum momentum, angular;
   const auto x = positions(frame);
@@ -163,7 +164,7 @@ void measure_motion(const formats::Frame& frame, double density, Measurements& m
     const auto corners = triangles(frame);
     const auto v = volumes(frame);
     for (std::size_t t = 0; t < corners.size(); ++t) {
-      const double mass = density * v[t] / 3;
+      const double mass = densities.of(t) * v[t] / 3;
       for (const std::uint32_t c : corners[t]) {
         energy.add(mass / 2 * u[c].squaredNorm());
         momentum.add(mass * u[c]);
@@ -178,7 +179,7 @@ void measure_motion(const formats::Frame& frame, double density, Measurements& m
 
 } // namespace
 
-Measurements measure(const formats::Frame& frame, std::optional<double> density) {
+Measurements measure(const formats::Frame& frame, const std::optional<Densities>& densities) {
   Measurements m;
   for (const Vector3d& x : positions(frame))
     for (int i = 0; i < 3; ++i)
@@ -187,8 +188,8 @@ Measurements measure(const formats::Frame& frame, std::optional<double> density)
   m.part_at_rest = part_at_rest(frame);
   const std::vector<Side> sides = sorted_sides(triangles(frame), frame.vertices);
   measure_edges(frame, sides, m);
-  if (density)
-    measure_motion(frame, *density, m);
+  if (densities)
+    measure_motion(frame, *densities, m);
   m.topology = find_topology(triangles(frame), frame.vertices, sides);
   return m;
 }
@@ -207,29 +208,32 @@ double area_of_faces(const formats::Frame& frame, const Scene& scene) {
   return extra_area(mesh, positions(frame), volumes(frame), scene::free_faces(scene, frame, mesh));
 }
 
-// Σ V T [m³ K]; NaN without temperatures.
-double warmth_of(const formats::Frame& frame) {
+// Σ ρ c V T [J]; NaN without temperatures. Precondition: the scene has heat.
+double heat_of(const formats::Frame& frame, const Scene& scene) {
   const auto temperature = temperatures(frame), volume = volumes(frame);
   if (temperature.empty())
     return absent;
+  const FrameLiquids liquids(scene, frame);
   Sum warmth;
   for (std::size_t t = 0; t < volume.size(); ++t)
-    warmth.add(volume[t] * temperature[t]);
-  return warmth.value();
+    warmth.add(liquids.relative_density(t) * volume[t] * temperature[t]);
+  return scene.material.density * scene.heat->specific_heat * warmth.value();
 }
 
 // By area [N/m].
 double mean_tension(const formats::Frame& frame, const Scene& scene) {
   const auto temperature = temperatures(frame);
-  if (temperature.empty() || scene.material.surface_tension_slope == 0)
+  const FrameLiquids liquids(scene, frame);
+  if (!liquids.several() && (temperature.empty() || scene.material.surface_tension_slope == 0))
     return scene.material.surface_tension;
   const auto x = positions(frame);
   Sum area, sum;
-  for (std::size_t t = 0; t < temperature.size(); ++t) {
+  for (std::size_t t = 0; t < frame.triangles; ++t) {
     const Corners& c = triangles(frame)[t];
     const double size = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
     area.add(size);
-    sum.add(size * scene.material.surface_tension_at(temperature[t]));
+    const Liquid& liquid = liquids.of(t);
+    sum.add(size * (temperature.empty() ? liquid.surface_tension : liquid.surface_tension_at(temperature[t])));
   }
   return sum.value() / area.value();
 }
@@ -241,42 +245,50 @@ void measure_energies(const formats::Frame& frame, const Scene& scene, Measureme
     const auto x = positions(frame);
     const auto corners = triangles(frame);
     const auto v = volumes(frame);
-    Vector3d moment = Vector3d::Zero(); // of volume [m⁴]
+    const FrameLiquids liquids(scene, frame);
+    Vector3d moment = Vector3d::Zero(); // of volume, by densities over that of the scene's own liquid [m⁴]
     for (std::size_t t = 0; t < corners.size(); ++t)
-      moment += v[t] / 3 * (x[corners[t][0]] + x[corners[t][1]] + x[corners[t][2]]);
+      moment += liquids.relative_density(t) * v[t] / 3 * (x[corners[t][0]] + x[corners[t][1]] + x[corners[t][2]]);
     measured.gravity_energy = -scene.material.density * scene.environment.gravity->dot(moment);
   }
-  if (scene.material.surface_tension > 0)
+  const std::vector<Liquid> liquids = scene::liquids_of(scene);
+  if (std::ranges::any_of(liquids, [](const Liquid& liquid) { return liquid.surface_tension > 0; }))
     measured.surface_energy = mean_tension(frame, scene) * (2 * measured.area + area_of_faces(frame, scene));
   if (scene.heat)
-    measured.heat = scene.material.density * scene.heat->specific_heat * warmth_of(frame);
+    measured.heat = heat_of(frame, scene);
 }
 
-std::optional<double> SceneDensity::of(const formats::Frame& frame) {
+std::optional<Densities> SceneDensity::of(const formats::Frame& frame) {
   const formats::Array* scene = frame.find("scene");
   if (scene == nullptr)
     return {};
-  if (scene->text() != scene_) {
-    scene_ = scene->text();
-    density_.reset();
-    heat_capacity_.reset();
+  if (scene->text() != text_) {
+    text_ = scene->text();
+    scene_.reset();
     try {
-      const Scene said = parse_scene(scene_, "the frame's scene");
+      Scene said = parse_scene(text_, "the frame's scene");
+      (void)FrameLiquids(said, frame);
       if (said.material.density > 0)
-        density_ = said.material.density;
-      if (said.heat)
-        heat_capacity_ = said.material.density * said.heat->specific_heat;
+        scene_ = std::move(said);
     } catch (const Error& error) {
       log::warning("no density: {}", error.what());
     }
   }
-  return density_;
+  if (!scene_)
+    return {};
+  const FrameLiquids liquids(*scene_, frame);
+  if (!liquids.several())
+    return scene_->material.density;
+  std::vector<double> densities;
+  for (std::size_t t = 0; t < frame.triangles; ++t)
+    densities.push_back(liquids.density(t));
+  return Densities(std::move(densities));
 }
 
 void SceneDensity::measure_heat(const formats::Frame& frame, Measurements& measured) {
   (void)of(frame);
-  if (heat_capacity_)
-    measured.heat = *heat_capacity_ * warmth_of(frame);
+  if (scene_ && scene_->heat)
+    measured.heat = heat_of(frame, *scene_);
 }
 
 } // namespace sheet

@@ -67,25 +67,34 @@ struct Measurements {
   [[nodiscard]] const Range& range_of(std::string_view field) const;
 };
 
-// Precondition: the frame obeys the format's rules (StreamReader::Values::check). `density` [kg/m³].
-[[nodiscard]] Measurements measure(const formats::Frame& frame, std::optional<double> density);
+// Of all triangles, or of each [kg/m³].
+struct Densities {
+  Densities(double density) : all(density) {}
+  explicit Densities(std::vector<double> densities) : each(std::move(densities)) {}
+  [[nodiscard]] double of(std::size_t triangle) const { return each.empty() ? all : each[triangle]; }
+  double all = 0;
+  std::vector<double> each;
+};
+
+// Precondition: the frame obeys the format's rules (StreamReader::Values::check).
+[[nodiscard]] Measurements measure(const formats::Frame& frame, const std::optional<Densities>& densities);
 
 // Adds energies that need a scene [J]: of gravity, -Σ m g·x, x from the origin to the triangles' centres; of surface,
 // 2 γ A, of both sides wherever they lie, and with [model] faces of rims and slopes. NaN without density, gravity,
 // tension. In scenes with heat: Σ ρ c V T.
 void measure_energies(const formats::Frame& frame, const Scene& scene, Measurements& measured);
 
-// The density that the frame's scene states [kg/m³]. Remembers the last scene, which rarely changes within a stream.
+// The densities that the frame's scene states. Remembers the last scene, which rarely changes within a stream.
 class SceneDensity {
 public:
   // Nothing: no scene, none that can be read (then a warning, once), or none with a density.
-  [[nodiscard]] std::optional<double> of(const formats::Frame& frame);
+  [[nodiscard]] std::optional<Densities> of(const formats::Frame& frame);
   // Sets the heat Σ ρ c V T [J], where the scene says ρ c and the frame has temperatures.
   void measure_heat(const formats::Frame& frame, Measurements& measured);
 
 private:
-  std::string scene_;
-  std::optional<double> density_, heat_capacity_; // [kg/m³], [J/(m³ K)]
+  std::string text_;
+  std::optional<Scene> scene_; // that can be read and has a density
 };
 
 } // namespace sheet

@@ -67,7 +67,7 @@ std::optional<double> blow_up_time(const Scene& scene) {
   const std::string& only = scene.environment.pressure_sheet;
   for (const scene::SheetTable& sheet : scene.sheets)
     if (scene.environment.pressure && (only.empty() || sheet.name == only))
-      if (const auto time = blow_up_time_of(sheet, scene))
+      if (const auto time = blow_up_time_of(sheet, scene::with_material_of(scene, sheet)))
         first = std::min(sheet.enters.value_or(0) + *time, first.value_or(std::numeric_limits<double>::infinity()));
   return first;
 }

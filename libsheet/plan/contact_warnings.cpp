@@ -36,9 +36,10 @@ std::string warning_of_stuck_inflow(const Scene& scene, const solid::Solids& sol
   if (!landing || scene.solids[landing->solid].contact != SolidContact::stick || landing->there.velocity.norm() > 0)
     return {};
   const scene::Inflow& inflow = scene.inflows[number];
-  const double speed = scene::value_at(inflow.velocity, first.time).norm(), density = scene.material.density;
+  const Liquid& liquid = scene::material_of(scene, sheet_named(scene, inflow.sheet));
+  const double speed = scene::value_at(inflow.velocity, first.time).norm(), density = liquid.density;
   const double q = inflow.thickness * speed, rate = speed / inflow.thickness;
-  const double viscosity = viscosity_of(scene.material, {rate * rate});
+  const double viscosity = viscosity_of(liquid, {rate * rate});
   const double spread =
       std::pow(density * scene.environment.gravity->norm() * q * q * q / (3 * viscosity), 0.2) * std::pow(until, 0.8);
   if (!(spread > far_spread * inflow.thickness))

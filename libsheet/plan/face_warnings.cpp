@@ -57,7 +57,8 @@ std::string warning_of_mesh(const Frame& first) {
 } // namespace
 
 std::vector<std::string> face_warnings(const Scene& scene, const Frame& first, double until) {
-  const Liquid& liquid = scene.material;
+  const std::vector<Liquid> liquids = scene::liquids_of(scene);
+  const Liquid& liquid = *std::ranges::max_element(liquids, {}, &Liquid::surface_tension);
   if (!(liquid.surface_tension > 0) || first.triangles == 0)
     return {};
   if (scene.model.faces) {

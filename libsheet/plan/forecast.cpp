@@ -110,11 +110,10 @@ Forecast forecast(const Scene& scene, const Frame& first, const ProposedRing& ri
   run.vertices = start + entered / 2 + vertices_of_sheets_that_enter(scene, until);
   run.bytes = run.frames * (of_a_frame + run.vertices * bytes_of_a_vertex(scene));
   run.steps = run.frames - 1 + steps_of_motion(scene, first, until, edge, tolerance);
-  const FlowLaw& law = scene.material.law;
-  run.seconds = run.steps * run.vertices * on_one_thread *
-                (law.newtonian() ? 1
-                 : law.yields()  ? with_yield
-                                 : with_a_law);
+  double slower = 1;
+  for (const Liquid& liquid : scene::liquids_of(scene))
+    slower = std::max(slower, liquid.law.newtonian() ? 1 : liquid.law.yields() ? with_yield : with_a_law);
+  run.seconds = run.steps * run.vertices * on_one_thread * slower;
   return run;
 }
 

@@ -87,8 +87,12 @@ std::vector<scene::ModelledPart> modelled(const Scene& scene) {
   const auto part = [&](std::string_view name, bool is, std::string_view because, std::string_view because_not) {
     parts.push_back({name, is, std::string(is ? because : because_not)});
   };
-  if (!scene.material.law.newtonian())
-    part("flow law", true, scene::law_in_words(scene.material), "");
+  const std::vector<Liquid> liquids = scene::liquids_of(scene);
+  if (liquids.size() > 1)
+    part("liquids", true, count(liquids.size(), "liquid") + ", each in its own sheets; they exchange forces alone", "");
+  for (const Liquid& liquid : liquids)
+    if (!liquid.law.newtonian())
+      part("flow law", true, scene::law_in_words(liquid), "");
   if (scene.heat)
     part("heat", true, scene::heat_in_words(scene), "");
   part("holds", !scene.holds.empty(), count(scene.holds.size(), "hold"), "no [[hold]]");

@@ -16,6 +16,7 @@
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/material/flow_curve.h"
 #include "libsheet/material/shifted_liquid.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -90,25 +91,32 @@ struct Law {
   ViscosityShift shift; // by temperature
 };
 
-// Of the liquid of the frame's scene; null if its viscosity is one number, or there is no scene that can be read.
-// Remembers the last.
-const Law* law_of(const Frame& frame) {
+// Of the liquids of a frame's scene, where their viscosities are more than one number.
+struct Laws {
+  std::optional<Scene> scene;
+  std::vector<Law> of; // by the liquids' numbers
+};
+
+// Null where there are none, or no scene that can be read. Remembers the last.
+const Laws* laws_of(const Frame& frame) {
   thread_local std::string text;
-  thread_local std::optional<Law> law;
+  thread_local Laws laws;
   const formats::Array* scene = frame.find("scene");
   if (scene == nullptr)
     return nullptr;
   if (scene->text() != text) {
-    law.reset();
+    laws = {};
     text = scene->text();
     try {
-      const Liquid liquid = scene::parse_scene(text, "the frame's scene").material;
-      if (!liquid.law.newtonian() || !liquid.temperature_law.constant())
-        law = Law{rest_rate(liquid), FlowCurve(liquid), ViscosityShift(liquid.temperature_law)};
+      laws.scene = scene::parse_scene(text, "the frame's scene");
+      const std::vector<Liquid> liquids = scene::liquids_of(*laws.scene);
+      if (liquids.size() > 1 || !liquids[0].law.newtonian() || !liquids[0].temperature_law.constant())
+        for (const Liquid& liquid : liquids)
+          laws.of.push_back({rest_rate(liquid), FlowCurve(liquid), ViscosityShift(liquid.temperature_law)});
     } catch (const Error&) { // that of another version of these programs: others say so
     }
   }
-  return law ? &*law : nullptr;
+  return laws.of.empty() ? nullptr : &laws;
 }
 
 // 0 where nothing moves yet.
@@ -127,12 +135,14 @@ std::vector<double> strain_rates(const Frame& frame) {
   return rates;
 }
 
-// These two: precondition: there is a law.
+// These two: precondition: there are laws.
 std::vector<double> viscosity(const Frame& frame) {
   std::vector<double> values = strain_rates(frame);
-  const Law& law = *law_of(frame);
+  const Laws& laws = *laws_of(frame);
+  const FrameLiquids liquids(*laws.scene, frame);
   const auto temperature = temperatures(frame);
   for (std::size_t t = 0; t < values.size(); ++t) {
+    const Law& law = laws.of[liquids.number(t)];
     const ShiftedCurve curve{law.curve, temperature.empty() ? 1 : law.shift.factor(temperature[t])};
     values[t] = curve.viscosity({values[t] * values[t]});
   }
@@ -173,20 +183,21 @@ std::span<const Field> fields() { return all_fields; }
 const Field& field_named(std::string_view name) { return *std::ranges::find(all_fields, name, &Field::name); }
 
 bool has(const Frame& frame, const Field& field) {
-  return field.needs == Needs::law ? law_of(frame) != nullptr
+  return field.needs == Needs::law ? laws_of(frame) != nullptr
                                    : field.get != nullptr || array_of(frame, field) != nullptr;
 }
 
 double part_at_rest(const Frame& frame) {
   constexpr double moves = 10; // times the rest rate
-  const Law* law = law_of(frame);
-  if (law == nullptr || law->curve.newtonian())
+  const Laws* laws = laws_of(frame);
+  if (laws == nullptr || std::ranges::all_of(laws->of, [](const Law& law) { return law.curve.newtonian(); }))
     return std::numeric_limits<double>::quiet_NaN();
+  const FrameLiquids liquids(*laws->scene, frame);
   const std::vector<double> rates = strain_rates(frame);
   double all = 0, rests = 0;
   for (std::size_t t = 0; t < rates.size(); ++t) {
     all += volumes(frame)[t];
-    rests += rates[t] < moves * law->rest_rate ? volumes(frame)[t] : 0;
+    rests += rates[t] < moves * laws->of[liquids.number(t)].rest_rate ? volumes(frame)[t] : 0;
   }
   return rests / all;
 }

@@ -56,8 +56,7 @@ struct Wave {
   double number = 0, growth = 0; // [1/m], [1/s]
 };
 
-Wave fastest_wave(const Scene& scene, const ShiftedCurve& flow, const TriangleRates& r) {
-  const Liquid& liquid = scene.material;
+Wave fastest_wave(const Scene& scene, const Liquid& liquid, const ShiftedCurve& flow, const TriangleRates& r) {
   const StrainRate rate = strain_rate(r.stretching);
   const double viscosity = flow.viscosity(rate);
   const double h = r.thickness, modulus = flow.tangent_viscosity(rate) * h * h * h / 3;
@@ -101,11 +100,18 @@ double fast_growth(const std::vector<Wave>& waves, const std::vector<TriangleRat
 } // namespace
 
 std::vector<double> buckling_wavenumbers(const Scene& scene, const std::vector<TriangleRates>& rates) {
-  const FlowCurve flow(scene.material);
+  const std::vector<Liquid> liquids = scene::liquids_of(scene);
+  std::vector<FlowCurve> flows;
+  std::vector<ViscosityShift> shifts;
+  for (const Liquid& liquid : liquids) {
+    flows.emplace_back(liquid);
+    shifts.emplace_back(liquid.temperature_law);
+  }
   std::vector<Wave> waves;
-  const ViscosityShift shift(scene.material.temperature_law);
-  for (const TriangleRates& r : rates)
-    waves.push_back(fastest_wave(scene, {flow, r.temperature > 0 ? shift.factor(r.temperature) : 1}, r));
+  for (const TriangleRates& r : rates) {
+    const double shift = r.temperature > 0 ? shifts[r.liquid].factor(r.temperature) : 1;
+    waves.push_back(fastest_wave(scene, liquids[r.liquid], {flows[r.liquid], shift}, r));
+  }
   const double least = std::max(over_rate * rate_scale(rates), of_fastest * fast_growth(waves, rates));
   std::vector<double> numbers;
   for (const Wave& wave : waves)

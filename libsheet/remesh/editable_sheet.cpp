@@ -33,6 +33,10 @@ double EditableSheet::temperature(std::uint32_t t) const {
   return temperature_ == none ? 0 : number_at(triangle_rows_[temperature_], t, 0);
 }
 
+std::uint32_t EditableSheet::liquid(std::uint32_t t) const {
+  return liquid_ == none ? 0 : triangle_rows_[liquid_].values<std::uint32_t>()[t];
+}
+
 double EditableSheet::carried_volume(std::uint32_t v) const {
   double sum = 0;
   mesh_.for_fan(v, [&](std::uint32_t side) { sum += volume_[Mesh::triangle_of(side)] / 3; });

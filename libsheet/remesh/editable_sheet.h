@@ -45,6 +45,7 @@ public:
   [[nodiscard]] const TriangleShape& shape(std::uint32_t t) const { return shape_[t]; }
   [[nodiscard]] double volume(std::uint32_t t) const { return volume_[t]; }
   [[nodiscard]] double temperature(std::uint32_t t) const;                           // [K]; 0: there is none
+  [[nodiscard]] std::uint32_t liquid(std::uint32_t t) const;                         // its number
   [[nodiscard]] std::span<const double> triangle_volumes() const { return volume_; } // of all slots
   [[nodiscard]] Vector3 velocity(std::uint32_t v) const { return velocity_.empty() ? Vector3::Zero() : velocity_[v]; }
   // Of a third of each triangle around v [m³].
@@ -111,8 +112,8 @@ private:
     std::uint32_t component;
     std::vector<ValueSlope> slopes; // of the old triangles, scratch of make()
   };
-  std::vector<Mean> means_;        // numbers of triangles with the rule mean
-  std::size_t temperature_ = none; // of triangle_rows_
+  std::vector<Mean> means_;                        // numbers of triangles with the rule mean
+  std::size_t temperature_ = none, liquid_ = none; // of triangle_rows_
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::uint32_t> successor_; // of removed vertices; itself: still there
   std::optional<TriangleGrid> grid_;

@@ -93,6 +93,8 @@ EditableSheet::EditableSheet(const Frame& frame, const Scene* scene)
   for (std::size_t i = 0; i < triangle_rows_.size(); ++i)
     if (triangle_rows_[i].name == "temperature")
       temperature_ = i;
+    else if (triangle_rows_[i].name == "liquid")
+      liquid_ = i;
   for (std::size_t i = 0; i < triangle_rows_.size(); ++i)
     for (std::uint32_t c = 0; triangle_rows_[i].transfer == Transfer::mean && c < triangle_rows_[i].components; ++c)
       means_.push_back({i, c, {}});

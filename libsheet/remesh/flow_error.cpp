@@ -112,6 +112,7 @@ std::vector<TriangleRates> triangle_rates(const EditableSheet& sheet) {
       rates[t].shape = sheet.shape(t);
       rates[t].thickness = sheet.volume(t) / sheet.shape(t).area;
       rates[t].temperature = sheet.temperature(t);
+      rates[t].liquid = sheet.liquid(t);
     }
   const Normals normals = normals_of(sheet, rates);
   for (std::uint32_t t = 0; t < rates.size(); ++t) {

@@ -16,6 +16,7 @@ struct TriangleRates {
   Matrix3 stretching = Matrix3::Zero(); // E [1/s]
   Matrix3 bending = Matrix3::Zero();    // K, of the second fundamental form [1/(m s)]
   double temperature = 0;               // [K]; 0: there is none
+  std::uint32_t liquid = 0;             // its number (scene::liquids_of)
   bool bends = false;                   // K is known: no corner is on the rim, where a normal is one triangle's
 };
 [[nodiscard]] std::vector<TriangleRates> triangle_rates(const EditableSheet& sheet);

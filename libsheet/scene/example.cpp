@@ -80,7 +80,8 @@ velocity = [0, 0, 0]?
 angular_velocity = [0, "0 rpm", 0]?
 
 # Several sheets: [[sheet]] in place of [sheet], once for each. name = "lid" lets a [[hold]] and an [inflow] speak of one of
-# them, sheet = "lid"; enters = "2 s" lets it come in at that time (not the first one).
+# them, sheet = "lid"; enters = "2 s" lets it come in at that time (not the first one). A sheet's own liquid, wholly in place
+# of that of [material], stands below it under [sheet.material].
 
 [material] # ------------------------------------------------------------- the liquid
 

@@ -238,7 +238,8 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
   for (std::size_t i = 0; i < scene.sheets.size(); ++i) {
     const std::string name = name_of_sheet(scene, i);
-    for (const std::string& warning : warnings_of_sheet(scene, scene.sheets[i], scales[i]))
+    for (const std::string& warning :
+         warnings_of_sheet(with_material_of(scene, scene.sheets[i]), scene.sheets[i], scales[i]))
       warn(name.empty() ? warning : name + ": " + warning);
   }
   for (std::size_t i = 0; i < scene.holds.size(); ++i)
@@ -292,10 +293,12 @@ Explanation explain(const Scene& with_heat, std::span<const Measured> measured, 
   Explanation result;
   result.parts = std::move(parts);
   result.judged = name_of_sheet(scene, 0);
-  result.scales = scale_list(scene, scales.front());
-  result.numbers = numbers_of(scene, scales.front());
-  std::ranges::copy(heat_scales(with_heat, scales.front()), std::back_inserter(result.scales));
-  std::ranges::copy(heat_numbers(with_heat, scales.front()), std::back_inserter(result.numbers));
+  const Scene first = with_material_of(scene, scene.sheets.front());
+  const Scene first_with_heat = with_material_of(with_heat, scene.sheets.front());
+  result.scales = scale_list(first, scales.front());
+  result.numbers = numbers_of(first, scales.front());
+  std::ranges::copy(heat_scales(first_with_heat, scales.front()), std::back_inserter(result.scales));
+  std::ranges::copy(heat_numbers(first_with_heat, scales.front()), std::back_inserter(result.numbers));
   result.warnings = warnings_of(scene, scales);
   result.left_out = left_out_of(scene);
   return result;

@@ -73,8 +73,12 @@ DimensionlessNumber viscosity_range(const Scene& scene) {
 
 Scene as_it_starts(const Scene& scene) {
   Scene result = scene;
-  if (scene.heat)
-    result.material = at_temperature(scene.material, start_temperature(scene));
+  if (!scene.heat)
+    return result;
+  result.material = at_temperature(scene.material, start_temperature(scene));
+  for (SheetTable& sheet : result.sheets)
+    if (sheet.material)
+      sheet.material = at_temperature(*sheet.material, start_temperature(scene));
   return result;
 }
 

@@ -66,6 +66,40 @@ constexpr std::array motion_keys{
     word_key("interpolation", words::interpolations, "between the rows")};
 constexpr KeyTable motion_table{"motion", motion_keys};
 
+// ---- [material]
+
+constexpr std::array material_keys{
+    number_key("viscosity", quantity::viscosity, "resists stretching and bending; also \"800 P\" or \"2 cP\""),
+    number_key("density", quantity::density, "or \"1.3 g/cm^3\"; needed for inertia and gravity"),
+    number_key("surface_tension", quantity::surface_tension, "of each of the two surfaces (absent or 0: no such term)"),
+    word_key("law", words::flow_laws, "how viscosity depends on the rate of strain (default: newtonian, not at all)"),
+    number_key("flow_index", quantity::number, "n: stress grows as the rate to this power; below 1 it thins"),
+    number_key("yield_stress", quantity::pressure, "below which nothing flows"),
+    number_key("reference_rate", quantity::strain_rate, "at which power law and table have `viscosity` (default 1/s)"),
+    number_key("zero_viscosity", quantity::viscosity, "of carreau and cross, at low rates, in place of viscosity"),
+    number_key("infinite_viscosity", quantity::viscosity, "of the same, at high rates (default 0)"),
+    number_key("time_constant", quantity::time, "of the same: from its inverse on it thins"),
+    number_key("transition", quantity::number, "of carreau: how sharply it begins to thin (default 2)"),
+    list_key("rates", quantity::strain_rate, "[]", "of a table, ascending"),
+    list_key("viscosities", quantity::viscosity, "[]", "of a table, at its rates"),
+    file_key(row_files, "of a table, in place of the two: columns rate and viscosity"),
+    number_key("rest_rate", quantity::strain_rate,
+               "below which it is Newtonian (default: 1e-5 of the rate at which it yields, or of reference_rate)"),
+    word_key("viscosity_law", words::temperature_laws, "how viscosity depends on temperature (default: not at all)"),
+    number_key("reference_temperature", quantity::temperature, "at which it has its viscosity and surface tension"),
+    number_key("activation_energy", quantity::molar_energy, "E of arrhenius: ln(mu) rises by (E/R) (1/T - 1/T_r)"),
+    number_key("temperature_coefficient", quantity::per_kelvin, "b of exponential: ln(mu) falls by b (T - T_r)"),
+    number_key("vft_a", quantity::number, "A of log10(mu) = A + B/(T - T_0), mu in Pa s, in place of viscosity"),
+    number_key("vft_b", quantity::temperature, "B of the same, in K"),
+    number_key("vft_temperature", quantity::temperature, "T_0 of the same"),
+    number_key("wlf_c1", quantity::number, "C1 of log10(mu) = log10(mu_r) - C1 (T - T_r)/(C2 + T - T_r)"),
+    number_key("wlf_c2", quantity::temperature, "C2 of the same, in K"),
+    list_key("temperatures", quantity::temperature, "[]", "of a table, ascending, in place of viscosity"),
+    list_key("temperature_viscosities", quantity::viscosity, "[]", "of the same, at its temperatures"),
+    file_key(row_files, "of the same, in place of the two: columns temperature and viscosity", "temperature_file"),
+    number_key("surface_tension_slope", quantity::tension_slope, "by how much it changes with temperature")};
+constexpr KeyTable material_table{"material", material_keys};
+
 // ---- [sheet]
 
 constexpr std::array thickness_keys{
@@ -120,42 +154,11 @@ constexpr std::array sheet_keys{
     table_key("rotation", rotation_table),
     list_key("velocity", quantity::velocity, "[3]", "at the start"),
     list_key("angular_velocity", quantity::turning_rate, "[3]", "at the start, about its center, along the axis"),
-    number_key("enters", quantity::time, "when it comes in; not the first sheet")};
+    number_key("enters", quantity::time, "when it comes in; not the first sheet"),
+    table_key("material", material_table, "its own liquid, wholly in place of that of [material]")};
 constexpr KeyTable sheet_table{"sheet", sheet_keys};
 
-// ---- [material], [environment], [model]
-
-constexpr std::array material_keys{
-    number_key("viscosity", quantity::viscosity, "resists stretching and bending; also \"800 P\" or \"2 cP\""),
-    number_key("density", quantity::density, "or \"1.3 g/cm^3\"; needed for inertia and gravity"),
-    number_key("surface_tension", quantity::surface_tension, "of each of the two surfaces (absent or 0: no such term)"),
-    word_key("law", words::flow_laws, "how viscosity depends on the rate of strain (default: newtonian, not at all)"),
-    number_key("flow_index", quantity::number, "n: stress grows as the rate to this power; below 1 it thins"),
-    number_key("yield_stress", quantity::pressure, "below which nothing flows"),
-    number_key("reference_rate", quantity::strain_rate, "at which power law and table have `viscosity` (default 1/s)"),
-    number_key("zero_viscosity", quantity::viscosity, "of carreau and cross, at low rates, in place of viscosity"),
-    number_key("infinite_viscosity", quantity::viscosity, "of the same, at high rates (default 0)"),
-    number_key("time_constant", quantity::time, "of the same: from its inverse on it thins"),
-    number_key("transition", quantity::number, "of carreau: how sharply it begins to thin (default 2)"),
-    list_key("rates", quantity::strain_rate, "[]", "of a table, ascending"),
-    list_key("viscosities", quantity::viscosity, "[]", "of a table, at its rates"),
-    file_key(row_files, "of a table, in place of the two: columns rate and viscosity"),
-    number_key("rest_rate", quantity::strain_rate,
-               "below which it is Newtonian (default: 1e-5 of the rate at which it yields, or of reference_rate)"),
-    word_key("viscosity_law", words::temperature_laws, "how viscosity depends on temperature (default: not at all)"),
-    number_key("reference_temperature", quantity::temperature, "at which it has its viscosity and surface tension"),
-    number_key("activation_energy", quantity::molar_energy, "E of arrhenius: ln(mu) rises by (E/R) (1/T - 1/T_r)"),
-    number_key("temperature_coefficient", quantity::per_kelvin, "b of exponential: ln(mu) falls by b (T - T_r)"),
-    number_key("vft_a", quantity::number, "A of log10(mu) = A + B/(T - T_0), mu in Pa s, in place of viscosity"),
-    number_key("vft_b", quantity::temperature, "B of the same, in K"),
-    number_key("vft_temperature", quantity::temperature, "T_0 of the same"),
-    number_key("wlf_c1", quantity::number, "C1 of log10(mu) = log10(mu_r) - C1 (T - T_r)/(C2 + T - T_r)"),
-    number_key("wlf_c2", quantity::temperature, "C2 of the same, in K"),
-    list_key("temperatures", quantity::temperature, "[]", "of a table, ascending, in place of viscosity"),
-    list_key("temperature_viscosities", quantity::viscosity, "[]", "of the same, at its temperatures"),
-    file_key(row_files, "of the same, in place of the two: columns temperature and viscosity", "temperature_file"),
-    number_key("surface_tension_slope", quantity::tension_slope, "by how much it changes with temperature")};
-constexpr KeyTable material_table{"material", material_keys};
+// ---- [environment], [model]
 
 constexpr std::array pressure_keys{
     word_key("law", words::pressures, "what it depends on"),

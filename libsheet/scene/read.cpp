@@ -18,27 +18,79 @@ bool has_sheet_named(std::span<const SheetTable> sheets, const std::string& name
   return std::ranges::any_of(sheets, [&](const SheetTable& sheet) { return sheet.name == name; });
 }
 
+// A liquid of a scene, and the table that tells it.
+struct ToldLiquid {
+  const Liquid& liquid;
+  const Node& table;
+  std::string_view where; // that table's name, for messages
+  [[nodiscard]] Place place_of(std::string_view key) const {
+    const Node* value = table.find(key);
+    return value ? value->place : table.place;
+  }
+};
+
+// Of a scene of which every sheet has a liquid.
+std::vector<ToldLiquid> told_liquids(const Scene& scene, const Node& document) {
+  std::vector<ToldLiquid> told;
+  if (const Node* own = document.find("material"))
+    told.push_back({scene.material, *own, "[material]"});
+  const Node& tables = *document.find("sheet");
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    if (const auto& material = scene.sheets[i].material) {
+      const Node& table = tables.type == Node::Type::list ? tables.items[i] : tables;
+      told.push_back({*material, *table.find("material"), "[sheet.material]"});
+    }
+  return told;
+}
+
 // What is said of temperatures where there are none, and what [heat] needs. `place_of`: of a key in a table.
-template <class PlaceOf> void check_heat(const Scene& scene, PlaceOf place_of, Problems& problems) {
+template <class PlaceOf>
+void check_heat(const Scene& scene, std::span<const ToldLiquid> liquids, PlaceOf place_of, Problems& problems) {
   if (scene.heat) {
-    if (!(scene.material.density > 0))
-      problems.add(place_of("material", "density"), "missing key \"density\" in [material]: [heat] needs it");
+    for (const ToldLiquid& told : liquids)
+      if (!(told.liquid.density > 0))
+        problems.add(told.place_of("density"),
+                     fmt::format("missing key \"density\" in {}: [heat] needs it", told.where));
     return;
   }
-  const auto needs = [&](std::string_view table, std::string_view key) {
-    problems.add(place_of(table, key),
-                 fmt::format("{}: needs a table [heat], without which nothing has a temperature", key));
+  const auto needs_at = [&](const Place& place, std::string_view key) {
+    problems.add(place, fmt::format("{}: needs a table [heat], without which nothing has a temperature", key));
   };
-  if (!scene.material.temperature_law.constant())
-    needs("material", "viscosity_law");
-  else if (scene.material.surface_tension_slope != 0)
-    needs("material", "surface_tension_slope");
+  const auto needs = [&](std::string_view table, std::string_view key) { needs_at(place_of(table, key), key); };
+  for (const ToldLiquid& told : liquids)
+    if (!told.liquid.temperature_law.constant())
+      needs_at(told.place_of("viscosity_law"), "viscosity_law");
+    else if (told.liquid.surface_tension_slope != 0)
+      needs_at(told.place_of("surface_tension_slope"), "surface_tension_slope");
   if (std::ranges::any_of(scene.sheets, [](const SheetTable& sheet) { return sheet.temperature.has_value(); }))
     needs("sheet", "temperature");
   if (std::ranges::any_of(scene.inflows, [](const Inflow& inflow) { return inflow.temperature.has_value(); }))
     needs("inflow", "temperature");
   if (std::ranges::any_of(scene.solids, [](const Solid& solid) { return solid.temperature.has_value(); }))
     needs("solid", "temperature");
+}
+
+// What a liquid needs in this scene, and what several have in common.
+void check_liquids(const Scene& scene, std::span<const ToldLiquid> liquids, Problems& problems) {
+  const ToldLiquid& first = liquids.front();
+  for (const ToldLiquid& told : liquids) {
+    const auto needs_density = [&](std::string_view why) {
+      problems.add(told.place_of("density"), fmt::format("missing key \"density\" in {}: {}", told.where, why));
+    };
+    const bool dense = told.table.find("density") != nullptr; // what is wrong with it was told
+    if (!dense && scene.model.inertia)
+      needs_density("inertia needs it (or switch it off: inertia = false in [model])");
+    else if (!dense && scene.environment.gravity)
+      needs_density("gravity needs it");
+    else if (dense != (first.table.find("density") != nullptr))
+      problems.add(told.place_of("density"), "density: one of the scene's liquids has one, and another one does not");
+    if (told.liquid.viscosity == 0 && !scene.model.inertia)
+      problems.add(told.place_of("viscosity"), "viscosity: 0 needs inertia: nothing else would resist the forces");
+    if ((told.liquid.viscosity == 0) != (first.liquid.viscosity == 0))
+      problems.add(told.place_of("viscosity"),
+                   "viscosity: one of the scene's liquids has one, and another one has not: "
+                   "give the latter a small one");
+  }
 }
 
 // What only several tables together can say.
@@ -54,22 +106,19 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
     const Node* found = document.find(table);
     return found && found->find(key);
   };
+  const std::vector<ToldLiquid> liquids = told_liquids(scene, document);
+  const bool tense =
+      std::ranges::any_of(liquids, [](const ToldLiquid& told) { return told.liquid.surface_tension > 0; });
   const auto& [sheets, material, environment, model, holds, solids, inflows, outflows, tear, merge, contact, heat] =
       scene;
-  if (!has("material", "density") && model.inertia)
-    problems.add(place("material", "density"), "missing key \"density\" in [material]: inertia needs it (or switch it "
-                                               "off: inertia = false in [model])");
-  else if (!has("material", "density") && environment.gravity)
-    problems.add(place("material", "density"), "missing key \"density\" in [material]: gravity needs it");
-  if (material.viscosity == 0 && !model.inertia)
-    problems.add(place("material", "viscosity"), "viscosity: 0 needs inertia: nothing else would resist the forces");
-  if (model.faces && !(material.surface_tension > 0))
+  check_liquids(scene, liquids, problems);
+  if (model.faces && !tense)
     problems.add(place("model", "faces"), "faces: needs surface_tension in [material], which acts on them");
   if (environment.bath && !environment.gravity && (!has("environment", "gravity") || !problems.any()))
     problems.add(place("environment", "bath"), "bath: needs gravity, which says where up is");
   if (merge && !(contact && contact->self))
     problems.add(place("merge", "after"), "[merge] needs [contact] with self = true: nothing touches without it");
-  if (merge && !merge->after && !(material.surface_tension > 0))
+  if (merge && !merge->after && !tense)
     problems.add(place("merge", "after"), "missing key \"after\" in [merge]: without surface tension nothing says how "
                                           "long layers take to become one; for example after = \"0.3 s\"");
   if (const std::string& name = environment.pressure_sheet; !name.empty() && !has_sheet_named(sheets, name))
@@ -82,7 +131,7 @@ void check_together(const Scene& scene, const Node& document, Problems& problems
   if (environment.pressure && flat && !without_volume)
     problems.add(place("environment", "pressure"),
                  "pressure: this law needs a shape that encloses a volume, or a mesh");
-  check_heat(scene, place, problems);
+  check_heat(scene, liquids, place, problems);
   std::size_t rows = 0;
   const auto count = [&](const Motion& motion) {
     if (const auto* keyed = std::get_if<Keyframed>(&motion))
@@ -172,14 +221,18 @@ Scene read_document(const Node& document, Problems& problems, const Files& files
     problems.add({}, "missing table [sheet]");
   else if (sheet->type == Node::Type::list && sheet->items.empty())
     problems.add(sheet->place, "sheet: an empty list; there must be a [sheet], or at least one [[sheet]]");
-  const bool has_sheet = !sheets.empty(), has_material = required("material").has_value();
-  if (has_material)
+  const bool own = std::ranges::all_of(sheets, [](const TableReader& sheet) { return !sheet.absent("material"); });
+  const bool has_sheet = !sheets.empty(), sheets_tell = has_sheet && own && top.absent("material");
+  const bool has_material = sheets_tell || required("material").has_value();
+  if (has_material && !sheets_tell)
     scene.material = read_material(named("material", *document.find("material")), files);
   if (auto table = optional("environment"))
     scene.environment = read_environment(*table);
   if (auto table = optional("model"))
     scene.model = read_model(*table);
   scene.sheets = read_sheets(sheets, scene.environment, files);
+  if (sheets_tell && scene.sheets.front().material)
+    scene.material = *scene.sheets.front().material;
   for (TableReader& table : list("hold", most_holds))
     scene.holds.push_back(read_hold(table, scene.sheets, scene.model, files));
   for (TableReader& table : list("solid", std::numeric_limits<std::size_t>::max()))

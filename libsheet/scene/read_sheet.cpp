@@ -327,6 +327,9 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
   sheet.velocity = table.vector("velocity").value_or(Vector3d::Zero());
   sheet.angular_velocity = table.vector("angular_velocity").value_or(Vector3d::Zero());
   sheet.enters = table.quantity("enters", Bound::positive);
+  if (const Node* material = table.take("material"); material && table.table("material"))
+    sheet.material =
+        read_material({*material, "[sheet.material]", *table.declared("material").below, table.problems()}, files);
   if (sheet.enters && std::holds_alternative<SheetMesh>(sheet.shape)) // its file would have to travel with the stream
     table.wrong("enters", "a sheet from a mesh file is there from the start; a shape can enter");
   table.finish();

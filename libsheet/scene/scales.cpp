@@ -96,7 +96,8 @@ Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& me
 std::vector<Scales> scales_of_sheets(const Scene& scene, std::span<const Measured> measured) {
   std::vector<Scales> scales;
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
-    scales.push_back(scales_of(scene, scene.sheets[i], measured.empty() ? Measured{} : measured[i]));
+    scales.push_back(scales_of(with_material_of(scene, scene.sheets[i]), scene.sheets[i],
+                               measured.empty() ? Measured{} : measured[i]));
   return scales;
 }
 

@@ -70,6 +70,31 @@ bool flows_in_or_out(const Scene& scene) {
          std::ranges::any_of(scene.sheets, [](const SheetTable& sheet) { return sheet.enters.has_value(); });
 }
 
+std::vector<Liquid> liquids_of(const Scene& scene) {
+  std::vector<Liquid> liquids{scene.material};
+  for (const SheetTable& sheet : scene.sheets)
+    if (sheet.material && std::ranges::find(liquids, *sheet.material) == liquids.end())
+      liquids.push_back(*sheet.material);
+  return liquids;
+}
+
+std::size_t liquid_of(const Scene& scene, const SheetTable& sheet) {
+  const std::vector<Liquid> liquids = liquids_of(scene);
+  return static_cast<std::size_t>(std::ranges::find(liquids, material_of(scene, sheet)) - liquids.begin());
+}
+
+const Liquid& material_of(const Scene& scene, const SheetTable& sheet) {
+  return sheet.material ? *sheet.material : scene.material;
+}
+
+Scene with_material_of(const Scene& scene, const SheetTable& sheet) {
+  Scene result = scene;
+  result.material = material_of(scene, sheet);
+  for (SheetTable& each : result.sheets)
+    each.material.reset();
+  return result;
+}
+
 const SheetTable& sheet_named(const Scene& scene, const std::string& name) {
   return name.empty() ? scene.sheets.front()
                       : *std::ranges::find(scene.sheets, name, [](const SheetTable& sheet) { return sheet.name; });

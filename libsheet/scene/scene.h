@@ -135,6 +135,7 @@ struct SheetTable {
   Vector3d velocity = Vector3d::Zero();         // at the start [m/s]
   Vector3d angular_velocity = Vector3d::Zero(); // likewise, about the center [rad/s]
   std::optional<double> enters;                 // it is there from this time on [s]; absent: from the start
+  std::optional<Liquid> material;               // its own; absent: the scene's
   bool operator==(const SheetTable&) const = default;
 };
 
@@ -337,7 +338,7 @@ struct Contact {
 
 struct Scene {
   std::vector<SheetTable> sheets = {SheetTable{}}; // at least one; the first is there from the start
-  Liquid material;
+  Liquid material;                                 // of the sheets without their own; else that of the first one
   Environment environment;
   Model model;
   std::vector<Hold> holds;
@@ -350,6 +351,16 @@ struct Scene {
   std::optional<Heat> heat; // absent: temperature does not exist
   bool operator==(const Scene&) const = default;
 };
+
+// The different liquids of the sheets: the scene's first, whether or not a sheet is of it, then the sheets' own in
+// their order. Frames tell triangles' liquids by their places in this list (array "liquid"), if it has more than one.
+[[nodiscard]] std::vector<Liquid> liquids_of(const Scene& scene);
+// The place of the sheet's in that list.
+[[nodiscard]] std::size_t liquid_of(const Scene& scene, const SheetTable& sheet);
+// The sheet's own, or the scene's.
+[[nodiscard]] const Liquid& material_of(const Scene& scene, const SheetTable& sheet);
+// The scene as if all of it were of the sheet's liquid: what is judged by one liquid judges that.
+[[nodiscard]] Scene with_material_of(const Scene& scene, const SheetTable& sheet);
 
 // The sheet of this name, or the first one for "". Precondition: there is one.
 [[nodiscard]] const SheetTable& sheet_named(const Scene& scene, const std::string& name);

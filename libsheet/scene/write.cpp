@@ -342,6 +342,16 @@ void write_temperature_law(Writer& out, const Liquid& liquid) {
   unless_zero("surface_tension_slope", liquid.surface_tension_slope);
 }
 
+void write_material(Writer& out, const Liquid& liquid, std::string_view header) {
+  out.open(header);
+  write_flow_law(out, liquid);
+  write_temperature_law(out, liquid);
+  if (liquid.density > 0)
+    out.line("density", liquid.density);
+  if (liquid.surface_tension > 0)
+    out.line("surface_tension", liquid.surface_tension);
+}
+
 std::string varying(const Varying& value) {
   return std::visit(Overloaded{[](const Timed<double>& rows) { return timed(rows); },
                                [](const AlongAxis& along) {
@@ -378,15 +388,12 @@ void write_heat(Writer& out, const Heat& heat) {
 std::string to_toml(const Scene& scene) {
   Writer out;
   const bool several = scene.sheets.size() > 1;
-  for (const SheetTable& sheet : scene.sheets)
+  for (const SheetTable& sheet : scene.sheets) {
     write_sheet(out, sheet, several ? "[[sheet]]" : "[sheet]");
-  out.open("[material]");
-  write_flow_law(out, scene.material);
-  write_temperature_law(out, scene.material);
-  if (scene.material.density > 0)
-    out.line("density", scene.material.density);
-  if (scene.material.surface_tension > 0)
-    out.line("surface_tension", scene.material.surface_tension);
+    if (sheet.material)
+      write_material(out, *sheet.material, "[sheet.material]");
+  }
+  write_material(out, scene.material, "[material]");
   write_environment(out, scene.environment);
   out.open("[model]");
   out.line("inertia", flag(scene.model.inertia));

@@ -7,6 +7,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/overloaded.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/enclosed.h"
 #include "libsheet/shape/mesh_file.h"
@@ -308,6 +309,8 @@ formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) 
   put_arrays(mesh, table, frame);
   if (scene.heat)
     put_temperature(mesh, scene, table, frame);
+  if (scene::liquids_of(scene).size() > 1)
+    scene::put_liquid(scene::liquid_of(scene, table), frame);
   return frame;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 std::vector<double> masses(const Model& model, const State& state) {
   return vertex_shares(state.positions.size(), state.mesh->triangles,
-                       [&](std::uint32_t t) { return model.liquid.density * state.volumes[t]; });
+                       [&](std::uint32_t t) { return model.density(state, t) * state.volumes[t]; });
 }
 
 double area_of(const State& state, const Corners& c) {
@@ -47,7 +47,10 @@ double fastest_prescribed(const Model& model, const State& end) {
 
 // Of gravity on all vertices, as if none had lost what another one gained, and of what the bath carries.
 double work_of_gravity(const Model& model, const State& start, const State& end, const std::vector<double>& mass) {
-  const double lift = model.bath ? 1 + model.bath->density / model.liquid.density : 1;
+  double lightest = model.liquid.density;
+  for (const Liquid& other : model.other_liquids)
+    lightest = std::min(lightest, other.density);
+  const double lift = model.bath ? 1 + model.bath->density / lightest : 1;
   double work = 0;
   for (std::size_t v = 0; v < mass.size(); ++v)
     work += lift * mass[v] * std::abs(model.gravity.dot(end.positions[v] - start.positions[v]));
@@ -61,9 +64,11 @@ double work_on_area(const Model& model, const State& start, const State& end) {
     pressure = std::max(pressure, std::abs(law.value));
   for (const Gas& gas : end.gas)
     pressure = std::max(pressure, std::abs(gas.pressure));
-  double work = 0, tension = model.liquid.surface_tension;
-  for (const double temperature : start.temperatures)
-    tension = std::max(tension, model.liquid.surface_tension_at(temperature));
+  double work = 0, tension = model.greatest_tension();
+  for (std::size_t t = 0; t < start.temperatures.size(); ++t) {
+    const std::size_t number = model.other_liquids.empty() ? 0 : start.liquids[t];
+    tension = std::max(tension, model.liquid_of(number).surface_tension_at(start.temperatures[t]));
+  }
   if (model.faces)
     work += tension * extra_area(*start.mesh, start.positions, start.volumes, FreeFaces{model.faces->rims, {}});
   for (std::size_t t = 0; t < start.volumes.size(); ++t) {
@@ -74,7 +79,7 @@ double work_on_area(const Model& model, const State& start, const State& end) {
       way = std::max(way, (end.positions[v] - start.positions[v]).norm());
     work += 2 * tension * std::max(0.0, before - after) + pressure * std::max(before, after) * way;
     if (!model.walls.empty() || model.bath)
-      work += model.liquid.density * model.gravity.norm() * start.volumes[t] * start.volumes[t] / before;
+      work += model.density(start, t) * model.gravity.norm() * start.volumes[t] * start.volumes[t] / before;
   }
   return work;
 }

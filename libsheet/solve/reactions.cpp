@@ -75,7 +75,7 @@ std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, con
   const double duration = instant_part * dt;
   State before = end;
   before.time = end.time - duration; // so that what is prescribed moves as it did until the end
-  Stage instant = first_stage(before, model.liquid, duration, end.time, model.has_angles(),
+  Stage instant = first_stage(before, model.liquids(), duration, end.time, model.has_angles(),
                               model.heat ? model.heat->profile : heat::Profile{});
   instant.inertial_time = dt;
   for (std::size_t v = 0; v < end.positions.size(); ++v)

@@ -12,6 +12,7 @@
 #include "libsheet/geometry/capped_volume.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/heat/surroundings.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/inlet_depth.h"
 #include "libsheet/scene/prescribed.h"
@@ -333,6 +334,9 @@ void set_surroundings(const scene::HeatedFace& face, heat::Face which, HeatModel
 HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<const solid::Solids>& solids) {
   HeatModel model;
   model.capacity = scene.material.density * scene.heat->specific_heat;
+  if (const FrameLiquids liquids(scene, frame); liquids.several())
+    for (std::size_t t = 0; t < frame.triangles; ++t)
+      model.capacities.push_back(liquids.density(t) * scene.heat->specific_heat);
   model.conductivity = scene.heat->conductivity;
   const bool alike = scene.heat->upper == scene.heat->lower && scene.solids.empty();
   if (scene.heat->profile)
@@ -360,7 +364,9 @@ HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<
 // What a model has of a scene in any frame.
 Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   Model model;
-  model.liquid = scene.material;
+  const std::vector<Liquid> liquids = scene::liquids_of(scene);
+  model.liquid = liquids[0];
+  model.other_liquids.assign(liquids.begin() + 1, liquids.end());
   model.inertia = scene.model.inertia;
   model.bending = scene.model.bending ? bending : Bending::none;
   model.arcs = arcs;
@@ -388,6 +394,10 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
   if (const Array* angles = frame.find("director_angle")) {
     const auto angle = angles->values<double>();
     state.director_angles.assign(angle.begin(), angle.end());
+  }
+  if (const Array* liquids = frame.find("liquid")) {
+    const auto numbers = liquids->values<std::uint32_t>();
+    state.liquids.assign(numbers.begin(), numbers.end());
   }
   const auto take = [&](std::string_view name, std::vector<double>& to) {
     if (const Array* array = frame.find(name)) {

@@ -78,17 +78,27 @@ void StageSolve::place(const Stage& stage, Unknowns& u) const {
 // What yields is begun as if it did so softly, an iteration each at rest rates that fall to its own: a sheet at rest is
 // so stiff under a load that its first direction is shorter than any rule for stopping, though it flows in the end.
 void StageSolve::come_from_softer(const Stage& stage, const Unknowns& guess, NewtonReport& report, Unknowns& u) {
-  const auto rest_at = [&](double rate) {
+  const auto rest_at = [&](std::span<const double> rates) {
     for (const auto& term : terms_)
-      term->rest_at(rate);
+      term->rest_at(rates);
   };
-  const double rest = rest_rate(stage.liquid);
+  std::vector<double> rest, rates;
+  for (const StageLiquid& of : stage.liquids) {
+    rest.push_back(rest_rate(of.liquid));
+    rates.push_back(softest * yield_rate(of.liquid));
+  }
+  const auto softer = [&] { return std::ranges::mismatch(rates, rest, std::ranges::less_equal{}).in1 != rates.end(); };
   NewtonOptions once = options_;
   once.iterations = 1;
-  for (double rate = softest * yield_rate(stage.liquid); rate > rest; rate *= of_next) {
-    rest_at(rate);
+  while (softer()) {
+    std::vector<double> now = rest;
+    for (std::size_t i = 0; i < now.size(); ++i)
+      now[i] = std::max(rest[i], rates[i]);
+    rest_at(now);
     system_.forget_factor();
     report += minimize(system_, terms_, scale_, guess, once, evaluate_first(system_, terms_, u), u);
+    for (double& rate : rates)
+      rate *= of_next;
   }
   rest_at(rest);
   system_.forget_factor();
@@ -102,7 +112,11 @@ bool StageSolve::solve_at_once(const Stage& stage, const Unknowns& guess, FirstE
   options.iterations = std::min(options.iterations, at_once);
   const Eigen::Index positions = 3 * static_cast<Eigen::Index>(stage.vertices());
   const double way = (guess - stage.begin).cwiseQuotient(scale_).head(positions).lpNorm<Eigen::Infinity>();
-  const bool moves = way > moving * yield_rate(stage.liquid) * longest_reduced_time(stage);
+  double least = std::numeric_limits<double>::infinity();
+  for (const StageLiquid& of : stage.liquids)
+    if (of.liquid.law.yields())
+      least = std::min(least, yield_rate(of.liquid));
+  const bool moves = way > moving * least * longest_reduced_time(stage);
   options.force_left = moves ? force_left_moving : force_left_resting;
   const NewtonReport r = minimize(system_, terms_, scale_, guess, options, std::move(first), u);
   report += r;
@@ -135,7 +149,7 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
     other = {};
   }
   report.seconds_assembly += watch.lap();
-  if (stage.liquid.law.yields()) {
+  if (std::ranges::any_of(stage.liquids, [](const StageLiquid& of) { return of.liquid.law.yields(); })) {
     const Unknowns start = u;
     if (solve_at_once(stage, guess, std::move(first), newton, report, u))
       return true;

@@ -102,7 +102,7 @@ struct Beginning {
 Beginning begin_step(const Model& model, const State& state, double duration) {
   const heat::Profile profile = model.heat ? model.heat->profile : heat::Profile{};
   Beginning result{
-      first_stage(state, model.liquid, duration, state.time + duration, model.has_angles(), profile), {}, {}, {}};
+      first_stage(state, model.liquids(), duration, state.time + duration, model.has_angles(), profile), {}, {}, {}};
   Stage& stage = result.stage;
   result.lengths = step_scale(state, stage.begin.size());
   result.scale = measures(stage, result.lengths);

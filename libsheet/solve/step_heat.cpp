@@ -108,6 +108,7 @@ void StepHeat::solve(const Stage& stage, const Terms& terms, const Unknowns& u, 
   }
   heat::Problem problem;
   problem.heat_capacity = of_heat.capacity;
+  problem.heat_capacities = of_heat.capacities;
   problem.conductivity = of_heat.conductivity;
   problem.duration = stage.duration;
   problem.profile = of_heat.profile;
@@ -196,10 +197,13 @@ void StepHeat::put(State& end) const {
 
 double StepHeat::error(const Stage& last) const {
   constexpr double of_viscosity = 0.1;
-  const ViscosityShift shift(last.liquid.temperature_law);
+  std::vector<ViscosityShift> shifts;
+  for (const StageLiquid& of : last.liquids)
+    shifts.emplace_back(of.liquid.temperature_law);
   double greatest = 0;
   for (std::size_t t = 0; t < last_.means.size(); ++t) {
     const double change = std::abs(last_.means[t] - last.temperatures[t]);
+    const ViscosityShift& shift = shifts[shifts.size() == 1 ? 0 : last.start->liquids[t]];
     const double slope = last.shift.empty() ? 0 : std::abs(shift.at(last_.means[t]).log_slope);
     greatest = std::max(greatest, change * std::max(1 / last_.means[t], of_viscosity * slope));
   }

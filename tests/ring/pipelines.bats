@@ -211,6 +211,11 @@ END
   interrupted KILL tongue ice-shelf 4000 200
 }
 
+@test "ketchup: interrupted and resumed = straight, and it stands where the sauce runs on" {
+  interrupted INT ketchup ketchup 0.012 3
+  awk -F, 'END { exit !($2 > 90 && $2 < $4 && $3 > 1.2 * $2) }' "$BATS_TEST_TMPDIR/straight/radii.csv"
+}
+
 @test "lithosphere: interrupted and resumed = straight" {
   interrupted INT run lithosphere 3
 }

@@ -93,8 +93,9 @@ State leaning(Random& random) {
 void touch_walls(Stage& stage, Random& random) {
   stage.sites.clear();
   stage.site_of.assign(stage.vertices(), no_index);
-  if (!stage.liquid.law.newtonian())
-    stage.wall_flow = std::make_shared<const WallFlow>(stage.liquid);
+  for (StageLiquid& of : stage.liquids)
+    if (!of.liquid.law.newtonian())
+      of.wall_flow = std::make_shared<const WallFlow>(of.liquid);
   for (std::uint32_t v = 0; v < stage.vertices(); ++v) {
     if (v % 3 == 0)
       continue;
@@ -213,6 +214,7 @@ struct Properties {
   double viscosity = 2;
   FlowLaw law = {};
   bool warm = false; // triangles have temperatures, each its own
+  bool two = false;  // every third triangle is of another liquid
 };
 
 template <int n>
@@ -221,9 +223,14 @@ void check_all(Elements<n>& elements, Properties properties, bool second_stage_t
   const int vertices = stencil_vertices(elements.stencil());
   Random random;
   for (int round = 0; round < 5; ++round) {
-    const State s = state(random);
-    const Liquid liquid{.viscosity = properties.viscosity, .density = 3, .surface_tension = 0.7, .law = properties.law};
-    Stage stage = first_stage(s, liquid, 0.05, 0.05, elements.stencil() == Stencil::triangle_edges);
+    State s = state(random);
+    std::vector<Liquid> liquids{
+        {.viscosity = properties.viscosity, .density = 3, .surface_tension = 0.7, .law = properties.law}};
+    for (std::size_t t = 0; properties.two && t < s.volumes.size(); ++t)
+      s.liquids.push_back(t % 3 == 0 ? 1 : 0);
+    if (properties.two)
+      liquids.push_back({.viscosity = 5, .density = 4, .surface_tension = 0.2});
+    Stage stage = first_stage(s, liquids, 0.05, 0.05, elements.stencil() == Stencil::triangle_edges);
     for (std::size_t t = 0; properties.warm && t < s.volumes.size(); ++t)
       stage.shift.push_back(0.5 + 0.25 * static_cast<double>(t % 5));
     Unknowns first = stage.begin;
@@ -311,6 +318,17 @@ TEST(Derivatives, MembraneOfFlowCurves) {
     for (const bool warm : {false, true})
       check(Membrane(), {.law = law, .warm = warm});
 }
+TEST(Derivatives, OfTwoLiquids) {
+  for (const FlowLaw& law : {FlowLaw{}, flow_laws()[0], flow_laws()[5]})
+    for (const bool warm : {false, true}) {
+      const Properties two{.law = law, .warm = warm, .two = true};
+      check(Membrane(), two);
+      check(SurfaceTension(), two);
+      check(WallDrag(), {false, false, 2, law, warm, true}, true, crumpled, touch_walls);
+    }
+  check(Inertia(), {.translations = false, .rotations = false, .two = true});
+  check(Gravity({0.3, -9, 2}), {.translations = false, .rotations = false, .two = true});
+}
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(), {}, true, crumpled, touch_walls); }
 // A sphere has no rim: every third edge counts as one, in part.
@@ -386,7 +404,7 @@ TEST(Pressure, ActsAlongTheNormalsOfAnOpenSheet) {
   for (Vector3& x : mesh.positions)
     x += Vector3(3, -2, 1 + 0.5 * x.x() * x.x() - 0.2 * x.y());
   const State s = test::at_rest(mesh, 0.1);
-  const Stage stage = first_stage(s, {}, 0.1, 0.1, false);
+  const Stage stage = first_stage(s, Liquid{}, 0.1, 0.1, false);
   Pressure pressure({PressureLaw::Kind::constant, 3, 1, 1});
   pressure.begin(stage);
   std::vector<Vector3> force(s.positions.size(), Vector3::Zero()), expected = force;
@@ -429,7 +447,7 @@ TEST(Derivatives, PressureOfTheEnclosedVolume) {
         State s = closed ? crumpled(random) : test::at_rest(dome, 0.1);
         for (Vector3& v : s.velocities)
           v = random.vector(1);
-        Stage stage = first_stage(s, {}, 0.05, 0.05, false);
+        Stage stage = first_stage(s, Liquid{}, 0.05, 0.05, false);
         Unknowns first = stage.begin;
         for (double& x : first)
           x += 0.05 * random();
@@ -491,6 +509,8 @@ TEST(Derivatives, MidEdgeArcsOfFlowCurves) {
   for (const FlowLaw& law : flow_laws())
     for (const bool warm : {false, true})
       check(MidEdgeShell(true), {.rotations = false, .law = law, .warm = warm});
+  for (const FlowLaw& law : {FlowLaw{}, flow_laws()[0], flow_laws()[5]}) // batches of two liquids
+    check(MidEdgeShell(AreaLoads{.tension = SurfaceTension()}), {.rotations = false, .law = law, .two = true});
   check(MidEdgeShell(true), {.rotations = false, .law = flow_laws()[0]}, true, leaning);
   check(MidEdgeShell(AreaLoads{.tension = SurfaceTension()}), {.rotations = false, .law = flow_laws()[4]});
 }
@@ -599,7 +619,8 @@ TEST(Derivatives, ContactShear) {
 TEST(Derivatives, ContactShearOfFlowCurves) {
   for (const std::size_t law : {0U, 1U, 2U, 4U, 5U}) // Cross' curve is not smooth at rest, which some are near
     for (const bool warm : {false, true})
-      check(ContactShear(springs), {false, false, 2, flow_laws()[law], warm}, true, crumpled, touch_walls);
+      for (const bool two : {false, true})
+        check(ContactShear(springs), {false, false, 2, flow_laws()[law], warm, two}, true, crumpled, touch_walls);
 }
 
 TEST(Derivatives, SqueezeOfArcs) {

@@ -77,7 +77,7 @@ TEST(Gas, IsCompressedByRimsThatMove) {
   const double volume = capped_volume(*state.mesh, state.positions), dt = 0.1;
   for (std::size_t v = 0; v < state.positions.size(); ++v)
     state.velocities[v] = Vector3(0, 0, -2 * state.positions[v].z()); // heights shrink by a fifth in dt
-  const Stage stage = first_stage(state, {}, dt, dt, false);
+  const Stage stage = first_stage(state, Liquid{}, dt, dt, false);
   PressureLaw law{.kind = PressureLaw::Kind::gas, .gas = {.amount = std::abs(volume), .ambient = 10, .exponent = 1}};
   law.gas.more_volume = volume < 0 ? -3 * volume : 0; // whichever way the disk's triangles turn
   const double whole = volume + law.gas.more_volume;

@@ -29,7 +29,7 @@ State uneven() {
 Stage on_floor(const State& s) {
   Stage stage;
   stage.start = &s;
-  stage.liquid = {3, 2, 0};
+  stage.liquids[0].liquid = {3, 2, 0};
   stage.viscosity.assign(s.volumes.size(), 3);
   stage.site_of.assign(s.positions.size(), no_index);
   for (std::uint32_t v = 0; v < s.positions.size(); ++v) {
@@ -114,7 +114,7 @@ TEST(Levelling, LeavesWavesToSlopes) {
   const auto moved = [](const State& start, bool sloped) {
     State s = start;
     Stage stage = on_floor(start);
-    stage.liquid.surface_tension = 0.1;
+    stage.liquids[0].liquid.surface_tension = 0.1;
     EXPECT_TRUE(level_layers(stage, Vector3::Zero(), {}, sloped, 1e-3, s));
     double sum = 0;
     for (std::size_t t = 0; t < s.volumes.size(); ++t)
@@ -142,7 +142,7 @@ TEST(Levelling, NeitherHangingNorFreelySlippingLayersLevel) {
   EXPECT_EQ(s.volumes, before);
   for (WallSite& site : stage.sites)
     site.slip_length = free_slip;
-  stage.liquid.surface_tension = 0.1;
+  stage.liquids[0].liquid.surface_tension = 0.1;
   ASSERT_TRUE(level_layers(stage, {0, 0, -9}, {}, false, 1, s));
   EXPECT_EQ(s.volumes, before);
 }

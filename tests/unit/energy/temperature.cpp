@@ -57,7 +57,8 @@ State warm_crumpled() {
 void touch_warm_wall(Stage& stage) {
   stage.sites.clear();
   stage.site_of.assign(stage.vertices(), no_index);
-  stage.wall_flow = stage.liquid.law.newtonian() ? nullptr : std::make_shared<const WallFlow>(stage.liquid);
+  StageLiquid& of = stage.liquids[0];
+  of.wall_flow = of.liquid.law.newtonian() ? nullptr : std::make_shared<const WallFlow>(of.liquid);
   for (std::uint32_t v = 1; v < stage.vertices(); v += 3) {
     WallSite site;
     site.vertex = v;

@@ -537,6 +537,39 @@ until = 3
   EXPECT_EQ(s.inflows[1].thickness, 0.01);
 }
 
+// A sheet of its own liquid, and what scenes of several need.
+std::string with_own(const std::string& first, const std::string& second) {
+  const std::string shape = "[[sheet]]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.01\n";
+  return shape + first + shape + second;
+}
+
+TEST(Read, SheetsOfTheirOwnLiquids) {
+  const std::string honey = "[sheet.material]\nviscosity = 6\ndensity = 1400\n";
+  const Scene s = parse_scene(with_own("", honey) + liquid, "s");
+  EXPECT_FALSE(s.sheets[0].material);
+  EXPECT_EQ(s.sheets[1].material->viscosity, 6);
+  EXPECT_EQ(liquids_of(s).size(), 2U);
+  EXPECT_EQ(liquid_of(s, s.sheets[1]), 1U);
+  EXPECT_EQ(parse_scene(to_toml(s), "again"), s);
+  const Scene all = parse_scene(with_own(honey, "[sheet.material]\nviscosity = 7\ndensity = 1000\n"), "s");
+  EXPECT_EQ(all.material.viscosity, 6); // where the scene says none, that of the first
+  EXPECT_EQ(liquids_of(all).size(), 2U);
+  EXPECT_EQ(liquids_of(parse_scene(with_own(honey, honey), "s")).size(), 1U);
+  for (const auto& [text, expected] : std::vector<Case>{
+           {with_own(honey, ""), "s: missing table [material]"},
+           {with_own("", "[sheet.material]\nviscosity = 6\n") + liquid,
+            "s:11:1: missing key \"density\" in [sheet.material]: inertia needs it (or switch it off: inertia = false "
+            "in [model])"},
+           {with_own("", "[sheet.material]\nviscosity = 0\ndensity = 1\n") + liquid,
+            "s:12:13: viscosity: one of the scene's liquids has one, and another one has not: give the latter a small "
+            "one"},
+           {with_own("", "[sheet.material]\nviscosty = 6\ndensity = 1\n") + liquid,
+            "s:11:1: missing key \"viscosity\" in [sheet.material], such as viscosity = \"100 Pa*s\"\n"
+            "s:12:1: unknown key \"viscosty\" in [sheet.material]; did you mean \"viscosity\"?"},
+           {with_own("", "material = 3\n") + liquid, "s:11:12: material: expected a table, got a number"}})
+    EXPECT_EQ(problem(text), expected) << text;
+}
+
 TEST(Read, ProblemsOfSeveralSheets) {
   EXPECT_EQ(problem(std::string("sheet = []\n") + liquid),
             "s:1:9: sheet: an empty list; there must be a [sheet], or at least one [[sheet]]");

@@ -213,6 +213,37 @@ TEST(Walls, StackedLayersShareAParabola) {
   }
 }
 
+// The same of two liquids, of which each has a parabola of its own: at the face between them velocity and stress are
+// one.
+TEST(Walls, LayersOfTwoLiquidsRunDown) {
+  constexpr double lower = 0.1, upper = 0.05, slope = 1.5;
+  for (const double slip : {0.0, 0.02})
+    for (const double above : {0.01, 20.0}) { // its viscosity, over that below
+      Stack s = stack(lower, upper);
+      const Liquid& liquid = s.model.liquid;
+      const Liquid other{.viscosity = above * liquid.viscosity, .density = 1.5 * liquid.density};
+      s.model.other_liquids = {other};
+      s.state.liquids.assign(s.state.volumes.size(), 0);
+      std::fill(s.state.liquids.begin() + static_cast<std::ptrdiff_t>(s.state.volumes.size() / 2),
+                s.state.liquids.end(), 1);
+      s.model.inertia = false;
+      s.model.gravity = {slope, 0, 0};
+      s.model.walls[0].slip_length = slip;
+      StepOptions options;
+      options.newton.tolerance = 1e-12;
+      Stepper stepper(s.model, options);
+      (void)stepper.step(s.state, 1e-3);
+      const double weight = slope * liquid.density, wall = weight * lower + slope * other.density * upper;
+      const double mean = (wall * (slip + lower / 2) - weight * lower * lower / 6) / liquid.viscosity;
+      const double face = (wall * (slip + lower) - weight * lower * lower / 2) / liquid.viscosity;
+      const double mean_above = face + slope * other.density * upper * upper / (3 * other.viscosity);
+      for (std::size_t v = 0; v < s.upper; ++v) {
+        EXPECT_NEAR(s.state.velocities[v].x(), mean, 1e-8 * mean);
+        EXPECT_NEAR(s.state.velocities[v + s.upper].x(), mean_above, 1e-8 * mean_above);
+      }
+    }
+}
+
 // What lies on a layer presses it out from under it. Without drag of the wall both spread as one layer of their
 // thickness together would, by the mean of their rates ρ g h/(12 μ) each way; shear lets the lower one go ahead only
 // near the rim.
