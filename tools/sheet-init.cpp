@@ -19,6 +19,7 @@
 #include "libsheet/plan/contact_warnings.h"
 #include "libsheet/plan/face_warnings.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/hole_forecast.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/modelled.h"
 #include "libsheet/plan/parting.h"
@@ -136,6 +137,8 @@ std::string explained(Source source, bool ring_alone) {
   const std::string init = command_of(source);
   std::ranges::copy(sheet::contact_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
+  std::ranges::copy(sheet::hole_scales(scene, frame), std::back_inserter(explanation.scales));
+  std::ranges::copy(sheet::hole_warnings(scene, frame), std::back_inserter(explanation.warnings));
   return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, wishes, init)
                                               : sheet::scene::to_text(explanation) +
                                                     sheet::ring_text(scene, frame, wishes, init));

@@ -14,8 +14,9 @@ int main(int argc, char** argv) {
                    "The wanted length is the same everywhere, or, with --adaptive, follows curvature, thickness, "
                    "flow and buckling. Strips that are narrower than that get edges of twice their width, down to a "
                    "sixteenth of --edge-length, or --min-edge. What is thicker than the wanted length is not split "
-                   "more finely than it is thick. Threads, narrower and thinner than half of that shortest edge, are "
-                   "cut: what they were, next to nothing, is in the frame's arrays `tear.volume` and `tear.momentum`.");
+                   "more finely than it is thick. Threads, narrower and thinner than half of that shortest edge, or "
+                   "than the scene's [tear] snap, are cut: what they were, next to nothing, is in the frame's arrays "
+                   "`tear.volume` and `tear.momentum`.");
   sheet::remesh::StageOptions o;
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);

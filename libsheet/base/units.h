@@ -46,6 +46,7 @@ inline constexpr Quantity stiffness{"a stiffness", {1, 0, -2}, "N/m", "1.5 N/m"}
 inline constexpr Quantity drag{"a drag", {1, -2, -1}, "Pa*s/m", "100 Pa*s/m"};
 inline constexpr Quantity pressure{"a pressure", {1, -1, -2}, "Pa", "10 Pa"};
 inline constexpr Quantity volume{"a volume", {0, 3, 0}, "m^3", "1e-3 m^3"};
+inline constexpr Quantity number_density{"a number per volume", {0, -3, 0}, "1/m^3", "2e4 1/m^3"};
 inline constexpr Quantity temperature{"a temperature", {0, 0, 0, 1}, "K", "900 degC"};
 inline constexpr Quantity specific_heat{"a specific heat", {0, 2, -2, -1}, "J/(kg*K)", "1250 J/(kg*K)"};
 inline constexpr Quantity conductivity{"a thermal conductivity", {1, 1, -3, -1}, "W/(m*K)", "1.2 W/(m*K)"};

@@ -2,16 +2,19 @@
 #include "libsheet/flow/tear.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/flow/cracks.h"
+#include "libsheet/flow/exposure.h"
 #include "libsheet/flow/heat_account.h"
+#include "libsheet/flow/holes.h"
 #include "libsheet/flow/put_fans.h"
 #include "libsheet/flow/tear_cuts.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/prescribed.h"
+#include "libsheet/sheet/contact_spring.h"
 
 namespace sheet::flow {
 
@@ -49,32 +52,67 @@ std::vector<bool> inlet_of(const Frame& frame) {
   return inlet;
 }
 
-} // namespace
-
-Torn tear(Frame& frame, const Scene& scene) {
-  Torn torn;
-  Connectivity mesh = connect(frame.vertices, triangles(frame));
-  if (const Fans fans = take_apart(mesh, none_of(mesh.edges.size())); count_apart(fans) > 0) {
-    torn.vertices = count_apart(fans);
-    const std::vector<bool> dropped = none_of(mesh.triangles.size());
-    put_fans(frame, fans, dropped, open_clear_cracks(mesh, fans, dropped, positions(static_cast<const Frame&>(frame))));
-    mesh = connect(frame.vertices, triangles(frame));
-  }
-  const auto x = positions(static_cast<const Frame&>(frame));
-  const auto volume = volumes(static_cast<const Frame&>(frame));
+std::vector<double> areas_of(const Frame& frame) {
+  const auto x = positions(frame);
   std::vector<double> areas;
-  for (const Corners& c : mesh.triangles)
+  for (const Corners& c : triangles(frame))
     areas.push_back(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area);
+  return areas;
+}
+
+// Vertices that something holds fast, that touch a solid or another layer, or belong to an inlet.
+std::vector<bool> supported_vertices(const Frame& frame, const Scene& scene) {
+  std::vector<bool> supported = inlet_of(frame);
+  supported.resize(frame.vertices, false);
+  for (const std::vector<std::uint64_t>& bits : grips_of(frame, scene))
+    for (std::size_t v = 0; v < bits.size(); ++v)
+      supported[v] = supported[v] || bits[v] != 0;
+  for (const ContactSpring& spring : read_springs(frame))
+    for (const std::uint32_t v : spring.vertices)
+      supported[v] = true;
+  return supported;
+}
+
+// The frame's mesh, in which no pieces hang together in a point any more.
+Connectivity part_at_pinches(Frame& frame, Torn& torn) {
+  Connectivity mesh = connect(frame.vertices, triangles(std::as_const(frame)));
+  const Fans fans = take_apart(mesh, none_of(mesh.edges.size()));
+  if (count_apart(fans) == 0)
+    return mesh;
+  torn.vertices += count_apart(fans);
+  const std::vector<bool> dropped = none_of(mesh.triangles.size());
+  put_fans(frame, fans, dropped, open_clear_cracks(mesh, fans, dropped, positions(std::as_const(frame))));
+  return connect(frame.vertices, triangles(std::as_const(frame)));
+}
+
+Holes open_at_sites(Frame& frame, const Scene& scene, Torn& torn) {
+  const std::vector<bool> supported = supported_vertices(frame, scene);
+  const std::vector<Site> sites = draw_sites(frame, *scene.tear->inclusions, areas_of(frame), supported);
+  Holes holes = open_holes(frame, sites, supported);
+  torn.holes += holes.opened;
+  torn.without_room += holes.without_room;
+  return holes;
+}
+
+// Where the sheet is thinner than the scene allows, and at these triangles.
+void cut_thin(Frame& frame, const Connectivity& mesh, const Scene& scene, std::span<const std::uint32_t> at,
+              Torn& torn) {
+  std::vector<bool> pierced = none_of(at.empty() ? 0 : mesh.triangles.size());
+  for (const std::uint32_t t : at)
+    pierced[t] = true;
+  const auto x = positions(std::as_const(frame));
+  const std::vector<double> areas = areas_of(frame);
   TearCuts cuts = find_cuts({.mesh = mesh,
-                             .volumes = volume,
+                             .volumes = volumes(std::as_const(frame)),
                              .areas = areas,
-                             .below = scene.tear->below,
+                             .below = scene.tear->below.value_or(0),
                              .drop_crumbs = scene.tear->drop_crumbs,
+                             .pierced = std::move(pierced),
                              .grips = grips_of(frame, scene),
                              .whole = inlet_of(frame)});
-  torn.vetoed = cuts.vetoed;
+  torn.vetoed += cuts.vetoed;
   if (cuts.edges == 0)
-    return torn;
+    return;
   Fans fans = take_apart(mesh, cuts.cut);
   std::vector<Vector3> opened = open_cracks(fans, cuts.dropped, x);
   for (;;) {
@@ -85,21 +123,35 @@ Torn tear(Frame& frame, const Scene& scene) {
     fans = take_apart(mesh, cuts.cut);
     opened = open_cracks(fans, cuts.dropped, x);
   }
-  torn.edges = cuts.edges;
+  torn.edges += cuts.edges;
   if (cuts.edges == 0)
-    return torn;
+    return;
   const Dropped dropped = sum_of(frame, cuts.dropped, scene);
-  torn.dropped = dropped.triangles;
-  torn.volume = dropped.volume;
-  torn.momentum = dropped.momentum;
+  torn.dropped += dropped.triangles;
+  torn.volume += dropped.volume;
+  torn.momentum += dropped.momentum;
   torn.vertices += count_apart(fans);
   // What is left is beside dropped triangles, and stays where it is.
   put_fans(frame, fans, cuts.dropped, open_clear_cracks(mesh, fans, cuts.dropped, x));
-  if (torn.dropped > 0) {
-    add_to_account(frame, "tear.volume", "m^3", {&torn.volume, 1});
-    add_to_account(frame, "tear.momentum", "kg*m/s", {torn.momentum.data(), 3});
+  if (dropped.triangles > 0) {
+    add_to_account(frame, "tear.volume", "m^3", {&dropped.volume, 1});
+    add_to_account(frame, "tear.momentum", "kg*m/s", {dropped.momentum.data(), 3});
     add_heat_to_account(frame, "tear.heat", scene, dropped.warmth);
   }
+}
+
+} // namespace
+
+Torn tear(Frame& frame, const Scene& scene) {
+  Torn torn;
+  Connectivity mesh = part_at_pinches(frame, torn);
+  Holes holes;
+  if (scene.tear->inclusions)
+    holes = open_at_sites(frame, scene, torn);
+  if (holes.opened > 0)
+    mesh = connect(frame.vertices, triangles(std::as_const(frame)));
+  if (scene.tear->below || !holes.pierced.empty())
+    cut_thin(frame, mesh, scene, holes.pierced, torn);
   return torn;
 }
 
@@ -108,6 +160,8 @@ Torn& Torn::operator+=(const Torn& later) {
   vertices += later.vertices;
   vetoed += later.vetoed;
   crossing += later.crossing;
+  holes += later.holes;
+  without_room += later.without_room;
   dropped += later.dropped;
   volume += later.volume;
   momentum += later.momentum;
@@ -120,6 +174,8 @@ void TearStage::tear(Frame& frame) {
   if (!scene.tear)
     return;
   const Torn torn = flow::tear(frame, scene);
+  if (torn.holes + torn.without_room > 0)
+    log::detail("step {}: {} holes opened, {} sites had no room for one", frame.step, torn.holes, torn.without_room);
   if (torn.vertices > 0)
     log::detail("step {}: {} edges cut, {} vertices came apart, {} edges left whole for crumbs, {} as layers would "
                 "cross, {} triangles dropped",
@@ -129,6 +185,8 @@ void TearStage::tear(Frame& frame) {
 
 void TearStage::report() const {
   log::detail("{} edges cut", total_.edges);
+  if (total_.holes + total_.without_room > 0)
+    log::detail("{} holes opened, {} sites had no room for one", total_.holes, total_.without_room);
   if (total_.dropped > 0)
     log::warning("{} triangles of crumbs dropped, {:.6g} m^3 (the frame's arrays tear.volume, tear.momentum)",
                  total_.dropped, total_.volume);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tearing: a sheet parts where it has become thinner than the scene's [tear] allows (tear_cuts.h says at which edges).
-// Then the corners of each vertex are united across uncut edges only, so that the sheet is a manifold without pinched
-// vertices, also where it had some before.
+// Tearing: holes open in a sheet where inclusions pierce it (exposure.h, holes.h), and it parts where it has become
+// thinner than the scene's [tear] allows (tear_cuts.h says at which edges). Then the corners of each vertex are united
+// across uncut edges only, so that the sheet is a manifold without pinched vertices, also where it had some before.
 //
 // A vertex that has come apart moves into its own piece, by a thousandth of the way to the nearest opposite side, so
 // that the lips of a crack do not touch (cracks.h); triangles keep their volumes, vertices their velocities, so volume,
@@ -20,6 +20,8 @@ struct Torn {
   std::size_t vertices = 0;           // that came apart
   std::size_t vetoed = 0;             // edges left whole because a crumb would come off
   std::size_t crossing = 0;           // edges left whole because the sheet would pass through itself
+  std::size_t holes = 0;              // opened at inclusions
+  std::size_t without_room = 0;       // inclusions that opened none
   std::size_t dropped = 0;            // triangles of crumbs
   double volume = 0;                  // dropped [m³]
   Vector3 momentum = Vector3::Zero(); // dropped [kg m/s]
@@ -27,9 +29,9 @@ struct Torn {
   Torn& operator+=(const Torn& later); // all adds up
 };
 
-// Tears the frame; bit for bit the same frame if there is nothing to tear. What is dropped is added to the frame's
-// arrays `tear.volume` [m³] and `tear.momentum` [kg m/s] (account.h). Throws Error (bad_input) for a mesh that is no
-// oriented manifold but for pinched vertices. Precondition: the scene has a [tear] table.
+// Tears the frame; bit for bit the same frame, but for `tear.exposure`, if there is nothing to tear. What is dropped is
+// added to the frame's arrays `tear.volume` [m³] and `tear.momentum` [kg m/s] (account.h). Throws Error (bad_input) for
+// a mesh that is no oriented manifold but for pinched vertices. Precondition: the scene has a [tear] table.
 Torn tear(formats::Frame& frame, const Scene& scene);
 
 // The stage. Without [tear] in the scene, frames pass unchanged.

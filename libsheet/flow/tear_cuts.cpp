@@ -69,7 +69,9 @@ private:
     vetoed_.assign(mesh_.edges.size(), false);
   }
 
-  [[nodiscard]] bool is_thin(std::uint32_t t) const { return in_.volumes[t] < in_.below * in_.areas[t]; }
+  [[nodiscard]] bool is_thin(std::uint32_t t) const {
+    return in_.volumes[t] < in_.below * in_.areas[t] || (!in_.pierced.empty() && in_.pierced[t]);
+  }
   [[nodiscard]] bool stays_whole(std::uint32_t a, std::uint32_t b) const {
     return (!in_.whole.empty() && (in_.whole[a] || in_.whole[b])) ||
            std::ranges::any_of(in_.grips, [&](const auto& bits) { return (bits[a] & bits[b]) != 0; });

@@ -23,6 +23,7 @@ struct TearInput {
   std::span<const double> volumes, areas; // of the triangles [m³], [m²]
   double below = 0;                       // thickness [m]
   bool drop_crumbs = false;
+  std::vector<bool> pierced = {}; // triangles that count as thin, however thick; empty: none
   // In each list, vertices whose bits have one in common are held by the same thing.
   std::vector<std::vector<std::uint64_t>> grips = {};
   std::vector<bool> whole = {}; // vertices whose edges are never cut; empty: none

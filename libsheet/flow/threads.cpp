@@ -2,6 +2,7 @@
 #include "libsheet/flow/threads.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "libsheet/flow/drop.h"
@@ -21,8 +22,8 @@ namespace {
 constexpr double longest_side = 2, greatest_height = 0.5; // of the shortest edge
 constexpr double greatest_volume = 1e-3;                  // of the triangles' mean
 
-// Triangles as small as those of threads.
-std::vector<bool> small_ones(const Frame& frame, double shortest_edge) {
+// Triangles as small as those of threads of such edges, and with less than `most` of the mean volume.
+std::vector<bool> small_ones(const Frame& frame, double shortest_edge, double most) {
   const auto x = positions(frame);
   const auto volume = volumes(frame);
   const double mean =
@@ -30,12 +31,24 @@ std::vector<bool> small_ones(const Frame& frame, double shortest_edge) {
   const double height = greatest_height * shortest_edge;
   std::vector<bool> small(frame.triangles, false);
   for (std::size_t t = 0; t < frame.triangles; ++t) {
-    if (!(volume[t] < greatest_volume * mean))
+    if (!(volume[t] < most * mean))
       continue;
     const Corners& c = triangles(frame)[t];
     const double side = std::max({(x[c[1]] - x[c[0]]).norm(), (x[c[2]] - x[c[1]]).norm(), (x[c[0]] - x[c[2]]).norm()});
     const double area = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area, own = 2 * area / side;
     small[t] = side < longest_side * shortest_edge && own < height && own * volume[t] < height * height * area;
+  }
+  return small;
+}
+
+// Triangles of what is finer than edges can be, or narrower than the scene lets strands be.
+std::vector<bool> small_ones(const Frame& frame, const Scene& scene, double shortest_edge) {
+  std::vector<bool> small = small_ones(frame, shortest_edge, greatest_volume);
+  if (scene.tear && scene.tear->snap) {
+    const std::vector<bool> snapping =
+        small_ones(frame, *scene.tear->snap / greatest_height, std::numeric_limits<double>::infinity());
+    for (std::size_t t = 0; t < small.size(); ++t)
+      small[t] = small[t] || snapping[t];
   }
   return small;
 }
@@ -97,7 +110,7 @@ void add_crumbs(const Connectivity& mesh, const std::vector<bool>& fixed, std::v
 } // namespace
 
 Dropped cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
-  const std::vector<bool> small = small_ones(frame, shortest_edge);
+  const std::vector<bool> small = small_ones(frame, scene, shortest_edge);
   if (std::ranges::count(small, true) == 0)
     return {};
   const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const Frame&>(frame)));

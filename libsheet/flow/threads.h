@@ -12,8 +12,10 @@ namespace sheet::flow {
 // Takes away the triangles of threads, and what hangs by them alone in pieces smaller than a crumb (tear_cuts.h); those
 // in an inlet or held stay. A triangle is of a thread if it has no side above twice the shortest edge [m], a height
 // below half of it, a section (that height times its thickness) below that squared, less than a thousandth of the mean
-// volume, and if each of those that it hangs together with has a corner on a rim. What has left is added to the frame's
-// arrays `tear.volume` [m³] and `tear.momentum` [kg m/s] (account.h). Bit for bit the same frame if there is no thread.
+// volume, and if each of those that it hangs together with has a corner on a rim. With [tear] snap in the scene, also
+// where that width is below it, and the section below its square, whatever the volume: such a thread falls into drops,
+// which nothing follows. What has left is added to the frame's arrays `tear.volume` [m³] and `tear.momentum` [kg m/s]
+// (account.h). Bit for bit the same frame if there is no thread.
 Dropped cut_threads(formats::Frame& frame, const Scene& scene, double shortest_edge);
 
 } // namespace sheet::flow

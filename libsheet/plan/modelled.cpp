@@ -73,6 +73,19 @@ std::string what_comes(const std::vector<scene::Inflow>& inflows) {
                      inflow.until ? fmt::format("until {} s", brief(*inflow.until)) : "without end");
 }
 
+std::string where_it_tears(const scene::Tear& tear) {
+  std::vector<std::string> where;
+  if (tear.below)
+    where.push_back(fmt::format("where thinner than {} m", brief(*tear.below)));
+  if (tear.inclusions)
+    where.push_back(fmt::format("in holes at inclusions, {} 1/m³ in {} m, as thickness^-{}",
+                                brief(tear.inclusions->number), brief(tear.inclusions->at_thickness),
+                                brief(tear.inclusions->exponent)));
+  if (tear.snap)
+    where.push_back(fmt::format("strands narrower than {} m", brief(*tear.snap)));
+  return fmt::format("{}", fmt::join(where, "; "));
+}
+
 } // namespace
 
 std::vector<scene::ModelledPart> modelled(const Scene& scene) {
@@ -101,8 +114,7 @@ std::vector<scene::ModelledPart> modelled(const Scene& scene) {
   part("inflow", !scene.inflows.empty(), what_comes(scene.inflows), "no [inflow]: the volume stays the same");
   part("outflow", !scene.outflows.empty(), count(scene.outflows.size(), "plane") + " beyond which the sheet ends",
        "no [[outflow]]: nothing leaves");
-  part("tear", scene.tear.has_value(),
-       scene.tear ? fmt::format("where thinner than {} m", brief(scene.tear->below)) : "",
+  part("tear", scene.tear.has_value(), scene.tear ? where_it_tears(*scene.tear) : "",
        "no [tear]: the sheet only thins");
   part("merge", scene.merge.has_value(),
        !scene.merge         ? ""

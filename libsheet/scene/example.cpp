@@ -299,9 +299,16 @@ center = [0, "-0.3 m", 0]
 
 # ------------------------------------------------------------------------ where the sheet tears
 
+# Below a thickness, wherever that is; where inclusions pierce the sheet, of which sites (at_thickness/h)^exponent in a
+# volume pierce one of the thickness h; strands where they are narrower than snap. Each by itself, or together.
 #[tear]
 #below = "0.8 mm"?
 #crumbs = "keep"?
+#sites = "2e4 1/m^3"?
+#at_thickness = "0.6 mm"?
+#exponent = 6?
+#seed = 1?
+#snap = "20 um"?
 
 # ------------------------------------------------------------------------ layers that lie on each other become one
 

@@ -279,8 +279,10 @@ std::vector<std::string> left_out_of(const Scene& scene) {
     left_out.push_back("enclosed gas has one pressure everywhere, and stays in where the sheet is torn");
   else if (pressure)
     left_out.push_back("enclosed gas is not compressed");
-  if (scene.tear)
+  if (scene.tear && scene.tear->below)
     left_out.push_back("tearing goes by thickness alone");
+  if (scene.tear && scene.tear->inclusions)
+    left_out.push_back("a hole opens at once, whatever pulls; inclusions do not move in the liquid");
   left_out.push_back("air has neither drag nor mass");
   return left_out;
 }

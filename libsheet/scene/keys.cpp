@@ -259,7 +259,14 @@ constexpr std::array outflow_keys{list_key("point", quantity::length, "[3]", "of
 constexpr KeyTable outflow_table{"outflow", outflow_keys};
 
 constexpr std::array tear_keys{number_key("below", quantity::length, "thickness below which the sheet tears"),
-                               word_key("crumbs", words::crumbs, "what becomes of small pieces that come off")};
+                               word_key("crumbs", words::crumbs, "what becomes of small pieces that come off"),
+                               number_key("sites", quantity::number_density,
+                                          "inclusions that pierce a sheet as thick as at_thickness, and open holes"),
+                               number_key("at_thickness", quantity::length, "of the sheet that these pierce"),
+                               number_key("exponent", quantity::number,
+                                          "m: a sheet of thickness h is pierced by sites (at_thickness/h)^m of them"),
+                               integer_key("seed", "", "of where and when holes open (default 1)"),
+                               number_key("snap", quantity::length, "width of strands that part")};
 constexpr KeyTable tear_table{"tear", tear_keys};
 
 constexpr std::array merge_keys{

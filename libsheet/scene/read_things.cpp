@@ -293,14 +293,29 @@ Outflow read_outflow(TableReader table) {
 
 Tear read_tear(TableReader table, std::span<const SheetTable> sheets) {
   Tear tear;
-  tear.below = table.required("below");
+  if (table.absent("below") && table.absent("sites") && table.absent("snap"))
+    table.missing("below", "\"0.8 mm\", or sites, or snap");
+  tear.below = table.quantity("below", Bound::positive);
   for (const SheetTable& sheet : sheets)
-    if (const double* uniform = std::get_if<double>(&sheet.thickness); uniform && tear.below >= *uniform) {
+    if (const double* uniform = std::get_if<double>(&sheet.thickness);
+        uniform && tear.below && *tear.below >= *uniform) {
       table.wrong("below", fmt::format("the whole sheet would tear at once: {} m is not less than its thickness {} m",
-                                       shortest(tear.below), shortest(*uniform)));
+                                       shortest(*tear.below), shortest(*uniform)));
       break;
     }
+  if (table.absent("below"))
+    table.has_no_meaning({"crumbs"}, "only what tears below a thickness comes off in crumbs");
   tear.drop_crumbs = table.choice("crumbs").value_or(0) == 1;
+  if (const std::optional<double> sites = table.quantity("sites", Bound::positive); table.absent("sites")) {
+    table.has_no_meaning({"at_thickness", "exponent", "seed"}, "there are no sites");
+  } else {
+    Inclusions& inclusions = tear.inclusions.emplace();
+    inclusions.number = sites.value_or(0);
+    inclusions.at_thickness = table.required("at_thickness");
+    inclusions.exponent = table.required("exponent");
+    inclusions.seed = table.seed("seed").value_or(inclusions.seed);
+  }
+  tear.snap = table.quantity("snap", Bound::positive);
   table.finish();
   return tear;
 }

@@ -315,9 +315,21 @@ struct Outflow {
   bool operator==(const Outflow&) const = default;
 };
 
+// Inclusions that open holes. In a volume of liquid there are, of those that pierce a sheet of the thickness h,
+//   N(h) = number (at_thickness/h)^exponent.
+struct Inclusions {
+  double number = 0;       // that pierce a sheet `at_thickness` thick [1/m³]
+  double at_thickness = 0; // [m]
+  double exponent = 0;     // > 0
+  std::int64_t seed = 1;
+  bool operator==(const Inclusions&) const = default;
+};
+
 struct Tear {
-  double below = 0; // thickness [m]
+  std::optional<double> below; // thickness [m]; absent: thinness alone opens nothing
   bool drop_crumbs = false;
+  std::optional<Inclusions> inclusions;
+  std::optional<double> snap; // width of strands below which they part [m]; absent: that of the shortest edges
   bool operator==(const Tear&) const = default;
 };
 

@@ -426,7 +426,15 @@ std::string to_toml(const Scene& scene) {
   if (const auto& tear = scene.tear) {
     out.open("[tear]");
     out.line("below", tear->below);
-    out.line("crumbs", word(words::crumbs, tear->drop_crumbs ? 1UL : 0UL));
+    if (tear->below)
+      out.line("crumbs", word(words::crumbs, tear->drop_crumbs ? 1UL : 0UL));
+    if (const auto& inclusions = tear->inclusions) {
+      out.line("sites", inclusions->number);
+      out.line("at_thickness", inclusions->at_thickness);
+      out.line("exponent", inclusions->exponent);
+      out.line("seed", fmt::format("{}", inclusions->seed));
+    }
+    out.line("snap", tear->snap);
   }
   if (const auto& merge = scene.merge) {
     out.open("[merge]");

@@ -128,6 +128,13 @@ const std::vector<Case>& cases() {
        "1 to 4: radius; 5: sag; 6: speed of the middle", "", 6, at(0.15, 40, Pattern::equilateral), true, true, v39},
       {"V40", "film casting of a film that cools, (St, k) = (0.1, 1), (0.3, 1), (0.1, 3) (sets 1 to 3)",
        "draw ratio from which on disturbances grow", "", 3, at(0.02, 4000), false, true, v40},
+      {"V41", "holes at inclusions (set 1: when the first opens; 2: how many open)",
+       "1 Kolmogorov's distance from the law; 2 number of holes", "", 2, at(0.3, 25), false, false, v41},
+      {"V42",
+       "a hole grows (set 1: in a film at rest, to 22 times its thickness; 2: to 110; 3, 4: in a curtain of Weber "
+       "number "
+       "0.8, 1.25)",
+       "1, 2 speed of its rim; 3, 4 speed at which its upper rim climbs", "", 4, at(0.05, 200), false, false, v42},
   };
   return list;
 }

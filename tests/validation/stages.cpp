@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "libsheet/flow/emit.h"
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/build.h"
@@ -22,11 +23,14 @@ Staged run_stages(const std::string& scene_text, const Settings& s, double durat
   options.scheme = s.scheme;
   options.failed = "";
   StepStage stage(options);
+  flow::EmitStage emit;
   remesh::Options remeshing;
   remeshing.size.edge_length = s.edge;
   remeshing.smooth = true;
   const auto start = std::chrono::steady_clock::now();
   for (int k = 0; k < s.steps; ++k) {
+    if (flows_in_or_out(scene))
+      emit.emit(run.frame);
     stage.step(run.frame);
     run.edits += remesh::remesh(run.frame, &scene, remeshing).edits();
     if (each)

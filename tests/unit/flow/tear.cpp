@@ -413,7 +413,7 @@ TEST(Tear, TheSameAtAnyScale) {
     for (double& v : volumes(frame))
       v *= scale * scale * scale;
     Scene scene = keep;
-    scene.tear->below *= scale;
+    *scene.tear->below *= scale;
     tear(frame, scene);
     return std::vector(triangles(frame).begin(), triangles(frame).end());
   };

@@ -69,6 +69,19 @@ TEST(Threads, AreCutAndAccountedFor) {
   EXPECT_EQ(frame, after);
 }
 
+// Edges could follow it, but the scene lets no strand be as narrow.
+TEST(Threads, SnapBelowAWidth) {
+  constexpr double fine = 1e-3;
+  Frame frame = dumbbell(0.02);
+  const Frame before = frame;
+  EXPECT_EQ(cut_threads(frame, scene(), fine).triangles, 0U);
+  EXPECT_EQ(cut_threads(frame, scene("[tear]\nsnap = 0.008\n"), fine).triangles, 0U);
+  EXPECT_EQ(frame, before);
+  EXPECT_GE(cut_threads(frame, scene("[tear]\nsnap = 0.03\n"), fine).triangles, 12U);
+  EXPECT_EQ(pieces(frame), 2U);
+  EXPECT_NEAR(volume_of(frame) + frame.find("tear.volume")->values<double>()[0], volume_of(before), 1e-14);
+}
+
 // Wide enough for triangles of its own, or with a section that counts, or of a mesh that is fine everywhere.
 TEST(Threads, WhatIsNoneStays) {
   for (Frame frame : {dumbbell(0.1), dumbbell(0.02, 3), test::grid(6, 2, 0.02, 0.001)}) {

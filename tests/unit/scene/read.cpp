@@ -49,7 +49,7 @@ TEST(Read, EveryTable) {
   EXPECT_EQ(std::get<Rotating>(s.solids[0].motion).center, Vector3d(0, -1, 0)); // the solid's
   EXPECT_EQ(std::get<HalfSpace>(s.solids[1].shape).normal, Vector3d(0, 1, 0));  // against gravity
   EXPECT_EQ(s.inflows[0].thickness, 0.002);                                     // the sheet's
-  EXPECT_EQ(s.tear, (Tear{0.0008, true}));
+  EXPECT_EQ(s.tear, (Tear{0.0008, true, Inclusions{20000, 0.0006, 6, 4}, 2e-5}));
   EXPECT_EQ(s.contact->stiffness, 1.5);
 }
 
@@ -356,6 +356,14 @@ TEST(Read, ProblemsOfTheOtherTables) {
            {"[tear]\nbelow = 0.02",
             "s:10:9: below: the whole sheet would tear at once: 0.02 m is not less than its thickness 0.02 m"},
            {"[tear]\nbelow = 0.01\ncrumbs = \"eat\"", "s:11:10: crumbs: \"eat\" is none of \"keep\", \"drop\""},
+           {"[tear]\nsnap = 1e-5\ncrumbs = \"drop\"",
+            "s:11:1: key \"crumbs\" has no meaning in [tear]: only what tears below a thickness comes off in crumbs"},
+           {"[tear]", "s:9:1: missing key \"below\" in [tear], such as below = \"0.8 mm\", or sites, or snap"},
+           {"[tear]\nsites = 100\nat_thickness = 0.001",
+            "s:9:1: missing key \"exponent\" in [tear], such as exponent = \"0.5\""},
+           {"[tear]\nbelow = 0.001\nseed = 3", "s:11:1: key \"seed\" has no meaning in [tear]: there are no sites"},
+           {"[tear]\nsites = \"3 mm\"\nat_thickness = 0.001\nexponent = 6",
+            "s:10:9: sites: expected a number per volume such as \"2e4 1/m^3\", got a length (m)"},
            {"[contact]\nadhesion = -1", "s:10:12: adhesion must not be negative, got -1 Pa"},
            {"[contact]\nfriction = 1",
             "s:10:1: unknown key \"friction\" in [contact]; known: self, stiffness, adhesion, "

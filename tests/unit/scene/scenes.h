@@ -109,6 +109,11 @@ normal = [0, -1, 0]
 [tear]
 below = "0.8 mm"
 crumbs = "drop"
+sites = "0.02 1/cm^3"
+at_thickness = "0.6 mm"
+exponent = 6
+seed = 4
+snap = "20 um"
 [merge]
 after = "0.3 s"
 on = "solids"

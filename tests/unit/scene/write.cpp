@@ -90,6 +90,11 @@ normal = [0, -1, 0]
 [tear]
 below = 0.0008
 crumbs = "drop"
+sites = 20000
+at_thickness = 0.0006
+exponent = 6
+seed = 4
+snap = 2e-05
 
 [merge]
 after = 0.3
@@ -198,7 +203,9 @@ public:
       s.outflows.push_back({vector(), direction()});
     if (below(2))
       if (const double* h = std::get_if<double>(&s.sheets[0].thickness))
-        s.tear = Tear{0.3 * *h, below(2) == 1};
+        s.tear = Tear{0.3 * *h, below(2) == 1,
+                      below(2) ? std::optional(Inclusions{positive(), positive(), positive(), below(9)}) : std::nullopt,
+                      maybe_positive()};
     if (below(2))
       s.contact = Contact{below(2) == 1, maybe_positive(), maybe_positive(), maybe_positive()};
     return s;
