@@ -227,7 +227,7 @@ Holes open_holes(Frame& frame, std::span<const Site> sites, const std::vector<bo
   if (holes.opened == 0)
     return holes;
   (void)deposit(frame, maker.deposits()); // nothing lies above anything, so nothing moves
-  (void)drop(frame, maker.leaves(), 0);   // what leaves has nothing left
+  (void)drop(frame, maker.leaves(), {});  // what leaves has nothing left, whatever its density
   return holes;
 }
 
