@@ -326,6 +326,7 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
   sheet.rotation = read_rotation(table);
   sheet.velocity = table.vector("velocity").value_or(Vector3d::Zero());
   sheet.angular_velocity = table.vector("angular_velocity").value_or(Vector3d::Zero());
+  sheet.radial_velocity = table.quantity_or("radial_velocity", 0);
   sheet.enters = table.quantity("enters", Bound::positive);
   if (sheet.enters && std::holds_alternative<SheetMesh>(sheet.shape)) // its file would have to travel with the stream
     table.wrong("enters", "a sheet from a mesh file is there from the start; a shape can enter");

@@ -128,6 +128,13 @@ const std::vector<Case>& cases() {
        "1 to 4: radius; 5: sag; 6: speed of the middle", "", 6, at(0.15, 40, Pattern::equilateral), true, true, v39},
       {"V40", "film casting of a film that cools, (St, k) = (0.1, 1), (0.3, 1), (0.1, 3) (sets 1 to 3)",
        "draw ratio from which on disturbances grow", "", 3, at(0.02, 4000), false, true, v40},
+      {"V43",
+       "sheets that air holds back (sets 1 to 4: level ones of 0.05, 0.2, 1, 2.5 mm fall; 5: one is thrown along "
+       "itself)",
+       "1 + greatest deviation of the speed over the terminal one, or that at the start", "", 5, at(0.5, 40), true,
+       false, v43},
+      {"V44", "water bell, with inflow and outflow, remeshed (set 1: without gravity; 2: with it)", "greatest radius",
+       "", 2, at(0.6, 333), false, true, v44},
   };
   return list;
 }
