@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "libsheet/energy/air_drag.h"
 #include "libsheet/energy/contact.h"
 #include "libsheet/energy/heat_model.h"
 #include "libsheet/energy/holds.h"
@@ -37,6 +38,7 @@ struct Model {
   Vector3 gravity = Vector3::Zero();  // [m/s²]
   std::vector<PressureLaw> pressures; // one an enclosure
   std::optional<BathLiquid> bath;     // needs gravity
+  std::optional<AirFlow> air;
   bool inertia = true;
   std::optional<ModelFaces> faces; // needs tension; chosen for a step
   Bending bending = Bending::none;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "libsheet/base/error.h"
+#include "libsheet/energy/air_drag.h"
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
@@ -162,6 +163,11 @@ constexpr std::array table = {
               [](const Model& m) { return fmt::format("{:.3g} Pa s/m on what slides", m.bath->drag); },
               [](const Model& m) -> std::string { return m.bath ? "no drag in the bath" : "no bath in [environment]"; },
               [](const Model& m, TermMaker& maker) { maker.add(BathDrag(m.bath->drag, m.gravity, m.bath->level)); }},
+    TermEntry{
+        "drag of air", [](const Model& m) { return m.air.has_value(); },
+        [](const Model& m) { return fmt::format("air of {:.3g} kg/m³ holds back what moves in it", m.air->density); },
+        [](const Model&) -> std::string { return "no air in [environment]"; },
+        [](const Model& m, TermMaker& maker) { maker.add(AirDrag(*m.air)); }},
     TermEntry{"contact", [](const Model& m) { return !m.contacts.empty(); },
               [](const Model&) -> std::string { return "the sheet cannot pass through itself"; }, no_contact,
               [](const Model& m, TermMaker& maker) { maker.add(Contact(m.contacts, m.contacts_adhere)); }},

@@ -42,7 +42,8 @@ public:
   // The inflow's inlet has this number, and these chains.
   Emission(Frame& frame, const Scene& scene, std::size_t number, const std::vector<InletChain>& chains)
       : frame_(frame), old_(frame), scene_(scene), inflow_(scene.inflows[number]), number_(number),
-        depth_(scene::inlet_depth(frame, scene, number)), chains_(chains), perturbation_(scene, number, frame) {
+        depth_(scene::inlet_depth(frame, scene, number)), velocity_(scene::inlet_velocity(frame, scene, number)),
+        chains_(chains), perturbation_(scene, number, frame) {
     const auto x = positions(old_);
     const auto origins = frame.find("inlet_origin")->values<Vector3>();
     const auto bits = masks(frame, "inlet");
@@ -157,10 +158,15 @@ private:
     }
   }
 
-  // What has entered through an edge of the border: the area that it has swept, as thick as it enters.
+  // What has entered through an edge of the border: the area that it has swept, as thick as it enters. Where it has
+  // become longer on its way, what is there has thinned as much.
   [[nodiscard]] double entered(const InletChain& chain, std::size_t edge) const {
     const std::uint32_t a = chain.border[edge], b = chain.border[chain.after(edge)];
     const auto now = positions(old_);
+    if (velocity_.fans_out()) {
+      const Vector3 way = 0.5 * (now[a] - origins_[a] + now[b] - origins_[b]);
+      return depth_ * (origins_[b] - origins_[a]).cross(way).norm();
+    }
     return depth_ *
            (TriangleArea(origins_[a], origins_[b], now[b]).area + TriangleArea(origins_[a], now[b], now[a]).area);
   }
@@ -263,19 +269,34 @@ private:
   }
 
   // Volumes of the new triangles behind an edge of the border, and where the rest of what they carry comes from.
-  // Without a strip all have entered; else they share what the strip has and what has entered: thickness changes in
-  // proportion to the way from the border, where it is the inflow's.
+  // Without a strip all have entered; else they share what the strip has and what has entered.
   void give_volumes(const InletChain& chain, std::size_t edge, std::span<Made* const> made) {
-    double sum = 0, left = 1;
-    if (chain.strip.empty()) {
-      for (Made* m : made) {
-        m->temperature = scene_.heat ? temperature_of_inflow() : 0;
-        sum += m->volume = depth_ * area_of(m->corners);
-        m->parents = {{chain.behind[edge], 1, 0}};
-      }
-      grown_ += sum;
-      return;
+    if (!chain.strip.empty())
+      return share_volume(chain, edge, made);
+    double sum = 0;
+    for (Made* m : made) {
+      m->temperature = scene_.heat ? temperature_of_inflow() : 0;
+      sum += m->volume = depth_ * area_of(m->corners) / lengthening(chain, edge, m->corners);
+      m->parents = {{chain.behind[edge], 1, 0}};
     }
+    grown_ += sum;
+  }
+
+  // By how much longer the border's edge is once it has come to a triangle's middle.
+  [[nodiscard]] double lengthening(const InletChain& chain, std::size_t edge, const Corners& c) const {
+    if (!velocity_.fans_out())
+      return 1;
+    const std::size_t next = chain.after(edge);
+    const Vector3 start = origins_[chain.border[next]] - origins_[chain.border[edge]];
+    const Vector3 end = x_[lowest(chain)[next]] - x_[lowest(chain)[edge]];
+    const double all = start.cross(0.5 * (way(chain, edge) + way(chain, next))).norm() / start.norm();
+    return 1 + way_of(chain, edge, c) / all * (end.norm() / start.norm() - 1);
+  }
+
+  // Thickness is the inflow's at the border, falls as edges get longer from there on, and besides changes in proportion
+  // to the way.
+  void share_volume(const InletChain& chain, std::size_t edge, std::span<Made* const> made) {
+    double sum = 0, left = 1;
     const double enters = entered(chain, edge);
     double volume = enters, area = 0, moment = 0;
     for (const std::uint32_t t : chain.strip[edge]) {
@@ -284,7 +305,7 @@ private:
     }
     std::vector<double> areas, ways;
     for (const Made* m : made) {
-      areas.push_back(area_of(m->corners));
+      areas.push_back(area_of(m->corners) / lengthening(chain, edge, m->corners));
       ways.push_back(way_of(chain, edge, m->corners));
       area += areas.back();
       moment += areas.back() * ways.back();
@@ -378,7 +399,7 @@ private:
       lineage.add(made.parents);
       corners.push_back(made.corners);
     }
-    const auto old_vertices = static_cast<std::ptrdiff_t>(frame_.vertices);
+    const std::size_t old_vertices = frame_.vertices;
     transfer_frame(frame_, vertices_, lineage, corners);
     for (std::size_t k = 0; k < made_.size(); ++k) {
       volumes(frame_)[kept + k] = made_[k].volume;
@@ -388,8 +409,8 @@ private:
     std::copy(bits_.begin(), bits_.end(), frame_.find("inlet")->values<std::uint64_t>().begin());
     std::copy(origins_.begin(), origins_.end(), frame_.find("inlet_origin")->values<Vector3>().begin());
     const auto v = velocities(frame_);
-    std::fill(v.begin() + old_vertices, v.end(),
-              scene::value_at(scene::inlet_velocity(old_, scene_, number_), frame_.time));
+    for (std::size_t i = old_vertices; i < v.size(); ++i)
+      v[i] = velocity_.at(frame_.time, origins_[i]);
   }
 
   [[nodiscard]] double& temperature(std::size_t triangle) {
@@ -402,6 +423,7 @@ private:
   const scene::Inflow& inflow_;
   std::size_t number_;
   double depth_; // of what enters [m]
+  scene::InletVelocity velocity_;
   const std::vector<InletChain>& chains_;
   RowPerturbation perturbation_;
   std::vector<Vector3> x_, origins_;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/flow/inlet_checks.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "libsheet/base/error.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/prescribed.h"
 
 namespace sheet::flow {
@@ -17,16 +21,16 @@ namespace {
 constexpr double most_outward = 0.1; // of the speed: a border that is a little uneven may lean so much
 constexpr double least_across = 1e-6;
 
-void check_velocity(const Frame& frame, const InletChain& chain, double time, const Vector3d& velocity) {
-  const double speed = velocity.norm();
-  if (!(speed > 0))
+void check_velocity(const Frame& frame, const InletChain& chain, double time, const scene::InletVelocity& inlet) {
+  if (!(inlet.speed(time) > 0))
     return;
   const auto x = positions(frame);
   const auto corners = triangles(frame);
   for (std::size_t i = 0; i < chain.edges(); ++i) {
     const std::uint32_t a = chain.border[i], b = chain.border[chain.after(i)];
     const Corners& c = corners[chain.behind[i]];
-    const Vector3d edge = x[b] - x[a];
+    const Vector3d edge = x[b] - x[a], velocity = inlet.at(time, 0.5 * (x[a] + x[b]));
+    const double speed = velocity.norm();
     const Vector3d outward = edge.cross(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).normal);
     if (velocity.dot(outward) > most_outward * speed * outward.norm())
       fail(ExitCode::bad_input,
@@ -52,23 +56,26 @@ std::uint64_t common_holds(const Frame& frame, std::span<const InletChain> chain
   return common;
 }
 
-bool moves_along(const scene::Inflow& inflow, std::size_t axis) {
-  for (const auto& entry : inflow.velocity.entries)
-    if (entry.value[static_cast<Eigen::Index>(axis)] != 0)
+bool moves_along(const scene::InletVelocity& velocity, std::size_t axis) {
+  const auto along = static_cast<Eigen::Index>(axis);
+  for (const auto& entry : velocity.common.entries)
+    if (entry.value[along] != 0)
       return true;
-  return false;
+  return std::ranges::any_of(velocity.radial.entries, [](const auto& entry) { return entry.value != 0; }) &&
+         std::abs(velocity.axis.direction[along]) != 1;
 }
 
 } // namespace
 
 void check_inlet(const Frame& frame, const Scene& scene, const scene::Inflow& inflow,
                  std::span<const InletChain> chains) {
+  const scene::InletVelocity velocity = scene::inlet_velocity(scene, inflow);
   for (const InletChain& chain : chains) {
-    check_velocity(frame, chain, frame.time, scene::value_at(inflow.velocity, frame.time));
+    check_velocity(frame, chain, frame.time, velocity);
     if (chain.row.empty())
-      for (const auto& entry : inflow.velocity.entries)
-        if (entry.time > frame.time)
-          check_velocity(frame, chain, entry.time, entry.value);
+      for (const double time : velocity.times())
+        if (time > frame.time)
+          check_velocity(frame, chain, time, velocity);
   }
   const std::uint64_t common = common_holds(frame, chains) & scene::holds_in_force(scene, frame.time);
   for (std::size_t i = 0; i < scene.holds.size(); ++i) {
@@ -76,7 +83,7 @@ void check_inlet(const Frame& frame, const Scene& scene, const scene::Inflow& in
     if ((common >> i & 1) == 0)
       continue;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (has_axis(hold.axes, axis) && moves_along(inflow, axis))
+      if (has_axis(hold.axes, axis) && moves_along(velocity, axis))
         fail(ExitCode::bad_input,
              "[[hold]] number {} (from 0) holds the whole inlet along {}, so what flows in would hang there for ever: "
              "give it a region that leaves the inlet out",

@@ -26,18 +26,21 @@ RowPerturbation::RowPerturbation(const Scene& scene, std::size_t number, const f
            mixed(mixed(static_cast<std::uint64_t>(std::get<scene::Noise>(p.form).seed), number), frame.step)});
   }
   center_ = table.center;
-  come_ = scene::integral(inflow.velocity, table.enters.value_or(0), frame.time);
+  velocity_ = scene::inlet_velocity(scene, inflow);
+  from_ = table.enters.value_or(0);
+  until_ = frame.time;
   to_plane_ = scene::matrix(table.rotation).transpose();
 }
 
 double RowPerturbation::at(const Eigen::Vector3d& origin, const Eigen::Vector3d& lowest, double part, std::size_t row,
                            std::size_t i) const {
-  // What stands at the inlet now would have been `come_` behind it at the start. The inlet itself stays as it was then.
+  // What stands at the inlet now would have been `come` behind it at the start. The inlet itself stays as it was then.
+  const Eigen::Vector3d come = velocity_.way(from_, until_, origin);
   const auto at_start = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return to_plane_ * (x - center_); };
   double way = 0;
   for (const HeightField& wave : waves_)
-    way += wave(at_start(origin + part * (lowest - origin) - come_)) - (1 - part) * wave(at_start(origin)) -
-           part * wave(at_start(lowest - come_));
+    way += wave(at_start(origin + part * (lowest - origin) - come)) - (1 - part) * wave(at_start(origin)) -
+           part * wave(at_start(lowest - come));
   for (const NoiseOf& noise : noises_)
     way += Random(mixed(mixed(noise.seed, row), i)).uniform(-noise.amplitude, noise.amplitude);
   return way;

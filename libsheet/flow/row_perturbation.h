@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "formats/cpp/stream_frame.h"
-#include "libsheet/scene/scene.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/shape/perturb.h"
 
 namespace sheet::flow {
@@ -32,7 +32,9 @@ private:
   };
   std::vector<HeightField> waves_;
   std::vector<NoiseOf> noises_;
-  Eigen::Vector3d center_, come_; // of the sheet; what has come since the start [m]
+  Eigen::Vector3d center_;        // of the sheet [m]
+  scene::InletVelocity velocity_; // of what has come
+  double from_, until_;           // since the start [s]
   Eigen::Matrix3d to_plane_;      // undoes the sheet's rotation
 };
 

@@ -11,6 +11,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/piling.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -37,7 +38,7 @@ std::string warning_of_stuck_inflow(const Scene& scene, const solid::Solids& sol
     return {};
   const scene::Inflow& inflow = scene.inflows[number];
   const Liquid& liquid = scene::material_of(scene, sheet_named(scene, inflow.sheet));
-  const double speed = scene::value_at(inflow.velocity, first.time).norm(), density = liquid.density;
+  const double speed = scene::inlet_velocity(scene, inflow).speed(first.time), density = liquid.density;
   const double q = inflow.thickness * speed, rate = speed / inflow.thickness;
   const double viscosity = viscosity_of(liquid, {rate * rate});
   const double spread =

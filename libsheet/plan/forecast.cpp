@@ -11,6 +11,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
@@ -35,7 +36,7 @@ double entered_area(const Scene& scene, const Frame& first, double until, double
   double area = 0;
   for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
     const scene::Inflow& inflow = scene.inflows[i];
-    const double speed = scene::value_at(inflow.velocity, first.time).norm();
+    const double speed = scene::inlet_velocity(scene, inflow).speed(first.time);
     for (std::size_t v = 0; v < inlets.size(); ++v)
       if ((of_inlet(inlets[v], i) & at_inlet_border) != 0)
         area += edge * speed *

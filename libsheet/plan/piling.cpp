@@ -6,6 +6,7 @@
 
 #include "libsheet/geometry/area.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -39,7 +40,7 @@ bool is_upright(const Scene& scene, const Frame& first) {
 
 std::optional<Piling> what_piles_up(const Scene& scene, const Frame& first, const std::vector<Landing>& all) {
   for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
-    const double v0 = scene::value_at(scene.inflows[i].velocity, first.time).norm();
+    const double v0 = scene::inlet_velocity(scene, scene.inflows[i]).speed(first.time);
     if (const auto landing = landing_of_inflow(scene, first, i);
         landing && piles_up(*landing, speed_after_fall(scene, v0, landing->fall), scene.inflows[i].thickness))
       return Piling{"what flows in", landing->solid};

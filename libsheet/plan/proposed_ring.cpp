@@ -15,6 +15,7 @@
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/piling.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/sheet/sheet.h"
@@ -28,7 +29,7 @@ using formats::Frame;
 // What an inflow has become at the end of its fall [m].
 double thickness_after_fall(const Scene& scene, const Frame& first, std::size_t number) {
   const scene::Inflow& inflow = scene.inflows[number];
-  const double v0 = scene::value_at(inflow.velocity, first.time).norm();
+  const double v0 = scene::inlet_velocity(scene, inflow).speed(first.time);
   const auto landing = landing_of_inflow(scene, first, number);
   return landing && v0 > 0 ? inflow.thickness * v0 / speed_after_fall(scene, v0, landing->fall) : inflow.thickness;
 }
@@ -127,7 +128,7 @@ double until_of(const Scene& scene, const Frame& first) {
     until = std::max(until, at_rest + down->time);
   for (const scene::Inflow& inflow : scene.inflows) {
     ends(inflow.until.value_or(0));
-    if (const double speed = scene::value_at(inflow.velocity, first.time).norm(); speed > 0 && !inflow.until)
+    if (const double speed = scene::inlet_velocity(scene, inflow).speed(first.time); speed > 0 && !inflow.until)
       until = std::max(until, 5 * length / speed);
   }
   for (const scene::SheetTable& sheet : scene.sheets)

@@ -94,15 +94,19 @@ bool meets_mirror_images(const Scene& scene, const MirrorPlane& plane, const for
 
 bool moves_along(const Scene& scene, const MirrorPlane& plane) {
   const auto sheet_is_quiet = [&](const scene::SheetTable& sheet) {
-    return plane.along(sheet.velocity) && plane.turns_in_itself(sheet.angular_velocity) && !sheet.enters &&
-           std::ranges::all_of(sheet.perturbations, &scene::Perturbation::of_thickness);
+    return plane.along(sheet.velocity) && plane.turns_in_itself(sheet.angular_velocity) && sheet.radial_velocity == 0 &&
+           !sheet.enters && std::ranges::all_of(sheet.perturbations, &scene::Perturbation::of_thickness);
   };
   const auto inflow_is_quiet = [&](const scene::Inflow& inflow) {
-    return std::ranges::all_of(inflow.velocity.entries, [&](const auto& entry) { return plane.along(entry.value); });
+    return inflow.radial_velocity.entries.empty() &&
+           std::ranges::all_of(inflow.velocity.entries, [&](const auto& entry) { return plane.along(entry.value); });
   };
+  const auto& air = scene.environment.air;
+  const bool blown_along =
+      !air || std::ranges::all_of(air->wind.entries, [&](const auto& entry) { return plane.along(entry.value); });
   const auto rests = [](const scene::Hold& hold) { return std::holds_alternative<scene::Fixed>(hold.motion); };
-  return std::ranges::all_of(scene.sheets, sheet_is_quiet) && std::ranges::all_of(scene.inflows, inflow_is_quiet) &&
-         std::ranges::all_of(scene.holds, rests);
+  return blown_along && std::ranges::all_of(scene.sheets, sheet_is_quiet) &&
+         std::ranges::all_of(scene.inflows, inflow_is_quiet) && std::ranges::all_of(scene.holds, rests);
 }
 
 } // namespace

@@ -78,6 +78,7 @@ center = [0, 0, 0]?
 rotation = {axis = [0, 1, 0], angle = "0 deg"}
 velocity = [0, 0, 0]?
 angular_velocity = [0, "0 rpm", 0]?
+#radial_velocity = "0.1 m/s"?
 
 # Several sheets: [[sheet]] in place of [sheet], once for each. name = "lid" lets a [[hold]] and an [inflow] speak of one of
 # them, sheet = "lid"; enters = "2 s" lets it come in at that time (not the first one). A sheet's own liquid, wholly in place
@@ -164,6 +165,11 @@ gravity = [0, "-9.81 m/s^2", 0]
 # spreads on it by its own weight, as glass on tin; drag: what slides on it is held back so, its viscosity over its depth
 # where that is shallow (default 0).
 #bath = {density = "1200 kg/m^3", level = "-0.5 m", clings = false, spreads = false, drag = "50 Pa*s/m"}
+
+# Air drags on what moves through it, across itself as on a plate, along itself by friction: it holds back films that are
+# thinner than some 0.2 mm. It moves everywhere at `wind`; what touches a solid or another layer, or is under a bath, it
+# does not reach.
+#air = {density = "1.2 kg/m^3", drag_coefficient = 1.2, friction_coefficient = 0.01, wind = ["3 m/s", 0, 0]}
 
 [model] # ---------------------------------------------------------------- what to leave out; may be absent
 
@@ -289,6 +295,20 @@ center = [0, "-0.3 m", 0]
 #velocity = [0, 0, "-0.1 m/s"]?
 #thickness = "2.5 mm"?
 #until = "10 s"?
+
+# Out of a ring, as from the inner rim of an annulus or of a cap with an opening: away from the sheet's axis, through its
+# center along its plane's normal.
+#[sheet]
+#shape = "cap"
+#radius = "10 mm"
+#angle = "45 deg"
+#opening = "30 deg"
+#edge_length = "1 mm"
+#[inflow]
+#region = "inner_rim"
+#velocity = [0, "-1 m/s", 0]
+#radial_velocity = "1.7 m/s"?
+#thickness = "0.3 mm"
 
 # ------------------------------------------------------------------------ where liquid leaves: any number of [[outflow]]
 

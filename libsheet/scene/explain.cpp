@@ -254,8 +254,23 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
   return warnings;
 }
 
+// Where films are so thin, or so fast, that air would hold them back, it says so.
+std::string what_air_lacks(const Scene& scene, const Scales& scales) {
+  constexpr double much = 0.1, density = 1.2; // of the weight; of air [kg/m³]
+  if (scene.environment.air)
+    return "air has no mass, and no flow of its own that a film would flap in";
+  const double V = scales.speed, h = scales.thickness.value_or(0);
+  const double weight = scene.material.density * h * scales.gravity;
+  const double part = Air().drag_coefficient * density * V * V / 2 / weight;
+  if (!std::isfinite(part) || part < much)
+    return "air has neither drag nor mass";
+  return fmt::format("air has neither drag nor mass: on what moves across itself at {} m/s its drag would be {} of the "
+                     "weight (air = {{density = \"1.2 kg/m^3\"}} in [environment])",
+                     brief(V), brief(part));
+}
+
 // What a user may take for modelled, and is not.
-std::vector<std::string> left_out_of(const Scene& scene) {
+std::vector<std::string> left_out_of(const Scene& scene, const Scales& scales) {
   std::vector<std::string> left_out;
   if (std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact == SolidContact::stick; }))
     left_out.push_back("what sticks to a solid does not spread on it");
@@ -283,7 +298,7 @@ std::vector<std::string> left_out_of(const Scene& scene) {
     left_out.push_back("tearing goes by thickness alone");
   if (scene.tear && scene.tear->inclusions)
     left_out.push_back("a hole opens at once, whatever pulls; inclusions do not move in the liquid");
-  left_out.push_back("air has neither drag nor mass");
+  left_out.push_back(what_air_lacks(scene, scales));
   return left_out;
 }
 
@@ -302,7 +317,7 @@ Explanation explain(const Scene& with_heat, std::span<const Measured> measured, 
   std::ranges::copy(heat_scales(first_with_heat, scales.front()), std::back_inserter(result.scales));
   std::ranges::copy(heat_numbers(first_with_heat, scales.front()), std::back_inserter(result.numbers));
   result.warnings = warnings_of(scene, scales);
-  result.left_out = left_out_of(scene);
+  result.left_out = left_out_of(scene, scales.front());
   return result;
 }
 

@@ -29,13 +29,16 @@ double inlet_depth(const formats::Frame& frame, const Scene& scene, std::size_t 
   return std::max(thickness, depth);
 }
 
-Timed<Eigen::Vector3d> inlet_velocity(const formats::Frame& frame, const Scene& scene, std::size_t number) {
+InletVelocity inlet_velocity(const formats::Frame& frame, const Scene& scene, std::size_t number) {
   const Inflow& inflow = scene.inflows[number];
   const double depth = inlet_depth(frame, scene, number);
-  Timed<Eigen::Vector3d> velocity = inflow.velocity;
-  if (depth > inflow.thickness)
-    for (auto& entry : velocity.entries)
+  InletVelocity velocity = inlet_velocity(scene, inflow);
+  if (depth > inflow.thickness) {
+    for (auto& entry : velocity.common.entries)
       entry.value *= inflow.thickness / depth;
+    for (auto& entry : velocity.radial.entries)
+      entry.value *= inflow.thickness / depth;
+  }
   return velocity;
 }
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "formats/cpp/stream_frame.h"
-#include "libsheet/scene/scene.h"
+#include "libsheet/scene/inlet_velocity.h"
 
 namespace sheet::scene {
 
@@ -15,8 +15,7 @@ namespace sheet::scene {
 [[nodiscard]] double inlet_depth(const formats::Frame& frame, const Scene& scene, std::size_t number);
 
 // The velocity with which it flows in, from now on [m/s].
-[[nodiscard]] Timed<Eigen::Vector3d> inlet_velocity(const formats::Frame& frame, const Scene& scene,
-                                                    std::size_t number);
+[[nodiscard]] InletVelocity inlet_velocity(const formats::Frame& frame, const Scene& scene, std::size_t number);
 
 // Sets H of the inflow; where that is its thickness and the frame has no such array, there still is none.
 void put_inlet_depth(formats::Frame& frame, const Scene& scene, std::size_t number, double depth);

@@ -154,6 +154,7 @@ constexpr std::array sheet_keys{
     table_key("rotation", rotation_table),
     list_key("velocity", quantity::velocity, "[3]", "at the start"),
     list_key("angular_velocity", quantity::turning_rate, "[3]", "at the start, about its center, along the axis"),
+    number_key("radial_velocity", quantity::velocity, "at the start, away from its axis"),
     number_key("enters", quantity::time, "when it comes in; not the first sheet"),
     table_key("material", material_table, "its own liquid, wholly in place of that of [material]")};
 constexpr KeyTable sheet_table{"sheet", sheet_keys};
@@ -182,8 +183,16 @@ constexpr std::array bath_keys{
     number_key("drag", quantity::drag, "on what slides on it, over its speed (default 0)")};
 constexpr KeyTable bath_table{"bath", bath_keys};
 
+constexpr std::array air_keys{
+    number_key("density", quantity::density, "of the air; 1.2 kg/m^3 at 20 degC"),
+    number_key("drag_coefficient", quantity::number, "of what moves across the sheet (default 1.2, a plate's)"),
+    number_key("friction_coefficient", quantity::number, "of what moves along it, both faces (default 0.01)"),
+    timed_key("wind", quantity::velocity, "[3]", "everywhere (default 0); rows are [time, x, y, z]")};
+constexpr KeyTable air_table{"air", air_keys};
+
 constexpr std::array environment_keys{list_key("gravity", quantity::acceleration, "[3]", "acceleration (absent: none)"),
-                                      table_key("pressure", pressure_table), table_key("bath", bath_table)};
+                                      table_key("pressure", pressure_table), table_key("bath", bath_table),
+                                      table_key("air", air_table)};
 constexpr KeyTable environment_table{"environment", environment_keys};
 
 constexpr std::array model_keys{
@@ -249,6 +258,8 @@ constexpr std::array inflow_keys{
     text_key("sheet", "whose border (default: of the only one)"),
     word_key("region", words::borders, "border at which liquid enters", &inlet_region_table),
     timed_key("velocity", quantity::velocity, "[3]", "of what enters; rows are [time, x, y, z]"),
+    timed_key("radial_velocity", quantity::velocity, "",
+              "of what enters, besides, away from the sheet's axis; rows are [time, velocity]"),
     number_key("thickness", quantity::length, "of what enters (default: that of the sheet)"),
     timed_key("temperature", quantity::temperature, "", "of what enters (default: that of [heat])"),
     number_key("until", quantity::time, "when it stops (default: never)")};

@@ -75,6 +75,22 @@ Liquid read_material(TableReader table, const Files& files) {
   return material;
 }
 
+namespace {
+
+Air read_air(TableReader table) {
+  Air air;
+  air.density = table.required("density");
+  air.drag_coefficient = table.quantity_or("drag_coefficient", air.drag_coefficient, Bound::not_negative);
+  air.friction_coefficient = table.quantity_or("friction_coefficient", air.friction_coefficient, Bound::not_negative);
+  air.wind = table.timed_velocity("wind").value_or(Timed<Vector3d>{});
+  if (air.drag_coefficient == 0 && air.friction_coefficient == 0)
+    table.wrong("drag_coefficient", "with neither drag nor friction air does nothing: leave the table out");
+  table.finish();
+  return air;
+}
+
+} // namespace
+
 Environment read_environment(TableReader table) {
   Environment environment;
   environment.gravity = table.vector("gravity");
@@ -88,6 +104,8 @@ Environment read_environment(TableReader table) {
                    bath->boolean("spreads").value_or(false), bath->quantity_or("drag", 0, Bound::not_negative)};
     bath->finish();
   }
+  if (auto air = table.table("air"))
+    environment.air = read_air(std::move(*air));
   table.finish();
   return environment;
 }

@@ -326,6 +326,7 @@ SheetTable read_sheet(TableReader table, const Environment& environment, const F
   sheet.rotation = read_rotation(table);
   sheet.velocity = table.vector("velocity").value_or(Vector3d::Zero());
   sheet.angular_velocity = table.vector("angular_velocity").value_or(Vector3d::Zero());
+  sheet.radial_velocity = table.quantity_or("radial_velocity", 0);
   sheet.enters = table.quantity("enters", Bound::positive);
   if (const Node* material = table.take("material"); material && table.table("material"))
     sheet.material =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [[hold]], [[solid]], [inflow], [tear], [merge], [contact]
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 
@@ -264,9 +265,10 @@ Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets) {
   if (table.absent("region"))
     table.missing("region", "\"y_max\"");
   inflow.region = read_inlet_region(table, sheet);
-  if (table.absent("velocity"))
+  if (table.absent("velocity") && table.absent("radial_velocity"))
     table.missing("velocity", "[0, \"-0.1 m/s\", 0]");
   inflow.velocity = table.timed_velocity("velocity").value_or(Timed<Vector3d>{});
+  inflow.radial_velocity = table.timed_number("radial_velocity").value_or(Timed<double>{});
   const auto thickness = table.quantity("thickness", Bound::positive);
   const double* uniform = std::get_if<double>(&sheet.thickness);
   if (table.absent("thickness") && !uniform)
@@ -274,8 +276,13 @@ Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets) {
   inflow.thickness = thickness.value_or(uniform ? *uniform : 0);
   inflow.temperature = table.timed_number("temperature", Bound::positive);
   inflow.until = table.quantity("until", Bound::positive);
-  if (inflow.velocity.entries.size() == 1 && inflow.velocity.entries[0].value.isZero(0))
+  const auto& common = inflow.velocity.entries;
+  const auto& radial = inflow.radial_velocity.entries;
+  const bool some_radial = std::ranges::any_of(radial, [](const auto& entry) { return entry.value != 0; });
+  if (common.size() == 1 && common[0].value.isZero(0) && !some_radial)
     table.wrong("velocity", "with no velocity nothing flows in");
+  else if (common.empty() && !radial.empty() && !some_radial)
+    table.wrong("radial_velocity", "with no velocity nothing flows in");
   table.finish();
   return inflow;
 }

@@ -9,6 +9,7 @@
 #include "libsheet/base/overloaded.h"
 #include "libsheet/material/driven_rate.h"
 #include "libsheet/material/flow_curve.h"
+#include "libsheet/scene/inlet_velocity.h"
 
 namespace sheet::scene {
 namespace {
@@ -57,6 +58,11 @@ void offer_forces(Scales& scales, const Scene& scene) {
   if (h <= 0)
     return;
   offer(scales, least(2 * tension / h, 2, std::sqrt(2 * tension / (density * h))), "surface tension");
+  if (const auto& air = scene.environment.air)
+    for (const auto& entry : air->wind.entries) {
+      const double stress = air->drag_coefficient * air->density * entry.value.squaredNorm() / 2 * L / h;
+      offer(scales, std::min(entry.value.norm(), least(stress, 2, std::sqrt(stress / density))), "wind");
+    }
   offer(scales, least(scales.pressure * L / h, 2, std::sqrt(scales.pressure * L / (density * h))), "pressure");
 }
 
@@ -74,11 +80,13 @@ Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& me
   if (scene.environment.pressure)
     scales.pressure = stated(*scene.environment.pressure);
 
-  for (const Inflow& inflow : scene.inflows)
-    for (const auto& entry : inflow.velocity.entries)
-      offer(scales, entry.value.norm(), "inflow");
+  for (const Inflow& inflow : scene.inflows) {
+    const InletVelocity velocity = inlet_velocity(scene, inflow);
+    for (const double time : velocity.times())
+      offer(scales, velocity.speed(time), "inflow");
+  }
   for (const SheetTable& each : scene.sheets) {
-    offer(scales, each.velocity.norm(), "the sheet's velocity at the start");
+    offer(scales, std::hypot(each.velocity.norm(), each.radial_velocity), "the sheet's velocity at the start");
     offer(scales, each.angular_velocity.norm() * scales.length.value_or(0), "the sheet's turning at the start");
   }
   for (const Hold& hold : scene.holds)

@@ -110,6 +110,15 @@ Eigen::Matrix3d matrix(const std::optional<Rotation>& rotation) {
   return Eigen::AngleAxisd(rotation->angle, rotation->axis.stableNormalized()).toRotationMatrix();
 }
 
+Vector3d SheetAxis::outward(const Vector3d& x) const {
+  const Vector3d from = x - center;
+  return (from - direction.dot(from) * direction).normalized();
+}
+
+SheetAxis axis_of(const SheetTable& sheet) {
+  return {sheet.center, matrix(sheet.rotation) * Vector3d::Unit(axes_of(sheet.plane).normal)};
+}
+
 PlaneAxes axes_of(Plane plane) {
   switch (plane) {
   case Plane::xy:

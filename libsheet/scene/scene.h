@@ -134,6 +134,7 @@ struct SheetTable {
   std::optional<Rotation> rotation;
   Vector3d velocity = Vector3d::Zero();         // at the start [m/s]
   Vector3d angular_velocity = Vector3d::Zero(); // likewise, about the center [rad/s]
+  double radial_velocity = 0;                   // likewise, away from its axis [m/s]
   std::optional<double> enters;                 // it is there from this time on [s]; absent: from the start
   std::optional<Liquid> material;               // its own; absent: the scene's
   bool operator==(const SheetTable&) const = default;
@@ -175,11 +176,21 @@ using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingP
   return !std::holds_alternative<ConstantPressure>(pressure);
 }
 
+// Air that moves at `wind` everywhere, and drags on the sheet (libsheet/energy/air_drag.h).
+struct Air {
+  double density = 0;                 // [kg/m³]
+  double drag_coefficient = 1.2;      // of the pressure on a sheet that moves across itself: of a plate [Hoerner 1965]
+  double friction_coefficient = 0.01; // of the friction on both faces of one that moves along itself
+  Timed<Vector3d> wind;               // [m/s]
+  bool operator==(const Air&) const = default;
+};
+
 struct Environment {
   std::optional<Vector3d> gravity; // [m/s²]
   std::optional<Pressure> pressure;
   std::string pressure_sheet; // on which it acts; "": on all, by each closed piece of them where it depends on volume
   std::optional<BathLiquid> bath;
+  std::optional<Air> air;
   bool operator==(const Environment&) const = default;
 };
 
@@ -296,8 +307,9 @@ struct Solid {
   bool operator==(const Solid&) const = default;
 };
 
-// New liquid enters at this border; what has entered moves at `velocity` as long as it is at the inlet. A velocity that
-// is not perpendicular to the border gives a slanted curtain.
+// New liquid enters at this border; what has entered moves at `velocity`, and at `radial_velocity` away from the axis
+// of its sheet, as long as it is at the inlet (inlet_velocity.h). A velocity that is not perpendicular to the border
+// gives a slanted curtain.
 struct Inflow {
   std::string sheet; // whose border; "": of the only one
   std::variant<Border, ArrayRegion> region = Border::y_max;
@@ -305,6 +317,7 @@ struct Inflow {
   double thickness = 0;     // [m]
   std::optional<double> until;
   std::optional<Timed<double>> temperature = {}; // [K]; absent: that of [heat]
+  Timed<double> radial_velocity = {};            // [m/s]
   bool operator==(const Inflow&) const = default;
 };
 
@@ -387,6 +400,14 @@ struct ShapeSize {
 
 // The borders that the sheet has by name; a mesh may have any.
 [[nodiscard]] std::vector<Border> borders_of(const SheetTable& sheet);
+
+// The axis of a sheet: through its center along its plane's normal.
+struct SheetAxis {
+  Vector3d center = Vector3d::Zero(), direction = Vector3d::UnitY(); // [m], of length 1
+  // The unit vector out of the axis to x; 0 on it.
+  [[nodiscard]] Vector3d outward(const Vector3d& x) const;
+};
+[[nodiscard]] SheetAxis axis_of(const SheetTable& sheet);
 
 // Axes of a plane: first letter, second letter, normal (the third axis, always positive).
 struct PlaneAxes {

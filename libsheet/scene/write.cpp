@@ -184,6 +184,8 @@ void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) 
   write_rotation(out, sheet.rotation);
   out.line_unless_zero("velocity", sheet.velocity);
   out.line_unless_zero("angular_velocity", sheet.angular_velocity);
+  if (sheet.radial_velocity != 0)
+    out.line("radial_velocity", sheet.radial_velocity);
   out.line("enters", sheet.enters);
 }
 
@@ -218,6 +220,10 @@ void write_environment(Writer& out, const Environment& environment) {
                                  number(environment.bath->level), environment.bath->clings,
                                  environment.bath->spreads ? ", spreads = true" : "",
                                  environment.bath->drag > 0 ? ", drag = " + number(environment.bath->drag) : ""));
+  if (const auto& air = environment.air)
+    out.line("air", fmt::format("{{density = {}, drag_coefficient = {}, friction_coefficient = {}{}}}",
+                                number(air->density), number(air->drag_coefficient), number(air->friction_coefficient),
+                                air->wind.entries.empty() ? "" : ", wind = " + timed(air->wind)));
 }
 
 void write_hold(Writer& out, const Hold& hold) {
@@ -412,7 +418,10 @@ std::string to_toml(const Scene& scene) {
       out.line("sheet", toml_text(inflow.sheet));
     out.line("region", std::visit(Overloaded{[](Border border) { return word(words::borders, border); }, array_region},
                                   inflow.region));
-    out.line("velocity", timed(inflow.velocity));
+    if (!inflow.velocity.entries.empty())
+      out.line("velocity", timed(inflow.velocity));
+    if (!inflow.radial_velocity.entries.empty())
+      out.line("radial_velocity", timed(inflow.radial_velocity));
     out.line("thickness", inflow.thickness);
     if (inflow.temperature)
       out.line("temperature", timed(*inflow.temperature));

@@ -270,6 +270,22 @@ void add_holds(const TriangleMesh& mesh, const Scene& scene, const scene::SheetT
   }
 }
 
+// None where the sheet rests.
+void put_velocities(const TriangleMesh& mesh, const scene::SheetTable& table, formats::Frame& frame) {
+  const bool turns = table.angular_velocity != Vector3d::Zero(), opens = table.radial_velocity != 0;
+  if (mesh.velocities.empty() && table.velocity == Vector3d::Zero() && !turns && !opens)
+    return;
+  const scene::SheetAxis axis = scene::axis_of(table);
+  const std::span<Vector3d> v = velocities(frame);
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Vector3d& x = mesh.positions[i];
+    v[i] = table.velocity + table.angular_velocity.cross(x - table.center) +
+           (mesh.velocities.empty() ? Vector3d::Zero() : mesh.velocities[i]);
+    if (opens)
+      v[i] += table.radial_velocity * axis.outward(x);
+  }
+}
+
 } // namespace
 
 formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) {
@@ -295,12 +311,7 @@ formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) 
       fail(ExitCode::bad_input, "triangle {} of the sheet has no area: repair the mesh first", t);
   }
   formats::Frame frame = make_frame(mesh.positions, mesh.triangles, volumes);
-  if (!mesh.velocities.empty() || table.velocity != Vector3d::Zero() || table.angular_velocity != Vector3d::Zero()) {
-    const std::span<Vector3d> v = velocities(frame);
-    for (std::size_t i = 0; i < v.size(); ++i)
-      v[i] = table.velocity + table.angular_velocity.cross(mesh.positions[i] - table.center) +
-             (mesh.velocities.empty() ? Vector3d::Zero() : mesh.velocities[i]);
-  }
+  put_velocities(mesh, table, frame);
   if (!scene.holds.empty())
     std::copy(holds.begin(), holds.end(), put_masks(frame, "hold").begin());
   if (!scene.inflows.empty())

@@ -31,7 +31,8 @@ std::vector<std::uint32_t> pieces_of(const Connectivity& mesh) {
 } // namespace
 
 bool turns_freely(const Model& model) {
-  return model.bath && !model.has_inertia() && model.holds.empty() && model.walls.empty() && model.contacts.empty();
+  return model.bath && !model.has_inertia() && model.holds.empty() && model.walls.empty() && model.contacts.empty() &&
+         !model.air;
 }
 
 void stop_turning(const Connectivity& mesh, std::span<const Vector3> positions, const Vector3& axis,

@@ -31,9 +31,9 @@ double squeezed(const Model& model, const State& state) {
   return volume > 0 ? std::max(1.0, std::sqrt(area) * area / volume) : 1;
 }
 
-// Of what holds and walls move, at the end [m/s].
+// Of what holds, walls and the wind move, at the end [m/s].
 double fastest_prescribed(const Model& model, const State& end) {
-  double fastest = 0;
+  double fastest = model.air ? model.air->wind(end.time).norm() : 0;
   for (const Hold& hold : model.holds)
     for (const auto v : hold.vertices)
       fastest = std::max(fastest, hold.velocity_at(end.time, end.positions[v]).norm());

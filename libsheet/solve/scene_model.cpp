@@ -282,6 +282,22 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
 // Whether what flows may touch two solids.
 bool flows_in_corners(const Scene& scene) { return scene.solids.size() > 1 && flows_on_solids(scene); }
 
+// What is in an inlet that fans out moves each vertex its own way, and does not turn: a hold for each.
+void add_fan(const scene::InletVelocity& velocity, const Frame& frame, const Hold& inlet, Model& model) {
+  const auto starts = positions(frame);
+  Hold hold;
+  hold.clamped_edges = inlet.clamped_edges;
+  for (const std::uint32_t v : inlet.vertices) {
+    hold.vertices = {v};
+    hold.motion = [velocity, x = starts[v]](double from, double to) {
+      return RigidMotion{.shift = velocity.way(from, to, x)};
+    };
+    hold.velocity = [velocity, x = starts[v]](double t, const Vector3&) { return velocity.at(t, x); };
+    model.holds.push_back(hold);
+    hold.clamped_edges.clear();
+  }
+}
+
 // What is in an inlet moves as liquid flows in there, and does not turn.
 void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
   const auto masks = sheet::masks(frame, "inlet");
@@ -297,7 +313,12 @@ void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh
     for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
       if ((of_inlet(masks[mesh.edges[e][0]] & masks[mesh.edges[e][1]], i) & in_inlet) != 0)
         hold.clamped_edges.push_back(e);
-    move(hold, scene::Translating{scene::inlet_velocity(frame, scene, i)});
+    const scene::InletVelocity velocity = scene::inlet_velocity(frame, scene, i);
+    if (velocity.fans_out()) {
+      add_fan(velocity, frame, hold, model);
+      continue;
+    }
+    move(hold, scene::Translating{velocity.common});
     model.holds.push_back(std::move(hold));
   }
 }
@@ -361,6 +382,32 @@ HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<
   return model;
 }
 
+AirFlow air_of(const scene::Air& air) {
+  return {.density = air.density,
+          .drag = air.drag_coefficient,
+          .friction = air.friction_coefficient,
+          .wind = [wind = air.wind](double t) { return scene::value_at(wind, t); }};
+}
+
+// What air does not reach: vertices that touch a solid or another layer, or are under the bath's surface.
+std::vector<char> sheltered_from_air(const Scene& scene, const Frame& frame, const Model& model) {
+  std::vector<char> sheltered(frame.vertices, 0);
+  const auto touched = touched_solids(frame, scene.solids.size());
+  for (std::size_t v = 0; v < touched.size(); ++v)
+    sheltered[v] = touched[v] != no_solid ? 1 : 0;
+  for (const ContactSpring& spring : model.contacts)
+    for (const std::uint32_t v : spring.vertices)
+      sheltered[v] = 1;
+  if (const auto& bath = scene.environment.bath) {
+    const auto x = positions(frame);
+    const Vector3 up = -scene.environment.gravity->normalized();
+    for (std::size_t v = 0; v < x.size(); ++v)
+      if (up.dot(x[v]) < bath->level)
+        sheltered[v] = 1;
+  }
+  return sheltered;
+}
+
 // What a model has of a scene in any frame.
 Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   Model model;
@@ -373,6 +420,8 @@ Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   if (scene.environment.gravity)
     model.gravity = *scene.environment.gravity;
   model.bath = scene.environment.bath;
+  if (scene.environment.air)
+    model.air = air_of(*scene.environment.air);
   model.contacts_adhere = scene.contact && contacts_adhere(scene);
   model.contacts_flow = layers_flow(scene);
   return model;
@@ -505,6 +554,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (scene.heat)
     model.heat = heat_of(scene, frame, solids);
   model.contacts = read_springs(frame); // as sheet-collide has set them up
+  if (model.air)
+    model.air->sheltered = sheltered_from_air(scene, frame, model);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))
     model.reactions = Reactions::at_end;
@@ -547,7 +598,7 @@ double next_event(const Scene& scene, double t) {
     if (hold.until)
       consider(*hold.until);
   }
-  const auto consider_rows = [&](const scene::Timed<double>* timed) {
+  const auto consider_rows = [&](const auto* timed) {
     if (timed != nullptr && timed->entries.size() > 1)
       for (const auto& entry : timed->entries)
         consider(entry.time);
@@ -560,12 +611,15 @@ double next_event(const Scene& scene, double t) {
   for (const scene::Inflow& inflow : scene.inflows) {
     consider_rows(pointer_to(inflow.temperature));
     consider_motion(scene::Translating{inflow.velocity});
+    consider_rows(&inflow.radial_velocity);
     if (inflow.until)
       consider(*inflow.until);
   }
   for (const scene::SheetTable& sheet : scene.sheets)
     if (sheet.enters)
       consider(*sheet.enters);
+  if (scene.environment.air)
+    consider_rows(&scene.environment.air->wind);
   if (scene.heat)
     for (const scene::HeatedFace* face : {&scene.heat->upper, &scene.heat->lower})
       for (const scene::Varying* varying : {&face->ambient, &face->transfer, &face->radiant})

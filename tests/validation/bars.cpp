@@ -403,6 +403,31 @@ TEST(Validation, FallingCurtain) {
   EXPECT_LT(std::abs(r.more.back().second), 1e-13);
 }
 
+// What inlets that fan out let in keeps to the closed form of bells. Edges of 3 mm: the error at a depth grows on the
+// way down, and falls with the second power of the edges.
+TEST(Validation, WaterBell) {
+  const Result r = run(find_case("V44"), settings("V44", 0.6, 333, 2));
+  EXPECT_LT(std::abs(r.error), 0.01);
+  for (const auto& [name, error] : r.more)
+    EXPECT_LT(std::abs(error), name == "at_40_mm" ? 0.08 : 0.03) << name;
+}
+
+TEST(Validation, LongWaterBells) {
+  for (int set = 1; set <= 2; ++set) {
+    const Result r = run(find_case("V44"), settings("V44", 0.24, 833, set));
+    EXPECT_LT(std::abs(r.error), 0.01) << set;
+    for (const auto& [name, error] : r.more)
+      EXPECT_LT(std::abs(error), 0.01) << set << ", " << name;
+  }
+}
+
+TEST(Validation, AirHoldsBack) {
+  for (int set = 1; set <= find_case("V43").sets; ++set) {
+    EXPECT_LT(error("V43", settings("V43", 0.5, 40, set)), 1e-3) << set;
+    EXPECT_GE(order_in_time("V43", settings("V43", 0.5, 40, set), Scheme::sdirk2), 1.9) << set;
+  }
+}
+
 TEST(Validation, LongFallingCurtainRemeshed) {
   const Result r = run(find_case("V18"), settings("V18", 0.005, 700, 2));
   EXPECT_LT(std::abs(r.error), 0.01);

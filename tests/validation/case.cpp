@@ -135,6 +135,13 @@ const std::vector<Case>& cases() {
        "number "
        "0.8, 1.25)",
        "1, 2 speed of its rim; 3, 4 speed at which its upper rim climbs", "", 4, at(0.05, 200), false, false, v42},
+      {"V43",
+       "sheets that air holds back (sets 1 to 4: level ones of 0.05, 0.2, 1, 2.5 mm fall; 5: one is thrown along "
+       "itself)",
+       "1 + greatest deviation of the speed over the terminal one, or that at the start", "", 5, at(0.5, 40), true,
+       false, v43},
+      {"V44", "water bell, with inflow and outflow, remeshed (set 1: without gravity; 2: with it)", "greatest radius",
+       "", 2, at(0.6, 333), false, true, v44},
   };
   return list;
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "libsheet/energy/air_drag.h"
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/bath.h"
@@ -331,6 +332,33 @@ TEST(Derivatives, OfTwoLiquids) {
 }
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(), {}, true, crumpled, touch_walls); }
+TEST(Derivatives, AirDrag) {
+  // So strong that no difference crosses where the velocity against it is 0.
+  const auto wind = [](double t) { return Vector3(20, 200 * t, -30); };
+  check(AirDrag({.density = 2, .drag = 1.2, .friction = 0.3, .wind = wind}), {false, false});
+}
+// The whole force on a triangle is that of its area, and what nothing reaches has none.
+TEST(Derivatives, AirPressesAndRubs) {
+  const test::Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, {{0, 1, 2}}};
+  const State s = test::at_rest(mesh, 0.1);
+  const Liquid liquid{.viscosity = 1, .density = 3};
+  const double dt = 0.5;
+  AirDrag all({.density = 2, .drag = 1.2, .friction = 0.1}), part({.density = 2, .drag = 1.2, .sheltered = {0, 1, 1}});
+  Stage stage = first_stage(s, liquid, dt, dt, false);
+  all.begin(stage);
+  part.begin(stage);
+  const Vector3 velocity(0, 3, -4);
+  VectorN<9> u, gradient;
+  MatrixN<9> hessian;
+  for (int c = 0; c < 3; ++c)
+    u.segment<3>(3 * c) = s.positions[static_cast<std::size_t>(c)] + dt * velocity;
+  const auto force = [&](const AirDrag& drag) -> Vector3 {
+    drag.derivatives(0, u, gradient, hessian, false);
+    return -(gradient.segment<3>(0) + gradient.segment<3>(3) + gradient.segment<3>(6));
+  };
+  EXPECT_NEAR((force(all) - Vector3(0, -0.1 * 2 * 9.0 / 2, 1.2 * 2 * 16.0 / 2)).norm(), 0, 1e-12);
+  EXPECT_NEAR((force(part) - Vector3(0, 0, 1.2 * 2 * 16.0 / 2 / 3)).norm(), 0, 1e-12);
+}
 // A sphere has no rim: every third edge counts as one, in part.
 TEST(Derivatives, RimTension) {
   const State sphere = test::at_rest(test::icosphere(1), 0.3);

@@ -77,9 +77,9 @@ Frame tube(std::uint32_t around) {
 
 // The whole sheet moves with what is in the inlet.
 void move(Frame& frame, const Scene& scene, double dt) {
-  const Vector3 way = scene::integral(scene.inflows[0].velocity, frame.time, frame.time + dt);
+  const scene::InletVelocity velocity = scene::inlet_velocity(frame, scene, 0);
   for (Vector3& x : positions(frame))
-    x += way;
+    x += velocity.way(frame.time, frame.time + dt, x);
   frame.time += dt;
 }
 
@@ -322,6 +322,80 @@ TEST(Emit, ClosedTubeStraightAndSlanted) {
   }
 }
 
+// A ring of a cone about the z axis, or a part of it, of the radius 1 where liquid enters, twice that outside.
+Frame fan(std::uint32_t edges, double angle) {
+  const bool closed = angle == 2 * std::numbers::pi;
+  const std::uint32_t n = closed ? edges : edges + 1;
+  std::vector<Vector3> x;
+  std::vector<Corners> t;
+  std::vector<std::uint32_t> border;
+  for (std::uint32_t j = 0; j < 2; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double at = angle * i / edges, r = 1 + j;
+      x.emplace_back(r * std::cos(at), r * std::sin(at), -0.5 * j);
+    }
+  for (std::uint32_t i = 0; i < edges; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    t.push_back({i, n + i, n + next});
+    t.push_back({i, n + next, next});
+  }
+  for (std::uint32_t i = 0; i < n; ++i)
+    border.push_back(i);
+  Frame frame = make_frame(x, t, std::vector<double>(t.size(), 0.1));
+  mark_inlet(frame, border);
+  return frame;
+}
+
+// Where liquid fans out as much enters through each edge as flows through it, to round-off, and thins as the ring that
+// it makes gets longer; each vertex goes straight on the way on which it has entered.
+TEST(Emit, FansOutOfARingOrAnArc) {
+  const Scene scene = parse_scene("[sheet]\nshape = \"annulus\"\ninner_radius = 1\nouter_radius = 2\nplane = \"xy\"\n"
+                                  "edge_length = 0.5\nthickness = 0.25\n[material]\nviscosity = 1\ndensity = 1\n"
+                                  "[inflow]\nregion = \"inner_rim\"\nradial_velocity = 1\nvelocity = [0, 0, -0.5]\n",
+                                  "scene");
+  for (const double angle : {2 * std::numbers::pi, 2.0})
+    for (const std::uint32_t edges : {24U, 25U}) {
+      Frame frame = fan(edges, angle);
+      const double start = volume_of(frame), half = angle / edges / 2;
+      const double flux = thickness * edges * 2 * std::sin(half) * std::hypot(std::cos(half), 0.5);
+      for (const double dt : {0.05, 0.03, 0.5, 0.2, 1e-9, 0.3, 0.9, 0.02, 0.7}) {
+        move(frame, scene, dt);
+        const double before = volume_of(frame);
+        const double entered = emit(frame, scene).volume;
+        ASSERT_EQ(value_error(frame), "");
+        EXPECT_NEAR(volume_of(frame) - before, entered, 1e-13 * start);
+      }
+      EXPECT_NEAR(volume_of(frame), start + account(frame), 1e-13 * start);
+      EXPECT_NEAR(account(frame), flux * frame.time, 2e-3 * flux * frame.time); // the first strip is no step's
+      double worst = 0;
+      for (std::size_t t = 0; t < frame.triangles; ++t) {
+        Vector3 middle = Vector3::Zero();
+        for (const std::uint32_t v : triangles(frame)[t])
+          middle += positions(frame)[v] / 3;
+        const double r = middle.head<2>().norm();
+        if (r < 1 + frame.time) // behind what was there
+          worst = std::max(worst, std::abs(volumes(frame)[t] / test::area(frame, t) / (thickness / r) - 1));
+      }
+      EXPECT_LT(worst, 0.05) << edges;
+      for (std::size_t v = 0; v < frame.vertices; ++v) {
+        const Vector3& x = positions(frame)[v];
+        if (x.head<2>().norm() < 1 + frame.time) {
+          EXPECT_NEAR(x.z(), -0.5 * (x.head<2>().norm() - 1), 1e-12);
+        }
+      }
+      EXPECT_GT(frame.vertices, 5 * edges);
+    }
+}
+
+TEST(Emit, AFanThatWouldFlowOutOfTheSheetIsRefused) {
+  const Scene scene = parse_scene("[sheet]\nshape = \"annulus\"\ninner_radius = 1\nouter_radius = 2\nplane = \"xy\"\n"
+                                  "edge_length = 0.5\nthickness = 0.25\n[material]\nviscosity = 1\ndensity = 1\n"
+                                  "[inflow]\nregion = \"inner_rim\"\nradial_velocity = -1\n",
+                                  "scene");
+  Frame frame = fan(12, 2 * std::numbers::pi);
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }), HasSubstr("points out of the sheet at the inlet's edge"));
+}
+
 TEST(Emit, OpenAndClosedPiecesTogether) {
   Frame frame = tube(6);
   // A square behind the tube, its upper border in the inlet, too.
@@ -358,10 +432,7 @@ TEST(Emit, ADrownedInletLetsInAsMuch) {
   const double start = volume_of(frame);
   const auto flow = [&](int steps) {
     for (int k = 0; k < steps; ++k) {
-      const Vector3 way = scene::integral(scene::inlet_velocity(frame, scene, 0), frame.time, frame.time + 0.1);
-      for (Vector3& x : positions(frame))
-        x += way;
-      frame.time += 0.1;
+      move(frame, scene, 0.1);
       emit(frame, scene);
       drown_inlets(frame, scene, solids);
       if (frame.time > 0.51) {

@@ -77,6 +77,20 @@ TEST(Explain, WarnsOfEverySheetByItsName) {
                                       "sheet 2: " + falls));
 }
 
+TEST(Explain, SaysWhereAirWouldBeFelt) {
+  // rho = 1000, h = 0.02
+  const auto left_out = [](const std::string& speed, const std::string& air) {
+    return of(disk + "velocity = [0, 0, -" + speed + "]\n" + liquid + "[environment]\ngravity = [0, 0, -10]\n" + air)
+        .left_out.back();
+  };
+  EXPECT_EQ(left_out("5", ""), "air has neither drag nor mass");
+  EXPECT_EQ(left_out("10", ""),
+            "air has neither drag nor mass: on what moves across itself at 10 m/s its drag would be "
+            "0.36 of the weight (air = {density = \"1.2 kg/m^3\"} in [environment])");
+  EXPECT_EQ(left_out("10", "air = {density = 1.2}\n"),
+            "air has no mass, and no flow of its own that a film would flap in");
+}
+
 TEST(Explain, NumbersByTheirFormulas) {
   // L = 1, h = 0.02, mu = 100, rho = 1000, gamma = 0.05, g = 10
   const Explanation e = of(disk + liquid +

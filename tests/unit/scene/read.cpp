@@ -34,6 +34,11 @@ TEST(Read, EveryTable) {
   EXPECT_EQ(*s.environment.gravity, Vector3d(0, -9.81, 0));
   EXPECT_EQ(std::get<ConstantPressure>(*s.environment.pressure).value, 10);
   EXPECT_EQ(s.environment.bath, (BathLiquid{1200, 0.5}));
+  ASSERT_TRUE(s.environment.air);
+  EXPECT_EQ(s.environment.air->density, 1.2);
+  EXPECT_EQ(s.environment.air->drag_coefficient, 1.2);
+  EXPECT_EQ(s.environment.air->friction_coefficient, 0.01);
+  EXPECT_EQ(value_at(s.environment.air->wind, 0.5), Vector3d(1.5, 0, 0));
   ASSERT_EQ(s.holds.size(), 3U);
   EXPECT_TRUE(s.holds[0].clamped);
   const auto& turning = std::get<Rotating>(s.holds[0].motion);
@@ -351,6 +356,12 @@ TEST(Read, ProblemsOfTheOtherTables) {
            {"[[outflow]]\npoint = [0, 0, 0]\nnormal = [0, 0, 0]", "s:11:10: normal: a direction must not be zero"},
            {"[inflow]\nregion = \"outer_rim\"\nvelocity = [0, 0, 0]",
             "s:11:12: velocity: with no velocity nothing flows in"},
+           {"[inflow]\nregion = \"outer_rim\"\nradial_velocity = 0",
+            "s:11:19: radial_velocity: with no velocity nothing flows in"},
+           {"[environment]\nair = {wind = [1, 0, 0]}",
+            "s:10:7: missing key \"density\" in air, such as density = \"1000 kg/m^3\""},
+           {"[environment]\nair = {density = 1.2, drag_coefficient = 0, friction_coefficient = 0}",
+            "s:10:42: drag_coefficient: with neither drag nor friction air does nothing: leave the table out"},
            {"[inflow]", "s:9:1: missing key \"region\" in [inflow], such as region = \"y_max\"\n"
                         "s:9:1: missing key \"velocity\" in [inflow], such as velocity = [0, \"-0.1 m/s\", 0]"},
            {"[tear]\nbelow = 0.02",

@@ -61,6 +61,7 @@ center = [0, 1, 0]
 rotation = {axis = [0, 0, 1], angle = "45 deg"}
 velocity = [0, "-1 m/s", 0]
 angular_velocity = [0, 2, -3]
+radial_velocity = 0.5
 [material]
 viscosity = "100 Pa*s"
 density = "0.978 g/cm^3"
@@ -69,6 +70,7 @@ surface_tension = "72.8 mN/m"
 gravity = [0, -9.81, 0]
 pressure = {law = "constant", value = "10 Pa"}
 bath = {density = 1200, level = 0.5}
+air = {density = 1.2, wind = [[0, 0, 0, 0], [1, 3, 0, 0]]}
 [model]
 inertia = true
 bending = true
@@ -102,6 +104,7 @@ receding = true
 [inflow]
 region = "outer_rim"
 velocity = [0, -1, 0]
+radial_velocity = -0.5
 until = 1
 [[outflow]]
 point = [0, "-2 m", 0]

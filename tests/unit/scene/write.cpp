@@ -27,6 +27,7 @@ center = [0, 1, 0]
 rotation = {axis = [0, 0, 1], angle = 0.7853981633974483}
 velocity = [0, -1, 0]
 angular_velocity = [0, 2, -3]
+radial_velocity = 0.5
 
 [material]
 viscosity = 100
@@ -37,6 +38,7 @@ surface_tension = 0.0728
 gravity = [0, -9.81, 0]
 pressure = {law = "constant", value = 10}
 bath = {density = 1200, level = 0.5, clings = false}
+air = {density = 1.2, drag_coefficient = 1.2, friction_coefficient = 0.01, wind = [[0, 0, 0, 0], [1, 3, 0, 0]]}
 
 [model]
 inertia = true
@@ -80,6 +82,7 @@ receding = true
 [inflow]
 region = "outer_rim"
 velocity = [0, -1, 0]
+radial_velocity = -0.5
 thickness = 0.002
 until = 1
 
@@ -162,6 +165,7 @@ public:
       sheet.rotation = Rotation{direction(), number()};
     sheet.velocity = maybe(vector());
     sheet.angular_velocity = maybe(vector());
+    sheet.radial_velocity = below(2) ? number() : 0;
     s.material = {.viscosity = positive(), .density = positive(), .surface_tension = below(2) ? positive() : 0};
     s.material.law = law();
     if (below(2))
@@ -189,6 +193,8 @@ public:
     }
     if (s.environment.gravity && below(2))
       s.environment.bath = BathLiquid{positive(), number(), below(2) == 1};
+    if (below(2))
+      s.environment.air = Air{positive(), positive(), positive(), below(2) ? velocity() : Timed<Vector3d>{}};
     s.model = {below(2) == 1, below(2) == 1, below(2) == 1};
     for (int i = below(4); i > 0; --i)
       s.holds.push_back(hold(s));
@@ -198,7 +204,8 @@ public:
     if (!borders.empty() && below(2))
       for (int i = below(2); i >= 0; --i)
         s.inflows.push_back({s.sheets.size() > 1 ? s.sheets.back().name : "", borders.back(), velocity(), positive(),
-                             maybe_positive(), s.heat && below(2) ? std::optional(temperature()) : std::nullopt});
+                             maybe_positive(), s.heat && below(2) ? std::optional(temperature()) : std::nullopt,
+                             below(2) ? Timed<double>{{{0, number()}}} : Timed<double>{}});
     for (int i = below(3); i > 0; --i)
       s.outflows.push_back({vector(), direction()});
     if (below(2))

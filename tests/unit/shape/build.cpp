@@ -46,6 +46,19 @@ TEST(BuildFrame, ASheetTurnsAboutItsCenter) {
     EXPECT_LT((v[i] - Eigen::Vector3d(-3 * x[i].y(), 3 * (x[i].x() - 7), 5)).norm(), 1e-14) << i;
 }
 
+TEST(BuildFrame, ASheetOpensAwayFromItsAxis) {
+  const Frame frame = build_frame(parse_scene(
+      std::string("[sheet]\nshape = \"annulus\"\ninner_radius = 1\nouter_radius = 2\nedge_length = 1\nplane = \"xz\"\n"
+                  "thickness = 0.1\ncenter = [7, 0, 0]\nrotation = {axis = [1, 0, 0], angle = \"90 deg\"}\n"
+                  "velocity = [0, 0, 5]\nradial_velocity = 3\n") +
+          liquid,
+      "scene"));
+  const auto x = positions(frame), v = frame.find("velocity")->values<Eigen::Vector3d>();
+  for (std::size_t i = 0; i < frame.vertices; ++i) // its axis, y, has become z
+    EXPECT_LT((v[i] - 3 * (x[i] - Eigen::Vector3d(7, 0, 0)).normalized() - Eigen::Vector3d(0, 0, 5)).norm(), 1e-14)
+        << i;
+}
+
 TEST(BuildFrame, ThicknessFollowsRowsWhereverTheSheetIs) {
   const auto check = [](const std::string& shape, const std::string& profile, const auto& exact) {
     const Frame frame = build_frame(

@@ -243,6 +243,40 @@ TEST(SceneModel, WhatIsInTheInletMovesAtTheInflowsVelocityUntilItEnds) {
   EXPECT_TRUE(model_of(scene, frame, mesh, Bending::mid_edge, false).holds.empty());
 }
 
+TEST(SceneModel, WhatFansOutMovesEachVertexItsOwnWay) {
+  Frame frame = two_squares();
+  put_masks(frame, "inlet", {3, 3, 3, 0, 0, 0});
+  const std::string text = std::string(scene_text) + "[inflow]\nregion = \"z_max\"\nvelocity = [0, -1, 0]\n"
+                                                     "radial_velocity = [[0, 2], [3, 8]]\n";
+  const Scene scene = parse_scene(text, "test");
+  EXPECT_EQ(next_event(scene, 1), 3);
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  const Model model = model_of(scene, frame, mesh, Bending::mid_edge, false);
+  ASSERT_EQ(model.holds.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3 x = positions(static_cast<const Frame&>(frame))[i], out = i == 0 ? Vector3::Zero() : Vector3::UnitX();
+    EXPECT_EQ(model.holds[i].vertices, std::vector{static_cast<std::uint32_t>(i)});
+    EXPECT_EQ(model.holds[i].clamped_edges.size(), i == 0 ? 2u : 0u); // (0,1) (1,2)
+    EXPECT_LT((model.holds[i].moved(0, 1)(x) - x - 3 * out - Vector3(0, -1, 0)).norm(), 1e-15);
+    EXPECT_LT((model.holds[i].velocity_at(1, x) - 4 * out - Vector3(0, -1, 0)).norm(), 1e-15);
+  }
+}
+
+TEST(SceneModel, AirDoesNotReachWhatTouchesOrIsUnderABath) {
+  Frame frame = two_squares();
+  put_masks(frame, "touch", {0, 1, 0, 0, 0, 0});
+  const std::string text = std::string(scene_text) + "[environment]\ngravity = [0, 0, -9.81]\n"
+                                                     "bath = {density = 2000, level = -0.5}\n"
+                                                     "air = {density = 1.2, wind = [[0, 0, 0, 0], [2, 4, 0, 0]]}\n";
+  const Scene scene = parse_scene(text, "test");
+  EXPECT_EQ(next_event(scene, 1), 2);
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  const Model model = model_of(scene, frame, mesh, Bending::mid_edge, false);
+  ASSERT_TRUE(model.air);
+  EXPECT_EQ(model.air->sheltered, (std::vector<char>{0, 1, 0, 1, 1, 1}));
+  EXPECT_EQ(model.air->wind(1), Vector3(2, 0, 0));
+}
+
 // What a vertex overshot counts where a solid holds it and no contact spring pulls at it. A step uses it up, and says
 // that it started where the frame had the vertex.
 TEST(SceneModel, WhatWasOvershotIsPutBackOnce) {

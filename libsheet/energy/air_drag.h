@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Quadratic drag of air on what moves through it [Hoerner 1965, chapters 2 and 3]: with w the velocity less the wind's,
+// w_n across a triangle and w_t along it, the pressure C_n ρ |w_n| w_n/2 and the friction C_t ρ |w_t| w_t/2 [Pa], C_t
+// for both faces together. For each corner of a triangle
+//   W = (Â/3) τ (ρ/6) (C_n |w_n|³ + C_t |w_t|³),   w = (x - x̄)/τ - wind,
+// Â and the normal predicted for the end of the stage, x̄ the start of the step, in a second stage extrapolated from the
+// first, wind at the stage's end. A corner that air does not reach has none of it.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "libsheet/energy/element.h"
+#include "libsheet/geometry/area.h"
+
+namespace sheet {
+
+struct AirFlow {
+  double density = 0;                                                                      // ρ [kg/m³]
+  double drag = 0, friction = 0;                                                           // C_n, C_t
+  std::function<Vector3(double)> wind = [](double) -> Vector3 { return Vector3::Zero(); }; // at a time [m/s]
+  std::vector<char> sheltered = {}; // of each vertex, whether air does not reach it; empty: it reaches all
+};
+
+class AirDrag {
+public:
+  static constexpr Stencil stencil = Stencil::triangle;
+  explicit AirDrag(AirFlow air) : air_(std::move(air)) {}
+  [[nodiscard]] const char* name() const { return "drag of air"; }
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
+
+  void begin(const Stage& stage) {
+    mesh_ = stage.start->mesh;
+    const Vector3 blown = stage.duration * air_.wind(stage.end_time);
+    still_.resize(stage.vertices());
+    for (std::uint32_t v = 0; v < still_.size(); ++v)
+      still_[v] = reference_position(stage, v) + blown;
+    triangles_.resize(mesh_->triangles.size());
+    const auto& x = stage.predicted;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const Corners& c = mesh_->triangles[t];
+      triangles_[t].normal = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).normal;
+      triangles_[t].weight = stage.raised[t].area() * air_.density / (18 * stage.duration * stage.duration);
+    }
+  }
+
+  [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
+    double sum = 0;
+    each_corner(i, u, [&](int, const Vector3& across, const Vector3& along) {
+      sum += triangles_[i].weight * (air_.drag * cube(across.norm()) + air_.friction * cube(along.norm()));
+    });
+    return sum;
+  }
+
+  double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian, bool) const {
+    gradient.setZero();
+    hessian.setZero();
+    const Vector3& normal = triangles_[i].normal;
+    const Matrix3 nn = normal * normal.transpose();
+    each_corner(i, u, [&](int c, const Vector3& across, const Vector3& along) {
+      const double drag = 3 * triangles_[i].weight * air_.drag * across.norm(), slid = along.norm();
+      const double friction = 3 * triangles_[i].weight * air_.friction;
+      gradient.segment<3>(3 * c) = drag * across + friction * slid * along;
+      hessian.block<3, 3>(3 * c, 3 * c) = 2 * drag * nn + friction * slid * (Matrix3::Identity() - nn);
+      if (slid > 0)
+        hessian.block<3, 3>(3 * c, 3 * c) += friction / slid * along * along.transpose();
+    });
+    return value(i, u);
+  }
+
+private:
+  struct Triangle {
+    Vector3 normal = Vector3::Zero();
+    double weight = 0; // Â ρ/(18 τ²) [kg/(m s²)]
+  };
+
+  static double cube(double x) { return x * x * x; }
+  // Of each corner that air reaches what it has moved against the air, across the triangle and along it [m].
+  template <class Visit> void each_corner(std::size_t i, const VectorN<9>& u, Visit&& visit) const {
+    const Vector3& normal = triangles_[i].normal;
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t v = mesh_->triangles[i][static_cast<std::size_t>(c)];
+      if (!air_.sheltered.empty() && air_.sheltered[v] != 0)
+        continue;
+      const Vector3 moved = u.segment<3>(3 * c) - still_[v], across = normal.dot(moved) * normal;
+      visit(c, across, Vector3(moved - across));
+    }
+  }
+
+  AirFlow air_;
+  std::shared_ptr<const Connectivity> mesh_;
+  std::vector<Vector3> still_; // of each vertex: where it would be if it rested in the air, from x̄ on [m]
+  std::vector<Triangle> triangles_;
+};
+
+} // namespace sheet
