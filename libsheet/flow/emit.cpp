@@ -213,10 +213,21 @@ private:
       if (part > 0 && !perturbation_.none())
         x_.back() += perturbation_.at(origin, x_[lowest(chain)[i]], part, rows_, i) * normal(chain, i);
       origins_.push_back(origin);
+      entering_.push_back(entering_velocity(chain, i, part));
       bits_.push_back(0);
     }
     ++rows_;
     return row;
+  }
+
+  // Of a vertex that is put at a part of the way from the border's i-th to the lowest row. What fans out is turned by
+  // its tension on that way.
+  [[nodiscard]] Vector3 entering_velocity(const InletChain& chain, std::size_t i, double part) const {
+    const Vector3 enters = velocity_.at(frame_.time, origins_[chain.border[i]]);
+    const auto known = velocities(old_);
+    if (!velocity_.fans_out() || known.empty())
+      return enters;
+    return enters + part * (known[lowest(chain)[i]] - enters);
   }
 
   // Of this inlet; those of others stay.
@@ -409,8 +420,7 @@ private:
     std::copy(bits_.begin(), bits_.end(), frame_.find("inlet")->values<std::uint64_t>().begin());
     std::copy(origins_.begin(), origins_.end(), frame_.find("inlet_origin")->values<Vector3>().begin());
     const auto v = velocities(frame_);
-    for (std::size_t i = old_vertices; i < v.size(); ++i)
-      v[i] = velocity_.at(frame_.time, origins_[i]);
+    std::ranges::copy(entering_, v.begin() + static_cast<std::ptrdiff_t>(old_vertices));
   }
 
   [[nodiscard]] double& temperature(std::size_t triangle) {
@@ -427,6 +437,7 @@ private:
   const std::vector<InletChain>& chains_;
   RowPerturbation perturbation_;
   std::vector<Vector3> x_, origins_;
+  std::vector<Vector3> entering_; // velocities of new vertices [m/s]
   std::vector<std::uint64_t> bits_;
   std::vector<bool> on_wall_; // of the old vertices: on which liquid flows
   Lineage vertices_;

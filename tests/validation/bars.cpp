@@ -403,13 +403,13 @@ TEST(Validation, FallingCurtain) {
   EXPECT_LT(std::abs(r.more.back().second), 1e-13);
 }
 
-// What inlets that fan out let in keeps to the closed form of bells. Edges of 3 mm: the error at a depth grows on the
-// way down, and falls with the second power of the edges.
+// What inlets that fan out let in keeps to the closed form of bells. Errors fall with the second power of the
+// edges: 2.5 % with 3 mm are 0.4 % with the 1.2 mm of the long version.
 TEST(Validation, WaterBell) {
   const Result r = run(find_case("V44"), settings("V44", 0.6, 333, 2));
-  EXPECT_LT(std::abs(r.error), 0.01);
+  EXPECT_LT(std::abs(r.error), 0.025);
   for (const auto& [name, error] : r.more)
-    EXPECT_LT(std::abs(error), name == "at_40_mm" ? 0.08 : 0.03) << name;
+    EXPECT_LT(std::abs(error), 0.025) << name;
 }
 
 TEST(Validation, LongWaterBells) {

@@ -254,7 +254,7 @@ TEST(SceneModel, WhatFansOutMovesEachVertexItsOwnWay) {
   const Model model = model_of(scene, frame, mesh, Bending::mid_edge, false);
   ASSERT_EQ(model.holds.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3 x = positions(static_cast<const Frame&>(frame))[i], out = i == 0 ? Vector3::Zero() : Vector3::UnitX();
+    const Vector3 x = positions(static_cast<const Frame&>(frame))[i], out = (i == 0 ? 0.0 : 1.0) * Vector3::UnitX();
     EXPECT_EQ(model.holds[i].vertices, std::vector{static_cast<std::uint32_t>(i)});
     EXPECT_EQ(model.holds[i].clamped_edges.size(), i == 0 ? 2u : 0u); // (0,1) (1,2)
     EXPECT_LT((model.holds[i].moved(0, 1)(x) - x - 3 * out - Vector3(0, -1, 0)).norm(), 1e-15);
