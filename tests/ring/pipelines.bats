@@ -211,6 +211,13 @@ END
   interrupted KILL tongue ice-shelf 4000 200
 }
 
+@test "enrobing: what has a yield stress stretches less than what has none" {
+  OUT=$BATS_TEST_TMPDIR/out FILM=no pipelines/enrobing/casson 0.04 0.2
+  awk -F, 'FNR == 1 { for (i = 1; i <= NF; ++i) if ($i == "area") c = i } { area[FILENAME] = $c } END {
+    exit !(area[ARGV[1]] < area[ARGV[2]] && area[ARGV[1]] > 0.05) }' \
+    "$BATS_TEST_TMPDIR/out/casson.csv" "$BATS_TEST_TMPDIR/out/newtonian.csv"
+}
+
 @test "ketchup: interrupted and resumed = straight, and it stands where the sauce runs on" {
   interrupted INT ketchup ketchup 0.012 3
   awk -F, 'END { exit !($2 > 90 && $2 < $4 && $3 > 1.2 * $2) }' "$BATS_TEST_TMPDIR/straight/radii.csv"
