@@ -328,6 +328,8 @@ TEST(Validation, ThresholdsOfFlow) {
   EXPECT_LT(off(12, 0.05), 0.025);
 }
 
+TEST(Validation, LongThresholdOfATube) { EXPECT_LT(error("V33", settings("V33", 0.05, 1, 2)), 0.01); }
+
 TEST(Validation, LongThresholdOfAClampedPlate) { EXPECT_LT(error("V33", settings("V33", 0.025, 1, 12)), 0.01); }
 
 // The draw ratio from which on power laws' films are unstable; how much one mesh says of it:
