@@ -12,6 +12,7 @@
 #include "libsheet/flow/entering.h"
 #include "libsheet/flow/heat_account.h"
 #include "libsheet/flow/inlet.h"
+#include "libsheet/flow/inlet_banks.h"
 #include "libsheet/flow/inlet_checks.h"
 #include "libsheet/flow/outflow.h"
 #include "libsheet/flow/row_perturbation.h"
@@ -42,8 +43,7 @@ public:
   // The inflow's inlet has this number, and these chains.
   Emission(Frame& frame, const Scene& scene, std::size_t number, const std::vector<InletChain>& chains)
       : frame_(frame), old_(frame), scene_(scene), inflow_(scene.inflows[number]), number_(number),
-        depth_(scene::inlet_depth(frame, scene, number)), velocity_(scene::inlet_velocity(frame, scene, number)),
-        chains_(chains), perturbation_(scene, number, frame) {
+        velocity_(scene::inlet_velocity(frame, scene, number)), chains_(chains), perturbation_(scene, number, frame) {
     const auto x = positions(old_);
     const auto origins = frame.find("inlet_origin")->values<Vector3>();
     const auto bits = masks(frame, "inlet");
@@ -52,6 +52,12 @@ public:
     bits_.assign(bits.begin(), bits.end());
     for (std::uint32_t v = 0; v < x_.size(); ++v)
       vertices_.keep(v);
+    depths_.assign(frame.vertices, 0);
+    for (const InletChain& chain : chains) {
+      const std::vector<double> depths = scene::inlet_depths(frame, scene, number, chain.border);
+      for (std::size_t i = 0; i < depths.size(); ++i)
+        depths_[chain.border[i]] = depths[i];
+    }
     for (const std::int32_t solid : touched_solids(frame, scene.solids.size()))
       on_wall_.push_back(solid != no_solid &&
                          scene.solids[static_cast<std::size_t>(solid)].contact == SolidContact::flow);
@@ -158,6 +164,11 @@ private:
     }
   }
 
+  // Of what enters through an edge of the border [m].
+  [[nodiscard]] double depth(const InletChain& chain, std::size_t edge) const {
+    return 0.5 * (depths_[chain.border[edge]] + depths_[chain.border[chain.after(edge)]]);
+  }
+
   // What has entered through an edge of the border: the area that it has swept, as thick as it enters. Where it has
   // become longer on its way, what is there has thinned as much.
   [[nodiscard]] double entered(const InletChain& chain, std::size_t edge) const {
@@ -165,9 +176,9 @@ private:
     const auto now = positions(old_);
     if (velocity_.fans_out()) {
       const Vector3 way = 0.5 * (now[a] - origins_[a] + now[b] - origins_[b]);
-      return depth_ * (origins_[b] - origins_[a]).cross(way).norm();
+      return depth(chain, edge) * (origins_[b] - origins_[a]).cross(way).norm();
     }
-    return depth_ *
+    return depth(chain, edge) *
            (TriangleArea(origins_[a], origins_[b], now[b]).area + TriangleArea(origins_[a], now[b], now[a]).area);
   }
 
@@ -287,7 +298,7 @@ private:
     double sum = 0;
     for (Made* m : made) {
       m->temperature = scene_.heat ? temperature_of_inflow() : 0;
-      sum += m->volume = depth_ * area_of(m->corners) / lengthening(chain, edge, m->corners);
+      sum += m->volume = depth(chain, edge) * area_of(m->corners) / lengthening(chain, edge, m->corners);
       m->parents = {{chain.behind[edge], 1, 0}};
     }
     grown_ += sum;
@@ -321,9 +332,9 @@ private:
       area += areas.back();
       moment += areas.back() * ways.back();
     }
-    const double slope = (volume - depth_ * area) / moment;
+    const double enters_as = depth(chain, edge), slope = (volume - enters_as * area) / moment;
     for (std::size_t k = 0; k < made.size(); ++k)
-      sum += made[k]->volume = areas[k] * std::max(depth_ + slope * ways[k], least_thickness * volume / area);
+      sum += made[k]->volume = areas[k] * std::max(enters_as + slope * ways[k], least_thickness * volume / area);
     double others = 0;
     for (Made* m : made) {
       m->volume = m == made.back() ? volume - others : m->volume * (volume / sum);
@@ -432,11 +443,11 @@ private:
   const Scene& scene_;
   const scene::Inflow& inflow_;
   std::size_t number_;
-  double depth_; // of what enters [m]
   scene::InletVelocity velocity_;
   const std::vector<InletChain>& chains_;
   RowPerturbation perturbation_;
   std::vector<Vector3> x_, origins_;
+  std::vector<double> depths_;    // of what enters, for the border's old vertices [m]
   std::vector<Vector3> entering_; // velocities of new vertices [m/s]
   std::vector<std::uint64_t> bits_;
   std::vector<bool> on_wall_; // of the old vertices: on which liquid flows
@@ -503,8 +514,9 @@ Emitted emit(Frame& frame, const Scene& scene) {
     result.rows += at.rows;
   }
   if (ended) {
-    for (const char* array : {"inlet", "inlet_origin", "emit.depth"})
+    for (const char* array : {"inlet", "inlet_origin"})
       frame.erase(array);
+    scene::erase_inlet_depths(frame);
   }
   return result;
 }
@@ -524,8 +536,10 @@ void EmitStage::emit(Frame& frame) {
     solids_.reset();
   if (!solids_ && scene::flows_on_solids(scene))
     solids_.emplace(scene);
-  if (solids_)
+  if (solids_) {
     drown_inlets(frame, scene, *solids_);
+    hold_banks(frame, scene, *solids_);
+  }
   log::detail("step {}: {} m^3 entered, {} new rows of vertices", frame.step, emitted.volume, emitted.rows);
 }
 

@@ -152,7 +152,8 @@ struct Stays {
 };
 
 // An end may insist on its place as a corner of the rim, as held more than the other, as the one on the rim; if both do
-// for different reasons, neither can go.
+// for different reasons, neither can go. A corner that an inlet's strip runs into gives way to it: liquid turns around
+// the inlet's ends there.
 Stays which_stays(const EditableSheet& sheet, std::uint32_t u, std::uint32_t v) {
   const bool under_v = sheet.held_within(u, v), under_u = sheet.held_within(v, u);
   if (!under_u && !under_v)
@@ -167,7 +168,8 @@ Stays which_stays(const EditableSheet& sheet, std::uint32_t u, std::uint32_t v) 
     kept = who;
     return true;
   };
-  const bool corner_u = is_corner(sheet, u), corner_v = is_corner(sheet, v);
+  const bool corner_u = is_corner(sheet, u) && !(sheet.at_inlet(v) && !sheet.at_inlet(u));
+  const bool corner_v = is_corner(sheet, v) && !(sheet.at_inlet(u) && !sheet.at_inlet(v));
   if ((corner_u && corner_v) || !insist(corner_u, corner_v) || !insist(!under_v, !under_u) ||
       !insist(sheet.mesh().on_rim(u), sheet.mesh().on_rim(v)))
     return {};

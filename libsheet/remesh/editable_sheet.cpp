@@ -188,7 +188,7 @@ bool EditableSheet::intersects(const Edit& edit) {
 }
 
 bool EditableSheet::in_strip(std::uint32_t t) const {
-  return std::ranges::all_of(mesh_.corners(t), [&](std::uint32_t v) { return v < at_inlet_.size() && at_inlet_[v]; });
+  return std::ranges::all_of(mesh_.corners(t), [&](std::uint32_t v) { return at_inlet(v); });
 }
 
 bool EditableSheet::make(Edit& edit, const Limits& limits) {

@@ -59,7 +59,9 @@ public:
   // The coordinates in which a vertex is held.
   [[nodiscard]] Axes held_axes(std::uint32_t v) const { return grips_[grip(v)].axes; }
   [[nodiscard]] bool fixed(std::uint32_t v) const { return held_axes(v) == all_axes; }
-  // Of an inlet (inlet.h): all its corners are marked.
+  // Whether the frame marks a vertex as one of an inlet's strip (inlet.h).
+  [[nodiscard]] bool at_inlet(std::uint32_t v) const { return v < at_inlet_.size() && at_inlet_[v]; }
+  // A triangle of the strip: all its corners are marked.
   [[nodiscard]] bool in_strip(std::uint32_t t) const;
   // By how much edits at this vertex have made the enclosed volume grow, not yet paid back [m³].
   [[nodiscard]] double swept(std::uint32_t v) const { return swept_[v]; }

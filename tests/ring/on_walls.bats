@@ -204,3 +204,17 @@ END
   awk -v v="$(last slope volume)" 'BEGIN { q = 0.05176*0.06*0.006; missing = 0.04*0.06*0.006 + 1.5*q - v
     exit !(missing > 0 && missing < 1.0001 * 0.05*q) }'
 }
+
+# The scene of tests/everyday: the layer becomes twice as deep as what is let in, and runs away beside the inlet's ends.
+@test "beside the ends of a drowned inlet nothing folds" {
+  cp "$BATS_TEST_DIRNAME/../everyday/lava-stairs.toml" .
+  run_scene lava-stairs 3 10 'sheet-emit |'
+  local thickest angle
+  thickest=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "thickness_max") c = i }
+    NR > 1 && $c > t { t = $c } END { print t }' lava-stairs.csv)
+  angle=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "angle_min_degrees") c = i }
+    NR == 2 || NR > 2 && $c < t { t = $c } END { print t }' lava-stairs.csv)
+  echo "steps $(last lava-stairs step), at most $thickest m thick, least angle $angle"
+  (($(last lava-stairs step) <= 200))
+  awk -v h="$thickest" -v angle="$angle" 'BEGIN { exit !(h < 0.5 && angle > 10) }'
+}
