@@ -180,7 +180,7 @@ void Tool::choice_of_word(std::string_view names, std::vector<std::string> words
 
 void Tool::custom(std::string_view names, std::string_view placeholder, std::string_view text,
                   std::function<void(const std::string&)> set, std::function<std::string()> print,
-                  Provenance provenance) {
+                  Provenance provenance, std::vector<std::string> words) {
   Option o;
   o.names = names;
   o.placeholder = placeholder;
@@ -191,6 +191,7 @@ void Tool::custom(std::string_view names, std::string_view placeholder, std::str
     const std::string value = print();
     return value.empty() ? std::vector<std::string>{} : std::vector{value};
   };
+  o.words = std::move(words);
   add(std::move(o));
 }
 

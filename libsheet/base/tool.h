@@ -55,10 +55,10 @@ public:
         });
   }
   // A value that the caller parses: `set` throws Error to refuse, `print` gives the text of the value now ("" for
-  // none).
+  // none). The shell offers `words`.
   void custom(std::string_view names, std::string_view placeholder, std::string_view text,
               std::function<void(const std::string&)> set, std::function<std::string()> print,
-              Provenance provenance = Provenance::record);
+              Provenance provenance = Provenance::record, std::vector<std::string> words = {});
   // Arguments without a dash. `file` completes file names in the shell; they are not part of provenance.
   void argument(std::string_view name, std::string& value, std::string_view text);
   void arguments(std::string_view name, std::vector<std::string>& values, std::string_view text);

@@ -117,7 +117,8 @@ float Body::bridged(float number) { return narrow_gap + number * (wide_gap - nar
 
 Within Body::after(const World& world, const Hit& hit, const Vec& direction, bool enters, float bridged) const {
   const bool out = direction.dot(hit.face) > 0, inside = enters && !out, leaves = !enters && out;
-  return {bridged, inside, inside ? 1 : 0, leaves ? width_at(world, hit, direction) : 0};
+  const std::uint32_t liquid = hit.id == sheet_id ? world.surface().liquid(hit.triangle) : 0;
+  return {bridged, inside, inside ? 1 : 0, liquid, leaves ? width_at(world, hit, direction) : 0};
 }
 
 bool Body::is_by_chance(const Hit& hit, const Vec& direction, const Within& within) {
@@ -129,6 +130,8 @@ bool Body::passes(const World& world, const Hit& hit, const Vec& direction, With
   if (hit.id != sheet_id || !world.surface().closed)
     return false;
   const bool leaves = direction.dot(hit.face) > 0;
+  if (within.layers > 0 && world.surface().liquid(hit.triangle) != within.liquid)
+    return leaves; // layers of two liquids may overlap a little
   const bool inside = within.layer        ? leaves || touches(hit)
                       : within.layers > 0 ? leaves || hit.distance <= wide_gap * within.width
                                           : within.width > 0 && gap_before(hit, direction, within) <= within.bridged;

@@ -5,7 +5,7 @@
 // is inside the body if the ray comes from inside the layer in front of it, or from a gap that it bridges: gaps up to
 // half the thickness there, or of the sheet on average if that is more, every ray bridges, gaps above twice that none,
 // and of rays that draw what they bridge evenly, a part that falls linearly between. So what is seen, their mean, is
-// continuous in the gap. Gaps have no depth.
+// continuous in the gap. Gaps have no depth. Layers of two liquids do not touch: the one behind is met for itself.
 #pragma once
 #include <array>
 #include <memory>
@@ -17,9 +17,10 @@ namespace sheet::render {
 
 // Where a ray is.
 struct Within {
-  float bridged;      // gaps up to so wide are liquid to this ray [widths]
-  bool layer = false; // it has last come into a layer
-  int layers = 0;     // that it is in, by the faces that it has passed
+  float bridged;            // gaps up to so wide are liquid to this ray [widths]
+  bool layer = false;       // it has last come into a layer
+  int layers = 0;           // that it is in, by the faces that it has passed
+  std::uint32_t liquid = 0; // of the layer that it has last met
   float width = 0; // otherwise, what gaps are measured by along the ray; 0: no layer may be near [units of the world]
 };
 

@@ -38,28 +38,38 @@ struct Neighbour {
 };
 
 // In a direction that leans by an angle of this cosine from the normal.
-Neighbour neighbour(const World& world, std::uint32_t point, const Vec& direction, float cosine, float mean) {
+Neighbour neighbour(const World& world, std::uint32_t point, std::uint32_t liquid, const Vec& direction, float cosine,
+                    float mean) {
   const Surface& s = world.surface();
   const auto unit = static_cast<float>(world.unit());
   const float h = s.thickness[s.source_vertex[point]], inside = start_inside * h / unit;
   const Hit hit = beyond_own(world, point, {world.to_world(s.positions[point]) - inside * s.normals[point], direction});
-  if (!hit.anything())
+  if (!hit.anything() || s.liquid(hit.triangle) != liquid)
     return {};
   const bool in_another = hit.face.dot(direction) > 0; // it is a way out of that
   return {hit.triangle, in_another ? 1 : closeness((hit.distance * cosine - inside) / (std::max(h, mean) / unit))};
 }
 
 // The mean closeness of others in directions around the normal.
-float covered(const World& world, std::uint32_t point, float mean) {
+float covered(const World& world, std::uint32_t point, std::uint32_t liquid, float mean) {
   const Vec& normal = world.surface().normals[point];
   const Basis basis(normal);
-  float sum = neighbour(world, point, normal, 1, mean).closeness;
+  float sum = neighbour(world, point, liquid, normal, 1, mean).closeness;
   for (int way = 0; way < ways_around; ++way) {
     const float angle = 2 * float_pi * static_cast<float>(way) / ways_around, cosine = std::cos(tilt);
     const Vec direction = basis.world(std::sin(tilt) * std::cos(angle), std::sin(tilt) * std::sin(angle), cosine);
-    sum += neighbour(world, point, direction, cosine, mean).closeness;
+    sum += neighbour(world, point, liquid, direction, cosine, mean).closeness;
   }
   return sum / (1 + ways_around);
+}
+
+// Of the surface's points, those of one of their triangles.
+std::vector<std::uint32_t> liquids_of_points(const Surface& s) {
+  std::vector<std::uint32_t> result(s.positions.size(), 0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    for (const std::uint32_t p : s.triangles[t])
+      result[p] = s.liquid(t);
+  return result;
 }
 
 // The greatest at each vertex of what is near on either side, there or seen from there.
@@ -92,9 +102,10 @@ std::vector<float> spread(const Surface& s, const std::vector<float>& values) {
 
 NearLayers near_layers(const World& world, float mean) {
   const Surface& s = world.surface();
+  const std::vector<std::uint32_t> liquids = liquids_of_points(s);
   std::vector<Neighbour> near(s.positions.size());
   tbb::parallel_for(std::size_t{0}, near.size(), [&](std::size_t p) {
-    near[p] = neighbour(world, static_cast<std::uint32_t>(p), s.normals[p], 1, mean);
+    near[p] = neighbour(world, static_cast<std::uint32_t>(p), liquids[p], s.normals[p], 1, mean);
   });
   NearLayers result;
   std::vector<float> close = spread(s, at_vertices(s, near));
@@ -103,7 +114,7 @@ NearLayers near_layers(const World& world, float mean) {
   result.covered.resize(near.size());
   tbb::parallel_for(std::size_t{0}, near.size(), [&](std::size_t p) {
     if (close[s.source_vertex[p]] > 0)
-      result.covered[p] = covered(world, static_cast<std::uint32_t>(p), mean);
+      result.covered[p] = covered(world, static_cast<std::uint32_t>(p), liquids[p], mean);
   });
   result.closeness = std::move(close);
   return result;

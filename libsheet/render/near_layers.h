@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How near the layers of a sheet lie to each other: looked for by rays out of its surface.
+// How near the layers of a sheet lie to each other: looked for by rays out of its surface. Layers of two liquids are
+// not near: they stay two bodies.
 //
 // Gaps are measured in widths: the thickness there, or that of the sheet on average if that is more.
 #pragma once

@@ -130,12 +130,15 @@ struct PathTracer::Crossing {
   bool by_chance;             // it does something else to paths that bridge other gaps
 };
 
-PathTracer::PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings,
-                       Body body)
-    : world_(&world), lighting_(&lighting), body_(std::move(body)), slab_(liquid),
-      diffuse_(slab_, range_of(world.surface().thickness).first,
-               body_.deepest(range_of(world.surface().thickness).second)),
-      surroundings_(std::move(surroundings)) {}
+PathTracer::PathTracer(const World& world, const Lighting& lighting, const std::vector<Liquid>& liquids,
+                       Surroundings surroundings, Body body)
+    : world_(&world), lighting_(&lighting), body_(std::move(body)), surroundings_(std::move(surroundings)) {
+  const auto [thinnest, thickest] = range_of(world.surface().thickness);
+  for (const Liquid& liquid : liquids) {
+    const Slab slab(liquid);
+    optics_.push_back({slab, DiffuseTable(slab, thinnest, body_.deepest(thickest))});
+  }
+}
 
 // `number` of [0, 1) decides which gaps between layers the path bridges.
 PathTracer::Path PathTracer::start(const Ray& ray, float number) const {
@@ -231,7 +234,7 @@ Depth PathTracer::depth(const Hit& hit, const Meeting& meeting, const Vec& direc
     const float h = world_->thickness_at(hit);
     return {h, {{{1, h}}}, 1};
   }
-  const auto [way, cosine] = meeting.refracted(hit, direction, slab_.liquid().index);
+  const auto [way, cosine] = meeting.refracted(hit, direction, optics(hit).slab.liquid().index);
   return body_.depth(*world_, hit, way, cosine, bridged, rays);
 }
 
@@ -253,14 +256,14 @@ PathTracer::Crossing PathTracer::cross(const Hit& hit, const Path& path, std::ui
   const Meeting meeting = meet(hit, direction);
   const Depth depths = depth(hit, meeting, direction, path.within.bridged, rays);
   const float h = depths.thickness;
-  const Straight straight = slab_.straight(meeting.cosine, h);
-  const Diffuse diffuse = diffuse_.at(h);
+  const Straight straight = optics(hit).slab.straight(meeting.cosine, h);
+  const Diffuse diffuse = optics(hit).diffuse.at(h);
   Colour reflected = straight.reflected;
   if (depths.parts > 1) {
     reflected.setZero();
     for (int i = 0; i < depths.parts; ++i) {
       const auto [share, thickness] = depths.of_all[static_cast<std::size_t>(i)];
-      reflected += share * slab_.straight(meeting.cosine, thickness).reflected;
+      reflected += share * optics(hit).slab.straight(meeting.cosine, thickness).reflected;
     }
   }
   return {
@@ -297,14 +300,14 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   const Vec direction = path.ray.direction;
   Crossing crossing = cross(hit, path, rays);
   const Meeting& meeting = crossing.meeting;
-  const RoughMirror rough(meeting.normal, direction, slab_.liquid().roughness);
+  const RoughMirror rough(meeting.normal, direction, optics(hit).slab.liquid().roughness);
   std::optional<float> density; // of the mirror image
-  if (is_rough())
+  if (optics(hit).is_rough())
     std::tie(crossing.mirrored, density) = mirrored_in(rough, hit, direction, sampler.point());
   if (path.splits > 0) {
     const Colour mirrored = path.weight * crossing.part[mirror];
     Path image = split(hit, crossing, path);
-    if (is_rough()) {
+    if (optics(hit).is_rough()) {
       light.chance[image.layer] += lamp_mirrored(hit, image, mirrored, rough, 1, sampler, rays);
       image.certain = false;
       image.density = density;
@@ -312,7 +315,7 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
     follow(image, nearest(image, rays), sampler, rays, light);
   }
   const std::array<float, 4> chance = chances(path.weight, crossing.part);
-  if (is_rough() && chance[mirror] > 0) {
+  if (optics(hit).is_rough() && chance[mirror] > 0) {
     Path image = path;
     go(hit, meeting, crossing.mirrored, image);
     light.chance[path.layer] +=
@@ -339,7 +342,7 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   }
   const Vec d = cosine_direction(lobe == turbid_back ? meeting.normal : Vec(-meeting.normal), sampler.point());
   const float cosine = std::max(std::abs(d.dot(meeting.normal)), 1e-6F);
-  path.weight *= slab_.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
+  path.weight *= optics(hit).slab.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
   path.density = chance[lobe] * cosine / float_pi;
   path.indirect = true;
   go(hit, meeting, d, path);
@@ -369,7 +372,7 @@ Colour PathTracer::lamp_at_sheet(const Hit& hit, const Path& path, const Crossin
   const float lobe = chance[way] * cosine / float_pi;
   if (!(lobe > 0 && lamp.light.density > 0))
     return Colour::Zero();
-  const Colour out = slab_.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
+  const Colour out = optics(hit).slab.straight(cosine, crossing.thickness).coupled / crossing.mean_coupled;
   const Colour share = path.weight * crossing.part[way] * out * (cosine / float_pi) / (lamp.light.density + lobe);
   if (!(share.maxCoeff() > 0))
     return Colour::Zero();
@@ -498,7 +501,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     if (hit.id != sheet_id)
       return;
     Crossing crossing = cross(hit, path, rays);
-    if (path.splits > 0 && is_rough()) {
+    if (path.splits > 0 && optics(hit).is_rough()) {
       SightLayer& image = sight.layers[1];
       image = layer;
       image.way = 31 * layer.way + 1;
@@ -536,8 +539,9 @@ Colour PathTracer::visible(const Hit& hit, const Vec& direction, Within within, 
       return Colour::Zero();
     if (!body_.passes(*world_, next, direction, within)) {
       const Meeting meeting = meet(next, direction);
-      left *=
-          slab_.straight(meeting.cosine, depth(next, meeting, direction, within.bridged, rays).thickness).transmitted;
+      left *= optics(next)
+                  .slab.straight(meeting.cosine, depth(next, meeting, direction, within.bridged, rays).thickness)
+                  .transmitted;
       if (left.maxCoeff() < darkness)
         return Colour::Zero();
       within = body_.after(*world_, next, direction, meeting.enters, within.bridged);

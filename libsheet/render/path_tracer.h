@@ -61,9 +61,9 @@ struct Sight {
 
 class PathTracer {
 public:
-  // World and lighting must outlive it.
-  PathTracer(const World& world, const Lighting& lighting, const Liquid& liquid, Surroundings surroundings,
-             Body body = {});
+  // World and lighting must outlive it. `liquids`: by their numbers in the surface, and again from the first.
+  PathTracer(const World& world, const Lighting& lighting, const std::vector<Liquid>& liquids,
+             Surroundings surroundings, Body body = {});
   // The radiance that arrives along the ray. Adds the rays that it took to `rays`.
   [[nodiscard]] Light radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays) const;
   // The same, if it is known what the ray hits.
@@ -101,13 +101,20 @@ private:
   [[nodiscard]] Colour fade(const Hit& hit, Path& path) const;
   [[nodiscard]] const Colour& albedo(const Hit& hit) const;
   [[nodiscard]] const std::optional<float>& gloss(const Hit& hit) const;
-  [[nodiscard]] bool is_rough() const { return slab_.liquid().roughness > 0; }
+  // How what is hit of the sheet takes light.
+  struct Optics {
+    Slab slab;
+    DiffuseTable diffuse;
+    [[nodiscard]] bool is_rough() const { return slab.liquid().roughness > 0; }
+  };
+  [[nodiscard]] const Optics& optics(const Hit& hit) const {
+    return optics_[world_->surface().liquid(hit.triangle) % optics_.size()];
+  }
 
   const World* world_;
   const Lighting* lighting_;
   Body body_;
-  Slab slab_;
-  DiffuseTable diffuse_;
+  std::vector<Optics> optics_; // of each liquid
   Surroundings surroundings_;
 };
 

@@ -16,6 +16,7 @@
 #include "libsheet/render/path_tracer.h"
 #include "libsheet/render/picture_file.h"
 #include "libsheet/render/scale_bar.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/frame_scene.h"
 
 namespace sheet::render {
@@ -75,15 +76,19 @@ void check(const RenderOptions& o) {
     fail(ExitCode::usage, "--exposure: {} is not between -30 and 30 stops", o.exposure);
 }
 
-Liquid liquid_of(const RenderOptions& o) {
-  Liquid liquid = preset(o.liquid);
-  if (o.index)
-    liquid.index = static_cast<float>(*o.index);
-  liquid.roughness = static_cast<float>(o.roughness);
-  const auto scale = static_cast<float>(o.optical_scale);
-  liquid.absorption = scale * o.absorption.value_or(liquid.absorption);
-  liquid.scattering = scale * o.scattering.value_or(liquid.scattering);
-  return liquid;
+std::vector<Liquid> liquids_of(const RenderOptions& o) {
+  std::vector<Liquid> liquids;
+  for (const std::size_t number : o.liquids) {
+    Liquid liquid = preset(number);
+    if (o.index)
+      liquid.index = static_cast<float>(*o.index);
+    liquid.roughness = static_cast<float>(o.roughness);
+    const auto scale = static_cast<float>(o.optical_scale);
+    liquid.absorption = scale * o.absorption.value_or(liquid.absorption);
+    liquid.scattering = scale * o.scattering.value_or(liquid.scattering);
+    liquids.push_back(liquid);
+  }
+  return liquids;
 }
 
 // Reflectances of solids, in turn.
@@ -231,7 +236,7 @@ struct RenderStage::Impl {
       f.ground = bath_surface(bath->level, subject, up);
     else if (options.ground && options.look.is_material() && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
-    f.dark = is_clear(liquid_of(options), frame);
+    f.dark = std::ranges::all_of(liquids_of(options), [&](const Liquid& l) { return is_clear(l, frame); });
     fixed.emplace(std::move(f));
     const Vector3 eye = camera.eye(), axis = camera.axis().cast<double>(),
                   target = options.camera.target.value_or(eye + (middle - eye).dot(axis) * axis);
@@ -313,7 +318,7 @@ struct RenderStage::Impl {
   }
 
   [[nodiscard]] PathTracer tracer_of(const World& world) const {
-    return {world, fixed->lighting, liquid_of(options), surroundings_of_liquid(),
+    return {world, fixed->lighting, liquids_of(options), surroundings_of_liquid(),
             options.layers ? Body() : Body(world)};
   }
 
@@ -327,8 +332,12 @@ struct RenderStage::Impl {
       planes.push_back(*fixed->ground);
     const Middle middle = middle_of(frame);
     const bool smooth = options.look.is_material() && !options.facets;
-    const Surface surface = make_surface(smooth ? smoothed(middle, volumes(frame), most_to_smooth) : middle,
-                                         thinnest * fixed->subject.diagonal());
+    Surface surface = make_surface(smooth ? smoothed(middle, volumes(frame), most_to_smooth) : middle,
+                                   thinnest * fixed->subject.diagonal());
+    if (scene != nullptr && options.liquids.size() > 1)
+      if (const FrameLiquids liquids(*scene, frame); liquids.several())
+        for (const std::uint32_t t : surface.source_triangle)
+          surface.liquids.push_back(liquids.number(t));
     const bool bodies = options.look.is_material() && !options.layers;
     return bodies ? world_of_bodies(surface, meshes, motions, planes, fixed->subject)
                   : std::make_unique<World>(surface, meshes, motions, planes, fixed->subject);

@@ -25,7 +25,7 @@ struct RenderOptions {
   bool facets = false;           // materials are drawn flat between the sheet's vertices, as false colours are
   CameraOptions camera;
   Look look;
-  std::size_t liquid = 0; // number of the preset
+  std::vector<std::size_t> liquids{0}; // numbers of the presets, of the scene's liquids in turn
   std::optional<double> index;
   std::optional<Colour> absorption, scattering;    // [1/m]
   double optical_scale = 1;                        // factor on absorption and scattering

@@ -66,6 +66,7 @@ Surface rounded(const Surface& surface, std::vector<float>& roundness) {
   result.triangles.clear();
   result.source_triangle.clear();
   result.on_bead.clear();
+  result.liquids.clear();
   Middles middles(result, roundness);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto [a, b, c] = surface.triangles[t];
@@ -74,6 +75,8 @@ Surface rounded(const Surface& surface, std::vector<float>& roundness) {
       result.triangles.push_back(part);
       result.source_triangle.push_back(surface.source_triangle[t]);
       result.on_bead.push_back(surface.on_bead[t]);
+      if (!surface.liquids.empty())
+        result.liquids.push_back(surface.liquids[t]);
     }
   }
   return result;

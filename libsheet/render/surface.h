@@ -17,9 +17,12 @@ struct Surface {
   std::vector<std::uint32_t> source_vertex; // of the sheet, for each position
   std::vector<Corners> triangles;           // counter-clockwise from outside
   std::vector<std::uint32_t> source_triangle;
-  std::vector<bool> on_bead; // for each triangle
+  std::vector<bool> on_bead;          // for each triangle
+  std::vector<std::uint32_t> liquids; // number of each triangle's; empty: all are one
   bool closed = true; // false: the mid-surface alone, because the sheet is too thin to have two sides in the arithmetic
   std::vector<float> thickness; // of the sheet's vertices [m]: all volume around it / all area around it
+
+  [[nodiscard]] std::uint32_t liquid(std::size_t triangle) const { return liquids.empty() ? 0 : liquids[triangle]; }
 };
 
 // The sheet counts as too thin below `thinnest` [m], by its mean.

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     });
     const Lighting lighting = Lighting::studio(-camera.axis(), Vec::UnitY());
     for (const std::size_t liquid : {0, 2}) {
-      const PathTracer tracer(world, lighting, preset(liquid), {});
+      const PathTracer tracer(world, lighting, {preset(liquid)}, {});
       Picture picture;
       const double seconds = measure(repetitions, [&] {
         picture = draw(

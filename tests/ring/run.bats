@@ -113,6 +113,8 @@ make_slow() {
   [[ $stderr == *'--film: 64 is neither no nor a size'* ]]
   run -2 --separate-stderr sheet-run 'my scene.toml' --material milk
   [[ $stderr == *'--material: milk is not one of chocolate, caramel, honey'* ]]
+  run -2 --separate-stderr sheet-run 'my scene.toml' --material chocolate,milk
+  [[ $stderr == *'--material: milk is not one of chocolate, caramel, honey'* ]]
 }
 
 @test "a later --until makes the run longer, and the film" {

@@ -48,8 +48,12 @@ formats::Frame stack(int layers, double apart, double thick = layer_thickness) {
 
 enum class Drawn { as_body, as_layers };
 
-std::unique_ptr<World> world_of(const formats::Frame& frame, Drawn drawn, const std::vector<Plane>& planes = {}) {
-  const Surface surface = make_surface(middle_of(frame), 1e-6);
+// `liquids`: number of each of the frame's triangles; empty: all are one.
+std::unique_ptr<World> world_of(const formats::Frame& frame, Drawn drawn, const std::vector<Plane>& planes = {},
+                                const std::vector<std::uint32_t>& liquids = {}) {
+  Surface surface = make_surface(middle_of(frame), 1e-6);
+  for (std::size_t t = 0; !liquids.empty() && t < surface.triangles.size(); ++t)
+    surface.liquids.push_back(liquids[surface.source_triangle[t]]);
   return drawn == Drawn::as_body
              ? world_of_bodies(surface, {}, {}, planes, test::box_of(frame))
              : std::make_unique<World>(surface, std::vector<SolidMesh>{}, std::vector<Eigen::Isometry3d>{}, planes,
@@ -66,11 +70,7 @@ Lighting from_below() {
 }
 
 // The means of what comes along rays, so many degrees above level, that meet the layers far from their rims.
-std::vector<Colour> seen(const formats::Frame& frame, const Liquid& liquid, Drawn drawn, double degrees, int samples,
-                         const Lighting& light = from_below()) {
-  const std::unique_ptr<World> built = world_of(frame, drawn);
-  const World& world = *built;
-  const PathTracer tracer(world, light, liquid, {}, drawn == Drawn::as_body ? Body(world) : Body());
+std::vector<Colour> seen_in(const World& world, const PathTracer& tracer, double degrees, int samples) {
   const double angle = degrees * std::numbers::pi / 180;
   const Vector3 direction(std::cos(angle), -std::sin(angle), 0);
   std::vector<Colour> result;
@@ -87,6 +87,13 @@ std::vector<Colour> seen(const formats::Frame& frame, const Liquid& liquid, Draw
   return result;
 }
 
+std::vector<Colour> seen(const formats::Frame& frame, const Liquid& liquid, Drawn drawn, double degrees, int samples,
+                         const Lighting& light = from_below()) {
+  const std::unique_ptr<World> world = world_of(frame, drawn);
+  return seen_in(*world, {*world, light, {liquid}, {}, drawn == Drawn::as_body ? Body(*world) : Body()}, degrees,
+                 samples);
+}
+
 const Liquid clear{1.5F, {0, 1, 2}, Colour::Zero()}; // lets pass 0.82 of blue light over ten layers
 
 TEST(Body, TenLayersThatTouchLetThroughWhatOneSlabDoes) {
@@ -100,6 +107,24 @@ TEST(Body, TenLayersThatTouchLetThroughWhatOneSlabDoes) {
               << apart << " thicknesses apart, " << degrees << " degrees, ray " << i << ", channel " << c;
     }
   }
+}
+
+TEST(Body, LayersOfTwoLiquidsThatTouchStayTwoSlabs) {
+  // As two slabs far from each other do, each of its liquid: the upper one takes blue light, the lower one red.
+  const std::vector<Liquid> liquids{{1.5F, {0, 1, 8}, Colour::Zero()}, {1.4F, {20, 1, 0}, Colour::Zero()}};
+  const Lighting light = from_below();
+  const auto through = [&](double apart) {
+    const formats::Frame frame = stack(2, apart);
+    std::vector<std::uint32_t> numbers(frame.triangles, 0);
+    std::fill(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2), 1U);
+    const std::unique_ptr<World> world = world_of(frame, Drawn::as_body, {}, numbers);
+    return seen_in(*world, {*world, light, liquids, {}, Body(*world)}, 70, 4096)[1];
+  };
+  const Colour far = through(4);
+  EXPECT_LT(far[0], 0.85F * far[1]);
+  EXPECT_LT(far[2], 0.97F * far[1]);
+  for (const double apart : {0.98, 1.0, 1.05, 1.5})
+    EXPECT_LT((through(apart) / far - 1).abs().maxCoeff(), 0.01F) << apart << " thicknesses apart";
 }
 
 TEST(Body, WhatTwoLayersLetThroughIsContinuousInTheGapBetweenThem) {
@@ -161,7 +186,7 @@ double luminance_along(const formats::Frame& frame, Drawn drawn, std::size_t liq
                        const Vector3& to) {
   const std::unique_ptr<World> world = world_of(frame, drawn);
   const Lighting light = Lighting::uniform(1);
-  const PathTracer tracer(*world, light, preset(liquid), {}, drawn == Drawn::as_body ? Body(*world) : Body());
+  const PathTracer tracer(*world, light, {preset(liquid)}, {}, drawn == Drawn::as_body ? Body(*world) : Body());
   const Ray ray{world->to_world(from), (to - from).normalized().cast<float>()};
   double sum = 0;
   std::uint64_t rays = 0;
@@ -228,7 +253,7 @@ TEST(Body, WhatIsBehindLayersThatTouchIsOneSurfaceTheCameraLooksThrough) {
     const std::unique_ptr<World> built = world_of(frame, drawn, {{ground_id, Vector3(0, -0.2, 0), Vector3::UnitY()}});
     const World& world = *built;
     const Lighting light = from_below();
-    const PathTracer tracer(world, light, clear, {}, drawn == Drawn::as_body ? Body(world) : Body());
+    const PathTracer tracer(world, light, {clear}, {}, drawn == Drawn::as_body ? Body(world) : Body());
     std::uint64_t rays = 0;
     const Sight sight = tracer.look({world.to_world(Vector3(0.013, 1, 0.007)), -Vec::UnitY()}, rays);
     return std::pair(sight.layers[0].way, sight.layers[0].weight[0]);

@@ -97,7 +97,7 @@ struct Still {
       : frame(std::move(sheet)), box(test::box_of(frame)),
         world(make_surface(middle_of(frame), 1e-4), {ball()}, {Eigen::Isometry3d::Identity()},
               {{ground_id, {0, -0.52, 0}, Vector3::UnitY()}}, box),
-        lighting(light), tracer(world, lighting, preset(material), {{Colour::Constant(0.6F)}}),
+        lighting(light), tracer(world, lighting, {preset(material)}, {{Colour::Constant(0.6F)}}),
         camera(test::frame_box(box, {}, Vector3::UnitY(), 1, 0.05)) {}
 
   [[nodiscard]] static DrawOptions options(int samples) {

@@ -35,7 +35,7 @@ Picture draw_furnace(const Furnace& f, const Liquid& liquid, int pixels, int sam
   Surroundings around;
   around.solids.assign(4, Colour::Ones());
   around.solid_gloss = f.coat;
-  const PathTracer tracer(world, lighting, liquid, around);
+  const PathTracer tracer(world, lighting, {liquid}, around);
   CameraOptions options;
   options.elevation = elevation;
   const Camera camera = test::frame_box(box, options, Vector3::UnitY(), 1, 0.05);
