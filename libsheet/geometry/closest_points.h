@@ -21,6 +21,14 @@ struct ClosestPoints {
 // x[0], x[1] one edge, x[2], x[3] the other; either may have no length. Parallel edges: one of their closest pairs.
 [[nodiscard]] ClosestPoints closest_edge_edge(const std::array<Vector3, 4>& x);
 
+// False only if over_triangle has none, in a few operations.
+[[nodiscard]] inline bool may_be_over_triangle(const Vector3& x0, const Vector3& x1, const Vector3& x2,
+                                               const Vector3& x3) {
+  const Vector3 e1 = x2 - x1, e2 = x3 - x1, p = x0 - x1;
+  const double a = e1.squaredNorm(), b = e1.dot(e2), c = e2.squaredNorm(), d = e1.dot(p), f = e2.dot(p);
+  return c * d - b * f > 0 && a * f - b * d > 0;
+}
+
 // The same where they are perpendicular to both features: the vertex is above the inside of the triangle, the edges
 // cross seen along their common perpendicular. Cheaper.
 [[nodiscard]] std::optional<ClosestPoints> over_triangle(const std::array<Vector3, 4>& x);
