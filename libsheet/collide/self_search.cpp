@@ -58,6 +58,43 @@ std::optional<Hit> hit_of(const FeaturePair& pair, std::span<const Vector3> star
   return Hit{pair, *time, gap, distance};
 }
 
+// Whether an edge of the mesh joins one of the first vertices to one of the others.
+bool edge_joins(const Connectivity& mesh, const Four& v, std::size_t first) {
+  for (std::size_t i = 0; i < first; ++i)
+    for (std::size_t j = first; j < 4; ++j)
+      if (std::ranges::binary_search(mesh.edges, Edge{std::min(v[i], v[j]), std::max(v[i], v[j])}))
+        return true;
+  return false;
+}
+
+// The closest points, if the surfaces face each other there.
+std::optional<ClosestPoints> facing_points(const Connectivity& mesh, const FeaturePair& pair,
+                                           std::span<const Vector3> x) {
+  const Four& v = pair.vertices;
+  const std::array<Vector3, 4> p = points(x, v);
+  if (pair.features == Features::edge_edge) {
+    const auto crossing = crossing_edges(p);
+    return crossing && !edge_joins(mesh, v, 2) ? crossing : std::nullopt;
+  }
+  if (const auto over = over_triangle(p))
+    return over;
+  const double height = std::abs((p[2] - p[1]).cross(p[3] - p[1]).normalized().dot(p[0] - p[1]));
+  const Vector3 middle = (p[1] + p[2] + p[3]) / 3;
+  const double radius = std::sqrt(
+      std::max({(p[1] - middle).squaredNorm(), (p[2] - middle).squaredNorm(), (p[3] - middle).squaredNorm()}));
+  if ((p[0] - middle).norm() - radius > height / facing)
+    return std::nullopt; // further than that
+  const ClosestPoints closest = closest_vertex_triangle(p);
+  return height > facing * closest.offset.norm() && !edge_joins(mesh, v, 1) ? std::optional(closest) : std::nullopt;
+}
+
+// Whether the boxes of the features on their ways overlap, grown by half of a part of their reach.
+bool boxes_overlap(const FeaturePair& pair, const Ways& ways, double part) {
+  const std::size_t first = pair.features == Features::vertex_triangle ? 1 : 2;
+  const std::span<const std::uint32_t> v = pair.vertices;
+  return ways.way(v.first(first)).box(part).overlaps(ways.way(v.subspan(first)).box(part));
+}
+
 // What work(i, out) appends to `out` for i < count goes to the end of `all`, in the order of i.
 template <class Found, class Work> void in_chunks(std::size_t count, std::vector<Found>& all, const Work& work) {
   constexpr std::size_t chunk = 2048;
@@ -72,13 +109,12 @@ template <class Found, class Work> void in_chunks(std::size_t count, std::vector
 
 } // namespace
 
-// What a test finds in pairs of features whose boxes overlap, ascending.
+// What a test finds in pairs of features, ascending.
 template <class Found, class Test> class SelfSearch::Collector {
 public:
-  // `part`: of the reach, that boxes are grown by. `flags`, one a vertex: which pairs are looked up in the tree.
-  Collector(const Connectivity& mesh, const Ways& ways, double part, std::span<const std::uint8_t> flags,
-            const Test& test)
-      : mesh_(mesh), ways_(ways), part_(part), flags_(flags), test_(test) {}
+  // `flags`, one a vertex: which pairs are looked up in the tree.
+  Collector(const Connectivity& mesh, std::span<const std::uint8_t> flags, const Test& test)
+      : mesh_(mesh), flags_(flags), test_(test) {}
 
   // The pairs with a flag, or without.
   void look_at(const FeaturePairs& pairs, bool flagged) {
@@ -112,17 +148,11 @@ private:
   }
   void look_at(const FeaturePair& pair, bool flagged, std::vector<Found>& out) const {
     const Four& v = pair.vertices;
-    if (((flags_[v[0]] | flags_[v[1]] | flags_[v[2]] | flags_[v[3]]) != 0) != flagged)
-      return;
-    const std::size_t first = pair.features == Features::vertex_triangle ? 1 : 2;
-    const Box one = ways_.way(std::span(v).first(first)).box(part_);
-    if (one.overlaps(ways_.way(std::span(v).subspan(first)).box(part_)))
+    if (((flags_[v[0]] | flags_[v[1]] | flags_[v[2]] | flags_[v[3]]) != 0) == flagged)
       test_(pair, out);
   }
 
   const Connectivity& mesh_;
-  const Ways& ways_;
-  double part_;
   std::span<const std::uint8_t> flags_;
   const Test& test_;
   std::vector<Found> found_;
@@ -164,16 +194,18 @@ void SelfSearch::gather(Positions start, Positions end, std::span<const double> 
 
 std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<const double> reach,
                                   std::span<const std::uint8_t> moved) {
+  const Ways ways{start, end, reach};
   const auto test = [&](const FeaturePair& pair, std::vector<Hit>& out) {
+    if (!boxes_overlap(pair, ways, nearest_part))
+      return;
     if (const auto hit = hit_of(pair, start, end, reach))
       out.push_back(*hit);
   };
   if (moved.empty())
     gather(start, end, reach);
-  const Ways ways{start, end, reach};
   const Flags left = moved.empty() ? outside(ways) : Flags();
   const std::span<const std::uint8_t> flags = moved.empty() ? left : moved;
-  Collector<Hit, decltype(test)> collector(mesh_, ways, nearest_part, flags, test);
+  Collector<Hit, decltype(test)> collector(mesh_, flags, test);
   if (moved.empty())
     collector.look_at(candidates_.on_way, false);
   if (std::ranges::find(flags, 1) != flags.end())
@@ -183,45 +215,22 @@ std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<cons
 
 std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reach) {
   gather(x, x, reach);
-  const auto joined = [&](std::uint32_t a, std::uint32_t b) {
-    return std::binary_search(mesh_.edges.begin(), mesh_.edges.end(), Edge{std::min(a, b), std::max(a, b)});
-  };
-  const auto joins = [&](const Four& v, std::size_t first) {
-    for (std::size_t i = 0; i < first; ++i)
-      for (std::size_t j = first; j < 4; ++j)
-        if (joined(v[i], v[j]))
-          return true;
-    return false;
-  };
-  const auto touching = [&](const FeaturePair& pair) -> std::optional<ClosestPoints> {
-    const Four& v = pair.vertices;
-    const std::array<Vector3, 4> p = points(x, v);
-    if (pair.features == Features::edge_edge) {
-      const auto crossing = crossing_edges(p);
-      return crossing && !joins(v, 2) ? crossing : std::nullopt;
-    }
-    if (const auto over = over_triangle(p))
-      return over;
-    const double height = std::abs((p[2] - p[1]).cross(p[3] - p[1]).normalized().dot(p[0] - p[1]));
-    const Vector3 middle = (p[1] + p[2] + p[3]) / 3;
-    const double radius = std::sqrt(
-        std::max({(p[1] - middle).squaredNorm(), (p[2] - middle).squaredNorm(), (p[3] - middle).squaredNorm()}));
-    if ((p[0] - middle).norm() - radius > height / facing)
-      return std::nullopt; // further than that
-    const ClosestPoints closest = closest_vertex_triangle(p);
-    return height > facing * closest.offset.norm() && !joins(v, 1) ? std::optional(closest) : std::nullopt;
-  };
+  const Ways ways{x, x, reach};
   const auto test = [&](const FeaturePair& pair, std::vector<NearPair>& out) {
-    const auto closest = touching(pair);
+    const Four& v = pair.vertices;
+    if (pair.features == Features::edge_edge && !may_cross(x[v[0]], x[v[1]], x[v[2]], x[v[3]]))
+      return; // nearly all of those of one layer
+    if (!boxes_overlap(pair, ways, 1))
+      return;
+    const auto closest = facing_points(mesh_, pair, x);
     if (!closest)
       return;
     const double distance = closest->offset.norm();
     if (distance > 0 && distance < contact_distance(reach, pair.vertices, closest->weights))
       out.push_back({pair, *closest});
   };
-  const Ways ways{x, x, reach};
   const Flags flags = outside(ways);
-  Collector<NearPair, decltype(test)> collector(mesh_, ways, 1, flags, test);
+  Collector<NearPair, decltype(test)> collector(mesh_, flags, test);
   const auto look_at = [&](const Candidates& candidates, bool flagged) {
     collector.look_at(candidates.on_way, flagged);
     collector.look_at(candidates.beside, flagged);

@@ -11,7 +11,7 @@ namespace sheet {
 
 struct QuickBox {
   using Four = float __attribute__((vector_size(16)));
-  Four low = {3e38F, 3e38F, 3e38F, 0}, high = {-3e38F, -3e38F, -3e38F, 0};
+  Four low = {3e38F, 3e38F, 3e38F, 0}, high = {-3e38F, -3e38F, -3e38F, 0}; // the fourth tells nothing apart
 
   QuickBox() = default;
   explicit QuickBox(const Box& box) {
@@ -27,12 +27,10 @@ struct QuickBox {
   }
   // With all that is within `margin` of it along each axis.
   [[nodiscard]] QuickBox grown(float margin) const {
-    const auto by = [&](float x) { return margin + ((std::abs(x) + margin) * 0x1p-22F + 1e-37F); };
+    const auto by = [&](const Four& x) -> Four { return margin + (((x < 0 ? -x : x) + margin) * 0x1p-22F + 1e-37F); };
     QuickBox box;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = low[axis] - by(low[axis]);
-      box.high[axis] = high[axis] + by(high[axis]);
-    }
+    box.low = low - by(low);
+    box.high = high + by(high);
     return box;
   }
   // False only if the boxes surely have no point in common.
