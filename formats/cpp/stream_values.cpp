@@ -85,8 +85,8 @@ std::size_t first_not_finite(std::span<const double> values, std::size_t compone
   return static_cast<std::size_t>(at - values.begin()) / components;
 }
 
-// The distinct unordered pairs of vertices that are a side of some triangle: sorted by the lower vertex in one pass,
-// then by the higher among those of each.
+// The distinct unordered pairs of vertices that are a side of some triangle: sorted by the lower vertex, of each of
+// which every higher one counts once.
 std::size_t count_edges(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint64_t vertices) {
   const auto each_side = [&](auto&& visit) {
     for (const auto& t : triangles)
@@ -101,12 +101,10 @@ std::size_t count_edges(std::span<const std::array<std::uint32_t, 3>> triangles,
   std::vector<std::size_t> next(start.begin(), start.end() - 1);
   each_side([&](std::uint32_t low, std::uint32_t high) { highs[next[low]++] = high; });
   std::size_t count = 0;
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto first = highs.begin() + static_cast<std::ptrdiff_t>(start[v]);
-    const auto last = highs.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
-    std::sort(first, last);
-    count += static_cast<std::size_t>(std::unique(first, last) - first);
-  }
+  std::vector<std::uint64_t> seen_with(vertices, vertices); // as the higher one, with this lower one last
+  for (std::uint64_t v = 0; v < vertices; ++v)
+    for (std::size_t i = start[v]; i < start[v + 1]; ++i)
+      count += std::exchange(seen_with[highs[i]], v) != v;
   return count;
 }
 

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a sheet meets itself: which of its features come too near to each other on their paths, and which are near each
 // other where they stand. All pairs of a vertex and a triangle, and of two edges, that share no vertex are looked at;
-// each belongs to one triangle (its owner), so that pairs of triangles from a tree of boxes bring each pair of features
-// once [Curtis et al. 2008, representative triangles]. On all threads; results are sorted, the same for any number.
+// those whose boxes overlap come from a tree (feature_tree.h). On all threads; results are sorted, the same for any
+// number.
 //
 // The tree is gone through once a step: the pairs of features whose boxes overlap, grown by the whole contact distance
-// around the whole step, are candidates for all questions about places within these boxes. Each question compares its
-// own, tighter boxes first, so its answer does not depend on what the candidates were gathered for. Pairs with a vertex
-// that is found elsewhere, or that was moved since, are looked up in the tree.
+// around the whole step, are candidates for all questions about places within these boxes; those that can only be near
+// each other are told apart from those that may come too near on the way. Each question compares its own, tighter boxes
+// first, so its answer does not depend on what the candidates were gathered for. Pairs with a vertex that is found
+// elsewhere, or that was moved since, are looked up in the tree.
 #pragma once
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "libsheet/collide/feature_tree.h"
 #include "libsheet/collide/sheet_layers.h"
 #include "libsheet/collide/swept_pair.h"
-#include "libsheet/geometry/box_tree.h"
 #include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/connectivity.h"
 
@@ -73,30 +74,14 @@ public:
 private:
   using Positions = std::span<const Vector3>;
   using Flags = std::vector<std::uint8_t>;
-  struct Candidates { // by vertex and triangle, by edge and edge
-    std::vector<std::array<std::uint32_t, 2>> vertex_triangle, edge_edge;
-  };
 
-  void place_boxes(Positions start, Positions end, std::span<const double> reach, double part);
-  void place_tree();
-  [[nodiscard]] Flags outside(Positions start, Positions end, std::span<const double> reach) const;
+  [[nodiscard]] Flags outside(const Ways& ways) const;
   [[nodiscard]] Flags triangles_with(std::span<const std::uint8_t> vertices) const;
-  [[nodiscard]] Candidates overlapping(std::span<const std::uint8_t> chosen);
-  template <class Found, class Test>
-  std::vector<Found> collect(std::span<const std::uint8_t> flags, bool flagged_only, const Test& test);
+  template <class Found, class Test> class Collector;
 
   const Connectivity& mesh_;
   SheetLayers layers_;
-  struct Owned {
-    QuickBox box;
-    std::uint32_t index;
-    Edge ends; // of a vertex: itself, twice
-  };
-  std::vector<Owned> own_vertices_, own_edges_;         // in the order of their triangles
-  std::vector<std::array<std::uint32_t, 2>> own_begin_; // of each triangle, and where those of the last one end
-  std::vector<Box> vertex_boxes_, edge_boxes_, boxes_;  // of vertices, edges, triangles
-  BoxTree tree_;
-
+  FeatureTree tree_;
   Candidates candidates_;
   std::vector<Box> around_;   // of each vertex: the places for which they were gathered
   std::vector<double> reach_; // and the contact distance

@@ -30,10 +30,11 @@ LayersBelow::LayersBelow(const Connectivity& mesh, std::span<const Vector3> posi
     for (const std::uint32_t v : mesh.triangles[t])
       boxes[t].add(x_[v], reach / 2 * thickness_[t]);
   BoxTree tree;
-  tree.build(boxes);
+  tree.build(std::vector<QuickBox>(boxes.begin(), boxes.end()));
   std::vector<std::vector<std::array<std::uint32_t, 2>>> pairs(tree.chunks());
   tree.for_overlaps(asked, [&](std::size_t chunk, std::uint32_t i, std::uint32_t j) {
-    if (areas[i].area > 0 && areas[j].area > 0 && std::abs(areas[i].normal.dot(areas[j].normal)) >= facing)
+    if (boxes[i].overlaps(boxes[j]) && areas[i].area > 0 && areas[j].area > 0 &&
+        std::abs(areas[i].normal.dot(areas[j].normal)) >= facing)
       pairs[chunk].push_back({i, j});
   });
   for (const auto& chunk : pairs)

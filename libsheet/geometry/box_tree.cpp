@@ -2,7 +2,6 @@
 #include "libsheet/geometry/box_tree.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_invoke.h>
@@ -11,71 +10,79 @@ namespace sheet {
 
 namespace {
 
-constexpr std::size_t boxes_of_leaf = 4;
-constexpr std::uint32_t boxes_worth_a_task = 4096;
+constexpr std::size_t boxes_worth_a_task = 4096;
 
 } // namespace
 
-void BoxTree::build(std::span<const Box> boxes) {
-  order_.resize(boxes.size());
-  std::iota(order_.begin(), order_.end(), 0U);
+void BoxTree::build(std::span<const QuickBox> boxes) {
   std::size_t leaves = 1;
-  while (leaves * boxes_of_leaf < boxes.size())
+  while (leaves * BoxLanes::count < boxes.size())
     leaves *= 2;
   nodes_.assign(2 * leaves - 1, {});
-  nodes_[0].end = static_cast<std::uint32_t>(boxes.size());
-  split(boxes, 0);
+  leaves_.assign(leaves, {});
+  order_.resize(boxes.size());
+  std::vector<Place> places(boxes.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const QuickBox::Four middle = 0.5F * boxes[i].low + 0.5F * boxes[i].high;
+    places[i] = {{middle[0], middle[1], middle[2]}, i};
+  }
+  split(places, 0);
+  std::uint32_t begin = 0;
+  for (Leaf& leaf : leaves_) {
+    leaf.begin = begin;
+    begin = leaf.end += begin;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    order_[i] = places[i].index;
   refit(boxes);
 }
 
-void BoxTree::split(std::span<const Box> boxes, std::size_t node) {
-  if (is_leaf(node))
+// Sorts what is below the node; leaves get their number in place of their end.
+void BoxTree::split(std::span<Place> places, std::size_t node) {
+  if (node + 1 >= leaves()) {
+    leaves_[node + 1 - leaves()].end = static_cast<std::uint32_t>(places.size());
     return;
-  const Node& n = nodes_[node];
-  const auto middle_of = [&](std::uint32_t i) -> Vector3 { return boxes[i].low + boxes[i].high; };
-  Box centers;
-  for (std::uint32_t place = n.begin; place < n.end; ++place)
-    centers.add(middle_of(order_[place]), 0);
-  Eigen::Index axis = 0;
-  (centers.high - centers.low).maxCoeff(&axis);
-  const std::uint32_t half = n.begin + (n.end - n.begin) / 2;
-  std::nth_element(order_.begin() + n.begin, order_.begin() + half, order_.begin() + n.end,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const double at_a = boxes[a].low[axis] + boxes[a].high[axis];
-                     const double at_b = boxes[b].low[axis] + boxes[b].high[axis];
-                     return at_a < at_b || (at_a == at_b && a < b);
-                   });
-  const std::size_t left = 2 * node + 1, right = left + 1;
-  nodes_[left].begin = n.begin;
-  nodes_[left].end = nodes_[right].begin = half;
-  nodes_[right].end = n.end;
-  if (n.end - n.begin < boxes_worth_a_task) {
-    split(boxes, left);
-    split(boxes, right);
+  }
+  std::array<float, 3> low, high, size;
+  low.fill(3e38F);
+  high.fill(-3e38F);
+  for (const Place& place : places)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], place.middle[axis]);
+      high[axis] = std::max(high[axis], place.middle[axis]);
+    }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    size[axis] = high[axis] - low[axis];
+  const auto axis = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
+  const auto half = static_cast<std::ptrdiff_t>(places.size() / 2);
+  std::nth_element(places.begin(), places.begin() + half, places.end(), [axis](const Place& a, const Place& b) {
+    return a.middle[axis] < b.middle[axis] || (a.middle[axis] == b.middle[axis] && a.index < b.index);
+  });
+  const auto left = [&] { split(places.first(static_cast<std::size_t>(half)), 2 * node + 1); };
+  const auto right = [&] { split(places.subspan(static_cast<std::size_t>(half)), 2 * node + 2); };
+  if (places.size() < boxes_worth_a_task) {
+    left();
+    right();
   } else {
-    tbb::parallel_invoke([&] { split(boxes, left); }, [&] { split(boxes, right); });
+    tbb::parallel_invoke(left, right);
   }
 }
 
-void BoxTree::refit(std::span<const Box> boxes) {
-  boxes_.resize(boxes.size());
-  quick_.resize(boxes.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order_.size(), 1024), [&](const auto& range) {
-    for (std::size_t place = range.begin(); place < range.end(); ++place) {
-      boxes_[place] = boxes[order_[place]];
-      quick_[place] = QuickBox(boxes_[place]);
+void BoxTree::refit(std::span<const QuickBox> boxes) {
+  const std::size_t first_leaf = leaves() - 1;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves(), 128), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      Leaf& leaf = leaves_[k];
+      nodes_[first_leaf + k] = {};
+      for (std::uint32_t place = leaf.begin; place < leaf.end; ++place) {
+        leaf.boxes.put(place - leaf.begin, boxes[order_[place]]);
+        nodes_[first_leaf + k].add(boxes[order_[place]]);
+      }
     }
   });
-  for (std::size_t node = nodes_.size(); node-- > 0;) {
-    Node& n = nodes_[node];
-    n.box = {};
-    if (is_leaf(node)) {
-      for (std::uint32_t place = n.begin; place < n.end; ++place)
-        n.box.add(quick_[place]);
-    } else {
-      n.box.add(nodes_[2 * node + 1].box);
-      n.box.add(nodes_[2 * node + 2].box);
-    }
+  for (std::size_t node = first_leaf; node-- > 0;) {
+    nodes_[node] = nodes_[2 * node + 1];
+    nodes_[node].add(nodes_[2 * node + 2]);
   }
 }
 

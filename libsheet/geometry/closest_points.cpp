@@ -36,8 +36,9 @@ std::optional<ClosestPoints> over_triangle(const Points& x) {
   const Vector3 e1 = x[2] - x[1], e2 = x[3] - x[1], p = x[0] - x[1];
   const double a = e1.squaredNorm(), b = e1.dot(e2), c = e2.squaredNorm(), d = e1.dot(p), f = e2.dot(p);
   const double determinant = a * c - b * b;
-  if (determinant > 0) {
-    const double s = (c * d - b * f) / determinant, t = (a * f - b * d) / determinant;
+  const double of_s = c * d - b * f, of_t = a * f - b * d;
+  if (determinant > 0 && of_s > 0 && of_t > 0) { // as a rule not, and divisions take long
+    const double s = of_s / determinant, t = of_t / determinant;
     if (s > 0 && t > 0 && s + t < 1)
       return candidate({1, s + t - 1, -s, -t}, x);
   }
@@ -67,8 +68,9 @@ std::optional<ClosestPoints> crossing_edges(const Points& x) {
   const Vector3 u = x[1] - x[0], v = x[3] - x[2], w = x[0] - x[2];
   const double a = u.squaredNorm(), b = u.dot(v), c = v.squaredNorm(), d = u.dot(w), f = v.dot(w);
   const double determinant = a * c - b * b;
-  if (determinant > 0) { // points x0 + s u, x2 + t v
-    const double s = (b * f - c * d) / determinant, t = (a * f - b * d) / determinant;
+  const double of_s = b * f - c * d, of_t = a * f - b * d;
+  if (determinant > 0 && of_s > 0 && of_s < determinant && of_t > 0 && of_t < determinant) {
+    const double s = of_s / determinant, t = of_t / determinant; // points x0 + s u, x2 + t v
     if (s > 0 && s < 1 && t > 0 && t < 1)
       return candidate({1 - s, s, t - 1, -t}, x);
   }

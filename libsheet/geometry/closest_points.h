@@ -21,6 +21,20 @@ struct ClosestPoints {
 // x[0], x[1] one edge, x[2], x[3] the other; either may have no length. Parallel edges: one of their closest pairs.
 [[nodiscard]] ClosestPoints closest_edge_edge(const std::array<Vector3, 4>& x);
 
+// False only if over_triangle, or crossing_edges, has none; in a few operations.
+[[nodiscard]] inline bool may_be_over_triangle(const Vector3& x0, const Vector3& x1, const Vector3& x2,
+                                               const Vector3& x3) {
+  const Vector3 e1 = x2 - x1, e2 = x3 - x1, p = x0 - x1;
+  const double a = e1.squaredNorm(), b = e1.dot(e2), c = e2.squaredNorm(), d = e1.dot(p), f = e2.dot(p);
+  return c * d - b * f > 0 && a * f - b * d > 0;
+}
+[[nodiscard]] inline bool may_cross(const Vector3& x0, const Vector3& x1, const Vector3& x2, const Vector3& x3) {
+  const Vector3 u = x1 - x0, v = x3 - x2, w = x0 - x2;
+  const double a = u.squaredNorm(), b = u.dot(v), c = v.squaredNorm(), d = u.dot(w), f = v.dot(w);
+  const double determinant = a * c - b * b, of_s = b * f - c * d, of_t = a * f - b * d;
+  return of_s > 0 && of_s < determinant && of_t > 0 && of_t < determinant;
+}
+
 // The same where they are perpendicular to both features: the vertex is above the inside of the triangle, the edges
 // cross seen along their common perpendicular. Cheaper.
 [[nodiscard]] std::optional<ClosestPoints> over_triangle(const std::array<Vector3, 4>& x);

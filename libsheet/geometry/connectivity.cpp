@@ -8,10 +8,32 @@
 
 namespace sheet {
 
+namespace {
+
+// Of an edge: its higher vertex, a triangle, and the corner opposite there.
+struct Half {
+  std::uint32_t high, triangle, corner;
+};
+
+// By the higher vertex, those of one in the order that they are in. Most vertices have few.
+void sort_halves(std::span<Half> halves) {
+  constexpr std::size_t few = 24;
+  if (halves.size() > few) {
+    std::stable_sort(halves.begin(), halves.end(), [](const Half& p, const Half& q) { return p.high < q.high; });
+    return;
+  }
+  for (std::size_t i = 1; i < halves.size(); ++i) {
+    const Half half = halves[i];
+    std::size_t to = i;
+    for (; to > 0 && halves[to - 1].high > half.high; --to)
+      halves[to] = halves[to - 1];
+    halves[to] = half;
+  }
+}
+
+} // namespace
+
 Connectivity connect(std::size_t vertices, std::span<const Corners> triangles) {
-  struct Half {
-    std::uint32_t high, triangle, corner;
-  };
   std::vector<std::size_t> start(vertices + 1, 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Corners& v = triangles[t];
@@ -44,9 +66,7 @@ Connectivity connect(std::size_t vertices, std::span<const Corners> triangles) {
   for (std::uint32_t low = 0; low < vertices; ++low) {
     const auto first = halves.begin() + static_cast<std::ptrdiff_t>(start[low]);
     const auto last = halves.begin() + static_cast<std::ptrdiff_t>(start[low + 1]);
-    std::sort(first, last, [](const Half& p, const Half& q) {
-      return p.high != q.high ? p.high < q.high : p.triangle < q.triangle;
-    });
+    sort_halves({first, last});
     for (auto h = first; h != last; ++h) {
       if (h == first || h->high != (h - 1)->high) {
         c.edges.push_back({low, h->high});

@@ -179,7 +179,7 @@ void check_simple(const SolidSurface& surface, const std::string& name) {
     for (const std::uint32_t v : surface.triangles[t])
       boxes[t].add(surface.points[v], 0);
   BoxTree tree;
-  tree.build(boxes);
+  tree.build(std::vector<QuickBox>(boxes.begin(), boxes.end()));
   struct Found {
     std::size_t pairs = 0;
     std::uint32_t first = std::numeric_limits<std::uint32_t>::max();

@@ -34,11 +34,12 @@ TEST(BoxTree, FindsEachPairOnce) {
       boxes[i].add(middles[i] + extents[i].cwiseAbs(), 0.01);
       chosen[i] = i % 3 == 0;
     }
+    const auto quick = [&] { return std::vector<QuickBox>(boxes.begin(), boxes.end()); };
     BoxTree tree;
-    tree.build(boxes);
+    tree.build(quick());
     for (auto& box : boxes) // as a step would move them
       box.low -= Vector3(0.02, 0.01, 0);
-    tree.refit(boxes);
+    tree.refit(quick());
     for (const bool all : {true, false}) {
       std::mutex mutex;
       std::map<std::pair<std::uint32_t, std::uint32_t>, int> found;

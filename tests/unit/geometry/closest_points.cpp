@@ -72,6 +72,29 @@ TEST(ClosestPoints, EdgeEdge) {
   }
 }
 
+TEST(ClosestPoints, WhatMayBeIsWhereverItIs) {
+  std::mt19937_64 random(3);
+  int over = 0, crossing = 0, may_be_over = 0, may_be_crossing = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Points x = random_points(random, i % 2 == 0);
+    const bool may_over = may_be_over_triangle(x[0], x[1], x[2], x[3]), may = may_cross(x[0], x[1], x[2], x[3]);
+    if (over_triangle(x)) {
+      EXPECT_TRUE(may_over);
+      ++over;
+    }
+    if (crossing_edges(x)) {
+      EXPECT_TRUE(may);
+      ++crossing;
+    }
+    may_be_over += may_over;
+    may_be_crossing += may;
+  }
+  EXPECT_GT(over, 1000);
+  EXPECT_GT(crossing, 1000);
+  EXPECT_LT(may_be_over, 5 * over); // a quarter of the plane around a corner, at most
+  EXPECT_LT(may_be_crossing, crossing + 10);
+}
+
 TEST(ClosestPoints, KnownDistances) {
   const Vector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   EXPECT_NEAR(closest_vertex_triangle({Vector3(0.2, 0.2, 3), a, b, c}).offset.norm(), 3, 1e-15);
