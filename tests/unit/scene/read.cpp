@@ -54,7 +54,7 @@ TEST(Read, EveryTable) {
   EXPECT_EQ(std::get<Rotating>(s.solids[0].motion).center, Vector3d(0, -1, 0)); // the solid's
   EXPECT_EQ(std::get<HalfSpace>(s.solids[1].shape).normal, Vector3d(0, 1, 0));  // against gravity
   EXPECT_EQ(s.inflows[0].thickness, 0.002);                                     // the sheet's
-  EXPECT_EQ(s.tear, (Tear{0.0008, true, Inclusions{20000, 0.0006, 6, 4}, 2e-5}));
+  EXPECT_EQ(s.tear, (Tear{0.0008, true, Inclusions{20000, 0.0006, 6, 4}, 2e-5, true}));
   EXPECT_EQ(s.contact->stiffness, 1.5);
 }
 

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/collide/drop_landing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "libsheet/collide/solid_sweep.h"
+#include "libsheet/collide/swept_pair.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/geometry/box.h"
+#include "libsheet/geometry/closest_points.h"
+#include "libsheet/geometry/connectivity.h"
+#include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/scene/frame_liquids.h"
+#include "libsheet/sheet/drops.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet::collide {
+
+using formats::Frame;
+
+namespace {
+
+constexpr double closing = 0.5; // of the distance at which something too near starts: nearer is a meeting
+
+// What a drop meets first, after the part s of the step.
+struct Meeting {
+  double s = std::numeric_limits<double>::infinity();
+  std::uint32_t triangle = no_index; // of the sheet
+  std::size_t solid = 0;             // else; as many as there are: the bath
+  Vector3 place = Vector3::Zero();   // the drop's middle there, in the solid's frame
+  [[nodiscard]] bool any() const { return s <= 1; }
+};
+
+// The way of a drop's middle in the step.
+struct DropWay {
+  Vector3 start, end;
+  double radius;
+};
+
+// The sheet on its way through the step.
+class SweptSheet {
+public:
+  SweptSheet(const Frame& frame, std::span<const Vector3> start, const FrameLiquids& liquids)
+      : corners_(triangles(frame)), start_(start), end_(positions(frame)), liquids_(liquids) {
+    const auto volume = volumes(frame);
+    for (std::size_t t = 0; t < corners_.size(); ++t) {
+      const Corners& c = corners_[t];
+      const double area = TriangleArea(end_[c[0]], end_[c[1]], end_[c[2]]).area;
+      half_.push_back(area > 0 ? volume[t] / area / 2 : 0);
+      Box box = box_of(start_, c);
+      box.add(box_of(end_, c));
+      boxes_.push_back(box);
+      all_.add(box);
+      thickest_ = std::max(thickest_, half_.back());
+    }
+  }
+
+  // The first triangle that it meets, if it does so before `before`; of several at once the one with the least number.
+  [[nodiscard]] Meeting first(const DropWay& way, std::uint32_t liquid) const {
+    Meeting found;
+    Box box;
+    box.add(way.start, way.radius);
+    box.add(way.end, way.radius);
+    if (!grown(box, thickest_).overlaps(all_))
+      return found;
+    for (std::uint32_t t = 0; t < corners_.size(); ++t)
+      if (liquids_.number(t) == liquid && grown(box, half_[t]).overlaps(boxes_[t]))
+        if (const auto s = meets(way, t); s && *s < found.s) {
+          found.s = *s;
+          found.triangle = t;
+        }
+    return found;
+  }
+
+  // Where a drop meets a triangle first, as a point of the triangle at the end of the step.
+  [[nodiscard]] Vector3 foot(const DropWay& way, const Meeting& meeting) const {
+    const Corners& c = corners_[meeting.triangle];
+    const auto then = [&](const Vector3& a, const Vector3& b) { return Vector3((1 - meeting.s) * a + meeting.s * b); };
+    const auto corner = [&](std::uint32_t v) { return then(start_[v], end_[v]); };
+    const ClosestPoints closest =
+        closest_vertex_triangle({then(way.start, way.end), corner(c[0]), corner(c[1]), corner(c[2])});
+    return -closest.weights[1] * end_[c[0]] - closest.weights[2] * end_[c[1]] - closest.weights[3] * end_[c[2]];
+  }
+
+private:
+  static Box grown(Box box, double margin) {
+    box.low.array() -= margin;
+    box.high.array() += margin;
+    return box;
+  }
+
+  [[nodiscard]] std::optional<double> meets(const DropWay& way, std::uint32_t t) const {
+    const Corners& c = corners_[t];
+    const std::array<Vector3, 4> start{way.start, start_[c[0]], start_[c[1]], start_[c[2]]};
+    const double distance = closest_vertex_triangle(start).offset.norm(), touching = way.radius + half_[t];
+    return first_contact({Features::vertex_triangle, start, {way.end, end_[c[0]], end_[c[1]], end_[c[2]]}},
+                         {.gap = distance > touching ? touching : closing * distance});
+  }
+
+  std::span<const Corners> corners_;
+  std::span<const Vector3> start_, end_;
+  const FrameLiquids& liquids_;
+  std::vector<double> half_; // of the thickness
+  std::vector<Box> boxes_;
+  Box all_;
+  double thickest_ = 0;
+};
+
+// What drops come to lie on, in the step from `start` to `end` [s]. solids: null for none.
+class Grounds {
+public:
+  Grounds(const Scene& scene, const solid::Solids* solids, double start, double end)
+      : scene_(scene), solids_(solids), start_(start), end_(end) {}
+
+  [[nodiscard]] bool bears(const Drop& drop) const { return !drop.flies() && drop.touch <= count() + has_bath(); }
+
+  // Ways are straight as a solid sees them between its two poses.
+  [[nodiscard]] Meeting first(const DropWay& way) const {
+    Meeting found;
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Vector3 a = solids_->pose(i, start_).inverse() * way.start, b = solids_->pose(i, end_).inverse() * way.end;
+      const double distance = solids_->shape(i).nearest(a).distance;
+      const auto s =
+          distance > 0 ? first_contact(solids_->shape(i), a, b, distance > way.radius ? way.radius : closing * distance)
+                       : std::optional(0.0);
+      if (s && *s < found.s) {
+        found.s = *s;
+        found.solid = i;
+        found.place = (1 - *s) * a + *s * b;
+      }
+    }
+    if (const auto s = meets_bath(way); s && *s < found.s)
+      found = {.s = *s, .solid = count(), .place = (1 - *s) * way.start + *s * way.end};
+    return found;
+  }
+
+  // Puts a drop there that has met something.
+  void settle(Drop& drop, const Meeting& meeting) const {
+    drop.touch = static_cast<std::uint32_t>(meeting.solid + 1);
+    if (meeting.solid < count())
+      return place(drop, meeting.solid, meeting.place);
+    drop.position = meeting.place;
+    drop.velocity.setZero();
+  }
+
+  // Takes one along that lies on something, from where it was.
+  void carry(Drop& drop, const Vector3& from) const {
+    const std::size_t i = drop.touch - 1;
+    if (i >= count())
+      return;
+    const Vector3 own = solids_->pose(i, start_).inverse() * from;
+    const Vector3 normal = solids_->pose(i, end_).linear() * solids_->shape(i).nearest(own).normal;
+    const Vector3 belt = (end_ - start_) * solids_->belt_velocity(i, normal);
+    place(drop, i, own + solids_->pose(i, end_).linear().transpose() * belt);
+  }
+
+private:
+  [[nodiscard]] std::size_t count() const { return solids_ == nullptr ? 0 : solids_->size(); }
+  [[nodiscard]] bool has_bath() const { return scene_.environment.bath.has_value(); }
+
+  [[nodiscard]] std::optional<double> meets_bath(const DropWay& way) const {
+    if (!has_bath())
+      return std::nullopt;
+    const Vector3 up = scene::up(scene_.environment).value_or(Vector3::UnitY());
+    const double level = scene_.environment.bath->level + way.radius;
+    const double above = up.dot(way.start) - level, at_end = up.dot(way.end) - level;
+    return at_end > 0 ? std::nullopt : std::optional(above > 0 ? above / (above - at_end) : 0.0);
+  }
+
+  // As far out as its radius; own: in the solid's frame.
+  void place(Drop& drop, std::size_t i, const Vector3& own) const {
+    const solid::Near near = solids_->shape(i).nearest(own);
+    drop.position = solids_->pose(i, end_) * (own + (drop.radius() - near.distance) * near.normal);
+    drop.velocity = solids_->at(i, drop.position, end_).velocity;
+  }
+
+  const Scene& scene_;
+  const solid::Solids* solids_;
+  double start_, end_;
+};
+
+// The triangle and those around it, across edges, whose middles are within the drop's radius of the place.
+std::vector<std::uint32_t> wetted(const Connectivity& mesh, std::span<const Vector3> x, std::uint32_t hit,
+                                  const Drop& drop, const Vector3& place, const FrameLiquids& liquids) {
+  std::vector<std::uint32_t> found{hit};
+  const auto near = [&](std::uint32_t t) {
+    const Corners& c = mesh.triangles[t];
+    return ((x[c[0]] + x[c[1]] + x[c[2]]) / 3 - place).norm() < drop.radius();
+  };
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (const std::uint32_t e : mesh.triangle_edges[found[i]])
+      for (const std::uint32_t t : mesh.edge_triangles[e])
+        if (t != no_index && liquids.number(t) == drop.liquid && near(t) && std::ranges::find(found, t) == found.end())
+          found.push_back(t);
+  return found;
+}
+
+// Gives the drop to these triangles; carried: the volume at each vertex, which grows [m³].
+void take_up(Frame& frame, const Drop& drop, std::span<const std::uint32_t> into, std::span<double> carried) {
+  const auto x = positions(std::as_const(frame));
+  const auto area = [&](std::uint32_t t) {
+    const Corners& c = triangles(std::as_const(frame))[t];
+    return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+  };
+  double whole = 0, left = drop.volume;
+  for (const std::uint32_t t : into)
+    whole += area(t);
+  const auto volume = volumes(frame);
+  const auto u = velocities(frame);
+  for (const std::uint32_t t : into) {
+    const double part = t == into.back() ? left : drop.volume * (whole > 0 ? area(t) / whole : 0);
+    left -= part;
+    for (formats::Array& array : frame.arrays)
+      if (array.transfer == formats::Transfer::mean && array.type == formats::Type::float64) {
+        const auto values = array.values<double>().subspan(t * array.components, array.components);
+        for (double& value : values) // what a drop has none of is 0 in it
+          value =
+              (volume[t] * value + part * (array.name == "temperature" ? drop.temperature : 0)) / (volume[t] + part);
+      }
+    volume[t] += part;
+    for (const std::uint32_t c : triangles(std::as_const(frame))[t]) {
+      u[c] = (carried[c] * u[c] + part / 3 * drop.velocity) / (carried[c] + part / 3);
+      carried[c] += part / 3;
+    }
+  }
+}
+
+} // namespace
+
+Landed& Landed::operator+=(const Landed& later) {
+  on_solids += later.on_solids;
+  on_sheet += later.on_sheet;
+  volume += later.volume;
+  return *this;
+}
+
+Landed land_drops(Frame& frame, const Scene& scene, const solid::Solids* solids) {
+  Landed landed;
+  const formats::Array *starts = frame.find("drop_start_position"), *sheet_start = frame.find("start_position");
+  if (starts == nullptr || sheet_start == nullptr || starts->rows == 0)
+    return landed;
+  const std::vector<Vector3> from(starts->values<Vector3>().begin(), starts->values<Vector3>().end());
+  const std::vector<Drop> drops = read_drops(frame);
+  const FrameLiquids liquids(scene, frame);
+  const SweptSheet sheet(std::as_const(frame), sheet_start->values<Vector3>(), liquids);
+  const Grounds grounds(scene, solids, number(frame, "start_time", frame.time), frame.time);
+  std::optional<Connectivity> mesh; // once it is asked for
+  std::vector<double> carried;
+  std::vector<Drop> left;
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    Drop drop = drops[i];
+    const bool lies = grounds.bears(drop);
+    if (lies)
+      grounds.carry(drop, from[i]);
+    const DropWay way{from[i], drop.position, drop.radius()};
+    const Meeting with_solid = lies ? Meeting{} : grounds.first(way);
+    const Meeting with_sheet = sheet.first(way, drop.liquid);
+    if (with_sheet.any() && with_sheet.s <= with_solid.s) {
+      if (!mesh) {
+        mesh = connect(frame.vertices, triangles(std::as_const(frame)));
+        carried = vertex_shares(frame.vertices, mesh->triangles,
+                                [&](std::uint32_t t) { return volumes(std::as_const(frame))[t]; });
+      }
+      take_up(frame, drop,
+              wetted(*mesh, positions(std::as_const(frame)), with_sheet.triangle, drop, sheet.foot(way, with_sheet),
+                     liquids),
+              carried);
+      ++landed.on_sheet;
+      landed.volume += drop.volume;
+      continue;
+    }
+    if (with_solid.any()) {
+      grounds.settle(drop, with_solid);
+      ++landed.on_solids;
+    }
+    left.push_back(drop);
+  }
+  write_drops(frame, left);
+  return landed;
+}
+
+} // namespace sheet::collide
