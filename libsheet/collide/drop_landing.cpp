@@ -11,7 +11,7 @@
 #include "libsheet/collide/solid_sweep.h"
 #include "libsheet/collide/swept_pair.h"
 #include "libsheet/geometry/area.h"
-#include "libsheet/geometry/box.h"
+#include "libsheet/geometry/box_tree.h"
 #include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/vertex_shares.h"
@@ -40,6 +40,7 @@ struct Meeting {
 struct DropWay {
   Vector3 start, end;
   double radius;
+  std::uint32_t liquid;
 };
 
 // The sheet on its way through the step.
@@ -52,27 +53,17 @@ public:
       const Corners& c = corners_[t];
       const double area = TriangleArea(end_[c[0]], end_[c[1]], end_[c[2]]).area;
       half_.push_back(area > 0 ? volume[t] / area / 2 : 0);
-      Box box = box_of(start_, c);
-      box.add(box_of(end_, c));
-      boxes_.push_back(box);
-      all_.add(box);
-      thickest_ = std::max(thickest_, half_.back());
     }
   }
 
-  // The first triangle that it meets, if it does so before `before`; of several at once the one with the least number.
-  [[nodiscard]] Meeting first(const DropWay& way, std::uint32_t liquid) const {
-    Meeting found;
-    Box box;
-    box.add(way.start, way.radius);
-    box.add(way.end, way.radius);
-    if (!grown(box, thickest_).overlaps(all_))
-      return found;
-    for (std::uint32_t t = 0; t < corners_.size(); ++t)
-      if (liquids_.number(t) == liquid && grown(box, half_[t]).overlaps(boxes_[t]))
-        if (const auto s = meets(way, t); s && *s < found.s) {
-          found.s = *s;
-          found.triangle = t;
+  // For each way the first triangle that it meets; of several at once the one with the least number.
+  [[nodiscard]] std::vector<Meeting> first(std::span<const DropWay> ways) const {
+    std::vector<Meeting> found(ways.size());
+    for (const auto& [way, t] : near(ways))
+      if (liquids_.number(t) == ways[way].liquid)
+        if (const auto s = meets(ways[way], t); s && *s < found[way].s) {
+          found[way].s = *s;
+          found[way].triangle = t;
         }
     return found;
   }
@@ -88,10 +79,33 @@ public:
   }
 
 private:
-  static Box grown(Box box, double margin) {
-    box.low.array() -= margin;
-    box.high.array() += margin;
-    return box;
+  // Ways and triangles that may meet, ascending.
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> near(std::span<const DropWay> ways) const {
+    const auto n = static_cast<std::uint32_t>(corners_.size());
+    std::vector<Box> boxes(n + ways.size());
+    for (std::uint32_t t = 0; t < n; ++t)
+      for (const std::uint32_t v : corners_[t]) {
+        boxes[t].add(start_[v], half_[t]);
+        boxes[t].add(end_[v], half_[t]);
+      }
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      boxes[n + i].add(ways[i].start, ways[i].radius);
+      boxes[n + i].add(ways[i].end, ways[i].radius);
+    }
+    std::vector<std::uint8_t> are_ways(boxes.size(), 0);
+    std::fill(are_ways.begin() + n, are_ways.end(), std::uint8_t{1});
+    BoxTree tree;
+    tree.build(boxes);
+    std::vector<std::vector<std::array<std::uint32_t, 2>>> of_chunk(tree.chunks());
+    tree.for_overlaps(are_ways, [&](std::size_t chunk, std::uint32_t i, std::uint32_t j) {
+      if (std::min(i, j) < n)
+        of_chunk[chunk].push_back({std::max(i, j) - n, std::min(i, j)});
+    });
+    std::vector<std::array<std::uint32_t, 2>> all;
+    for (const auto& pairs : of_chunk)
+      all.insert(all.end(), pairs.begin(), pairs.end());
+    std::ranges::sort(all);
+    return all;
   }
 
   [[nodiscard]] std::optional<double> meets(const DropWay& way, std::uint32_t t) const {
@@ -106,9 +120,6 @@ private:
   std::span<const Vector3> start_, end_;
   const FrameLiquids& liquids_;
   std::vector<double> half_; // of the thickness
-  std::vector<Box> boxes_;
-  Box all_;
-  double thickest_ = 0;
 };
 
 // What drops come to lie on, in the step from `start` to `end` [s]. solids: null for none.
@@ -244,22 +255,24 @@ Landed land_drops(Frame& frame, const Scene& scene, const solid::Solids* solids)
   const formats::Array *starts = frame.find("drop_start_position"), *sheet_start = frame.find("start_position");
   if (starts == nullptr || sheet_start == nullptr || starts->rows == 0)
     return landed;
-  const std::vector<Vector3> from(starts->values<Vector3>().begin(), starts->values<Vector3>().end());
-  const std::vector<Drop> drops = read_drops(frame);
+  std::vector<Drop> drops = read_drops(frame), left;
+  const Grounds grounds(scene, solids, number(frame, "start_time", frame.time), frame.time);
+  std::vector<DropWay> ways;
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    const Vector3& from = starts->values<Vector3>()[i];
+    if (grounds.bears(drops[i]))
+      grounds.carry(drops[i], from);
+    ways.push_back({from, drops[i].position, drops[i].radius(), drops[i].liquid});
+  }
   const FrameLiquids liquids(scene, frame);
   const SweptSheet sheet(std::as_const(frame), sheet_start->values<Vector3>(), liquids);
-  const Grounds grounds(scene, solids, number(frame, "start_time", frame.time), frame.time);
+  const std::vector<Meeting> with_sheets = sheet.first(ways);
   std::optional<Connectivity> mesh; // once it is asked for
   std::vector<double> carried;
-  std::vector<Drop> left;
   for (std::size_t i = 0; i < drops.size(); ++i) {
-    Drop drop = drops[i];
-    const bool lies = grounds.bears(drop);
-    if (lies)
-      grounds.carry(drop, from[i]);
-    const DropWay way{from[i], drop.position, drop.radius()};
-    const Meeting with_solid = lies ? Meeting{} : grounds.first(way);
-    const Meeting with_sheet = sheet.first(way, drop.liquid);
+    Drop& drop = drops[i];
+    const Meeting& with_sheet = with_sheets[i];
+    const Meeting with_solid = grounds.bears(drop) ? Meeting{} : grounds.first(ways[i]);
     if (with_sheet.any() && with_sheet.s <= with_solid.s) {
       if (!mesh) {
         mesh = connect(frame.vertices, triangles(std::as_const(frame)));
@@ -267,7 +280,7 @@ Landed land_drops(Frame& frame, const Scene& scene, const solid::Solids* solids)
                                 [&](std::uint32_t t) { return volumes(std::as_const(frame))[t]; });
       }
       take_up(frame, drop,
-              wetted(*mesh, positions(std::as_const(frame)), with_sheet.triangle, drop, sheet.foot(way, with_sheet),
+              wetted(*mesh, positions(std::as_const(frame)), with_sheet.triangle, drop, sheet.foot(ways[i], with_sheet),
                      liquids),
               carried);
       ++landed.on_sheet;

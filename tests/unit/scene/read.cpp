@@ -432,6 +432,9 @@ TEST(Read, WhatTheModelNeeds) {
   EXPECT_EQ(
       problem(disk + "[material]\nviscosity = 1\n[model]\ninertia = false\n[environment]\ngravity = [0, -1, 0]\n"),
       "s:6:1: missing key \"density\" in [material]: gravity needs it");
+  EXPECT_EQ(problem(disk + "[material]\nviscosity = 1\n[model]\ninertia = false\n[environment]\nair = {density = 1.2}\n"
+                           "[tear]\ndrops = true\n"),
+            "s:6:1: missing key \"density\" in [material]: drops in air need it");
   EXPECT_EQ(problem(disk + "[material]\nviscosity = 0\n[model]\ninertia = false\n"),
             "s:7:13: viscosity: 0 needs inertia: nothing else would resist the forces");
   EXPECT_EQ(problem(disk + liquid + "[model]\nfaces = true\n"),
