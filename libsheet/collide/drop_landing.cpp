@@ -40,14 +40,13 @@ struct Meeting {
 struct DropWay {
   Vector3 start, end;
   double radius;
-  std::uint32_t liquid;
 };
 
 // The sheet on its way through the step.
 class SweptSheet {
 public:
-  SweptSheet(const Frame& frame, std::span<const Vector3> start, const FrameLiquids& liquids)
-      : corners_(triangles(frame)), start_(start), end_(positions(frame)), liquids_(liquids) {
+  SweptSheet(const Frame& frame, std::span<const Vector3> start)
+      : corners_(triangles(frame)), start_(start), end_(positions(frame)) {
     const auto volume = volumes(frame);
     for (std::size_t t = 0; t < corners_.size(); ++t) {
       const Corners& c = corners_[t];
@@ -60,22 +59,27 @@ public:
   [[nodiscard]] std::vector<Meeting> first(std::span<const DropWay> ways) const {
     std::vector<Meeting> found(ways.size());
     for (const auto& [way, t] : near(ways))
-      if (liquids_.number(t) == ways[way].liquid)
-        if (const auto s = meets(ways[way], t); s && *s < found[way].s) {
-          found[way].s = *s;
-          found[way].triangle = t;
-        }
+      if (const auto s = meets(ways[way], t); s && *s < found[way].s) {
+        found[way].s = *s;
+        found[way].triangle = t;
+      }
     return found;
   }
 
-  // Where a drop meets a triangle first, as a point of the triangle at the end of the step.
-  [[nodiscard]] Vector3 foot(const DropWay& way, const Meeting& meeting) const {
+  // How a drop meets a triangle first.
+  struct Touch {
+    std::array<double, 3> weights; // of the corners, at the triangle's nearest point
+    Vector3 offset;                // from there to the drop's middle, then [m]
+    Vector3 foot;                  // that point at the end of the step
+  };
+  [[nodiscard]] Touch touch(const DropWay& way, const Meeting& meeting) const {
     const Corners& c = corners_[meeting.triangle];
     const auto then = [&](const Vector3& a, const Vector3& b) { return Vector3((1 - meeting.s) * a + meeting.s * b); };
     const auto corner = [&](std::uint32_t v) { return then(start_[v], end_[v]); };
     const ClosestPoints closest =
         closest_vertex_triangle({then(way.start, way.end), corner(c[0]), corner(c[1]), corner(c[2])});
-    return -closest.weights[1] * end_[c[0]] - closest.weights[2] * end_[c[1]] - closest.weights[3] * end_[c[2]];
+    const std::array<double, 3> w{-closest.weights[1], -closest.weights[2], -closest.weights[3]};
+    return {w, closest.offset, w[0] * end_[c[0]] + w[1] * end_[c[1]] + w[2] * end_[c[2]]};
   }
 
 private:
@@ -118,7 +122,6 @@ private:
 
   std::span<const Corners> corners_;
   std::span<const Vector3> start_, end_;
-  const FrameLiquids& liquids_;
   std::vector<double> half_; // of the thickness
 };
 
@@ -195,51 +198,99 @@ private:
   double start_, end_;
 };
 
-// The triangle and those around it, across edges, whose middles are within the drop's radius of the place.
-std::vector<std::uint32_t> wetted(const Connectivity& mesh, std::span<const Vector3> x, std::uint32_t hit,
-                                  const Drop& drop, const Vector3& place, const FrameLiquids& liquids) {
-  std::vector<std::uint32_t> found{hit};
-  const auto near = [&](std::uint32_t t) {
-    const Corners& c = mesh.triangles[t];
-    return ((x[c[0]] + x[c[1]] + x[c[2]]) / 3 - place).norm() < drop.radius();
-  };
-  for (std::size_t i = 0; i < found.size(); ++i)
-    for (const std::uint32_t e : mesh.triangle_edges[found[i]])
-      for (const std::uint32_t t : mesh.edge_triangles[e])
-        if (t != no_index && liquids.number(t) == drop.liquid && near(t) && std::ranges::find(found, t) == found.end())
-          found.push_back(t);
-  return found;
-}
+// The sheet at the end of the step, as it takes drops up, or stops them.
+class Receiver {
+public:
+  Receiver(Frame& frame, const FrameLiquids& liquids)
+      : frame_(frame), liquids_(liquids), mesh_(connect(frame.vertices, triangles(std::as_const(frame)))),
+        carried_(vertex_shares(frame.vertices, mesh_.triangles,
+                               [&](std::uint32_t t) { return volumes(std::as_const(frame))[t]; })),
+        mass_(vertex_shares(frame.vertices, mesh_.triangles, [&](std::uint32_t t) {
+          return weight(liquids.density(t)) * volumes(std::as_const(frame))[t];
+        })) {}
 
-// Gives the drop to these triangles; carried: the volume at each vertex, which grows [m³].
-void take_up(Frame& frame, const Drop& drop, std::span<const std::uint32_t> into, std::span<double> carried) {
-  const auto x = positions(std::as_const(frame));
-  const auto area = [&](std::uint32_t t) {
-    const Corners& c = triangles(std::as_const(frame))[t];
-    return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
-  };
-  double whole = 0, left = drop.volume;
-  for (const std::uint32_t t : into)
-    whole += area(t);
-  const auto volume = volumes(frame);
-  const auto u = velocities(frame);
-  for (const std::uint32_t t : into) {
-    const double part = t == into.back() ? left : drop.volume * (whole > 0 ? area(t) / whole : 0);
-    left -= part;
-    for (formats::Array& array : frame.arrays)
-      if (array.transfer == formats::Transfer::mean && array.type == formats::Type::float64) {
-        const auto values = array.values<double>().subspan(t * array.components, array.components);
-        for (double& value : values) // what a drop has none of is 0 in it
-          value =
-              (volume[t] * value + part * (array.name == "temperature" ? drop.temperature : 0)) / (volume[t] + part);
-      }
-    volume[t] += part;
-    for (const std::uint32_t c : triangles(std::as_const(frame))[t]) {
-      u[c] = (carried[c] * u[c] + part / 3 * drop.velocity) / (carried[c] + part / 3);
-      carried[c] += part / 3;
+  // Its liquid and its momentum go to the triangle that it hits, and to those around the foot of the drop there.
+  void take_up(const Drop& drop, std::uint32_t hit, const Vector3& foot) {
+    const std::vector<std::uint32_t> into = wetted(drop, hit, foot);
+    double whole = 0, left = drop.volume;
+    for (const std::uint32_t t : into)
+      whole += area(t);
+    for (const std::uint32_t t : into) {
+      const double part = t == into.back() ? left : drop.volume * (whole > 0 ? area(t) / whole : 0);
+      left -= part;
+      add(drop, part, t);
     }
   }
-}
+
+  // One that the sheet does not take up: both go on at one speed, as if they had stuck together for a moment, and the
+  // drop is where it touches.
+  void stop(Drop& drop, std::uint32_t hit, const SweptSheet::Touch& touch) {
+    constexpr double clear = 1e-3; // of the distance of the two middles
+    const Corners& c = mesh_.triangles[hit];
+    const auto u = velocities(frame_);
+    const double own = weight(liquids_.all()[drop.liquid].density) * drop.volume;
+    Vector3 speed = Vector3::Zero();
+    double yields = 1 / own;
+    for (std::size_t i = 0; i < 3; ++i) {
+      speed += touch.weights[i] * u[c[i]];
+      yields += touch.weights[i] * touch.weights[i] / mass_[c[i]];
+    }
+    const Vector3 impulse = (drop.velocity - speed) / yields;
+    for (std::size_t i = 0; i < 3; ++i)
+      u[c[i]] += touch.weights[i] / mass_[c[i]] * impulse;
+    drop.velocity -= impulse / own;
+    drop.position = touch.foot + (1 + clear) * touch.offset;
+  }
+
+private:
+  static double weight(double density) { return density > 0 ? density : 1; }
+
+  [[nodiscard]] double area(std::uint32_t t) const {
+    const Corners& c = mesh_.triangles[t];
+    const auto x = positions(std::as_const(frame_));
+    return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+  }
+
+  // The triangle and those around it, across edges, whose middles are within the drop's radius of the place.
+  [[nodiscard]] std::vector<std::uint32_t> wetted(const Drop& drop, std::uint32_t hit, const Vector3& place) const {
+    std::vector<std::uint32_t> found{hit};
+    const auto x = positions(std::as_const(frame_));
+    const auto near = [&](std::uint32_t t) {
+      const Corners& c = mesh_.triangles[t];
+      return ((x[c[0]] + x[c[1]] + x[c[2]]) / 3 - place).norm() < drop.radius();
+    };
+    for (std::size_t i = 0; i < found.size(); ++i)
+      for (const std::uint32_t e : mesh_.triangle_edges[found[i]])
+        for (const std::uint32_t t : mesh_.edge_triangles[e])
+          if (t != no_index && near(t) && std::ranges::find(found, t) == found.end())
+            found.push_back(t);
+    return found;
+  }
+
+  // Gives a part of the drop's volume to a triangle.
+  void add(const Drop& drop, double part, std::uint32_t t) {
+    const auto volume = volumes(frame_);
+    const auto u = velocities(frame_);
+    for (formats::Array& array : frame_.arrays)
+      if (array.transfer == formats::Transfer::mean && array.type == formats::Type::float64) {
+        const auto values = array.values<double>().subspan(t * array.components, array.components);
+        const double of_drop = array.name == "temperature" ? drop.temperature : 0; // what drops have none of is 0
+        for (double& value : values)
+          value = (volume[t] * value + part * of_drop) / (volume[t] + part);
+      }
+    volume[t] += part;
+    for (const std::uint32_t c : mesh_.triangles[t]) {
+      u[c] = (carried_[c] * u[c] + part / 3 * drop.velocity) / (carried_[c] + part / 3);
+      carried_[c] += part / 3;
+      mass_[c] += weight(liquids_.density(t)) * part / 3;
+    }
+  }
+
+  Frame& frame_;
+  const FrameLiquids& liquids_;
+  Connectivity mesh_;
+  std::vector<double> carried_, mass_; // at each vertex [m³], [kg]
+};
 
 } // namespace
 
@@ -262,29 +313,28 @@ Landed land_drops(Frame& frame, const Scene& scene, const solid::Solids* solids)
     const Vector3& from = starts->values<Vector3>()[i];
     if (grounds.bears(drops[i]))
       grounds.carry(drops[i], from);
-    ways.push_back({from, drops[i].position, drops[i].radius(), drops[i].liquid});
+    ways.push_back({from, drops[i].position, drops[i].radius()});
   }
   const FrameLiquids liquids(scene, frame);
-  const SweptSheet sheet(std::as_const(frame), sheet_start->values<Vector3>(), liquids);
+  const SweptSheet sheet(std::as_const(frame), sheet_start->values<Vector3>());
   const std::vector<Meeting> with_sheets = sheet.first(ways);
-  std::optional<Connectivity> mesh; // once it is asked for
-  std::vector<double> carried;
+  std::optional<Receiver> receiver; // once it is asked for
   for (std::size_t i = 0; i < drops.size(); ++i) {
     Drop& drop = drops[i];
     const Meeting& with_sheet = with_sheets[i];
     const Meeting with_solid = grounds.bears(drop) ? Meeting{} : grounds.first(ways[i]);
     if (with_sheet.any() && with_sheet.s <= with_solid.s) {
-      if (!mesh) {
-        mesh = connect(frame.vertices, triangles(std::as_const(frame)));
-        carried = vertex_shares(frame.vertices, mesh->triangles,
-                                [&](std::uint32_t t) { return volumes(std::as_const(frame))[t]; });
+      if (!receiver)
+        receiver.emplace(frame, liquids);
+      const SweptSheet::Touch touch = sheet.touch(ways[i], with_sheet);
+      if (liquids.number(with_sheet.triangle) == drop.liquid) {
+        receiver->take_up(drop, with_sheet.triangle, touch.foot);
+        ++landed.on_sheet;
+        landed.volume += drop.volume;
+      } else {
+        receiver->stop(drop, with_sheet.triangle, touch);
+        left.push_back(drop);
       }
-      take_up(frame, drop,
-              wetted(*mesh, positions(std::as_const(frame)), with_sheet.triangle, drop, sheet.foot(ways[i], with_sheet),
-                     liquids),
-              carried);
-      ++landed.on_sheet;
-      landed.volume += drop.volume;
       continue;
     }
     if (with_solid.any()) {

@@ -9,7 +9,8 @@
 // volume dV = V A/ΣA, its corners a third of its mass each, with the drop's velocity. Volume and momentum stay to
 // round-off; kinetic energy falls by that of the relative motion. Positions stay, so nothing comes to cross: the centre
 // of mass moves by at most the distance of the two middles. What of momentum goes to held vertices is their hold's.
-// Drops pass sheets of another liquid by, as layers of two liquids stay two.
+// A sheet of another liquid stops a drop and takes none of it, as layers of two liquids stay two: it lies there as a
+// ball, and what momentum it loses the corners of the triangle get, by their weights at the place.
 #pragma once
 #include <cstddef>
 

@@ -107,6 +107,35 @@ TEST(DropLanding, SolidsTakeDropsAlong) {
   EXPECT_NEAR((read_drops(frame)[0].position - drop.position - Vector3(2 * duration, 0, 0)).norm(), 0, 1e-12);
 }
 
+// Layers of two liquids stay two: the drop is stopped, and lies there in the next step, too.
+TEST(DropLanding, ASheetOfAnotherLiquidStopsDrops) {
+  const Scene two = parse_scene("[[sheet]]\nshape = \"disk\"\nradius = 1\nedge_length = 0.5\nthickness = 0.1\n"
+                                "[[sheet]]\nshape = \"disk\"\nradius = 1\nedge_length = 0.5\nthickness = 0.1\n"
+                                "[sheet.material]\nviscosity = 1\ndensity = 2000\n"
+                                "[material]\nviscosity = 1\ndensity = 1000\n[tear]\ndrops = true\n",
+                                "scene");
+  std::vector<Drop> drops{ball(0.3, {4.2, 4.1, -0.5}, {1, 0, -9})};
+  drops[0].liquid = 1;
+  Frame frame = after_step({0, 0, 0.5}, drops);
+  frame.put(formats::make_standard_array("liquid", frame.triangles));
+  write_drops(frame, drops);
+  formats::Array starts = formats::make_standard_array("drop_start_position", 1);
+  starts.values<Vector3>()[0] = drops[0].position - duration * drops[0].velocity;
+  frame.put(starts);
+  const auto all = [&] {
+    const Drop drop = read_drops(frame)[0];
+    return Vector3(1000 * test::momentum(frame) + 2000 * drop.volume * drop.velocity);
+  };
+  const Vector3 before = all();
+  const double volume = volume_of(frame);
+  EXPECT_EQ(land_drops(frame, two, nullptr).on_sheet, 0U);
+  const Drop drop = read_drops(frame)[0];
+  EXPECT_EQ(volume_of(frame), volume);
+  EXPECT_NEAR((all() - before).norm(), 0, 1e-13 * before.norm());
+  EXPECT_GT(drop.velocity.z(), -5);
+  EXPECT_GT(drop.position.z() - duration * 0.5, 0.39); // above the sheet, by its radius and half the thickness
+}
+
 // As a ball on its surface, at rest.
 TEST(DropLanding, ABathBearsDrops) {
   const Scene on = landing_scene("[environment]\ngravity = [0, 0, -9.81]\nbath = {density = 1500, level = -20}\n");
