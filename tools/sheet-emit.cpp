@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
       "on by the length of the inlet's edges, whatever the time steps. The array `emit.volume` of the frame is the "
       "volume that has entered so far [m^3].\n"
       "A [[sheet]] with `enters` comes in at that time, whole; `emit.volume` counts it.\n"
-      "What is wholly beyond the plane of an [[outflow]] leaves; `outflow.volume` [m^3], `outflow.momentum` [kg m/s] "
+      "What is wholly beyond the plane of an [[outflow]] leaves, drops too; `outflow.volume` [m^3], `outflow.momentum` "
+      "[kg m/s] "
       "and "
       "`outflow.energy` (kinetic) [J] are what has left so far.\n"
       "Without any of these in the scene, frames pass unchanged.");

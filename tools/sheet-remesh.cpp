@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
                    "sixteenth of --edge-length, or --min-edge. What is thicker than the wanted length is not split "
                    "more finely than it is thick. Threads, narrower and thinner than half of that shortest edge, or "
                    "than the scene's [tear] snap, are cut: what they were, next to nothing, is in the frame's arrays "
-                   "`tear.volume` and `tear.momentum`.");
+                   "`tear.volume` and `tear.momentum`, or flies on as drops, if the scene's [tear] has them.");
   sheet::remesh::StageOptions o;
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);

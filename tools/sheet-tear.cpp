@@ -14,6 +14,9 @@ int main(int argc, char** argv) {
       "and are taken away, if the scene says crumbs = \"drop\": then the frame's arrays `tear.volume` [m^3] and "
       "`tear.momentum` [kg m/s] keep account of them. Nothing else changes volume or momentum, and energy only falls, "
       "where a hole's liquid meets its border. Vertices at which pieces of the sheet meet in a point come apart.\n"
+      "If the scene says drops = true, such crumbs, and pieces by themselves that are about as long as wide and have "
+      "fewer than 100 triangles, become drops instead: balls in the frame's arrays `drop_position`, `drop_velocity` "
+      "[m/s], `drop_volume` [m^3]. sheet-step lets them fly, sheet-collide lets them land.\n"
       "Without [tear] in the scene, frames pass unchanged.");
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);

@@ -175,6 +175,14 @@ def dated_contacts(*dates):
     return contacts(contact_since=Array(np.array(dates, "f8"), "frame", "s", "drop"))
 
 
+def drops(volumes=(1.5e-9, 4e-9), **more):
+    return triangle_frame(
+        drop_position=Array(np.array([[0.25, 0.5, -1], [0.5, 0, 2]]), "frame", "m", "copy"),
+        drop_velocity=Array(np.array([[0, -1.5, 0], [0, 0, 0]]), "frame", "m/s", "copy"),
+        drop_volume=Array(np.array(volumes), "frame", "m^3", "copy"),
+        drop_touch=Array(np.array([0, 1], "u4"), "frame", "1", "copy"), **more)
+
+
 def inlet():
     return triangle_frame(inlet=Array(np.array([0, 3, 3], "u8"), "vertex", "1", "common"),
                           inlet_origin=Array(np.array([[0, 0, 0], [1, 0, 0], [0, 0.5, 0]], "f8"), "vertex", "m",
@@ -233,6 +241,7 @@ passed = {
                                          temperature_mode=Array(np.array([[0.5, -8.25]]), "triangle", "K", "mean"),
                                          temperature_mode_rate=Array(np.array([[0, 0.125]]), "triangle", "K/s",
                                                                      "mean"))),
+    "drops": stream(drops(drop_start_position=Array(np.zeros((2, 3)), "frame", "m", "drop"))),
 }
 
 failed = {
@@ -357,6 +366,10 @@ failed = {
     "temperature_rule": with_array("temperature", Array(np.full(1, 300.0), "triangle", "K", "interpolate")),
     "temperature_place": with_array("temperature", Array(np.full(3, 300.0), "vertex", "K", "interpolate")),
     "temperature_rate_infinite": with_array("temperature_rate", Array(np.full(1, np.inf), "triangle", "K/s", "mean")),
+    "drop_volume_zero": stream(drops(volumes=(1e-9, 0.0))),
+    "drop_rows": stream(drops(volumes=(1e-9,))),
+    "drop_alone": with_array("drop_volume", Array(np.full(2, 1e-9), "frame", "m^3", "copy")),
+    "drop_liquid_type": stream(drops(drop_liquid=Array(np.zeros(2, "i4"), "frame", "1", "copy"))),
 }
 
 

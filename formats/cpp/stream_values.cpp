@@ -58,6 +58,13 @@ constexpr std::array standards{
     Standard{"contact_anchor", Place::frame, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"contact_stiffness", Place::frame, Type::float64, 2, "N/m", Transfer::drop, false},
     Standard{"contact_since", Place::frame, Type::float64, 1, "s", Transfer::drop, false},
+    Standard{"drop_position", Place::frame, Type::float64, 3, "m", Transfer::copy, false},
+    Standard{"drop_velocity", Place::frame, Type::float64, 3, "m/s", Transfer::copy, false},
+    Standard{"drop_volume", Place::frame, Type::float64, 1, "m^3", Transfer::copy, false},
+    Standard{"drop_liquid", Place::frame, Type::uint32, 1, "1", Transfer::copy, false},
+    Standard{"drop_temperature", Place::frame, Type::float64, 1, "K", Transfer::copy, false},
+    Standard{"drop_touch", Place::frame, Type::uint32, 1, "1", Transfer::copy, false},
+    Standard{"drop_start_position", Place::frame, Type::float64, 3, "m", Transfer::drop, false},
     Standard{"director_angle", Place::edge, Type::float64, 1, "rad", Transfer::drop, false},
     Standard{"next_output_time", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
     Standard{"step_size", Place::frame, Type::float64, 1, "s", Transfer::copy, false},
@@ -121,15 +128,18 @@ std::string find_triangle_error(const Frame& frame, const Array& array) {
   return {};
 }
 
-// Rows of an array at place frame. The contact arrays go together: whichever is there has as many as contact_vertex.
-// Health has any number.
+// Rows of an array at place frame. The contact arrays go together: whichever is there has as many as contact_vertex;
+// those of drops as many as drop_volume. Health has any number.
 std::uint64_t rows_wanted(const Frame& frame, const Standard& standard, const Array& array) {
   if (standard.name == "health")
     return array.rows;
-  if (!standard.name.starts_with("contact_"))
-    return 1;
-  const Array* vertices = frame.find("contact_vertex");
-  return vertices == nullptr ? 0 : vertices->rows;
+  for (const auto& [kind, leader] : {std::pair<std::string_view, std::string_view>{"contact_", "contact_vertex"},
+                                     std::pair<std::string_view, std::string_view>{"drop_", "drop_volume"}})
+    if (standard.name.starts_with(kind)) {
+      const Array* leads = frame.find(leader);
+      return leads == nullptr ? 0 : leads->rows;
+    }
+  return 1;
 }
 
 std::string find_contact_error(const Frame& frame, const Array& array) {
@@ -142,6 +152,22 @@ std::string find_contact_error(const Frame& frame, const Array& array) {
        {"contact_weight", "contact_normal", "contact_rest", "contact_anchor", "contact_stiffness"})
     if (frame.find(other) == nullptr)
       return fmt::format("array \"{}\" is missing beside \"contact_vertex\"", other);
+  return {};
+}
+
+// Of a drop there is at least where it is and how large it is.
+std::string find_drop_error(const Frame& frame, const Array& array) {
+  for (const std::string_view other : {"drop_position", "drop_volume"})
+    if (frame.find(other) == nullptr)
+      return fmt::format("array \"{}\" is missing beside \"{}\"", other, array.name);
+  return {};
+}
+
+// The first of these numbers that is not positive, said as `format` says it of its row and value; empty if all are.
+std::string find_not_positive(std::span<const double> values, fmt::format_string<std::size_t&, const double&> format) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] > 0))
+      return fmt::format(format, i, values[i]);
   return {};
 }
 
@@ -168,10 +194,15 @@ std::string find_error(const Frame& frame, const Standard& standard, const Array
     return find_triangle_error(frame, array);
   if (array.name == "contact_vertex")
     return find_contact_error(frame, array);
-  if (array.type != Type::float64)
+  if (array.type == Type::text)
     return {};
   if (const std::uint64_t rows = rows_wanted(frame, standard, array); array.place == Place::frame && array.rows != rows)
     return fmt::format("array \"{}\" has {} rows, it must have {}", array.name, array.rows, rows);
+  if (array.name.starts_with("drop_"))
+    if (std::string error = find_drop_error(frame, array); !error.empty())
+      return error;
+  if (array.type != Type::float64)
+    return {};
   const auto values = array.values<double>();
   if (array.name == "contact_since")
     return find_date_error(array.name, values);
@@ -179,13 +210,13 @@ std::string find_error(const Frame& frame, const Standard& standard, const Array
   if (row < array.rows)
     return fmt::format("array \"{}\": row {} is not finite", array.name, row);
   if (array.name == "volume")
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!(values[i] > 0))
-        return fmt::format("array \"volume\": triangle {} has volume {} m^3, it must be positive", i, values[i]);
+    return find_not_positive(values, "array \"volume\": triangle {} has volume {} m^3, it must be positive");
   if (array.name == "temperature")
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!(values[i] > 0))
-        return fmt::format("array \"temperature\": triangle {} has {} K, it must be above 0", i, values[i]);
+    return find_not_positive(values, "array \"temperature\": triangle {} has {} K, it must be above 0");
+  if (array.name == "drop_volume")
+    return find_not_positive(values, "array \"drop_volume\": drop {} has volume {} m^3, it must be positive");
+  if (array.name == "drop_temperature")
+    return find_not_positive(values, "array \"drop_temperature\": drop {} has {} K, it must be above 0");
   if (array.name == "step_size" && !(values[0] > 0))
     return fmt::format("array \"step_size\" is {} s, it must be positive", values[0]);
   return {};

@@ -13,6 +13,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
+#include "libsheet/collide/drop_landing.h"
 #include "libsheet/collide/known_triangles.h"
 #include "libsheet/collide/loose_springs.h"
 #include "libsheet/collide/release.h"
@@ -24,6 +25,7 @@
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/prescribed.h"
+#include "libsheet/sheet/drops.h"
 #include "libsheet/sheet/frame_mesh.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -55,6 +57,7 @@ struct Totals {
   std::uint64_t steps = 0, with_hits = 0;
   SolidReport solids;
   SelfReport self;
+  Landed landed;
   std::size_t most_springs = 0, released = 0;
   double with_solids = 0, check = 0, response = 0, springs = 0; // processor time [s]
 };
@@ -320,6 +323,14 @@ struct CollideStage::Impl {
     ++totals.steps;
   }
 
+  void land(Frame& frame) {
+    const Landed landed = land_drops(frame, *scene, solids ? &*solids : nullptr);
+    if (landed.on_sheet + landed.on_solids > 0)
+      log::detail("step {}: {} drops land on the sheet, {:.3g} m^3, and {} on solids", frame.step, landed.on_sheet,
+                  landed.volume, landed.on_solids);
+    totals.landed += landed;
+  }
+
   // Nothing can bring out what a [[hold]] drives into a solid, nor what hangs on it: impulses on what is free would
   // move it as far as the solid goes on, step by step. What is held in a solid from the start stays there.
   void refuse_driven_in(const Frame& frame, const StepPath& path) const {
@@ -452,11 +463,16 @@ void CollideStage::step(Frame& frame) {
   impl_->read_scene_of(frame);
   if (frame.triangles > 0 && (impl_->solids || impl_->self()))
     impl_->step(frame);
+  if (knows_drops(frame))
+    impl_->land(frame);
 }
 
 void CollideStage::report() const {
   const Totals& t = impl_->totals;
   impl_->teller.report();
+  if (t.landed.on_sheet + t.landed.on_solids > 0)
+    log::detail("{} drops have landed on the sheet, {:.3g} m^3, and {} on solids", t.landed.on_sheet, t.landed.volume,
+                t.landed.on_solids);
   if (t.steps == 0)
     return;
   const double ms = 1e3 / static_cast<double>(t.steps);

@@ -8,7 +8,7 @@
 
 namespace sheet::flow {
 
-Dropped drop(formats::Frame& frame, std::vector<bool> leaves, const Scene& scene) {
+Dropped drop(formats::Frame& frame, std::vector<bool> leaves, const Scene& scene, const BeforeLeaving& before) {
   const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const formats::Frame&>(frame)));
   const auto x = positions(static_cast<const formats::Frame&>(frame));
   for (;;) {
@@ -27,8 +27,11 @@ Dropped drop(formats::Frame& frame, std::vector<bool> leaves, const Scene& scene
     if (any)
       continue;
     const Dropped dropped = sum_of(frame, leaves, scene);
-    if (dropped.triangles > 0)
+    if (dropped.triangles > 0) {
+      if (before)
+        before(leaves);
       put_fans(frame, fans, leaves, opened);
+    }
     return dropped;
   }
 }

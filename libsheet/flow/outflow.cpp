@@ -7,6 +7,7 @@
 #include "libsheet/flow/drop.h"
 #include "libsheet/flow/heat_account.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/scene/drop_densities.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::flow {
@@ -92,9 +93,7 @@ Dropped pull_back(Frame& frame, const Scene& scene) {
   return sum_of(gone, loses, scene);
 }
 
-} // namespace
-
-Dropped let_out(Frame& frame, const Scene& scene) {
+Dropped let_triangles_out(Frame& frame, const Scene& scene) {
   const auto x = positions(static_cast<const Frame&>(frame));
   if (std::ranges::none_of(x, [&](const Vector3& at) {
         return std::ranges::any_of(scene.outflows, [&](const scene::Outflow& o) { return past(o, at) > 0; });
@@ -119,6 +118,44 @@ Dropped let_out(Frame& frame, const Scene& scene) {
   out.momentum += cut.momentum;
   out.energy += cut.energy;
   out.warmth += cut.warmth;
+  return out;
+}
+
+// Those whose middles are beyond.
+Dropped let_drops_out(Frame& frame, const Scene& scene) {
+  Dropped out;
+  const std::vector<Drop> drops = read_drops(frame);
+  const std::vector<double> densities = scene::densities_of(drops, scene);
+  std::vector<Drop> left;
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    const Drop& drop = drops[i];
+    if (std::ranges::none_of(scene.outflows, [&](const scene::Outflow& o) { return past(o, drop.position) > 0; })) {
+      left.push_back(drop);
+      continue;
+    }
+    const double density = densities[i];
+    out.volume += drop.volume;
+    out.momentum += density * drop.volume * drop.velocity;
+    out.energy += density * drop.volume / 2 * drop.velocity.squaredNorm();
+    if (scene.heat && scene.material.density > 0)
+      out.warmth += density / scene.material.density * drop.volume * drop.temperature;
+  }
+  if (left.size() < drops.size())
+    write_drops(frame, left);
+  return out;
+}
+
+} // namespace
+
+Dropped let_out(Frame& frame, const Scene& scene) {
+  Dropped out = let_triangles_out(frame, scene);
+  const Dropped drops = let_drops_out(frame, scene);
+  out.volume += drops.volume;
+  out.momentum += drops.momentum;
+  out.energy += drops.energy;
+  out.warmth += drops.warmth;
+  if (out.volume == 0)
+    return out;
   add_to_account(frame, "outflow.volume", "m^3", {&out.volume, 1});
   add_to_account(frame, "outflow.momentum", "kg*m/s", {out.momentum.data(), 3});
   add_to_account(frame, "outflow.energy", "J", {&out.energy, 1});

@@ -8,7 +8,6 @@
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/flow/cracks.h"
 #include "libsheet/flow/exposure.h"
-#include "libsheet/flow/heat_account.h"
 #include "libsheet/flow/holes.h"
 #include "libsheet/flow/put_fans.h"
 #include "libsheet/flow/tear_cuts.h"
@@ -106,7 +105,7 @@ void cut_thin(Frame& frame, const Connectivity& mesh, const Scene& scene, std::s
                              .volumes = volumes(std::as_const(frame)),
                              .areas = areas,
                              .below = scene.tear->below.value_or(0),
-                             .drop_crumbs = scene.tear->drop_crumbs,
+                             .drop_crumbs = scene.tear->drop_crumbs || scene.tear->drops,
                              .pierced = std::move(pierced),
                              .grips = grips_of(frame, scene),
                              .whole = inlet_of(frame)});
@@ -126,18 +125,12 @@ void cut_thin(Frame& frame, const Connectivity& mesh, const Scene& scene, std::s
   torn.edges += cuts.edges;
   if (cuts.edges == 0)
     return;
-  const Dropped dropped = sum_of(frame, cuts.dropped, scene);
-  torn.dropped += dropped.triangles;
-  torn.volume += dropped.volume;
-  torn.momentum += dropped.momentum;
+  const Shed crumbs = what_becomes_of(frame, cuts.dropped, scene);
+  torn.add(crumbs);
   torn.vertices += count_apart(fans);
   // What is left is beside dropped triangles, and stays where it is.
   put_fans(frame, fans, cuts.dropped, open_clear_cracks(mesh, fans, cuts.dropped, x));
-  if (dropped.triangles > 0) {
-    add_to_account(frame, "tear.volume", "m^3", {&dropped.volume, 1});
-    add_to_account(frame, "tear.momentum", "kg*m/s", {dropped.momentum.data(), 3});
-    add_heat_to_account(frame, "tear.heat", scene, dropped.warmth);
-  }
+  put_shed(crumbs, scene, frame);
 }
 
 } // namespace
@@ -152,7 +145,17 @@ Torn tear(Frame& frame, const Scene& scene) {
     mesh = connect(frame.vertices, triangles(std::as_const(frame)));
   if (scene.tear->below || !holes.pierced.empty())
     cut_thin(frame, mesh, scene, holes.pierced, torn);
+  torn.add(shed_round_pieces(frame, scene));
   return torn;
+}
+
+void Torn::add(const Shed& shed) {
+  drops += shed.drops.size();
+  if (!shed.drops.empty())
+    return;
+  dropped += shed.sum.triangles;
+  volume += shed.sum.volume;
+  momentum += shed.sum.momentum;
 }
 
 Torn& Torn::operator+=(const Torn& later) {
@@ -163,6 +166,7 @@ Torn& Torn::operator+=(const Torn& later) {
   holes += later.holes;
   without_room += later.without_room;
   dropped += later.dropped;
+  drops += later.drops;
   volume += later.volume;
   momentum += later.momentum;
   return *this;
@@ -180,6 +184,8 @@ void TearStage::tear(Frame& frame) {
     log::detail("step {}: {} edges cut, {} vertices came apart, {} edges left whole for crumbs, {} as layers would "
                 "cross, {} triangles dropped",
                 frame.step, torn.edges, torn.vertices, torn.vetoed, torn.crossing, torn.dropped);
+  if (torn.drops > 0)
+    log::detail("step {}: {} drops came off", frame.step, torn.drops);
   total_ += torn;
 }
 
@@ -187,6 +193,8 @@ void TearStage::report() const {
   log::detail("{} edges cut", total_.edges);
   if (total_.holes + total_.without_room > 0)
     log::detail("{} holes opened, {} sites had no room for one", total_.holes, total_.without_room);
+  if (total_.drops > 0)
+    log::detail("{} drops came off", total_.drops);
   if (total_.dropped > 0)
     log::warning("{} triangles of crumbs dropped, {:.6g} m^3 (the frame's arrays tear.volume, tear.momentum)",
                  total_.dropped, total_.volume);

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "formats/cpp/stream_frame.h"
+#include "libsheet/flow/shed.h"
 #include "libsheet/geometry/types.h"
 #include "libsheet/scene/frame_scene.h"
 
@@ -26,12 +27,15 @@ struct Torn {
   double volume = 0;                  // dropped [m³]
   Vector3 momentum = Vector3::Zero(); // dropped [kg m/s]
 
+  std::size_t drops = 0; // that came off, in scenes with them; nothing is dropped there
+
+  void add(const Shed& shed);
   Torn& operator+=(const Torn& later); // all adds up
 };
 
-// Tears the frame; bit for bit the same frame, but for `tear.exposure`, if there is nothing to tear. What is dropped is
-// added to the frame's arrays `tear.volume` [m³] and `tear.momentum` [kg m/s] (account.h). Throws Error (bad_input) for
-// a mesh that is no oriented manifold but for pinched vertices. Precondition: the scene has a [tear] table.
+// Tears the frame; bit for bit the same frame, but for `tear.exposure`, if there is nothing to tear. What comes off in
+// crumbs and round pieces becomes what shed.h says. Throws Error (bad_input) for a mesh that is no oriented manifold
+// but for pinched vertices. Precondition: the scene has a [tear] table.
 Torn tear(formats::Frame& frame, const Scene& scene);
 
 // The stage. Without [tear] in the scene, frames pass unchanged.

@@ -5,8 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "libsheet/flow/drop.h"
-#include "libsheet/flow/heat_account.h"
+#include "libsheet/flow/strand_width.h"
 #include "libsheet/flow/tear_cuts.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/disjoint_sets.h"
@@ -41,16 +40,23 @@ std::vector<bool> small_ones(const Frame& frame, double shortest_edge, double mo
   return small;
 }
 
-// Triangles of what is finer than edges can be, or narrower than the scene lets strands be.
-std::vector<bool> small_ones(const Frame& frame, const Scene& scene, double shortest_edge) {
-  std::vector<bool> small = small_ones(frame, shortest_edge, greatest_volume);
-  if (scene.tear && scene.tear->snap) {
-    const std::vector<bool> snapping =
-        small_ones(frame, *scene.tear->snap / greatest_height, std::numeric_limits<double>::infinity());
-    for (std::size_t t = 0; t < small.size(); ++t)
-      small[t] = small[t] || snapping[t];
-  }
-  return small;
+// Triangles of strands that are narrower than the scene lets them be; those of which that could be.
+std::vector<bool> snapping_ones(const Frame& frame, const Scene& scene) {
+  if (!scene.tear || !scene.tear->snap)
+    return std::vector<bool>(frame.triangles, false);
+  return small_ones(frame, *scene.tear->snap / greatest_height, std::numeric_limits<double>::infinity());
+}
+
+// Of these, those that are, measured across the strand.
+void leave_wide_ones(const Frame& frame, const Connectivity& mesh, double snap, std::vector<bool>& snapping) {
+  const auto x = positions(frame);
+  const std::vector<double> width = strand_widths(mesh, x);
+  for (std::size_t t = 0; t < snapping.size(); ++t)
+    if (snapping[t]) {
+      const Corners& c = mesh.triangles[t];
+      const double thickness = volumes(frame)[t] / TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+      snapping[t] = width[t] < snap && width[t] * thickness < snap * snap;
+    }
 }
 
 // Vertices of the inlet, and what is held.
@@ -109,11 +115,16 @@ void add_crumbs(const Connectivity& mesh, const std::vector<bool>& fixed, std::v
 
 } // namespace
 
-Dropped cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
-  const std::vector<bool> small = small_ones(frame, scene, shortest_edge);
-  if (std::ranges::count(small, true) == 0)
+Shed cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
+  std::vector<bool> small = small_ones(frame, shortest_edge, greatest_volume), snapping = snapping_ones(frame, scene);
+  const bool any_snapping = std::ranges::count(snapping, true) > 0;
+  if (std::ranges::count(small, true) == 0 && !any_snapping)
     return {};
   const Connectivity mesh = connect(frame.vertices, triangles(static_cast<const Frame&>(frame)));
+  if (any_snapping)
+    leave_wide_ones(frame, mesh, *scene.tear->snap, snapping);
+  for (std::size_t t = 0; t < small.size(); ++t)
+    small[t] = small[t] || snapping[t];
   const std::vector<bool> fixed = prescribed(frame, scene);
   std::vector<bool> leaves = in_strands(mesh, small, fixed);
   if (std::ranges::count(leaves, true) == 0)
@@ -121,13 +132,7 @@ Dropped cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
   add_crumbs(mesh, fixed, leaves);
   if (std::ranges::count(leaves, false) == 0)
     return {};
-  const Dropped dropped = drop(frame, std::move(leaves), scene);
-  if (dropped.triangles > 0) {
-    add_to_account(frame, "tear.volume", "m^3", {&dropped.volume, 1});
-    add_to_account(frame, "tear.momentum", "kg*m/s", {dropped.momentum.data(), 3});
-    add_heat_to_account(frame, "tear.heat", scene, dropped.warmth);
-  }
-  return dropped;
+  return shed_off(frame, std::move(leaves), scene);
 }
 
 } // namespace sheet::flow

@@ -4,7 +4,7 @@
 // liquid; in truth such a thread parts by its surface tension [Rayleigh 1878].
 #pragma once
 #include "formats/cpp/stream_frame.h"
-#include "libsheet/flow/put_fans.h"
+#include "libsheet/flow/shed.h"
 #include "libsheet/scene/scene.h"
 
 namespace sheet::flow {
@@ -13,9 +13,9 @@ namespace sheet::flow {
 // in an inlet or held stay. A triangle is of a thread if it has no side above twice the shortest edge [m], a height
 // below half of it, a section (that height times its thickness) below that squared, less than a thousandth of the mean
 // volume, and if each of those that it hangs together with has a corner on a rim. With [tear] snap in the scene, also
-// where that width is below it, and the section below its square, whatever the volume: such a thread falls into drops,
-// which nothing follows. What has left is added to the frame's arrays `tear.volume` [m³] and `tear.momentum` [kg m/s]
-// (account.h). Bit for bit the same frame if there is no thread.
-Dropped cut_threads(formats::Frame& frame, const Scene& scene, double shortest_edge);
+// where the strand is narrower than that, from rim to rim (strand_width.h), and its section below the square, whatever
+// the volume: such a thread falls into drops. What becomes of what has left: shed.h. Bit for bit the same frame if
+// there is no thread.
+Shed cut_threads(formats::Frame& frame, const Scene& scene, double shortest_edge);
 
 } // namespace sheet::flow

@@ -10,6 +10,7 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/scene/solid_width.h"
+#include "libsheet/sheet/drops.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::health {
@@ -191,8 +192,8 @@ void look_for_crumbs(const Frame& frame, const Surface& surface, std::vector<Obs
 // Of what is there and what has left, less what has entered [m^3].
 double total_volume(const Frame& frame) {
   const auto v = volumes(frame);
-  return std::accumulate(v.begin(), v.end(), 0.0) + account(frame, "tear.volume") + account(frame, "outflow.volume") -
-         account(frame, "emit.volume");
+  return std::accumulate(v.begin(), v.end(), 0.0) + volume_of_drops(frame) + account(frame, "tear.volume") +
+         account(frame, "outflow.volume") - account(frame, "emit.volume");
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/faces.h"
+#include "libsheet/scene/drop_densities.h"
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/read.h"
@@ -186,6 +187,11 @@ Measurements measure(const formats::Frame& frame, const std::optional<Densities>
       widen(m.low[i], m.high[i], x[i]);
   measure_fields(frame, measure_triangles(frame, m), m);
   m.part_at_rest = part_at_rest(frame);
+  if (knows_drops(frame)) {
+    m.has[static_cast<std::size_t>(Needs::drops)] = true;
+    m.drops = static_cast<double>(read_drops(frame).size());
+    m.drop_volume = volume_of_drops(frame);
+  }
   const std::vector<Side> sides = sorted_sides(triangles(frame), frame.vertices);
   measure_edges(frame, sides, m);
   if (densities)
@@ -208,7 +214,7 @@ double area_of_faces(const formats::Frame& frame, const Scene& scene) {
   return extra_area(mesh, positions(frame), volumes(frame), scene::free_faces(scene, frame, mesh));
 }
 
-// Σ ρ c V T [J]; NaN without temperatures. Precondition: the scene has heat.
+// Σ ρ c V T of triangles and drops [J]; NaN without temperatures. Precondition: the scene has heat.
 double heat_of(const formats::Frame& frame, const Scene& scene) {
   const auto temperature = temperatures(frame), volume = volumes(frame);
   if (temperature.empty())
@@ -217,6 +223,10 @@ double heat_of(const formats::Frame& frame, const Scene& scene) {
   Sum warmth;
   for (std::size_t t = 0; t < volume.size(); ++t)
     warmth.add(liquids.relative_density(t) * volume[t] * temperature[t]);
+  const std::vector<Drop> drops = read_drops(frame);
+  const std::vector<double> densities = scene::densities_of(drops, scene);
+  for (std::size_t i = 0; i < drops.size(); ++i)
+    warmth.add(densities[i] / scene.material.density * drops[i].volume * drops[i].temperature);
   return scene.material.density * scene.heat->specific_heat * warmth.value();
 }
 

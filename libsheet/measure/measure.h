@@ -54,6 +54,8 @@ struct Measurements {
   Range edge;                                 // lengths, each edge once [m]
   std::array<bool, kinds_of_needs> has{true}; // by Needs
   double heat = absent;                       // measure_energies
+  double drops = absent;                      // number of balls of liquid beside the sheet (sheet/drops.h)
+  double drop_volume = absent;                // of all of them, which is no part of `volume` [m³]
   double part_at_rest = absent;               // quantities/fields.h
   double angle_min = absent;                  // of the triangles' corners [rad]
   double angle_max = absent;

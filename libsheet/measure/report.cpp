@@ -229,7 +229,7 @@ private:
     return line + (entry.many_files ? ",file\n" : "\n");
   }
   bool first_ = true;
-  std::array<bool, kinds_of_needs> has_{true, false, false}; // of the first frame's scene, as
+  std::array<bool, kinds_of_needs> has_{true}; // of the first frame's scene
   std::vector<std::string> forces_;
 };
 

@@ -17,6 +17,7 @@
 #include "libsheet/remesh/mesh.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/build.h"
+#include "libsheet/sheet/drops.h"
 #include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
@@ -140,6 +141,8 @@ Frame first_frame(const Scene& scene) {
   if (scene.environment.pressure && std::holds_alternative<scene::GasPressure>(*scene.environment.pressure) &&
       enclosures(frame).empty())
     frame.put_text("scene", to_toml(with_amount_of_gas(scene, frame)));
+  if (scene.tear && scene.tear->drops)
+    write_drops(frame, {});
   return frame;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/plan/hole_forecast.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -51,9 +52,15 @@ std::vector<scene::Scale> hole_scales(const Scene& scene, const Frame& first) {
 }
 
 std::vector<std::string> hole_warnings(const Scene& scene, const Frame& first) {
-  if (!scene.tear || !scene.tear->inclusions)
+  if (!scene.tear)
     return {};
   std::vector<std::string> warnings;
+  const std::vector<Liquid> liquids = scene::liquids_of(scene);
+  if (scene.tear->drops &&
+      std::ranges::none_of(liquids, [](const Liquid& liquid) { return liquid.surface_tension > 0; }))
+    warnings.emplace_back("[tear] drops are balls, which only surface_tension in [material] would make of pieces");
+  if (!scene.tear->inclusions)
+    return warnings;
   if (!(scene.material.surface_tension > 0))
     warnings.emplace_back("[tear] sites opens holes that nothing draws open: surface_tension in [material] does");
   if (const double holes = holes_at_start(*scene.tear->inclusions, first); holes > too_many)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where holes at inclusions ([tear] sites) are to be expected, and what a scene with them lacks.
+// Where holes at inclusions ([tear] sites) are to be expected, and what a scene with them, or with drops, lacks.
 #pragma once
 #include <string>
 #include <vector>

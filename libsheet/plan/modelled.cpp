@@ -83,6 +83,8 @@ std::string where_it_tears(const scene::Tear& tear) {
                                 brief(tear.inclusions->exponent)));
   if (tear.snap)
     where.push_back(fmt::format("strands narrower than {} m", brief(*tear.snap)));
+  if (tear.drops)
+    where.emplace_back("small pieces fly on as drops");
   return fmt::format("{}", fmt::join(where, "; "));
 }
 

@@ -14,11 +14,12 @@ namespace sheet {
 // What frames have that a quantity is of.
 enum class Needs {
   nothing,
-  law,   // a law of viscosity, by rate or temperature
-  heat,  // temperatures
-  wanted // a wanted thickness (wanted.h)
+  law,    // a law of viscosity, by rate or temperature
+  heat,   // temperatures
+  wanted, // a wanted thickness (wanted.h)
+  drops   // liquid beside the sheet (sheet/drops.h)
 };
-inline constexpr std::size_t kinds_of_needs = 4;
+inline constexpr std::size_t kinds_of_needs = 5;
 
 struct Field {
   std::string_view name;    // of sheet-render's look and of columns of CSV

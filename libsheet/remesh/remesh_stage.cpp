@@ -75,18 +75,21 @@ void RemeshStage::remesh(formats::Frame& frame) {
 }
 
 void RemeshStage::cut_threads(formats::Frame& frame, const Scene& scene) {
-  const flow::Dropped cut = flow::cut_threads(frame, scene, options_.remeshing.size.shortest_in_strips());
-  if (cut.triangles == 0)
+  const flow::Shed cut = flow::cut_threads(frame, scene, options_.remeshing.size.shortest_in_strips());
+  if (cut.sum.triangles == 0)
     return;
-  log::detail("step {}: {} triangles of threads cut, {:.3g} m^3", frame.step, cut.triangles, cut.volume);
-  threads_ += cut.triangles;
-  thread_volume_ += cut.volume;
+  log::detail("step {}: {} triangles of threads cut, {:.3g} m^3, {} drops", frame.step, cut.sum.triangles,
+              cut.sum.volume, cut.drops.size());
+  threads_ += cut.sum.triangles;
+  thread_drops_ += cut.drops.size();
+  thread_volume_ += cut.sum.volume;
 }
 
 void RemeshStage::report() const {
   teller_.report();
   if (threads_ > 0)
-    log::detail("{} triangles of threads cut, {:.3g} m^3 (the frame's array tear.volume)", threads_, thread_volume_);
+    log::detail("{} triangles of threads cut, {:.3g} m^3 ({})", threads_, thread_volume_,
+                thread_drops_ > 0 ? fmt::format("{} drops", thread_drops_) : "the frame's array tear.volume");
   if (frames_ > 0)
     log::detail("{} frames: {} splits, {} collapses, {} flips, {} moved, {} absorbed", frames_, total_.splits,
                 total_.collapses, total_.flips, total_.smoothed, total_.absorbed);

@@ -29,7 +29,7 @@ private:
   FrameScene scenes_;
   Report total_;
   health::Teller teller_;
-  std::uint64_t frames_ = 0, threads_ = 0;
+  std::uint64_t frames_ = 0, threads_ = 0, thread_drops_ = 0;
   double thread_volume_ = 0; // [m³]
 };
 

@@ -11,6 +11,7 @@
 #include "libsheet/base/numbered_name.h"
 #include "libsheet/render/denoised.h"
 #include "libsheet/render/display.h"
+#include "libsheet/render/drops.h"
 #include "libsheet/render/framing.h"
 #include "libsheet/render/motion.h"
 #include "libsheet/render/path_tracer.h"
@@ -322,7 +323,7 @@ struct RenderStage::Impl {
             options.layers ? Body() : Body(world)};
   }
 
-  // What there is to see at the time of a frame.
+  // What there is to see at the time of a frame with balls (drops.h).
   [[nodiscard]] std::unique_ptr<World> world_of(const formats::Frame& frame, double time) const {
     std::vector<Eigen::Isometry3d> motions;
     for (const SolidMesh& mesh : meshes)
@@ -330,10 +331,12 @@ struct RenderStage::Impl {
     std::vector<Plane> planes = scene && options.solids ? make_planes(*scene, time) : std::vector<Plane>{};
     if (fixed->ground)
       planes.push_back(*fixed->ground);
-    const Middle middle = middle_of(frame);
+    const Middle middle = own_middle(frame);
     const bool smooth = options.look.is_material() && !options.facets;
-    Surface surface = make_surface(smooth ? smoothed(middle, volumes(frame), most_to_smooth) : middle,
+    const auto own_volumes = volumes(frame).first(own_parts(frame).triangles);
+    Surface surface = make_surface(smooth ? smoothed(middle, own_volumes, most_to_smooth) : middle,
                                    thinnest * fixed->subject.diagonal());
+    add_balls(frame, surface);
     if (scene != nullptr && options.liquids.size() > 1)
       if (const FrameLiquids liquids(*scene, frame); liquids.several())
         for (const std::uint32_t t : surface.source_triangle)
@@ -412,14 +415,15 @@ struct RenderStage::Impl {
     if (!fixed)
       fix(frame);
     warn_if_out_of_sight(frame);
-    Picture picture = picture_of(frame, progress);
+    const formats::Frame seen = with_balls(frame);
+    Picture picture = picture_of(seen, progress);
     if (options.draw.noise > 0 && picture.worst_noise > options.draw.noise && !told_noisy) {
       log::warning("the noise of the frame at {} s stays above {:g} in places, at most {:.2g}: give more --samples",
                    frame.time, options.draw.noise, picture.worst_noise);
       told_noisy = true;
     }
     const std::string file = name ? name->of(index) : "";
-    write(picture, frame, file);
+    write(picture, seen, file);
     ++pictures;
     return {picture.noise, picture.worst_noise, picture.samples, picture.rays, file};
   }

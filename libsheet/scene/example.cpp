@@ -320,7 +320,8 @@ center = [0, "-0.3 m", 0]
 # ------------------------------------------------------------------------ where the sheet tears
 
 # Below a thickness, wherever that is; where inclusions pierce the sheet, of which sites (at_thickness/h)^exponent in a
-# volume pierce one of the thickness h; strands where they are narrower than snap. Each by itself, or together.
+# volume pierce one of the thickness h; strands where they are narrower than snap. Each by itself, or together. With
+# drops what comes off in small pieces flies on as balls; else threads and crumbs are lost (tear.volume).
 #[tear]
 #below = "0.8 mm"?
 #crumbs = "keep"?
@@ -329,6 +330,7 @@ center = [0, "-0.3 m", 0]
 #exponent = 6?
 #seed = 1?
 #snap = "20 um"?
+#drops = true?
 
 # ------------------------------------------------------------------------ layers that lie on each other become one
 

@@ -298,6 +298,8 @@ std::vector<std::string> left_out_of(const Scene& scene, const Scales& scales) {
     left_out.push_back("tearing goes by thickness alone");
   if (scene.tear && scene.tear->inclusions)
     left_out.push_back("a hole opens at once, whatever pulls; inclusions do not move in the liquid");
+  if (scene.tear && scene.tear->drops)
+    left_out.push_back("drops are balls that meet the sheet and solids, not each other; on solids they do not spread");
   left_out.push_back(what_air_lacks(scene, scales));
   return left_out;
 }

@@ -277,7 +277,8 @@ constexpr std::array tear_keys{number_key("below", quantity::length, "thickness 
                                number_key("exponent", quantity::number,
                                           "m: a sheet of thickness h is pierced by sites (at_thickness/h)^m of them"),
                                integer_key("seed", "", "of where and when holes open (default 1)"),
-                               number_key("snap", quantity::length, "width of strands that part")};
+                               number_key("snap", quantity::length, "width of strands that part"),
+                               boolean_key("drops", "small pieces that come off fly on as drops")};
 constexpr KeyTable tear_table{"tear", tear_keys};
 
 constexpr std::array merge_keys{

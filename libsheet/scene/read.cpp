@@ -82,6 +82,8 @@ void check_liquids(const Scene& scene, std::span<const ToldLiquid> liquids, Prob
       needs_density("inertia needs it (or switch it off: inertia = false in [model])");
     else if (!dense && scene.environment.gravity)
       needs_density("gravity needs it");
+    else if (!dense && scene.environment.air && scene.tear && scene.tear->drops)
+      needs_density("drops in air need it");
     else if (dense != (first.table.find("density") != nullptr))
       problems.add(told.place_of("density"), "density: one of the scene's liquids has one, and another one does not");
     if (told.liquid.viscosity == 0 && !scene.model.inertia)

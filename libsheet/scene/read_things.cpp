@@ -300,7 +300,7 @@ Outflow read_outflow(TableReader table) {
 
 Tear read_tear(TableReader table, std::span<const SheetTable> sheets) {
   Tear tear;
-  if (table.absent("below") && table.absent("sites") && table.absent("snap"))
+  if (table.absent("below") && table.absent("sites") && table.absent("snap") && table.absent("drops"))
     table.missing("below", "\"0.8 mm\", or sites, or snap");
   tear.below = table.quantity("below", Bound::positive);
   for (const SheetTable& sheet : sheets)
@@ -323,6 +323,7 @@ Tear read_tear(TableReader table, std::span<const SheetTable> sheets) {
     inclusions.seed = table.seed("seed").value_or(inclusions.seed);
   }
   tear.snap = table.quantity("snap", Bound::positive);
+  tear.drops = table.boolean("drops").value_or(false);
   table.finish();
   return tear;
 }

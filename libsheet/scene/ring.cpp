@@ -17,12 +17,14 @@ std::vector<RingStage> ring_of(const Scene& scene) {
                                     : !scene.outflows.empty() ? "[[outflow]] lets nothing out"
                                                               : "no [[sheet]] enters"});
   stages.push_back({"sheet-step", "nothing moves"});
-  const bool self = scene.contact && scene.contact->self;
+  const bool self = scene.contact && scene.contact->self, drops = scene.tear && scene.tear->drops;
   if (!scene.solids.empty() || self)
     stages.push_back(
         {"sheet-collide",
          fmt::format("the sheet passes through {}{}{}", scene.solids.empty() ? "" : "every [[solid]]",
                      !scene.solids.empty() && self ? " and " : "", self ? "itself, whatever [contact] says" : "")});
+  else if (drops)
+    stages.push_back({"sheet-collide", "drops pass through the sheet"});
   return stages;
 }
 

@@ -343,6 +343,7 @@ struct Tear {
   bool drop_crumbs = false;
   std::optional<Inclusions> inclusions;
   std::optional<double> snap; // width of strands below which they part [m]; absent: that of the shortest edges
+  bool drops = false;         // small pieces that come off fly on as balls (libsheet/flow/shed.h)
   bool operator==(const Tear&) const = default;
 };
 

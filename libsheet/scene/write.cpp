@@ -444,6 +444,8 @@ std::string to_toml(const Scene& scene) {
       out.line("seed", fmt::format("{}", inclusions->seed));
     }
     out.line("snap", tear->snap);
+    if (tear->drops)
+      out.line("drops", flag(true));
   }
   if (const auto& merge = scene.merge) {
     out.open("[merge]");

@@ -17,6 +17,8 @@
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/shape/export.h"
 #include "libsheet/shape/gltf.h"
+#include "libsheet/sheet/drop_shells.h"
+#include "libsheet/sheet/drops.h"
 
 namespace sheet {
 
@@ -147,6 +149,8 @@ void export_frames(const ExportOptions& o) {
            in.name());
     const std::string path = name.of(index);
     const Scene* const scene = format == ExportFormat::glb ? scenes.find(frame) : nullptr;
+    if (knows_drops(frame))
+      frame = with_drop_shells(frame);
     write_file(path, o.unite ? united(frame, path, scene)
                              : encode(o.solidify ? to_solid_mesh(frame) : to_foreign_mesh(frame), format, scene));
     collection.push_back({frame.time, std::filesystem::path(path).filename().string()});

@@ -22,6 +22,7 @@
 #include "libsheet/sheet/frame_mesh.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/arc_rest.h"
+#include "libsheet/solve/drop_flight.h"
 #include "libsheet/solve/impossible_speed.h"
 #include "libsheet/solve/scene_model.h"
 
@@ -193,6 +194,7 @@ struct StepStage::Impl {
     rest.note(report.flat_fallbacks > 0);
     rest.put(frame);
     put_state(state, frame);
+    fly_drops(frame, scenes.of(frame), start.time);
     put_heat_moved(state, frame);
     put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), frame);
   }

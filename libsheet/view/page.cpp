@@ -20,6 +20,8 @@
 #include "libsheet/quantities/wanted.h"
 #include "libsheet/render/framing.h"
 #include "libsheet/scene/frame_scene.h"
+#include "libsheet/sheet/drop_shells.h"
+#include "libsheet/sheet/drops.h"
 #include "libsheet/view/packed_frame.h"
 #include "libsheet/view/page_parts.h"
 #include "libsheet/view/surroundings.h"
@@ -144,7 +146,8 @@ public:
   void add(const formats::Frame& frame) {
     if (!scene_)
       take_scene(frame);
-    const PackedFrame packed = packer_.pack(frame);
+    constexpr DropShells small_balls{.partings = 1};
+    const PackedFrame packed = packer_.pack(knows_drops(frame) ? with_drop_shells(frame, small_balls) : frame);
     Json& frames = description_["frames"];
     write_(data_element(fmt::format("frame-{}-{}", number_, frames.size()), packed.text));
     frames.push_back(to_json(packed.description));

@@ -63,7 +63,8 @@ def main():
             check_closed(faces, run)
             if file == files[1]:
                 a, b, c = (x[faces[:, i]] for i in range(3))
-                held = np.einsum("ij,ij", a, np.cross(b, c)) / 6 / volume.sum()
+                drops = frame["drop_volume"].sum() if "drop_volume" in frame else 0
+                held = np.einsum("ij,ij", a, np.cross(b, c)) / 6 / (volume.sum() + drops)
                 if abs(held - 1) > 1e-3:
                     sys.exit(f"{run}: as one body it holds {held:.5f} of the liquid")
                 print(f"{pathlib.Path(run).name}: one body of {len(faces)} faces, {held:.7f} of the liquid")

@@ -433,6 +433,23 @@ TEST(Validation, AirHoldsBack) {
   }
 }
 
+// A step makes the strip narrower by 0.3 % at most.
+TEST(Validation, StrandsPart) {
+  for (const double edge : {1.0, 0.5}) { // over the width at the start
+    const Result r = run(find_case("V45"), settings("V45", edge, 400, 1));
+    EXPECT_LT(std::abs(r.error), 0.004) << edge;
+    EXPECT_LT(std::abs(r.more[0].second), 1e-13) << edge;
+  }
+  EXPECT_LT(std::abs(run(find_case("V45"), settings("V45", 1, 400, 2)).error), 0.004);
+}
+
+TEST(Validation, RainIsTakenUp) {
+  const Result r = run(find_case("V46"), settings("V46", 0.1, 60, 1));
+  EXPECT_LT(std::abs(r.error), 1e-12);
+  EXPECT_LT(std::abs(r.more[0].second), 1e-13);
+  EXPECT_EQ(r.more[1].second, 0);
+}
+
 TEST(Validation, LongFallingCurtainRemeshed) {
   const Result r = run(find_case("V18"), settings("V18", 0.005, 700, 2));
   EXPECT_LT(std::abs(r.error), 0.01);

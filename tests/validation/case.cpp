@@ -142,6 +142,9 @@ const std::vector<Case>& cases() {
        false, v43},
       {"V44", "water bell, with inflow and outflow, remeshed (set 1: without gravity; 2: with it)", "greatest radius",
        "", 2, at(0.6, 333), false, true, v44},
+      {"V45", "a strip is drawn out, remeshed, until it parts (set 1: at half its width; 2: at a third)",
+       "its width then", "", 2, at(1, 400), false, false, v45},
+      {"V46", "a disk that flies is rained on", "speed at the end", "", 1, at(0.1, 60), false, false, v46},
   };
   return list;
 }

@@ -68,6 +68,13 @@ _STANDARD = {
     "contact_anchor": ("frame", "float64", 3, "m", "drop"),
     "contact_stiffness": ("frame", "float64", 2, "N/m", "drop"),
     "contact_since": ("frame", "float64", 1, "s", "drop"),
+    "drop_position": ("frame", "float64", 3, "m", "copy"),
+    "drop_velocity": ("frame", "float64", 3, "m/s", "copy"),
+    "drop_volume": ("frame", "float64", 1, "m^3", "copy"),
+    "drop_liquid": ("frame", "uint32", 1, "1", "copy"),
+    "drop_temperature": ("frame", "float64", 1, "K", "copy"),
+    "drop_touch": ("frame", "uint32", 1, "1", "copy"),
+    "drop_start_position": ("frame", "float64", 3, "m", "drop"),
     "health": ("frame", "float64", 12, "1", "copy"),
     "scene": ("frame", "text", 1, "1", "copy"),
     "provenance": ("frame", "text", 1, "1", "copy"),
@@ -304,6 +311,13 @@ def _find_contact_error(frame: Frame, vertices: npt.NDArray[Any]) -> str | None:
     return None
 
 
+def _rows_wanted(frame: Frame, name: str) -> int:
+    for kind, leader in (("contact_", "contact_vertex"), ("drop_", "drop_volume")):
+        if name.startswith(kind):
+            return frame.arrays[leader].rows if leader in frame.arrays else 0
+    return 1
+
+
 def _find_standard_error(frame: Frame, name: str, array: Array) -> str | None:
     place, kind, components, unit, transfer = _STANDARD[name]
     components = components or array.components
@@ -327,10 +341,13 @@ def _find_standard_error(frame: Frame, name: str, array: Array) -> str | None:
                     f"the frame has {frame.vertices}")
         return f'array "triangle": triangle {i} names vertex {t[0] if t[0] == t[1] else t[2]} twice'
     if place == "frame" and kind != "text":
-        contacts = frame.arrays.get("contact_vertex")
-        rows = 1 if not name.startswith("contact_") else contacts.rows if contacts else 0
+        rows = _rows_wanted(frame, name)
         if array.rows != rows and name != "health":
             return f'array "{name}" has {array.rows} rows, it must have {rows}'
+    if name.startswith("drop_"):
+        for other in ("drop_position", "drop_volume"):
+            if other not in frame.arrays:
+                return f'array "{other}" is missing beside "{name}"'
     if name == "contact_vertex":
         return _find_contact_error(frame, values)
     if kind != "float64":
@@ -347,6 +364,12 @@ def _find_standard_error(frame: Frame, name: str, array: Array) -> str | None:
     if name == "temperature" and not (values > 0).all():
         i = int((values > 0).argmin())
         return f'array "temperature": triangle {i} has {_number(values.flat[i])} K, it must be above 0'
+    if name == "drop_volume" and not (values > 0).all():
+        i = int((values > 0).argmin())
+        return f'array "drop_volume": drop {i} has volume {_number(values.flat[i])} m^3, it must be positive'
+    if name == "drop_temperature" and not (values > 0).all():
+        i = int((values > 0).argmin())
+        return f'array "drop_temperature": drop {i} has {_number(values.flat[i])} K, it must be above 0'
     if name == "step_size" and not values.flat[0] > 0:
         return f'array "step_size" is {_number(values.flat[0])} s, it must be positive'
     return None

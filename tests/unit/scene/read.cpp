@@ -54,7 +54,7 @@ TEST(Read, EveryTable) {
   EXPECT_EQ(std::get<Rotating>(s.solids[0].motion).center, Vector3d(0, -1, 0)); // the solid's
   EXPECT_EQ(std::get<HalfSpace>(s.solids[1].shape).normal, Vector3d(0, 1, 0));  // against gravity
   EXPECT_EQ(s.inflows[0].thickness, 0.002);                                     // the sheet's
-  EXPECT_EQ(s.tear, (Tear{0.0008, true, Inclusions{20000, 0.0006, 6, 4}, 2e-5}));
+  EXPECT_EQ(s.tear, (Tear{0.0008, true, Inclusions{20000, 0.0006, 6, 4}, 2e-5, true}));
   EXPECT_EQ(s.contact->stiffness, 1.5);
 }
 
@@ -432,6 +432,9 @@ TEST(Read, WhatTheModelNeeds) {
   EXPECT_EQ(
       problem(disk + "[material]\nviscosity = 1\n[model]\ninertia = false\n[environment]\ngravity = [0, -1, 0]\n"),
       "s:6:1: missing key \"density\" in [material]: gravity needs it");
+  EXPECT_EQ(problem(disk + "[material]\nviscosity = 1\n[model]\ninertia = false\n[environment]\nair = {density = 1.2}\n"
+                           "[tear]\ndrops = true\n"),
+            "s:6:1: missing key \"density\" in [material]: drops in air need it");
   EXPECT_EQ(problem(disk + "[material]\nviscosity = 0\n[model]\ninertia = false\n"),
             "s:7:13: viscosity: 0 needs inertia: nothing else would resist the forces");
   EXPECT_EQ(problem(disk + liquid + "[model]\nfaces = true\n"),

@@ -117,6 +117,7 @@ at_thickness = "0.6 mm"
 exponent = 6
 seed = 4
 snap = "20 um"
+drops = true
 [merge]
 after = "0.3 s"
 on = "solids"

@@ -44,7 +44,7 @@ TEST(Set, ProblemsNameTheSet) {
   EXPECT_EQ(problem(disk + liquid + "x = 1\n", {"tear.y=1", "tear.below=1 mm"}),
             "s:9:1: unknown key \"x\" in [material]; known: viscosity_law, "
             "surface_tension_slope, law, viscosity, density, surface_tension\n"
-            "--set tear.y=1: unknown key \"y\" in [tear]; known: below, crumbs, sites, snap");
+            "--set tear.y=1: unknown key \"y\" in [tear]; known: below, crumbs, sites, snap, drops");
 }
 
 TEST(Set, ProblemsOfTheSetItself) {

@@ -98,6 +98,7 @@ at_thickness = 0.0006
 exponent = 6
 seed = 4
 snap = 2e-05
+drops = true
 
 [merge]
 after = 0.3
@@ -212,7 +213,7 @@ public:
       if (const double* h = std::get_if<double>(&s.sheets[0].thickness))
         s.tear = Tear{0.3 * *h, below(2) == 1,
                       below(2) ? std::optional(Inclusions{positive(), positive(), positive(), below(9)}) : std::nullopt,
-                      maybe_positive()};
+                      maybe_positive(), below(2) == 1};
     if (below(2))
       s.contact = Contact{below(2) == 1, maybe_positive(), maybe_positive(), maybe_positive()};
     return s;
