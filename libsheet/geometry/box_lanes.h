@@ -69,23 +69,23 @@ struct BoxLanes {
 
   void put(std::size_t lane, const QuickBox& box) {
     for (int axis = 0; axis < 3; ++axis) {
-      low[axis][lane / 4][lane % 4] = box.low[axis];
-      high[axis][lane / 4][lane % 4] = box.high[axis];
+      low_[axis][lane / 4][lane % 4] = box.low[axis];
+      high_[axis][lane / 4][lane % 4] = box.high[axis];
     }
   }
   [[nodiscard]] QuickBox operator[](std::size_t lane) const {
     QuickBox box;
     for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = low[axis][lane / 4][lane % 4];
-      box.high[axis] = high[axis][lane / 4][lane % 4];
+      box.low[axis] = low_[axis][lane / 4][lane % 4];
+      box.high[axis] = high_[axis][lane / 4][lane % 4];
     }
     return box;
   }
   // The lanes that may overlap with the box, as bits.
   [[nodiscard]] unsigned may_overlap(const QuickBox& box) const {
     const auto apart = [&](std::size_t i) {
-      return (low[0][i] > box.high[0]) | (high[0][i] < box.low[0]) | (low[1][i] > box.high[1]) |
-             (high[1][i] < box.low[1]) | (low[2][i] > box.high[2]) | (high[2][i] < box.low[2]);
+      return (low_[0][i] > box.high[0]) | (high_[0][i] < box.low[0]) | (low_[1][i] > box.high[1]) |
+             (high_[1][i] < box.low[1]) | (low_[2][i] > box.high[2]) | (high_[2][i] < box.low[2]);
     };
     return (~LaneMask{apart(0), apart(1)}).bits();
   }
@@ -93,28 +93,28 @@ struct BoxLanes {
 private:
   using Row = std::array<QuickBox::Four, 2>;
   static constexpr Row all(float x) { return {QuickBox::Four{x, x, x, x}, QuickBox::Four{x, x, x, x}}; }
-  std::array<Row, 3> low = {all(3e38F), all(3e38F), all(3e38F)}, high = {all(-3e38F), all(-3e38F), all(-3e38F)};
+  std::array<Row, 3> low_ = {all(3e38F), all(3e38F), all(3e38F)}, high_ = {all(-3e38F), all(-3e38F), all(-3e38F)};
 };
 
 // Eight numbers; those that were not put have all bits, and equal no index.
 struct IndexLanes {
-  void put(std::size_t lane, std::uint32_t index) { values[lane / 4][lane % 4] = static_cast<std::int32_t>(index); }
+  void put(std::size_t lane, std::uint32_t index) { values_[lane / 4][lane % 4] = static_cast<std::int32_t>(index); }
   [[nodiscard]] std::uint32_t operator[](std::size_t lane) const {
-    return static_cast<std::uint32_t>(values[lane / 4][lane % 4]);
+    return static_cast<std::uint32_t>(values_[lane / 4][lane % 4]);
   }
   // The lanes that equal the index.
   [[nodiscard]] LaneMask equal(std::uint32_t index) const {
     const auto i = static_cast<std::int32_t>(index);
-    return {values[0] == i, values[1] == i};
+    return {values_[0] == i, values_[1] == i};
   }
   // The lanes that have the bit of this number.
   [[nodiscard]] LaneMask having(std::size_t bit) const {
     const auto b = static_cast<std::int32_t>(1U << bit);
-    return {(values[0] & b) != 0, (values[1] & b) != 0};
+    return {(values_[0] & b) != 0, (values_[1] & b) != 0};
   }
 
 private:
-  std::array<LaneMask::Four, 2> values = {LaneMask::Four{-1, -1, -1, -1}, LaneMask::Four{-1, -1, -1, -1}};
+  std::array<LaneMask::Four, 2> values_ = {LaneMask::Four{-1, -1, -1, -1}, LaneMask::Four{-1, -1, -1, -1}};
 };
 
 } // namespace sheet
