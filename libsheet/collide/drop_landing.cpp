@@ -99,7 +99,7 @@ private:
     std::vector<std::uint8_t> are_ways(boxes.size(), 0);
     std::fill(are_ways.begin() + n, are_ways.end(), std::uint8_t{1});
     BoxTree tree;
-    tree.build(boxes);
+    tree.build(std::vector<QuickBox>(boxes.begin(), boxes.end()));
     std::vector<std::vector<std::array<std::uint32_t, 2>>> of_chunk(tree.chunks());
     tree.for_overlaps(are_ways, [&](std::size_t chunk, std::uint32_t i, std::uint32_t j) {
       if (std::min(i, j) < n)
