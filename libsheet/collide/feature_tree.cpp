@@ -146,12 +146,11 @@ private:
   // The vertices of leaf a with the triangles of b.
   void compare_vertices(std::size_t a, std::size_t b) {
     const std::span<const OwnVertex> vertices = tree_.vertices_of(a);
-    const auto& [c, d, e] = tree_.leaves_[b].corners;
+    const std::array<IndexLanes, 3>& corners = tree_.leaves_[b].corners;
     for (std::size_t number = 0; number < vertices.size(); ++number)
       sort_triangles(vertices[number], b, [&](std::size_t triangle) {
         const Marks& joined = marks_of(a);
-        return joined.vertex(number, c[triangle]) || joined.vertex(number, d[triangle]) ||
-               joined.vertex(number, e[triangle]);
+        return std::ranges::any_of(corners, [&](const IndexLanes& c) { return joined.vertex(number, c[triangle]); });
       });
   }
   // The triangles of leaf a with the vertices of b.
