@@ -11,7 +11,7 @@ namespace sheet::scene {
 namespace {
 
 constexpr std::string_view depth_array = "emit.depth";
-constexpr std::string_view profile_array = "emit.border_depth"; // 0 where no border is
+constexpr std::string_view profile_array = "emit.border_depth"; // means nothing off the border
 
 } // namespace
 

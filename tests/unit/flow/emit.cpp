@@ -12,6 +12,7 @@
 #include "libsheet/flow/emit.h"
 #include "libsheet/flow/entering.h"
 #include "libsheet/flow/inlet.h"
+#include "libsheet/flow/inlet_banks.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/scene/inlet_depth.h"
@@ -465,6 +466,47 @@ TEST(Emit, ADrownedInletLetsInAsMuch) {
     if (masks(frame, "inlet")[v] != 0) {
       EXPECT_NEAR(positions(frame)[v].z(), 0, 1e-15);
     }
+}
+
+// Beside a drowned inlet the rim goes back to beside the strip's first row, along the wall, and no longer backwards;
+// what is more than half of the strip's width behind stays, as all does where the inlet is not drowned.
+TEST(Emit, TheRimBesideADrownedInletStaysBeforeIt) {
+  const Scene scene =
+      scene_of("[0, -1, 0]", "[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncenter = [0, 0, -0.125]\n"
+                             "contact = \"flow\"\n");
+  const solid::Solids solids(scene);
+  Frame frame = curtain();
+  move(frame, scene, 1);
+  emit(frame, scene);
+  put_touched_solids(frame, std::vector<std::int32_t>(frame.vertices, 0), 1);
+  const InletChain chain = find_inlet(frame, 0).front();
+  ASSERT_FALSE(chain.row.empty());
+  const std::uint32_t row = chain.row.front(), border = chain.border.front();
+  const auto beside = [&](std::uint32_t v) {
+    return masks(frame, "inlet")[v] == 0 && std::abs(positions(frame)[v].x() - positions(frame)[row].x()) < 1e-9;
+  };
+  std::uint32_t rim = 0; // next to the row
+  double highest = -1e9;
+  for (std::uint32_t v = 0; v < frame.vertices; ++v)
+    if (beside(v) && positions(frame)[v].y() > highest)
+      highest = positions(frame)[rim = v].y();
+  const double width = positions(frame)[border].y() - positions(frame)[row].y();
+  ASSERT_GT(width, 0);
+  const double outwards = positions(frame)[row].x() < 2 ? -1 : 1;
+  const auto held = [&](double behind) {
+    Frame moved = frame;
+    positions(moved)[rim] = positions(moved)[row] + Vector3(outwards, behind * width, 0);
+    velocities(moved)[rim] = {0.5, 2, 0};
+    hold_banks(moved, scene, solids);
+    return std::pair(Vector3(positions(moved)[rim] - positions(moved)[row]), Vector3(velocities(moved)[rim]));
+  };
+  EXPECT_LT((held(0.3).first - Vector3(outwards, 0.3 * width, 0)).norm(), 1e-12); // not drowned
+  EXPECT_EQ(held(0.3).second, Vector3(0.5, 2, 0));
+  scene::put_inlet_depth(frame, scene, 0, 2 * thickness);
+  EXPECT_LT((held(0.3).first - Vector3(outwards, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((held(0.3).second - Vector3(0.5, 0, 0)).norm(), 1e-12);
+  for (const double untouched : {0.6, -0.2})
+    EXPECT_LT((held(untouched).first - Vector3(outwards, untouched * width, 0)).norm(), 1e-12);
 }
 
 TEST(Emit, OneTriangle) {
