@@ -80,10 +80,20 @@ int main(int argc, char** argv) {
     sheet::SceneDensity scene;
     sheet::SceneForces forces;
     sheet::formats::Frame frame;
+    const auto finish = [&] { out.write(sheet::formats::printable(head + report->end())); };
     for (const std::string& input : inputs) {
       const sheet::InputFile in(input);
       sheet::formats::StreamReader reader(in.descriptor(), in.name());
-      while (reader.read(frame)) {
+      const auto next = [&] {
+        try {
+          return reader.read(frame);
+        } catch (const sheet::formats::StreamError&) { // what the frames before it say is said
+          if (reader.frames() > 0)
+            finish();
+          throw;
+        }
+      };
+      while (next()) {
         if (wanted)
           sheet::want_thickness(frame, *wanted);
         sheet::Measurements measured =
@@ -95,7 +105,7 @@ int main(int argc, char** argv) {
             report->add({in.name(), inputs.size() > 1, reader.frames() - 1, &frame, std::move(measured)})));
       }
     }
-    out.write(sheet::formats::printable(head + report->end()));
+    finish();
     out.close();
   });
 }

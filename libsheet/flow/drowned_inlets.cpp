@@ -4,10 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "libsheet/flow/crossings.h"
 #include "libsheet/flow/inlet.h"
 #include "libsheet/geometry/area.h"
-#include "libsheet/geometry/box.h"
-#include "libsheet/geometry/triangle_pair.h"
 #include "libsheet/scene/inlet_depth.h"
 #include "libsheet/scene/prescribed.h"
 
@@ -183,19 +182,10 @@ private:
 
   // Whether triangles at the inlet's strip meet others.
   [[nodiscard]] bool crosses() const {
-    const auto x = positions(frame_);
-    const auto bits = masks(frame_, "inlet");
-    const auto corners = triangles(frame_);
-    const auto moved = [&](std::uint32_t v) { return of_inlet(bits[v], number_) != 0; };
-    std::vector<Box> boxes;
-    for (const Corners& c : corners)
-      boxes.push_back(box_of(x, c));
-    for (std::size_t t = 0; t < corners.size(); ++t)
-      if (std::ranges::any_of(corners[t], moved))
-        for (std::size_t other = 0; other < corners.size(); ++other)
-          if (other != t && boxes[t].overlaps(boxes[other]) && triangles_intersect(x, corners[t], corners[other]))
-            return true;
-    return false;
+    std::vector<bool> moved;
+    for (const auto own : masks(frame_, "inlet"))
+      moved.push_back(of_inlet(own, number_) != 0);
+    return moved_triangles_cross(positions(frame_), triangles(frame_), moved);
   }
 
   formats::Frame& frame_;

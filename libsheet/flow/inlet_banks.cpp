@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "libsheet/flow/crossings.h"
 #include "libsheet/flow/inlet.h"
 #include "libsheet/scene/inlet_depth.h"
 #include "libsheet/scene/prescribed.h"
@@ -52,31 +53,58 @@ private:
            scene_.solids[static_cast<std::size_t>(touched_[v])].contact == SolidContact::flow;
   }
 
-  // `onwards`: along the rim away from the border.
+  struct Move {
+    std::uint32_t vertex;
+    Vector3 forwards; // along the wall, unit
+    double behind;    // [m]
+  };
+
+  // `onwards`: along the rim away from the border. Where what is held back would meet another layer, nothing moves.
   void hold(std::uint32_t border, std::uint32_t row, std::uint32_t inner,
             const std::map<std::uint32_t, std::uint32_t>& onwards) {
-    if (!flows(row))
+    const std::vector<Move> moves = behind(border, row, inner, onwards);
+    const auto x = positions(frame_);
+    std::vector<Vector3> before;
+    std::vector<bool> moved(frame_.vertices, false);
+    for (const Move& move : moves) {
+      before.push_back(x[move.vertex]);
+      x[move.vertex] += move.behind * move.forwards;
+      moved[move.vertex] = true;
+    }
+    if (moves.empty() || moved_triangles_cross(x, triangles(frame_), moved)) {
+      for (std::size_t i = 0; i < moves.size(); ++i)
+        x[moves[i].vertex] = before[i];
       return;
+    }
+    if (const auto u = velocities(frame_); !u.empty())
+      for (const auto& [v, forwards, behind] : moves)
+        u[v] += std::max(0.0, -forwards.dot(u[v])) * forwards;
+  }
+
+  // What has come behind the row, from its end on.
+  [[nodiscard]] std::vector<Move> behind(std::uint32_t border, std::uint32_t row, std::uint32_t inner,
+                                         const std::map<std::uint32_t, std::uint32_t>& onwards) const {
+    std::vector<Move> moves;
+    if (!flows(row))
+      return moves;
     const auto x = positions(frame_);
     const Vector3 along = (x[row] - x[inner]).normalized();
     const Vector3 way = x[row] - x[border];
-    const double width = way.norm();
     for (auto at = onwards.find(row); at != onwards.end(); at = onwards.find(at->second)) {
       const std::uint32_t v = at->second;
       if (masks(frame_, "inlet")[v] != 0 || !flows(v))
-        return;
+        break;
       const Vector3 normal = solids_.at(static_cast<std::size_t>(touched_[v]), x[v], frame_.time).normal;
       Vector3 forwards = normal.cross(along);
       if (forwards.dot(way) < 0)
         forwards = -forwards;
       forwards.normalize();
-      const double behind = -forwards.dot(x[v] - x[row]);
-      if (!(behind > 0 && behind < 0.5 * width))
-        return;
-      x[v] += behind * forwards;
-      if (const auto u = velocities(frame_); !u.empty())
-        u[v] += std::max(0.0, -forwards.dot(u[v])) * forwards;
+      const double distance = -forwards.dot(x[v] - x[row]);
+      if (!(distance > 0 && distance < 0.5 * way.norm()))
+        break;
+      moves.push_back({v, forwards, distance});
     }
+    return moves;
   }
 
   formats::Frame& frame_;

@@ -10,8 +10,9 @@ namespace sheet::flow {
 
 // Moves the rim that goes on from both ends of an inlet's strip, as far as it lies on a wall along which liquid flows
 // and has come behind the strip's first row by less than half of the strip's width, along the wall to beside the row,
-// and takes its velocity back from it. What is farther behind stays where it is. Bit for bit the same frame where no
-// inlet is drowned. `solids`: the scene's. Throws Error (bad_input) where find_inlet does.
+// and takes its velocity back from it. What is farther behind stays where it is, as does what would meet another layer
+// on its way back. Bit for bit the same frame where no inlet is drowned. `solids`: the scene's. Throws Error
+// (bad_input) where find_inlet does.
 void hold_banks(formats::Frame& frame, const Scene& scene, const solid::Solids& solids);
 
 } // namespace sheet::flow

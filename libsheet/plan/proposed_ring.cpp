@@ -13,6 +13,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/forecast.h"
 #include "libsheet/plan/landing.h"
+#include "libsheet/plan/passing.h"
 #include "libsheet/plan/piling.h"
 #include "libsheet/plan/running_down.h"
 #include "libsheet/scene/inlet_velocity.h"
@@ -97,7 +98,10 @@ double round_number(double value) {
   return unit * (value >= 5 * unit ? 5 : value >= 2 * unit ? 2 : 1);
 }
 
-// Some times of the flow, of the fall and of what comes in; until whatever ends by the clock has ended.
+constexpr double longest_passing = 10; // of solids that creep, in times of everything else
+
+// Some times of the flow, of the fall and of what comes in; until whatever ends by the clock has ended, and whatever
+// moves on for ever has come through.
 double until_of(const Scene& scene, const Frame& first) {
   double until = 0, length = 0;
   for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
@@ -133,6 +137,7 @@ double until_of(const Scene& scene, const Frame& first) {
   }
   for (const scene::SheetTable& sheet : scene.sheets)
     ends(sheet.enters.value_or(0));
+  until = std::max(until, std::min(passing_time(scene, first), longest_passing * until));
   return std::isfinite(until) && until > 0 ? rounded(until) : 1;
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t looked_at = 100; // vertices, about
 constexpr double near_enough = 0.75;   // of the thickness: from the solid, of what lies on it
+constexpr double above_a_plane = 2.5;  // likewise, of what comes down on all of it at once
 constexpr double least_part = 0.5;     // of the sheet that lies
 constexpr double least_slope = 0.1;    // part of gravity along the solid
 
@@ -32,7 +33,9 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
   for (std::size_t v = 0; v < x.size(); v += stride, ++all)
     for (std::size_t i = 0; i < solids.size(); ++i) {
       const solid::SolidPoint point = solids.at(i, x[v], first.time);
-      if (scene.solids[i].contact != SolidContact::flow || std::abs(point.distance) > near_enough * *sheet.thickness)
+      const double reach =
+          std::holds_alternative<scene::HalfSpace>(scene.solids[i].shape) ? above_a_plane : near_enough;
+      if (scene.solids[i].contact != SolidContact::flow || std::abs(point.distance) > reach * *sheet.thickness)
         continue;
       const Vector3 normal =
           solids.pose(i, t).linear() * (solids.pose(i, first.time).linear().transpose() * point.normal);

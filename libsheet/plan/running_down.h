@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sheets that start as layers on slopes along which they flow: they creep, and there is something to see only after a
-// time that their weight and viscosity say.
+// Sheets that start as layers on slopes along which they flow, or close above: they creep, and there is something to
+// see only after a time that their weight and viscosity say.
 #pragma once
 #include <optional>
 

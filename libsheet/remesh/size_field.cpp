@@ -13,6 +13,7 @@
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/remesh/buckling.h"
 #include "libsheet/remesh/flow_error.h"
+#include "libsheet/remesh/necks.h"
 #include "libsheet/remesh/operations.h"
 #include "libsheet/remesh/strip_width.h"
 
@@ -234,12 +235,14 @@ void SizeField::fit_strips(const EditableSheet& sheet, const SizeOptions& option
   const double widths = round ? widths_an_edge_of_threads : widths_an_edge;
   const double thicknesses = round ? thicknesses_an_edge_of_threads : thicknesses_an_edge;
   const double floor = options.shortest_in_strips();
-  const std::vector<double> width = strip_widths(sheet, round ? least_wedge_of_threads : 0),
+  const std::vector<double> strip = strip_widths(sheet, round ? least_wedge_of_threads : 0),
+                            neck = neck_widths(sheet, options.edge_length / widths_an_edge),
                             thickness = thickness_at_vertices(sheet);
-  std::vector<double> fitted(width.size());
+  std::vector<double> fitted(strip.size());
   bool any = false;
-  for (std::uint32_t v = 0; v < width.size(); ++v) {
-    fitted[v] = std::min(at(v), std::max({widths * width[v], thicknesses * thickness[v], floor}));
+  for (std::uint32_t v = 0; v < fitted.size(); ++v) {
+    const double width = std::min(strip[v], neck[v]);
+    fitted[v] = std::min(at(v), std::max({widths * width, thicknesses * thickness[v], floor}));
     any = any || fitted[v] < at(v);
     if (round && !thick_.empty() && fitted[v] < at(v))
       thick_[v] *= thicknesses;

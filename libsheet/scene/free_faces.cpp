@@ -71,9 +71,12 @@ FreeFaces free_faces(const Scene& scene, const Frame& frame, const Connectivity&
   const auto x = positions(frame);
   const std::vector<Vector3> free = free_axes(scene, frame);
   const std::vector<char> join = joined(scene, frame);
+  std::vector<char> angled(frame.vertices, 0); // vertices on solids that have a contact angle
   if (!scene.solids.empty())
-    for (const std::int32_t solid : touched_solids(frame, scene.solids.size()))
+    for (const std::int32_t solid : touched_solids(frame, scene.solids.size())) {
+      angled[faces.on_wall.size()] = solid != no_solid && scene.solids[static_cast<std::size_t>(solid)].contact_angle;
       faces.on_wall.push_back(solid != no_solid);
+    }
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
     if (faces.rims[e] == 0)
       continue;
@@ -84,7 +87,7 @@ FreeFaces free_faces(const Scene& scene, const Frame& frame, const Connectivity&
         flows_out(scene, x[ends[0]], x[ends[1]]))
       faces.rims[e] = 0;
     else
-      faces.rims[e] = 1 - faces.part_on_wall(ends);
+      faces.rims[e] = 1 - 0.5 * (angled[ends[0]] + angled[ends[1]]);
   }
   return faces;
 }

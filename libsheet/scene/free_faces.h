@@ -9,8 +9,9 @@
 namespace sheet::scene {
 
 // No free rim is where the sheet goes on beyond its mesh, or something else says what happens there: inlets, rims that
-// holds keep from moving outward (pinned ones, planes of symmetry, guides), welds, the planes of outflows. On solids,
-// in the part of its two ends that touch, a rim is the contact angle's.
+// holds keep from moving outward (pinned ones, planes of symmetry, guides), welds, the planes of outflows. On solids
+// with a contact angle, in the part of its two ends that touch, a rim is that angle's; on those without one the wetted
+// face pulls as a free one, and the rim is free.
 [[nodiscard]] FreeFaces free_faces(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh);
 
 } // namespace sheet::scene

@@ -46,6 +46,14 @@ spoiled() { # [OPTION]...: the ring with the stage that spoils
   # the one before the end comes first, in time and in the file
   [[ $(grep -n 'sheet-loop: serious: thin' log | cut -d: -f1) -lt $(grep -n 'what went wrong' log | cut -d: -f1) ]]
   sheet-info --health run.sheet | grep -q 'serious: thin: the sheet is down to'
+  head -c -100 run.sheet > short.sheet # of a run that failed: what its whole frames say, and that it was cut short
+  status=0
+  sheet-info --health short.sheet > health.txt 2> log || status=$?
+  [[ $status == 4 ]] && grep -q 'cut short' log
+  grep -q 'short.sheet: what went wrong on the way' health.txt
+  status=0
+  sheet-info --json short.sheet > figures.json 2> log || status=$?
+  [[ $status == 4 ]] && /usr/bin/python3 -c 'import json; json.load(open("figures.json"))[-1]["triangles"]'
   spoiled -q -i first.sheet --steps 40 --keep 10 -o quiet.sheet 2> log
   [[ ! -s log ]]
 }

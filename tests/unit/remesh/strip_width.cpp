@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libsheet/remesh/necks.h"
 #include "libsheet/shape/shapes.h"
 #include "tests/support/remesh/flows.h"
 #include "tests/support/remesh/options.h"
@@ -105,6 +106,40 @@ TEST(StripWidth, TrianglesAreNoFinerThanTheSheetIsThick) {
     static_cast<void>(remesh(thin, nullptr, options(strip_edge)));
     EXPECT_GT(thin.vertices, 2 * before) << width;
   }
+}
+
+// A tube with bags at both ends, three edges around its middle: fine edges there, whatever is asked of the sheet; of a
+// pocket, or of a tube whose ends are near, nothing.
+TEST(StripWidth, ANeckIsAsWideAsTheEdgesRoundIt) {
+  constexpr int rings = 13;
+  const auto tube = [](int count) {
+    TriangleMesh mesh;
+    for (int k = 0; k < count; ++k)
+      for (int i = 0; i < 3; ++i) {
+        const double angle = 2 * std::numbers::pi / 3 * i, radius = 0.02 * (1 + std::pow(2.0 * k / (count - 1) - 1, 2));
+        mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.1 * k);
+      }
+    for (std::uint32_t k = 0; k + 1 < static_cast<std::uint32_t>(count); ++k)
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = 3 * k + i, b = 3 * k + (i + 1) % 3;
+        mesh.triangles.push_back({a, b, b + 3});
+        mesh.triangles.push_back({a, b + 3, a + 3});
+      }
+    return test::frame_of(mesh, 0.001);
+  };
+  formats::Frame frame = tube(rings);
+  const std::vector<double> width = neck_widths(EditableSheet(frame), 0.05);
+  for (std::uint32_t k = 0; k < rings; ++k) // 36 triangles on either side of the sixth alone
+    for (std::uint32_t v = 3 * k; v < 3 * k + 3; ++v)
+      if (k == 6)
+        EXPECT_NEAR(width[v], 0.02 * std::sqrt(3.0), 1e-12);
+      else
+        EXPECT_EQ(width[v], std::numeric_limits<double>::infinity());
+  for (const double w : neck_widths(EditableSheet(frame), 0.03))
+    EXPECT_EQ(w, std::numeric_limits<double>::infinity());
+  for (const double w : neck_widths(EditableSheet(tube(10)), 0.05))
+    EXPECT_EQ(w, std::numeric_limits<double>::infinity());
+  ASSERT_LT(test::angles_of(frame, strip_edge).smallest, 20);
 }
 
 } // namespace

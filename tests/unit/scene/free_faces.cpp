@@ -82,11 +82,14 @@ TEST(FreeFaces, InletsAndOutflowsAreNoRims) {
 }
 
 TEST(FreeFaces, OfWhatTouchesSolidsTheRimIsTheContactAngles) {
-  const Rims touching = rims([](Scene& scene, formats::Frame& frame) {
-    scene.solids.emplace_back();
-    put_touched_solids(frame, std::vector<std::int32_t>{no_solid, no_solid, 0, 0}, 1);
-  });
-  EXPECT_EQ(touching, (Rims{{"low", 1}, {"left", 0.5}, {"right", 0.5}}));
+  const auto touching = [](std::optional<double> angle) {
+    return rims([&](Scene& scene, formats::Frame& frame) {
+      scene.solids.emplace_back().contact_angle = angle;
+      put_touched_solids(frame, std::vector<std::int32_t>{no_solid, no_solid, 0, 0}, 1);
+    });
+  };
+  EXPECT_EQ(touching(1), (Rims{{"low", 1}, {"left", 0.5}, {"right", 0.5}}));
+  EXPECT_EQ(touching({}), rims([](Scene&, formats::Frame&) {})); // without an angle it is free
 }
 
 TEST(FreeFaces, WeldsAreNoRims) {

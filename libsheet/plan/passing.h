@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Solids that move on for ever: a paddle drawn through a layer, a ball through a curtain, a fork lifted out of syrup, a
+// plate that turns. There is something to see until they have come through, or round.
+#pragma once
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+// When the last of them has left the box around the sheet as it lies at the start and all that it falls through, and
+// has gone at least as far as the second of the box's sides is long, or has turned once [s]; 0 if none does.
+[[nodiscard]] double passing_time(const Scene& scene, const formats::Frame& first);
+
+} // namespace sheet

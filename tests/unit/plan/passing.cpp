@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/passing.h"
+
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "libsheet/plan/first_frame.h"
+
+namespace sheet {
+namespace {
+
+// Of a layer of 160 by 100 mm, 10 mm thick, on a table, and a ball of 8 mm radius.
+double passing(const std::string& ball, double gravity = 0, double height = 0) {
+  const Scene scene = scene::parse_scene(
+      fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.16, 0.1]\nedge_length = 0.01\nthickness = 0.01\n"
+                  "center = [0, {}, 0]\n[material]\nviscosity = 10\ndensity = 1400\n[environment]\n"
+                  "gravity = [0, {}, 0]\n[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n"
+                  "[[solid]]\nshape = \"sphere\"\nradius = 0.008\n{}",
+                  height + 0.005, -gravity, ball),
+      "s");
+  return passing_time(scene, first_frame(scene));
+}
+
+TEST(Passing, UntilABallHasLeftTheSheet) {
+  EXPECT_NEAR(passing("center = [-0.11, 0.012, 0]\nvelocity = [0.06, 0, 0]\n"), (0.11 + 0.088 + 0.005) / 0.06, 1e-9);
+  EXPECT_EQ(passing("center = [-0.11, 0.02, 0]\nvelocity = [0.06, 0, 0]\n"), 0); // above it
+  EXPECT_EQ(passing("center = [-0.11, 0.012, 0]\nvelocity = [-0.06, 0, 0]\n"), 0);
+  EXPECT_EQ(passing("center = [0, 0.012, 0]\n"), 0);
+}
+
+// Lifted out, it goes as far as the sheet is wide, from when it has its speed.
+TEST(Passing, UntilABallThatIsLiftedHasGoneFar) {
+  const double width = 0.11; // with what it is thick
+  EXPECT_NEAR(passing("center = [0, 0.008, 0]\n"
+                      "motion = {kind = \"translating\", velocity = [[0.4, 0, 0, 0], [0.5, 0, 0.06, 0]]}\n"),
+              0.5 + width / 0.06, 1e-9);
+}
+
+TEST(Passing, OfASheetThatFallsPastIt) {
+  const std::string ball = "center = [-0.2, 0.05, 0]\nvelocity = [0.1, 0, 0]\n";
+  EXPECT_EQ(passing(ball, 0, 0.2), 0);
+  EXPECT_GT(passing(ball, 9.81, 0.2), 0.28 / 0.1);
+}
+
+TEST(Passing, OneTurn) {
+  EXPECT_NEAR(passing("center = [0, 0.1, 0]\nmotion = {kind = \"rotating\", axis = [1, 0, 0], rate = 2}\n"),
+              std::numbers::pi, 1e-9);
+  EXPECT_EQ(
+      passing("center = [0, 0.1, 0]\nmotion = {kind = \"rotating\", axis = [1, 0, 0], rate = [[0, 2], [1, 0]]}\n"), 0);
+}
+
+} // namespace
+} // namespace sheet
