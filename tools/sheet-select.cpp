@@ -48,7 +48,15 @@ int main(int argc, char** argv) {
       writer.write(frame);
     });
     sheet::formats::Frame frame;
-    while (reader.read(frame) && selector.add(std::move(frame)))
+    const auto next = [&] {
+      try {
+        return reader.read(frame);
+      } catch (const sheet::formats::StreamError&) {
+        selector.cut_short();
+        throw;
+      }
+    };
+    while (next() && selector.add(std::move(frame)))
       continue;
     selector.end();
     out.start();

@@ -50,6 +50,8 @@ public:
 
   // Takes the next frame. False if no frame to come can be picked: there is no need to read on.
   [[nodiscard]] bool add(formats::Frame&& frame);
+  // The stream was cut short or is damaged from here on: picks what is asked for of the frames that have come.
+  void cut_short() { settle(true); }
   // The stream is at its end. Throws Error (bad_input), with the range there is, if no frame has been picked.
   void end();
 

@@ -50,6 +50,10 @@ END
   run -4 sheet-render cut.sheet --frames -1 -o end.png "${small[@]}"
   sheet-render run.sheet --frames 2 -o two.png "${small[@]}"
   [[ -s end.png && -s two.png ]]
+  run -4 bash -c 'sheet-select --last cut.sheet > last.sheet' # and picked
+  run -4 bash -c 'sheet-select --time 0 cut.sheet > first.sheet'
+  [[ $(sheet-info --csv last.sheet 2> log | tail -n 1 | cut -d , -f 1,2) == 0,0.002 ]]
+  [[ $(sheet-info --csv first.sheet 2> log | tail -n 1 | cut -d , -f 1,2) == 0,0 ]]
 }
 
 @test "2: clear liquid that lies on a solid shows the solid, without dark blotches" {
