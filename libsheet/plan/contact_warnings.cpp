@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -69,17 +70,31 @@ std::string warning_of_stuck_slope(const Scene& scene, const solid::Solids& soli
                               way, until));
 }
 
-// Of what folds or piles up, though it may pass through itself; else "".
+// The solid over which a free sheet falls or hangs, so that it falls far onto others.
+std::optional<std::size_t> draped(const Scene& scene, const std::vector<Landing>& all, double thickness) {
+  if (all.empty() || !scene.holds.empty())
+    return std::nullopt;
+  const auto [first, last] = std::ranges::minmax_element(all, {}, &Landing::fall);
+  return first->solid != last->solid && last->fall > far_down * thickness ? std::optional(first->solid) : std::nullopt;
+}
+
+// Of what folds, piles up or comes together, though it may pass through itself; else "".
 std::string warning_of_passing_through(const Scene& scene, const solid::Solids& solids, const Frame& first,
-                                       const std::vector<Landing>& all) {
+                                       const std::vector<Landing>& all, double thickness) {
   if (scene.contact && scene.contact->self)
     return {};
-  const auto piling = what_piles_up(scene, first, all);
-  return piling
-             ? fmt::format("{} lands on {} and folds or piles up, but may pass through itself: [contact] self = true "
-                           "keeps its layers apart",
-                           piling->what, solids.name(piling->solid))
-             : "";
+  if (const auto piling = what_piles_up(scene, first, all))
+    return fmt::format("{} lands on {} and folds or piles up, but may pass through itself: [contact] self = true "
+                       "keeps its layers apart",
+                       piling->what, solids.name(piling->solid));
+  if (scene.sheets.size() > 1)
+    return "the sheets may pass through each other and themselves: [contact] self = true keeps them apart";
+  if (const auto solid = draped(scene, all, thickness))
+    return fmt::format(
+        "the sheet comes down over {} and beyond, where it may fold and pass through itself: [contact] self "
+        "= true keeps its layers apart",
+        solids.name(*solid));
+  return {};
 }
 
 } // namespace
@@ -94,7 +109,7 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Frame& first
   const bool asked = std::ranges::any_of(warnings, [](const std::string& warning) { return !warning.empty(); });
   for (std::size_t i = 0; i < solids.size() && !asked; ++i)
     warnings.push_back(warning_of_stuck_slope(scene, solids, i, all, thickness, until));
-  warnings.push_back(warning_of_passing_through(scene, solids, first, all));
+  warnings.push_back(warning_of_passing_through(scene, solids, first, all, thickness));
   std::erase(warnings, "");
   return warnings;
 }

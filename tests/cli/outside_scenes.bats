@@ -276,6 +276,16 @@ END
   [[ $output == *"the upright sheet $folds"* && $output != *'does liquid stay'* ]]
   run warnings fall.toml --set 'sheet.plane="xy"'
   [[ $output != *'pass through'* && $output != *'does liquid stay'* ]]
+  # one that comes down over a ball and beyond, and two of them
+  { sed 's/^plane = .*/plane = "xy"/' fall.toml; printf '[[solid]]\nshape = "sphere"\nradius = 0.01\n'; } > over.toml
+  run warnings over.toml
+  [[ $output == *'the sheet comes down over solid 1 (sphere) and beyond, where it may fold and pass through itself: [contact] self = true'* ]]
+  run warnings over.toml --set contact.self=true
+  [[ $output != *'pass through'* ]]
+  sed 's/^.sheet./[[sheet]]/; s/^plane = .*/plane = "xy"/' fall.toml > two.toml
+  printf '[[sheet]]\nshape = "disk"\nradius = 0.02\nedge_length = 0.005\nthickness = 0.002\ncenter = [0, 0, 0.2]\nplane = "xy"\n' >> two.toml
+  run warnings two.toml
+  [[ $output == *'the sheets may pass through each other and themselves: [contact] self = true keeps them apart'* ]]
   slope=(--set 'sheet.plane="xy"' --set 'solid.normal=[1, 0, 1.7]' --until 2)
   run warnings fall.toml "${slope[@]}" # 8 mm, less than three thicknesses
   [[ $output != *'does liquid stay'* ]]
