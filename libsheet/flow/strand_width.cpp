@@ -23,7 +23,7 @@ public:
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
       for (const std::uint32_t v : mesh.triangles[t])
         if (const auto rim = rim_opposite(t, v); !on_rim_[v] && rim != no_index)
-          ways_[v].push_back(way_to(v, rim));
+          ways_[v].push_back(way_to_line(x[v], x[mesh.edges[rim][0]], x[mesh.edges[rim][1]]));
   }
 
   [[nodiscard]] double width(std::uint32_t t) const {
@@ -31,7 +31,7 @@ public:
     double most = 0;
     for (const std::uint32_t v : c)
       if (!on_rim_[v])
-        most = std::max(most, width_at(v));
+        most = std::max(most, width_across(ways_[v]));
     return most > 0 ? most : height(t);
   }
 
@@ -43,23 +43,6 @@ private:
         return e;
     return no_index;
   }
-  // From a vertex straight to the line of an edge.
-  [[nodiscard]] Vector3 way_to(std::uint32_t v, std::uint32_t e) const {
-    const Vector3 &a = x_[mesh_.edges[e][0]], along = (x_[mesh_.edges[e][1]] - a).stableNormalized();
-    return a - x_[v] - along.dot(a - x_[v]) * along;
-  }
-
-  // Of a vertex between two rows: the shortest way to a rim, and the shortest one to the other side.
-  [[nodiscard]] double width_at(std::uint32_t v) const {
-    const auto& ways = ways_[v];
-    const auto shortest = std::ranges::min_element(ways, {}, [](const Vector3& w) { return w.squaredNorm(); });
-    double back = endless;
-    for (const Vector3& way : ways)
-      if (way.dot(*shortest) < -opposite * way.norm() * shortest->norm())
-        back = std::min(back, way.norm());
-    return ways.empty() ? endless : shortest->norm() + back;
-  }
-
   // Of a triangle all of whose corners are on rims.
   [[nodiscard]] double height(std::uint32_t t) const {
     const Corners& c = mesh_.triangles[t];
@@ -86,6 +69,22 @@ private:
 };
 
 } // namespace
+
+Vector3 way_to_line(const Vector3& x, const Vector3& a, const Vector3& b) {
+  const Vector3 along = (b - a).stableNormalized();
+  return a - x - along.dot(a - x) * along;
+}
+
+double width_across(std::span<const Vector3> ways) {
+  if (ways.empty())
+    return endless;
+  const auto shortest = std::ranges::min_element(ways, {}, [](const Vector3& w) { return w.squaredNorm(); });
+  double back = endless;
+  for (const Vector3& way : ways)
+    if (way.dot(*shortest) < -opposite * way.norm() * shortest->norm())
+      back = std::min(back, way.norm());
+  return shortest->norm() + back;
+}
 
 std::vector<double> strand_widths(const Connectivity& mesh, std::span<const Vector3> x) {
   const Strands strands(mesh, x);

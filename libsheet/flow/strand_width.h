@@ -15,4 +15,11 @@ namespace sheet::flow {
 // these the most.
 [[nodiscard]] std::vector<double> strand_widths(const Connectivity& mesh, std::span<const Vector3> x);
 
+// From x straight to the line through a and b [m].
+[[nodiscard]] Vector3 way_to_line(const Vector3& x, const Vector3& a, const Vector3& b);
+
+// Of a strand, across a point from which these ways lead to the rims beside it [m]: the shortest way, and the shortest
+// one to the other side; infinite if none leads there.
+[[nodiscard]] double width_across(std::span<const Vector3> ways);
+
 } // namespace sheet::flow

@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <queue>
+#include <utility>
+
+#include "libsheet/flow/strand_width.h"
 
 namespace sheet::remesh {
 
@@ -14,8 +19,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double sharp_corner = std::numbers::pi / 3;
 constexpr double wedge_part = 0.25; // of how fast a wedge opens: what opens less is a strip
 
-// The side on a rim of a triangle that reaches from rim to rim; no_index if it does not.
-std::uint32_t spanned_side(const Mesh& mesh, std::uint32_t t) {
+// The side of a triangle that alone lies on a rim; no_index if there is none.
+std::uint32_t rim_side(const Mesh& mesh, std::uint32_t t) {
   std::uint32_t found = no_index;
   for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side)
     if (mesh.twin(side) == no_index) {
@@ -23,7 +28,18 @@ std::uint32_t spanned_side(const Mesh& mesh, std::uint32_t t) {
         return no_index;
       found = side;
     }
-  return found != no_index && mesh.on_rim(mesh.apex(found)) ? found : no_index;
+  return found;
+}
+
+// Across a vertex between two rows of triangles (strand_width.h).
+double width_at(const EditableSheet& sheet, std::uint32_t v, std::vector<Vector3>& ways) {
+  const Mesh& mesh = sheet.mesh();
+  ways.clear();
+  mesh.for_fan(v, [&](std::uint32_t side) {
+    if (mesh.twin(Mesh::next(side)) == no_index)
+      ways.push_back(flow::way_to_line(sheet.at(v), sheet.at(mesh.to(side)), sheet.at(mesh.apex(side))));
+  });
+  return flow::width_across(ways);
 }
 
 // The sheet's own angle at a vertex of a rim [rad].
@@ -37,19 +53,22 @@ double angle_at(const EditableSheet& sheet, std::uint32_t v) {
   return sum;
 }
 
-// From the tip on, as long as the strip is a part as wide as the wedge of this angle or wider.
+// From the tip on, as long as the strip is a part as wide as the wedge of this angle or wider, so far along the sheet
+// [Dijkstra 1959]: another strand that passes the tip has nothing to do with it.
 void leave_out_wedge(const EditableSheet& sheet, std::uint32_t tip, double angle, std::vector<double>& width) {
-  const double opening = 2 * std::tan(angle / 2);
-  std::vector<std::uint32_t> reached = {tip};
+  using Entry = std::pair<double, std::uint32_t>;
+  const double opening = wedge_part * 2 * std::tan(angle / 2);
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> reached;
+  reached.emplace(0, tip);
   while (!reached.empty()) {
-    const std::uint32_t v = reached.back();
-    reached.pop_back();
-    sheet.mesh().for_neighbours(v, [&](std::uint32_t w) {
-      if (std::isinf(width[w]) || width[w] < wedge_part * opening * (sheet.at(w) - sheet.at(tip)).norm())
-        return;
-      width[w] = infinity;
-      reached.push_back(w);
-    });
+    const double way = reached.top().first;
+    const std::uint32_t v = reached.top().second;
+    reached.pop();
+    if (way > 0 && (std::isinf(width[v]) || width[v] < opening * way))
+      continue;
+    width[v] = infinity;
+    sheet.mesh().for_neighbours(v,
+                                [&](std::uint32_t w) { reached.emplace(way + (sheet.at(w) - sheet.at(v)).norm(), w); });
   }
 }
 
@@ -58,15 +77,19 @@ void leave_out_wedge(const EditableSheet& sheet, std::uint32_t tip, double angle
 std::vector<double> strip_widths(const EditableSheet& sheet, double least_wedge) {
   const Mesh& mesh = sheet.mesh();
   std::vector<double> width(mesh.vertex_slots(), infinity);
+  std::vector<Vector3> ways;
   bool any = false;
   for (std::uint32_t t = 0; t < mesh.triangle_slots(); ++t) {
-    const std::uint32_t side = spanned_side(mesh, t);
+    const std::uint32_t side = rim_side(mesh, t);
     if (side == no_index)
       continue;
-    const double height = 2 * sheet.shape(t).area / (sheet.at(mesh.to(side)) - sheet.at(mesh.from(side))).norm();
+    const std::uint32_t apex = mesh.apex(side);
+    const double across = mesh.on_rim(apex)
+                              ? 2 * sheet.shape(t).area / (sheet.at(mesh.to(side)) - sheet.at(mesh.from(side))).norm()
+                              : width_at(sheet, apex, ways);
     for (const std::uint32_t v : mesh.corners(t))
-      width[v] = std::min(width[v], height);
-    any = true;
+      width[v] = std::min(width[v], across);
+    any = any || across < infinity;
   }
   for (std::uint32_t v = 0; any && v < width.size(); ++v)
     if (mesh.on_rim(v))

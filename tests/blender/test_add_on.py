@@ -134,6 +134,35 @@ class AddOn(unittest.TestCase):
         self.assertEqual(len(bpy.data.objects["run"].data.vertices), self.rows[-1]["vertices"])
         self.assertEqual(bpy.data.objects["run"].data.materials[0].name, "Sheet honey")
 
+    def test_drops_are_balls_that_follow_the_time(self):
+        shell(f"sheet-init {root}/tests/features/drops.toml | sheet-loop -q --until 0.05 --fps 100 -o drops.sheet -- "
+              "'sheet-remesh --smooth --edge-length 0.004 | sheet-tear | sheet-emit | sheet-step --tolerance 0.05 | "
+              "sheet-collide'")
+        run = self.add_on.sheetstream.Run("drops.sheet")
+        thing = self.add_on.import_run("drops.sheet", material="honey", speed=FPS / 100)
+        drops = thing.sheet.drops
+        self.assertEqual((drops.parent, drops.data.materials[0].name), (thing, "Sheet honey"))
+        counts = set()
+        for i in [*range(len(run)), 2, 0]:  # backwards, too
+            bpy.context.scene.frame_set(1 + i)
+            frame, mesh = run[i], drops.data
+            volume = frame["drop_volume"] if "drop_volume" in frame else np.zeros(0)
+            counts.add(len(volume))
+            self.assertFalse(mesh.validate())
+            self.assertEqual(len(mesh.polygons), 320 * len(volume))
+            if len(volume):
+                places = places_of(mesh).reshape(len(volume), -1, 3)
+                np.testing.assert_allclose(places.mean(axis=1), frame["drop_position"], atol=1e-6)
+                self.assertAlmostEqual(shown_volume(drops) / volume.sum(), 1, places=4)
+                velocity = attribute(mesh, "velocity", 3).reshape(len(volume), -1, 3)
+                np.testing.assert_allclose(velocity[:, 0], FPS / 100 * frame["drop_velocity"], atol=1e-6)
+        self.assertGreater(len(counts), 2)
+        bpy.context.scene.frame_set(2, subframe=0.5)
+        frame = run[1]
+        places = places_of(drops.data).reshape(len(frame["drop_volume"]), -1, 3).mean(axis=1)
+        np.testing.assert_allclose(places, frame["drop_position"] + 0.005 * frame["drop_velocity"], atol=1e-6)
+        self.assertIsNone(self.add_on.import_run("run.sheet").sheet.drops)
+
     def test_solids_stand_where_the_scene_has_them(self):
         shell("sed 's/^radius = \"0.2 m\"/&\\nmotion = {kind = \"translating\", velocity = [0.4, 0, 0]}/' scene.toml > moving.toml;"
               "printf '[[solid]]\\nshape = \"capsule\"\\nradius = 0.1\\nlength = 0.4\\ncenter = [2, 0, 0]\\n' >> moving.toml;"

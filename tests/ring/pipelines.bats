@@ -133,6 +133,20 @@ END
     "$BATS_TEST_TMPDIR"/plates/plate{5,20,60}.csv
 }
 
+@test "honey: falls from a spoon as fast as a thread of its flux" {
+  OUT=$BATS_TEST_TMPDIR/spoon pipelines/honey/spoon 0.005 0.9
+  [[ $(cat "$BATS_TEST_TMPDIR/spoon/spoon-steady.txt") =~ ^speed\ within\ ([0-9.]+)\  ]]
+  awk -v off="${BASH_REMATCH[1]}" 'BEGIN { exit !(off < 9) }'
+}
+
+@test "tearing: strands part into drops, without sharp angles" {
+  OUT=$BATS_TEST_TMPDIR/strands pipelines/tearing/strands 0.02 0.17
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
+    { angle = $column["angle_min_degrees"]; if (NR == 2 || angle < least) least = angle }
+    END { exit !(least > 10 && $column["drops"] > 0 && $column["components"] > 1 && $column["step"] < 300) }' \
+    "$BATS_TEST_TMPDIR/strands/strands.csv"
+}
+
 @test "spin: interrupted and resumed = straight" {
   interrupted INT run spin 0.01 1.2
 }

@@ -14,6 +14,7 @@ from mathutils import Matrix, Vector
 
 from . import body_files, carried, compat
 from .compat import sheetstream
+from .drops import add_drops, follow_drops, has_drops
 from .errors import SheetError
 from .looks import set_material
 from .meshes import fill_body, fill_mesh
@@ -110,6 +111,8 @@ def _follow_run(thing: bpy.types.Object, scene: bpy.types.Scene) -> str:
     run = open_run(settings.file)
     frame, position = frame_at(run, time_of(scene, settings), settings.between)
     fill_mesh(thing.data, frame, position, settings.speed)
+    ahead = min(time_of(scene, settings), float(run.times[-1])) - frame.time if settings.between else 0.0
+    follow_drops(thing, frame, max(0.0, ahead), settings.speed)
     layers = carried.beside(settings.file, settings.mesh_file)
     if layers is not None:
         layers.put(thing.data, frame)
@@ -155,6 +158,8 @@ def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: in
     if slab:
         add_slab(thing)
     set_material(thing, material, scene)
+    if has_drops(described):
+        add_drops(thing)
     if adapt_scene:
         _adapt_scene(thing, run.times, scene)
     if solids:
@@ -258,4 +263,5 @@ class SheetSettings(bpy.types.PropertyGroup):
         update=_refresh)
     first_time: bpy.props.FloatProperty(name="Time of the first frame", unit="TIME")  # type: ignore[valid-type]
     mesh_file: bpy.props.StringProperty()  # type: ignore[valid-type] # of its scene
+    drops: bpy.props.PointerProperty(type=bpy.types.Object)  # type: ignore[valid-type] # which shows those of the run
     message: bpy.props.StringProperty()  # type: ignore[valid-type]

@@ -39,6 +39,19 @@ def fill_mesh(mesh: bpy.types.Mesh, frame: sheetstream.Frame, position: Any, vel
     mesh.update()
 
 
+def fill_balls(mesh: bpy.types.Mesh, position: Any, radius: Any, velocity: Any, ball: tuple[Any, Any]) -> None:
+    """Makes the mesh a ball at each position, with the attribute velocity; ball: positions and triangles of one of
+    radius 1 about 0."""
+    vertices, triangles = ball
+    corners = (triangles + len(vertices) * np.arange(len(radius))[:, None, None]).reshape(-1, 3)
+    if not _has_triangles(mesh, corners):
+        _set_triangles(mesh, len(radius) * len(vertices), corners)
+    places = position[:, None] + radius[:, None, None] * vertices
+    mesh.vertices.foreach_set("co", places.astype(np.float32).ravel())
+    set_attribute(mesh, "velocity", "FLOAT_VECTOR", "POINT", np.repeat(velocity, len(vertices), axis=0))
+    mesh.update()
+
+
 def _has_triangles(mesh: bpy.types.Mesh, corners: Any) -> bool:
     if len(mesh.polygons) != len(corners) or len(mesh.loops) != corners.size:
         return False

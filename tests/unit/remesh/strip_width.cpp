@@ -66,6 +66,54 @@ TEST(StripWidth, ASharpEndIsAWedgeOrTheEndOfAStrip) {
   EXPECT_LT(strip_widths(sheet, std::numbers::pi / 9)[5], 0.1);
 }
 
+// A strand that turns and comes back beside its other end, a wedge of 30 degrees: only what lies behind the tip along
+// the sheet is the wedge's.
+TEST(StripWidth, AStrandThatPassesATipIsNoWedge) {
+  constexpr std::uint32_t rows = 6;
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}};
+  for (std::uint32_t i = 1; i <= rows; ++i) { // from the tip to x = 0.6, opening to a width of 0.1
+    const double x = 0.1 * i, half = std::min(x * std::tan(std::numbers::pi / 12), 0.05);
+    mesh.positions.insert(mesh.positions.end(), {{x, -half, 0}, {x, half, 0}});
+  }
+  for (std::uint32_t i = 1; i < rows; ++i) { // round
+    const double angle = std::numbers::pi * (i / 6.0 - 0.5);
+    const Vector3 out(std::cos(angle), std::sin(angle), 0), center(0.6, 0.1, 0);
+    mesh.positions.insert(mesh.positions.end(), {center + 0.15 * out, center + 0.05 * out});
+  }
+  for (std::uint32_t i = 0; i <= rows; ++i) // and back
+    mesh.positions.insert(mesh.positions.end(), {{0.6 - 0.1 * i, 0.25, 0}, {0.6 - 0.1 * i, 0.15, 0}});
+  mesh.triangles = {{0, 1, 2}};
+  for (std::uint32_t a = 1; a + 3 < mesh.positions.size(); a += 2) {
+    mesh.triangles.push_back({a, a + 2, a + 1});
+    mesh.triangles.push_back({a + 1, a + 2, a + 3});
+  }
+  const std::vector<double> width = strip_widths(EditableSheet(test::frame_of(mesh, 0.001)));
+  EXPECT_EQ(width[2], std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(width[width.size() - 3], 0.1, 1e-12); // at x = 0.1, which is nearer to the tip than the turn
+}
+
+// Two rows, of a fifth and a tenth of an edge: an inner vertex has their sum.
+TEST(StripWidth, IsMeasuredAcrossTwoRows) {
+  TriangleMesh mesh;
+  for (const double y : {0.0, 0.02, 0.03})
+    for (int i = 0; i < 8; ++i)
+      mesh.positions.emplace_back(0.1 * i, y, 0);
+  for (std::uint32_t row = 0; row < 2; ++row)
+    for (std::uint32_t i = 0; i < 7; ++i) {
+      const std::uint32_t a = 8 * row + i;
+      mesh.triangles.push_back({a, a + 1, a + 8});
+      mesh.triangles.push_back({a + 1, a + 9, a + 8});
+    }
+  formats::Frame frame = test::frame_of(mesh, 0.001);
+  const std::vector<double> width = strip_widths(EditableSheet(frame));
+  for (const std::size_t v : {3, 11, 19})
+    EXPECT_NEAR(width[v], 0.03, 1e-12) << v;
+  for (int i = 0; i < 3; ++i)
+    static_cast<void>(remesh(frame, nullptr, options(strip_edge)));
+  EXPECT_GT(test::angles_of(frame, strip_edge).smallest, 15);
+}
+
 // One edge wide, between clamps and free, to a twentieth of its width.
 TEST(StripWidth, ADrawnRibbonKeepsGoodTriangles) {
   constexpr double length = 8 * strip_edge;
