@@ -61,6 +61,7 @@ WallFlow::WallFlow(const Liquid& liquid) : curve_(liquid) {
     }
     here.f = moment / (here.stress * here.stress);
     rates_.push_back(here.rate);
+    stresses_.push_back(here.stress);
     values_.push_back(here.f);
     f_.push_back(std::log(here.f));
     slope_.push_back(here.rise / here.stress * (here.rate / here.f - 2));
@@ -153,13 +154,17 @@ WallFlow::Drag WallFlow::summed_up(double u, double h, double b) const {
   return {stress * u - conjugate, stress, rise / (b + h * rise / stress * (g - 2 * point.f))};
 }
 
+// The row by halving, then Newton's method on ln τ over ln G from there.
 double WallFlow::velocity(double stress, double h, double b) const {
-  double low = -100, high = 100;
-  for (int i = 0; i < 100; ++i) {
-    const double s = 0.5 * (low + high);
-    (curve_.stress(std::exp(s)) < stress ? low : high) = s;
+  const auto row = std::ranges::upper_bound(stresses_, stress) - stresses_.begin();
+  double s = first_ + interval * static_cast<double>(std::max<std::ptrdiff_t>(row - 1, 0));
+  for (int i = 0; i < most_iterations; ++i) {
+    const Place here = place(s);
+    const double change = std::log(stress / here.stress) * here.stress / here.rise;
+    s += change;
+    if (std::abs(change) <= close_enough * std::max(1.0, std::abs(s)))
+      break;
   }
-  const double s = 0.5 * (low + high);
   return b * std::exp(s) + h * at(s).f;
 }
 

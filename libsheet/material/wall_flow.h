@@ -49,7 +49,7 @@ private:
 
   FlowCurve curve_;
   double first_ = 0;                                 // ln G of the first row
-  std::vector<double> rates_, values_;               // G, f of the rows
+  std::vector<double> rates_, stresses_, values_;    // G, τ, f of the rows
   std::vector<double> f_, slope_, conjugate_, rise_; // ln f, d ln f/d ln G, and of ∫ f dτ likewise
   LogSpline without_slip_;                           // Ψ/h over u/h
 };
