@@ -57,11 +57,15 @@ std::string warning_of_stuck_slope(const Scene& scene, const solid::Solids& soli
     return {};
   const Vector3d down = scene.environment.gravity.value_or(Vector3d::Zero()).normalized();
   double slope = 0;
+  Liquid liquid; // of the first that lands there
   for (const Landing& landing : all)
-    if (landing.solid == number)
+    if (landing.solid == number) {
+      if (slope == 0)
+        liquid = landing.liquid;
       slope += landing.there.normal.cross(down).norm() / static_cast<double>(all.size());
-  const double stress = slope > 0 ? scene.material.density * scene.environment.gravity->norm() * slope * thickness : 0;
-  const double way = scene::speed_of_layer(scene.material, stress, thickness, 0) * until;
+    }
+  const double stress = slope > 0 ? liquid.density * scene.environment.gravity->norm() * slope * thickness : 0;
+  const double way = slope > 0 ? scene::speed_of_layer(liquid, stress, thickness, 0) * until : 0;
   if (!(way > far_down * thickness))
     return {};
   return question(solids.name(number),

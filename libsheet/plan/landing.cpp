@@ -7,6 +7,7 @@
 
 #include "libsheet/material/driven_rate.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -25,7 +26,8 @@ std::optional<Landing> landing_from(const solid::Solids& solids, const Vector3d&
     Landing nearest{.solid = 0,
                     .fall = way,
                     .place = x + way * down,
-                    .there = {std::numeric_limits<double>::infinity(), -down, {}}};
+                    .there = {std::numeric_limits<double>::infinity(), -down, {}},
+                    .liquid = {}};
     for (std::size_t i = 0; i < solids.size(); ++i)
       if (const solid::SolidPoint point = solids.at(i, nearest.place, t); point.distance < nearest.there.distance) {
         nearest.solid = i;
@@ -37,6 +39,20 @@ std::optional<Landing> landing_from(const solid::Solids& solids, const Vector3d&
   }
   return {};
 }
+
+// The liquids of a frame's vertices.
+class VertexLiquids {
+public:
+  VertexLiquids(const Scene& scene, const Frame& frame)
+      : liquids_(scene, frame), numbers_(liquids_.numbers_at_vertices(frame)) {}
+  [[nodiscard]] const Liquid& of(std::size_t vertex) const {
+    return liquids_.all()[numbers_.empty() ? 0 : numbers_[vertex]];
+  }
+
+private:
+  FrameLiquids liquids_;
+  std::vector<std::uint32_t> numbers_;
+};
 
 bool falls(const Scene& scene) {
   return !scene.solids.empty() && scene.environment.gravity && scene.environment.gravity->norm() > 0;
@@ -53,10 +69,13 @@ std::vector<Landing> landings(const Scene& scene, const Frame& first) {
   const auto x = positions(first);
   const Vector3d down = scene.environment.gravity->normalized();
   const double size = *measured(first).length;
+  const VertexLiquids liquids(scene, first);
   const std::size_t apart = std::max<std::size_t>(1, x.size() / probes);
   for (std::size_t v = 0; v < x.size(); v += apart)
-    if (const auto landing = landing_from(solids, down, x[v], size, first.time))
-      all.push_back(*landing);
+    if (auto landing = landing_from(solids, down, x[v], size, first.time)) {
+      landing->liquid = liquids.of(v);
+      all.push_back(std::move(*landing));
+    }
   return all;
 }
 
@@ -80,12 +99,15 @@ std::optional<Landing> landing_of_inflow(const Scene& scene, const Frame& first,
       if (const auto landing = landing_from(solids, down, positions(first)[v], size, first.time);
           landing && (!shortest || landing->fall < shortest->fall))
         shortest = landing;
+  if (shortest)
+    shortest->liquid = scene::material_of(scene, sheet_named(scene, scene.inflows[number].sheet));
   return shortest;
 }
 
-double speed_after_fall(const Scene& scene, double v0, double fall) {
+double speed_after_fall(const Scene& scene, double v0, const Landing& landing) {
+  const double fall = landing.fall;
   const double g = scene.environment.gravity.value_or(Vector3d::Zero()).norm();
-  const double viscous = v0 + fall * driven_rate(scene.material, scene.material.density * g * fall / 8);
+  const double viscous = v0 + fall * driven_rate(landing.liquid, landing.liquid.density * g * fall / 8);
   return std::min(std::sqrt(v0 * v0 + 2 * g * fall), viscous);
 }
 

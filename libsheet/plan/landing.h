@@ -16,6 +16,7 @@ struct Landing {
   double fall;             // the way down to it [m]
   Vector3 place;           // at the way's end [m]
   solid::SolidPoint there; // of the solid, at the first frame's time
+  Liquid liquid = {};      // of what falls
 };
 
 // Of about a hundred of the sheet's vertices, spread over it, those that are above a solid; none without gravity.
@@ -28,9 +29,9 @@ struct Landing {
 [[nodiscard]] std::optional<Landing> landing_of_inflow(const Scene& scene, const formats::Frame& first,
                                                        std::size_t number);
 
-// Of what begins a fall with the speed v0 [m/s], at its end: the least of sqrt(v0² + 2 g H) (free fall) and
+// Of what begins that fall with the speed v0 [m/s], at its end: the least of sqrt(v0² + 2 g H) (free fall) and
 // v0 + rho g H²/(8 mu) (a viscous curtain's first stretching, whose force at y is rho g (H - y) h and equals
 // 4 mu h dv/dy [Trouton 1906; Brown 1961, J. Fluid Mech. 10]).
-[[nodiscard]] double speed_after_fall(const Scene& scene, double v0, double fall);
+[[nodiscard]] double speed_after_fall(const Scene& scene, double v0, const Landing& landing);
 
 } // namespace sheet

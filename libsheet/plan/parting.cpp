@@ -61,28 +61,34 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
   const Vector3d& gravity = *scene.environment.gravity;
   const solid::Solids solids(scene);
   const double thickness = *measured(first).thickness;
-  const auto parting = [&](const std::string& why) {
-    return Parting{why, scene.material.density * gravity.norm() * thickness / 2};
+  const auto parting = [&](const std::string& why, double density) {
+    return Parting{why, density * gravity.norm() * thickness / 2};
   };
   std::vector<bool> seen(solids.size(), false);
-  std::vector<double> ends(solids.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> ends(solids.size(), std::numeric_limits<double>::infinity()), densities(solids.size(), 0);
   for (const Landing& landing : landings(scene, first)) {
     const std::size_t number = landing.solid;
     const double t = first.time + std::sqrt(2 * std::max(0.0, landing.fall - thickness / 2) / gravity.norm());
-    ends[number] =
-        std::min(ends[number], t + time_to_end(solids, number, landing.place, landing.there.normal, first.time));
+    const double end = t + time_to_end(solids, number, landing.place, landing.there.normal, first.time);
+    if (end < ends[number]) {
+      ends[number] = end;
+      densities[number] = landing.liquid.density;
+    }
     if (seen[number])
       continue;
     seen[number] = true;
     if (const double thrown = height_of_throw(solids.scene(number).motion, landing.place, t, until, gravity);
         thrown > thickness)
-      return parting(fmt::format("{} throws what lies on it {:.2g} m up", solids.name(number), thrown));
+      return parting(fmt::format("{} throws what lies on it {:.2g} m up", solids.name(number), thrown),
+                     landing.liquid.density);
   }
   const auto earliest = std::ranges::min_element(ends);
   if (earliest == ends.end() || *earliest >= until)
     return std::nullopt;
-  return parting(fmt::format("{} carries what lies on it past its end, from about {:.2g} s on",
-                             solids.name(static_cast<std::size_t>(earliest - ends.begin())), *earliest));
+  const auto number = static_cast<std::size_t>(earliest - ends.begin());
+  return parting(
+      fmt::format("{} carries what lies on it past its end, from about {:.2g} s on", solids.name(number), *earliest),
+      densities[number]);
 }
 
 } // namespace sheet

@@ -42,13 +42,13 @@ std::optional<Piling> what_piles_up(const Scene& scene, const Frame& first, cons
   for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
     const double v0 = scene::inlet_velocity(scene, scene.inflows[i]).speed(first.time);
     if (const auto landing = landing_of_inflow(scene, first, i);
-        landing && piles_up(*landing, speed_after_fall(scene, v0, landing->fall), scene.inflows[i].thickness))
+        landing && piles_up(*landing, speed_after_fall(scene, v0, *landing), scene.inflows[i].thickness))
       return Piling{"what flows in", landing->solid};
   }
   if (all.empty() || !scene.holds.empty() || !scene.inflows.empty() || !is_upright(scene, first))
     return std::nullopt;
   const auto landing = std::ranges::max_element(all, {}, &Landing::fall);
-  if (!piles_up(*landing, speed_after_fall(scene, 0, landing->fall), *measured(first).thickness))
+  if (!piles_up(*landing, speed_after_fall(scene, 0, *landing), *measured(first).thickness))
     return std::nullopt;
   return Piling{"the upright sheet", landing->solid};
 }

@@ -32,7 +32,7 @@ double thickness_after_fall(const Scene& scene, const Frame& first, std::size_t 
   const scene::Inflow& inflow = scene.inflows[number];
   const double v0 = scene::inlet_velocity(scene, inflow).speed(first.time);
   const auto landing = landing_of_inflow(scene, first, number);
-  return landing && v0 > 0 ? inflow.thickness * v0 / speed_after_fall(scene, v0, landing->fall) : inflow.thickness;
+  return landing && v0 > 0 ? inflow.thickness * v0 / speed_after_fall(scene, v0, *landing) : inflow.thickness;
 }
 
 // The edges that sheet-remesh wants if it is not told [m].

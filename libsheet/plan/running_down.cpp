@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
@@ -29,6 +30,9 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
   const solid::Solids solids(scene);
   const auto x = positions(first);
   const std::size_t stride = std::max<std::size_t>(1, x.size() / looked_at);
+  const scene::FrameLiquids liquids(scene, first);
+  const std::vector<std::uint32_t> numbers = liquids.numbers_at_vertices(first);
+  std::vector<bool> lying(liquids.all().size(), false);
   double lies = 0, along = 0, slip = 0, all = 0;
   for (std::size_t v = 0; v < x.size(); v += stride, ++all)
     for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -42,12 +46,16 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
       along += (gravity - gravity.dot(normal) * normal).norm();
       slip += scene.solids[i].slip_length;
       ++lies;
+      lying[numbers.empty() ? 0 : numbers[v]] = true;
       break;
     }
   if (lies < least_part * all || along < least_slope * gravity.norm() * lies)
     return std::nullopt;
-  const double h = *sheet.thickness, stress = scene.material.density * h * along / lies;
-  const double speed = scene::speed_of_layer(scene.material, stress, h, slip / lies);
+  const double h = *sheet.thickness;
+  double speed = 0;
+  for (std::size_t i = 0; i < lying.size(); ++i)
+    if (const Liquid& liquid = liquids.all()[i]; lying[i])
+      speed = std::max(speed, scene::speed_of_layer(liquid, liquid.density * h * along / lies, h, slip / lies));
   if (!(speed > 0) || !std::isfinite(speed))
     return std::nullopt;
   return RunningDown{speed, *sheet.length / speed};

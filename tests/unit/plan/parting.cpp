@@ -58,5 +58,24 @@ TEST(Parting, OfWhatABeltCarriesPastItsEnd) {
   EXPECT_FALSE(parting_of("surface_velocity = [0.1, 0, 0]")); // later than the run ends
 }
 
+// The adhesion is that of the liquid that is thrown up, not of [material].
+TEST(Parting, ASheetOfAnotherLiquidPartsAsThat) {
+  const auto of = [](const std::string& own) {
+    const Scene scene = scene::parse_scene(
+        "[[sheet]]\nname = \"glaze\"\nshape = \"rectangle\"\nsize = [0.06, 0.06]\nedge_length = 0.01\n"
+        "thickness = 0.004\ncenter = [0, 0.002, 0]\n" +
+            own +
+            "[material]\nviscosity = 100\ndensity = 1000\n"
+            "[environment]\ngravity = [0, -10, 0]\n[[solid]]\nshape = \"box\"\nsize = [0.3, 0.1, 0.3]\n"
+            "center = [0, -0.05, 0]\nsurface_velocity = [1, 0, 0]\n[contact]\n",
+        "s");
+    return must_part(scene, checked_first_frame(scene), 1);
+  };
+  const auto light = of(""), heavy = of("[sheet.material]\nviscosity = 100\ndensity = 3000\n");
+  ASSERT_TRUE(light);
+  ASSERT_TRUE(heavy);
+  EXPECT_NEAR(heavy->adhesion, 3 * light->adhesion, 1e-9 * heavy->adhesion);
+}
+
 } // namespace
 } // namespace sheet

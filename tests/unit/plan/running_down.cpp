@@ -51,5 +51,20 @@ TEST(RunningDown, WhenTheSolidHasTurned) {
   EXPECT_NEAR(honey->speed, honey_on(30)->speed, 1e-3 * honey->speed);
 }
 
+// A sheet runs as its own liquid does, whatever [material] says.
+TEST(RunningDown, ASheetOfAnotherLiquidRunsAsThat) {
+  const Scene scene = scene::parse_scene(
+      "[[sheet]]\nname = \"glaze\"\nshape = \"rectangle\"\nsize = [0.1, 0.1]\nedge_length = 0.01\n"
+      "thickness = 0.004\ncenter = [0, 0.002, 0]\n[sheet.material]\nviscosity = 2\ndensity = 1200\n"
+      "[[sheet]]\nname = \"far\"\nshape = \"rectangle\"\nsize = [0.02, 0.02]\nedge_length = 0.01\n"
+      "thickness = 0.004\ncenter = [0, 1, 0]\n[material]\nviscosity = 10\ndensity = 1400\n[environment]\n"
+      "gravity = [4.905, -8.496, 0]\n[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncontact = \"flow\"\n",
+      "s");
+  const auto glaze = runs_down(scene, first_frame(scene), 2);
+  ASSERT_TRUE(glaze);
+  const double u = 1200 * 4.905 * 0.004 * 0.004 / (3 * 2);
+  EXPECT_NEAR(glaze->speed, u, 1e-9 * u);
+}
+
 } // namespace
 } // namespace sheet
