@@ -107,6 +107,10 @@ private:
       }
       if (system_.factor_serves()) {
         follow_factor();
+      } else if (options_.renews && !fresh_ && report_.iterations < options_.iterations) {
+        system_.forget_factor();
+        renewed_ = true;
+        continue;
       } else if (report_.iterations < options_.iterations) {
         linearize();
         find_direction();
@@ -151,7 +155,7 @@ private:
       const bool good = system_.factorize(0, precision);
       report_.seconds_factor += watch.lap();
       exact_ = good;
-      system_.set_factor_serves(good);
+      system_.set_factor_serves(good && !renewed_);
       if (good)
         return true;
     }
@@ -194,7 +198,7 @@ private:
     norm_ = std::sqrt(std::max(0.0, force_.dot(preconditioned_)));
     if (steps() == 0)
       first_norm_ = norm_;
-    if (followed_)
+    if (followed_ && !renewed_)
       system_.set_factor_serves(norm_ <= served * previous_norm_);
     const Eigen::Index positions = 3 * static_cast<Eigen::Index>(system_.assembly().vertices());
     remains_ = greatest(remainder_, scale_, remainder_.size());
@@ -219,8 +223,10 @@ private:
     // A direction with the Hessian knows the soft modes too, of which the potential tells little.
     const bool nothing_to_gain =
         steps() > 0 && !followed_ && full_ && remains_ <= small_step && norm_ * norm_ <= energy_.noise();
-    const bool balanced = greatest_force_ <= options_.force_left * first_force_;
-    report_.converged = balanced && (remains_ <= lost_step || strict || lenient || nothing_to_gain);
+    const auto balanced = [&](double part) { return greatest_force_ <= part * first_force_; };
+    report_.converged =
+        (balanced(options_.force_left) && (remains_ <= lost_step || strict || lenient || nothing_to_gain)) ||
+        (balanced(options_.force_left_by_error) && lenient);
     return report_.converged;
   }
 
@@ -272,7 +278,7 @@ private:
 
   void find_direction() {
     Stopwatch watch;
-    followed_ = false;
+    followed_ = renewed_ = false;
     const auto multiply = [&](const Eigen::VectorXd& x) { return system_.multiply(x); };
     const auto precondition = [&](const Eigen::VectorXd& b) { return system_.solve(b); };
     ConjugateGradients cg =
@@ -344,6 +350,7 @@ private:
   bool positive_ = false;   // of the positive form, as the exact one's direction failed
   bool negative_ = false;   // curvature, of the last direction
   bool stale_ = false;      // the factor took too many products
+  bool renewed_ = false;    // the factor was made for the next direction, not to serve alone
   bool followed_ = false;   // the factor alone gave the last direction
   bool full_ = true;        // the last step was
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Minimises the incremental potential of one stage: Newton's method whose directions come from a few conjugate
 // gradients on the exact Hessian [Steihaug 1983, Eisenstat and Walker 1996], with one factor of the Hessian as
-// preconditioner, which serves as long as it is good: as a rule for both stages of a step. Line search on the
-// potential.
+// preconditioner, which serves as long as it is good: as a rule for both stages of a step. Of liquids that are not
+// Newtonian each direction has a factor of its own. Line search on the potential.
 // It ends when what remains, the gradient times the preconditioner, is small: below `tolerance` of the length of the
 // edges at every vertex and below `tolerance` radians at every edge; or, where that suffices, below a part of the error
 // that the step has anyhow (of_step_error).
@@ -20,7 +20,11 @@ struct NewtonOptions {
   // part of the error that the step may have, `step_error` [of an edge], is enough.
   double of_step_error = 0, step_error = 0;
   // If positive, it does not end before the greatest force at a vertex is below this part of what it was at the start.
-  double force_left = 0;
+  // By the step's error a greater part will do.
+  double force_left = 0, force_left_by_error = 0;
+  // Viscosity depends on the rate of strain, so the Hessian is another one in each iteration: a factor that no longer
+  // serves alone is made anew at once, which costs as much as three or four products.
+  bool renews = false;
   int iterations = 50; // with the Hessian; those by the factor alone end by themselves
 };
 

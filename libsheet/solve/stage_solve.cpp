@@ -14,9 +14,11 @@ namespace {
 constexpr double unfinished_gain = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
 constexpr double far_behind = 0.1;       // of an edge: held unknowns that are this far from where inertia takes them
 constexpr double as_extrapolated = 1e-6; // of an edge: held unknowns that are where inertia takes them
+constexpr double more_left = 2;          // of the part of a step's error, where liquids are not Newtonian
 constexpr double of_next = 0.01;         // rest rate: each one over that before
-// Of the greatest force, where what yields has been solved for at once: of a sheet that moves, and of one at rest.
-constexpr double force_left_moving = 0.03, force_left_resting = 1e-3;
+// Of the greatest force, where what yields has been solved for at once; of a sheet that moves, where the step's error
+// is the measure.
+constexpr double force_left = 1e-3, force_left_moving = 0.03, force_left_by_error = 0.1;
 constexpr double moving = 0.01; // strain rate, over that at which the liquid yields
 constexpr int at_once = 5;      // iterations, of such an attempt
 
@@ -77,7 +79,8 @@ void StageSolve::place(const Stage& stage, Unknowns& u) const {
 
 // What yields is begun as if it did so softly, an iteration each at rest rates that fall to its own: a sheet at rest is
 // so stiff under a load that its first direction is shorter than any rule for stopping, though it flows in the end.
-void StageSolve::come_from_softer(const Stage& stage, const Unknowns& guess, NewtonReport& report, Unknowns& u) {
+void StageSolve::come_from_softer(const Stage& stage, const Unknowns& guess, const NewtonOptions& options,
+                                  NewtonReport& report, Unknowns& u) {
   const auto rest_at = [&](std::span<const double> rates) {
     for (const auto& term : terms_)
       term->rest_at(rates);
@@ -88,7 +91,7 @@ void StageSolve::come_from_softer(const Stage& stage, const Unknowns& guess, New
     rates.push_back(softest * yield_rate(of.liquid));
   }
   const auto softer = [&] { return std::ranges::mismatch(rates, rest, std::ranges::less_equal{}).in1 != rates.end(); };
-  NewtonOptions once = options_;
+  NewtonOptions once = options;
   once.iterations = 1;
   while (softer()) {
     std::vector<double> now = rest;
@@ -117,7 +120,8 @@ bool StageSolve::solve_at_once(const Stage& stage, const Unknowns& guess, FirstE
     if (of.liquid.law.yields())
       least = std::min(least, yield_rate(of.liquid));
   const bool moves = way > moving * least * longest_reduced_time(stage);
-  options.force_left = moves ? force_left_moving : force_left_resting;
+  options.force_left = moves ? force_left_moving : force_left;
+  options.force_left_by_error = moves ? force_left_by_error : force_left;
   const NewtonReport r = minimize(system_, terms_, scale_, guess, options, std::move(first), u);
   report += r;
   return r.converged;
@@ -130,6 +134,9 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
     newton.iterations = std::min(newton.iterations, iterations);
   if (newton.iterations <= 0)
     return false;
+  newton.renews = std::ranges::any_of(stage.liquids, [](const StageLiquid& of) { return !of.flow.newtonian(); });
+  if (newton.renews)
+    newton.of_step_error *= more_left;
   for (const auto& term : terms_)
     term->begin(stage);
   // The extrapolated state is nearly always the best start, which Newton's first direction tells, unless what is held
@@ -156,7 +163,7 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
     u = start;
     for (const auto& term : terms_)
       term->begin(stage);
-    come_from_softer(stage, guess, report, u);
+    come_from_softer(stage, guess, newton, report, u);
     first = evaluate_first(system_, terms_, u);
     other = {};
   }

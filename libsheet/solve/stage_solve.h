@@ -30,7 +30,8 @@ private:
   void place(const Stage& stage, Unknowns& u) const;
   [[nodiscard]] bool solve_at_once(const Stage& stage, const Unknowns& guess, FirstEvaluation first,
                                    NewtonOptions options, NewtonReport& report, Unknowns& u);
-  void come_from_softer(const Stage& stage, const Unknowns& guess, NewtonReport& report, Unknowns& u);
+  void come_from_softer(const Stage& stage, const Unknowns& guess, const NewtonOptions& options, NewtonReport& report,
+                        Unknowns& u);
   // A start of a lower potential than `least`; false where there is none.
   [[nodiscard]] bool find_lower(const Stage& stage, const Unknowns& safe, bool left_behind, double least, Unknowns& u);
 

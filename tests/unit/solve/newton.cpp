@@ -33,10 +33,12 @@ Model syrup() {
   return m;
 }
 
-NewtonReport step(State& s, double dt, double tolerance) {
+NewtonReport step(State& s, double dt, double tolerance, const FlowLaw& law = {}) {
   StepOptions options;
   options.newton.tolerance = tolerance;
-  const StepReport report = Stepper(syrup(), options).step(s, dt);
+  Model m = syrup();
+  m.liquid.law = law;
+  const StepReport report = Stepper(std::move(m), options).step(s, dt);
   EXPECT_EQ(report.failed, 0);
   return report.newton;
 }
@@ -57,6 +59,21 @@ TEST(Newton, FollowsTheFactorAloneWhileThatServes) {
   EXPECT_GE(report.followed, 1);
   (void)step(exact, 1e-3, 1e-11);
   EXPECT_LE(greatest_difference(s, exact), 1e-5 * 0.1);
+}
+
+// Of what is not Newtonian: each direction that the factor at hand does not give has a new one, and few products.
+TEST(Newton, RenewsTheFactorWhereViscosityFollowsTheRate) {
+  FlowLaw thins{.kind = FlowLawKind::power, .flow_index = 0.5}, yields{.kind = FlowLawKind::bingham};
+  yields.yield_stress = 30;
+  for (const FlowLaw& law : {thins, yields}) {
+    State s = thrown(0.5), exact = s;
+    const NewtonReport report = step(s, 1e-2, 1e-5, law);
+    EXPECT_GE(report.iterations, 1);
+    EXPECT_GE(report.factorizations, report.iterations);
+    EXPECT_LE(report.products, 4 * report.iterations);
+    (void)step(exact, 1e-2, 1e-11, law);
+    EXPECT_LE(greatest_difference(s, exact), 1e-5 * 0.1);
+  }
 }
 
 TEST(Newton, TurnsToTheHessianWhereTheFactorServesNoMore) {
