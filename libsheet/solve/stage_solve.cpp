@@ -14,7 +14,6 @@ namespace {
 constexpr double unfinished_gain = 1e-2; // part of what it gained that an unfinished solve may still promise to gain
 constexpr double far_behind = 0.1;       // of an edge: held unknowns that are this far from where inertia takes them
 constexpr double as_extrapolated = 1e-6; // of an edge: held unknowns that are where inertia takes them
-constexpr double more_left = 2;          // of the part of a step's error, where liquids are not Newtonian
 constexpr double of_next = 0.01;         // rest rate: each one over that before
 // Of the greatest force, where what yields has been solved for at once; of a sheet that moves, where the step's error
 // is the measure.
@@ -135,8 +134,6 @@ bool StageSolve::solve(const Stage& stage, const Unknowns& guess, const Unknowns
   if (newton.iterations <= 0)
     return false;
   newton.renews = std::ranges::any_of(stage.liquids, [](const StageLiquid& of) { return !of.flow.newtonian(); });
-  if (newton.renews)
-    newton.of_step_error *= more_left;
   for (const auto& term : terms_)
     term->begin(stage);
   // The extrapolated state is nearly always the best start, which Newton's first direction tells, unless what is held
