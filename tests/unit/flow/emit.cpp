@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "libsheet/flow/crossings.h"
 #include "libsheet/flow/drowned_inlets.h"
 #include "libsheet/flow/emit.h"
 #include "libsheet/flow/entering.h"
@@ -507,6 +508,18 @@ TEST(Emit, TheRimBesideADrownedInletStaysBeforeIt) {
   EXPECT_LT((held(0.3).second - Vector3(0.5, 0, 0)).norm(), 1e-12);
   for (const double untouched : {0.6, -0.2})
     EXPECT_LT((held(untouched).first - Vector3(outwards, untouched * width, 0)).norm(), 1e-12);
+}
+
+TEST(Emit, WhatHasMovedMeetsTheRestOrDoesNot) {
+  std::vector<Vector3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, 1}, {0.3, 0.2, 1}, {0.2, 0.3, 0.5}};
+  const std::vector<Corners> t{{0, 1, 2}, {3, 4, 5}};
+  std::vector<bool> moved(6, false);
+  moved[5] = true;
+  EXPECT_FALSE(moved_triangles_cross(x, t, moved));
+  x[5].z() = -0.5;
+  EXPECT_TRUE(moved_triangles_cross(x, t, moved));
+  moved[5] = false;
+  EXPECT_FALSE(moved_triangles_cross(x, t, moved)); // nobody asks
 }
 
 TEST(Emit, OneTriangle) {

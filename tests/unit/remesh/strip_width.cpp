@@ -156,8 +156,8 @@ TEST(StripWidth, TrianglesAreNoFinerThanTheSheetIsThick) {
   }
 }
 
-// A tube with bags at both ends, three edges around its middle: fine edges there, whatever is asked of the sheet; of a
-// pocket, or of a tube whose ends are near, nothing.
+// A tube of three edges around: a neck is where enough of it is on either side; none where it is wider than asked for,
+// or where its ends are near.
 TEST(StripWidth, ANeckIsAsWideAsTheEdgesRoundIt) {
   constexpr int rings = 13;
   const auto tube = [](int count) {
@@ -187,7 +187,6 @@ TEST(StripWidth, ANeckIsAsWideAsTheEdgesRoundIt) {
     EXPECT_EQ(w, std::numeric_limits<double>::infinity());
   for (const double w : neck_widths(EditableSheet(tube(10)), 0.05))
     EXPECT_EQ(w, std::numeric_limits<double>::infinity());
-  ASSERT_LT(test::angles_of(frame, strip_edge).smallest, 20);
 }
 
 } // namespace
