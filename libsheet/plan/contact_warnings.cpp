@@ -12,6 +12,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/piling.h"
+#include "libsheet/plan/sheets_meet.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/sheet/sheet.h"
@@ -91,7 +92,7 @@ std::string warning_of_passing_through(const Scene& scene, const solid::Solids& 
     return fmt::format("{} lands on {} and folds or piles up, but may pass through itself: [contact] self = true "
                        "keeps its layers apart",
                        piling->what, solids.name(piling->solid));
-  if (scene.sheets.size() > 1)
+  if (sheets_may_meet(scene, first))
     return "the sheets may pass through each other and themselves: [contact] self = true keeps them apart";
   if (const auto solid = draped(scene, all, thickness))
     return fmt::format(

@@ -15,7 +15,8 @@ namespace sheet {
 //     three thicknesses, U = rho g h² sin(slope)/(3 mu)
 //   - under an inflow that lands on a solid at rest: spreading on a level one it would run more than five thicknesses,
 //     (rho g q³/(3 mu))^(1/5) t^(4/5), q what flows in per width [Huppert 1982, J. Fluid Mech. 121]
-// What folds or piles up: piling.h; besides, several sheets, and a free sheet that falls over one solid onto others.
+// What folds or piles up: piling.h; besides, several sheets that may meet, and a free sheet that falls over one solid
+// onto others.
 [[nodiscard]] std::vector<std::string> contact_warnings(const Scene& scene, const formats::Frame& first, double until);
 
 } // namespace sheet

@@ -2,14 +2,13 @@
 #include "libsheet/plan/passing.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <variant>
 
-#include "libsheet/geometry/area.h"
 #include "libsheet/plan/landing.h"
-#include "libsheet/sheet/sheet.h"
+#include "libsheet/plan/way_of_sheet.h"
 #include "libsheet/solid/solids.h"
 
 namespace sheet {
@@ -18,23 +17,16 @@ namespace {
 
 using solid::Box3;
 
-// Of the sheet with its thickness, and of where it falls.
-Box3 way_of_the_sheet(const Scene& scene, const formats::Frame& first) {
-  const auto x = positions(first);
-  Box3 box;
-  for (std::size_t t = 0; t < first.triangles; ++t) {
-    const Corners& c = triangles(first)[t];
-    const double half = volumes(first)[t] / TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area / 2;
-    for (const std::uint32_t v : c)
-      for (const double side : {-half, half})
-        box.extend(Vector3((x[v].array() + side).matrix()));
-  }
-  if (const Vector3 gravity = scene.environment.gravity.value_or(Vector3::Zero());
-      gravity.norm() > 0 && !box.isEmpty()) {
-    const Vector3 fall = longest_fall(landings(scene, first)) * gravity.normalized();
-    box.extend(box.translated(fall));
-  }
-  return box;
+// Whether anything of a solid that turns comes to the sheet's way within a turn.
+bool sweeps(const solid::Solids& solids, std::size_t number, double start, double turn, const Box3& way) {
+  constexpr int poses = 32;
+  const Box3& bounds = solids.shape(number).bounds();
+  if (!bounds.sizes().allFinite())
+    return true;
+  Box3 swept;
+  for (int i = 0; i < poses; ++i)
+    swept.extend(bounds.transformed(solids.pose(number, start + turn * i / poses)));
+  return swept.intersects(way);
 }
 
 // When a box that moves at this velocity from the time 0 on leaves another one; 0 if it does not come through.
@@ -58,11 +50,10 @@ double leaves(const Box3& moving, const Vector3& velocity, const Box3& other) {
 
 double passing_time(const Scene& scene, const formats::Frame& first) {
   const solid::Solids solids(scene);
-  const Box3 way = way_of_the_sheet(scene, first);
+  const Vector3 down = scene.environment.gravity.value_or(Vector3::Zero()).normalized();
+  const Box3 way = way_of_sheet(first, longest_fall(landings(scene, first)) * down);
   if (way.isEmpty())
     return 0;
-  std::array<double, 3> sizes = {way.sizes().x(), way.sizes().y(), way.sizes().z()};
-  std::ranges::sort(sizes);
   double passed = 0;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const Box3& bounds = solids.shape(i).bounds();
@@ -72,12 +63,13 @@ double passing_time(const Scene& scene, const formats::Frame& first) {
       const Vector3 velocity = scene::value_at(motion->velocity, start);
       const double time = leaves(bounds.transformed(solids.pose(i, start)), velocity, way);
       if (time > 0)
-        passed = std::max(passed, start + std::max(time, sizes[1] / velocity.norm()));
+        passed = std::max(passed, start + std::max(time, middle_size(way) / velocity.norm()));
     } else if (const auto* turning = std::get_if<scene::Rotating>(&scene.solids[i].motion);
                turning != nullptr && !turning->rate.entries.empty()) {
       const double start = std::max(first.time, turning->rate.entries.back().time);
-      if (const double rate = std::abs(scene::value_at(turning->rate, start)); rate > 0)
-        passed = std::max(passed, start + 2 * std::numbers::pi / rate);
+      const double turn = 2 * std::numbers::pi / std::abs(scene::value_at(turning->rate, start));
+      if (std::isfinite(turn) && sweeps(solids, i, start, turn, way))
+        passed = std::max(passed, start + turn);
     }
   }
   return passed;

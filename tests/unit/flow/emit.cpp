@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inflow without physics: sheets that move as one.
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -494,8 +496,10 @@ TEST(Emit, TheRimBesideADrownedInletStaysBeforeIt) {
   const double width = positions(frame)[border].y() - positions(frame)[row].y();
   ASSERT_GT(width, 0);
   const double outwards = positions(frame)[row].x() < 2 ? -1 : 1;
-  const auto held = [&](double behind) {
+  const auto held = [&](double behind, const std::function<void(Frame&)>& bend = {}) {
     Frame moved = frame;
+    if (bend)
+      bend(moved);
     positions(moved)[rim] = positions(moved)[row] + Vector3(outwards, behind * width, 0);
     velocities(moved)[rim] = {0.5, 2, 0};
     hold_banks(moved, scene, solids);
@@ -508,6 +512,18 @@ TEST(Emit, TheRimBesideADrownedInletStaysBeforeIt) {
   EXPECT_LT((held(0.3).second - Vector3(0.5, 0, 0)).norm(), 1e-12);
   for (const double untouched : {0.6, -0.2})
     EXPECT_LT((held(untouched).first - Vector3(outwards, untouched * width, 0)).norm(), 1e-12);
+  // Where another part of the sheet stands in the way, nothing moves.
+  const Vector3 way = positions(frame)[row] + Vector3(0.7 * outwards, -0.05 * width, 0);
+  const auto standing = [&](Frame& bent) {
+    const auto x = positions(bent);
+    const Corners& far =
+        *std::ranges::max_element(triangles(bent), {}, [&](const Corners& c) { return (x[c[0]] - x[rim]).norm(); });
+    x[far[0]] = way + Vector3(0, 0, 0.1);
+    x[far[1]] = way + Vector3(0.01, 0, -0.1);
+    x[far[2]] = way + Vector3(-0.01, 0, -0.1);
+  };
+  EXPECT_LT((held(0.3, standing).first - Vector3(outwards, 0.3 * width, 0)).norm(), 1e-12);
+  EXPECT_EQ(held(0.3, standing).second, Vector3(0.5, 2, 0));
 }
 
 TEST(Emit, WhatHasMovedMeetsTheRestOrDoesNot) {

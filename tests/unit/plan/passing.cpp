@@ -3,6 +3,7 @@
 
 #include <numbers>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -45,11 +46,17 @@ TEST(Passing, OfASheetThatFallsPastIt) {
   EXPECT_GT(passing(ball, 9.81, 0.2), 0.28 / 0.1);
 }
 
+// Of what comes to the sheet in it: not of what turns above it, nor once it stands.
 TEST(Passing, OneTurn) {
-  EXPECT_NEAR(passing("center = [0, 0.1, 0]\nmotion = {kind = \"rotating\", axis = [1, 0, 0], rate = 2}\n"),
-              std::numbers::pi, 1e-9);
-  EXPECT_EQ(
-      passing("center = [0, 0.1, 0]\nmotion = {kind = \"rotating\", axis = [1, 0, 0], rate = [[0, 2], [1, 0]]}\n"), 0);
+  const auto turning = [](double height, std::string_view rate) {
+    return passing(
+        fmt::format("center = [0, {}, 0.04]\nmotion = {{kind = \"rotating\", axis = [1, 0, 0], center = [0, {}, 0], "
+                    "rate = {}}}\n",
+                    height, height, rate));
+  };
+  EXPECT_NEAR(turning(0.05, "2"), std::numbers::pi, 1e-9);
+  EXPECT_EQ(turning(0.1, "2"), 0);
+  EXPECT_EQ(turning(0.05, "[[0, 2], [1, 0]]"), 0);
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/forecast.h"
 #include "libsheet/plan/proposed_ring.h"
+#include "libsheet/plan/sheets_meet.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/scene/read.h"
 #include "tests/unit/scene/scenes.h"
@@ -60,6 +61,28 @@ TEST(SeveralSheets, ForecastsCountThoseThatEnter) {
   const double one = forecast_of(with_liquid(sphere(0.1, 0.01))).vertices;
   EXPECT_NEAR(forecast_of(with_liquid(sphere(0.1, 0.01) + sphere(0.1, 0.01, "enters = 0.5\n"))).vertices, 1.5 * one,
               1e-9 * one);
+}
+
+// Two disks of 160 mm and 20 mm thick on a table: 180 mm in the box around each.
+bool meet(double apart, const std::string& more = "") {
+  const auto disk_at = [](double x) {
+    return fmt::format("[[sheet]]\nshape = \"disk\"\nradius = 0.08\nedge_length = 0.02\nthickness = 0.02\nplane = "
+                       "\"xz\"\ncenter = [{}, 0.01, 0]\n",
+                       x);
+  };
+  const Scene scene = with_liquid(disk_at(0) + disk_at(apart) +
+                                  "[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\n" + more);
+  return sheets_may_meet(scene, first_frame(scene));
+}
+
+TEST(SeveralSheets, MeetWhereTheyAreNotFarApart) {
+  EXPECT_TRUE(meet(0.2));
+  EXPECT_TRUE(meet(0.355));
+  EXPECT_FALSE(meet(0.365));
+  EXPECT_FALSE(meet(0.5));
+  EXPECT_TRUE(meet(0.5, "normal = [0.1, 1, 0]\n"));
+  EXPECT_TRUE(meet(0.5, "surface_velocity = [0.1, 0, 0]\n"));
+  EXPECT_FALSE(sheets_may_meet(with_liquid(sphere(0.1, 0.01)), first_frame(with_liquid(sphere(0.1, 0.01)))));
 }
 
 } // namespace
