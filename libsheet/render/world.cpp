@@ -37,12 +37,17 @@ struct World::Impl {
   double unit = 1; // [m]
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  struct alignas(32) Point { // in one cache line, since rays hit points in any order
+    Vec position;
+    float thickness; // of the sheet [m]
+    Vec normal;
+  };
   struct Geometry {
     std::uint32_t id;
-    std::vector<Vec> positions, normals;
+    std::vector<Point> points;
     std::vector<Corners> triangles;
   };
-  std::vector<Geometry> geometries; // by Embree's number
+  std::vector<Geometry> geometries; // by Embree's number; the sheet's is the first
   std::vector<PlaneF> planes;
 
   ~Impl() {
@@ -53,7 +58,7 @@ struct World::Impl {
   [[nodiscard]] Vec to_world(const Vector3& x) const { return ((x - center) / unit).cast<float>(); }
 
   template <class Place>
-  void add(std::uint32_t id, const std::vector<Vector3>& positions, std::vector<Vec> normals,
+  void add(std::uint32_t id, const std::vector<Vector3>& positions, const std::vector<Vec>& normals,
            const std::vector<Corners>& triangles, Place&& place) {
     if (triangles.empty())
       return;
@@ -64,16 +69,16 @@ struct World::Impl {
         rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Corners), triangles.size()));
     if (corners == nullptr || indices == nullptr)
       fail(ExitCode::io, "not enough memory for the rays' data structure");
-    std::vector<Vec> placed;
+    std::vector<Point> points;
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      const Vec& x = placed.emplace_back(to_world(place(positions[i])));
+      const Vec& x = points.emplace_back(Point{to_world(place(positions[i])), 0, normals[i]}).position;
       corners[i] = {x.x(), x.y(), x.z(), 0};
     }
     std::copy(triangles.begin(), triangles.end(), indices);
     rtcCommitGeometry(g);
     rtcAttachGeometry(scene, g);
     rtcReleaseGeometry(g);
-    geometries.push_back({id, std::move(placed), std::move(normals), triangles});
+    geometries.push_back({id, std::move(points), triangles});
   }
 
   [[nodiscard]] Hit hit_of(const RTCRayHit& r) const {
@@ -88,11 +93,12 @@ struct World::Impl {
     hit.u = r.hit.u;
     hit.v = r.hit.v;
     hit.triangle = r.hit.primID;
-    const auto between = [&](const std::vector<Vec>& values) -> Vec {
-      return (1 - hit.u - hit.v) * values[t[0]] + hit.u * values[t[1]] + hit.v * values[t[2]];
+    const auto between = [&](Vec Point::*value) -> Vec {
+      return (1 - hit.u - hit.v) * g.points[t[0]].*value + hit.u * g.points[t[1]].*value +
+             hit.v * g.points[t[2]].*value;
     };
-    hit.position = between(g.positions); // rounded less than along the ray
-    const Vec n = between(g.normals);
+    hit.position = between(&Point::position); // rounded less than along the ray
+    const Vec n = between(&Point::normal);
     const float length = n.norm();
     hit.normal = length > 1e-3F ? Vec(n / length) : hit.face;
     return hit;
@@ -131,6 +137,8 @@ World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   impl_->add(sheet_id, surface.positions, surface.normals, surface.triangles, [](const Vector3& x) { return x; });
+  for (std::size_t p = 0; p < surface.positions.size() && !surface.triangles.empty(); ++p)
+    impl_->geometries.front().points[p].thickness = surface.thickness[surface.source_vertex[p]];
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const SolidMesh& mesh = meshes[i];
     std::vector<Vec> normals;
@@ -192,9 +200,9 @@ Hit World::nearest_sheet(const Ray& ray, float beyond, float within) const {
 }
 
 float World::thickness_at(const Hit& hit) const {
-  const Surface& s = impl_->surface;
-  const Corners& t = s.triangles[hit.triangle];
-  const auto h = [&](std::uint32_t v) { return s.thickness[s.source_vertex[v]]; };
+  const Impl::Geometry& sheet = impl_->geometries.front();
+  const Corners& t = sheet.triangles[hit.triangle];
+  const auto h = [&](std::uint32_t point) { return sheet.points[point].thickness; };
   return (1 - hit.u - hit.v) * h(t[0]) + hit.u * h(t[1]) + hit.v * h(t[2]);
 }
 
