@@ -45,7 +45,9 @@ sys.exit(0 if $2 else f'{v} {e}')"
 @test "how often a true value is within the stated error is counted" {
   run -0 --separate-stderr pipelines/fitting/coverage "$t/fit.toml" material.viscosity=1e8 --seeds 3 -o "$t/coverage"
   [[ ${lines[0]} =~ ^'material.viscosity: '[01].[036][037]' within the error; mean '[-+].*', deviation ' ]]
-  [[ ${lines[1]} == "all: "*" of 3" ]]
+  # A fit of one parameter is right as often as a linear one of the same noise.
+  [[ ${lines[1]} =~ ^'all: '(0.[036][037]|1.00)' of 3; with true slopes '(.*)$ ]]
+  [[ ${BASH_REMATCH[1]} == "${BASH_REMATCH[2]}" ]]
   run -2 --separate-stderr pipelines/fitting/coverage "$t/fit.toml" material.density=1 -o "$t/coverage"
   [[ $stderr == *"true values of material.viscosity are needed"* ]]
 }
