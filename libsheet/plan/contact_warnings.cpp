@@ -92,7 +92,7 @@ std::string warning_of_passing_through(const Scene& scene, const solid::Solids& 
     return fmt::format("{} lands on {} and folds or piles up, but may pass through itself: [contact] self = true "
                        "keeps its layers apart",
                        piling->what, solids.name(piling->solid));
-  if (sheets_may_meet(scene, first))
+  if (sheets_may_meet(scene, all))
     return "the sheets may pass through each other and themselves: [contact] self = true keeps them apart";
   if (const auto solid = draped(scene, all, thickness))
     return fmt::format(

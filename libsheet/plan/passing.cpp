@@ -68,7 +68,7 @@ double passing_time(const Scene& scene, const formats::Frame& first) {
                turning != nullptr && !turning->rate.entries.empty()) {
       const double start = std::max(first.time, turning->rate.entries.back().time);
       const double turn = 2 * std::numbers::pi / std::abs(scene::value_at(turning->rate, start));
-      if (std::isfinite(turn) && sweeps(solids, i, start, turn, way))
+      if (std::isfinite(turn) && (!scene.inflows.empty() || sweeps(solids, i, start, turn, way)))
         passed = std::max(passed, start + turn);
     }
   }

@@ -9,7 +9,7 @@ namespace sheet {
 
 // When the last of them has left the box around the sheet as it lies at the start and all that it falls through, and
 // has gone at least as far as the second of the box's sides is long, or has turned once, if it comes to the box in that
-// turn [s]; 0 if none does.
+// turn or liquid flows in, which may come to it [s]; 0 if none does.
 [[nodiscard]] double passing_time(const Scene& scene, const formats::Frame& first);
 
 } // namespace sheet

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <variant>
-#include <vector>
 
-#include "libsheet/plan/landing.h"
 #include "libsheet/plan/way_of_sheet.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
@@ -34,12 +32,11 @@ bool moves(const formats::Frame& sheet) {
 
 } // namespace
 
-bool sheets_may_meet(const Scene& scene, const formats::Frame& first) {
+bool sheets_may_meet(const Scene& scene, const std::vector<Landing>& all) {
   constexpr double level = 0.02; // steeper, what lies there comes down
   if (scene.sheets.size() < 2)
     return false;
   const Vector3 down = scene.environment.gravity.value_or(Vector3::Zero()).normalized();
-  const std::vector<Landing> all = landings(scene, first);
   if (carried(scene) ||
       std::ranges::any_of(all, [&](const Landing& landing) { return landing.there.normal.cross(down).norm() > level; }))
     return true;

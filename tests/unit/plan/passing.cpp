@@ -57,6 +57,8 @@ TEST(Passing, OneTurn) {
   EXPECT_NEAR(turning(0.05, "2"), std::numbers::pi, 1e-9);
   EXPECT_EQ(turning(0.1, "2"), 0);
   EXPECT_EQ(turning(0.05, "[[0, 2], [1, 0]]"), 0);
+  constexpr std::string_view inflow = "2}\n[[inflow]]\nregion = \"x_min\"\nvelocity = [1, 0, 0]\nthickness = 0.01\n#";
+  EXPECT_NEAR(turning(0.1, inflow), std::numbers::pi, 1e-9); // what flows in may come to it
 }
 
 } // namespace

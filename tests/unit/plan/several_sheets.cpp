@@ -72,7 +72,7 @@ bool meet(double apart, const std::string& more = "") {
   };
   const Scene scene = with_liquid(disk_at(0) + disk_at(apart) +
                                   "[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\n" + more);
-  return sheets_may_meet(scene, first_frame(scene));
+  return sheets_may_meet(scene, landings(scene, first_frame(scene)));
 }
 
 TEST(SeveralSheets, MeetWhereTheyAreNotFarApart) {
@@ -82,7 +82,7 @@ TEST(SeveralSheets, MeetWhereTheyAreNotFarApart) {
   EXPECT_FALSE(meet(0.5));
   EXPECT_TRUE(meet(0.5, "normal = [0.1, 1, 0]\n"));
   EXPECT_TRUE(meet(0.5, "surface_velocity = [0.1, 0, 0]\n"));
-  EXPECT_FALSE(sheets_may_meet(with_liquid(sphere(0.1, 0.01)), first_frame(with_liquid(sphere(0.1, 0.01)))));
+  EXPECT_FALSE(sheets_may_meet(with_liquid(sphere(0.1, 0.01)), {}));
 }
 
 } // namespace
