@@ -444,7 +444,7 @@ struct CollideStage::Impl {
     const LooseSprings loose = take_loose(springs, *mesh.mesh(), path.start);
     const std::vector<double> had = follow(springs, *scene, sheet, positions(frame));
     const std::size_t old = springs.size();
-    add_springs(springs, search->near(path.end, reach), search->layers(), *scene, sheet);
+    add_springs(springs, *search, *scene, sheet);
     hand_over(loose.aside, path.end, springs);
     ease_strained(springs, had, taken + energy_of(loose.aside, *scene, positions(frame)), *scene, path.end);
     hand_over(loose.without_features, path.end, springs); // as they were before the mesh changed

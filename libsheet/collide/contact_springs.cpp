@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
+#include "libsheet/base/each.h"
 #include "libsheet/material/flow_curve.h"
 
 namespace sheet::collide {
@@ -87,30 +87,36 @@ void ease(ContactSpring& s, double part, std::span<const Vector3> x) {
 } // namespace
 
 void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& layers, const SpringSheet& sheet) {
-  std::erase_if(springs, [&](const ContactSpring& s) {
-    return !s.welded() && layers.one(sheet.start, s.vertices, s.weights, SheetLayers::of_kept, s.mean(sheet.reach));
+  std::vector<std::uint8_t> within(springs.size());
+  each_in_parallel(springs.size(), [&](std::size_t i) {
+    const ContactSpring& s = springs[i];
+    within[i] =
+        !s.welded() && layers.one(sheet.start, s.vertices, s.weights, SheetLayers::of_kept, s.mean(sheet.reach));
   });
+  std::erase_if(springs,
+                [&](const ContactSpring& s) { return within[static_cast<std::size_t>(&s - springs.data())] != 0; });
 }
 
 std::vector<double> follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet,
                            std::span<const Vector3> uncorrected) {
   SpringSheet free = sheet;
   free.end = uncorrected;
-  std::vector<ContactSpring> followed;
-  std::vector<double> had;
-  for (ContactSpring s : springs) {
+  constexpr double parts = -1; // no energy
+  std::vector<double> had(springs.size(), parts);
+  each_in_parallel(springs.size(), [&](std::size_t i) {
+    ContactSpring &s = springs[i], without = s;
     const double as_it_was = energy_of(s, scene, free.end);
-    ContactSpring without = s;
     if (!follows(s, scene, sheet))
-      continue;
+      return;
     follows(without, scene, free); // its energy is sought, whether it parts or not
     const double turned = energy_of(without, scene, free.end);
     const bool corrected =
         std::ranges::any_of(s.vertices, [&](std::uint32_t v) { return sheet.end[v] != free.end[v]; });
-    followed.push_back(s);
-    had.push_back(corrected ? std::min(as_it_was, turned) : turned);
-  }
-  springs = std::move(followed);
+    had[i] = corrected ? std::min(as_it_was, turned) : turned;
+  });
+  std::erase_if(springs,
+                [&](const ContactSpring& s) { return had[static_cast<std::size_t>(&s - springs.data())] == parts; });
+  std::erase(had, parts);
   return had;
 }
 
@@ -170,51 +176,40 @@ void date(std::vector<ContactSpring>& springs, const Scene& scene, double now) {
       s.since = now;
 }
 
-void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,
-                 const Scene& scene, const SpringSheet& sheet) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> linked; // vertices of the two features of a spring
-  const auto link = [&](const ContactSpring& s) {
-    const std::size_t first = s.second_feature();
-    for (std::size_t a = 0; a < first; ++a)
-      for (std::size_t b = first; b < 4; ++b)
-        linked.emplace(s.vertices[a], s.vertices[b]);
-  };
-  const auto is_linked = [&](const ContactSpring& s) {
-    if (s.of_vertex()) // the other way, from a vertex of the triangle to this one, is another spring
-      return linked.contains({s.vertices[0], s.vertices[1]}) || linked.contains({s.vertices[0], s.vertices[2]}) ||
-             linked.contains({s.vertices[0], s.vertices[3]});
-    for (std::size_t a = 0; a < 2; ++a)
-      for (std::size_t b = 2; b < 4; ++b)
-        if (linked.contains({s.vertices[a], s.vertices[b]}) || linked.contains({s.vertices[b], s.vertices[a]}))
-          return true;
-    return false;
-  };
-  for (const ContactSpring& s : springs)
-    link(s);
-  std::vector<const NearPair*> order;
-  for (const NearPair& pair : near)
-    order.push_back(&pair);
-  std::stable_sort(order.begin(), order.end(), [](const NearPair* a, const NearPair* b) {
-    const bool edges_a = a->pair.features == Features::edge_edge, edges_b = b->pair.features == Features::edge_edge;
-    return edges_a != edges_b ? edges_b : a->closest.offset.squaredNorm() < b->closest.offset.squaredNorm();
+namespace {
+// As it would be between the features of a near pair; none where nothing shall hold them apart.
+std::optional<ContactSpring> spring_of(const NearPair& pair, const SheetLayers& layers, const Scene& scene,
+                                       const SpringSheet& sheet) {
+  ContactSpring s;
+  s.vertices = pair.pair.vertices;
+  s.weights = pair.closest.weights;
+  if (std::ranges::all_of(s.vertices, [&](auto v) { return sheet.fixed[v] == all_axes; }) || !normal_of(s, sheet.end) ||
+      layers.one(sheet.end, s.vertices, s.weights, SheetLayers::of_new, s.mean(sheet.reach)))
+    return std::nullopt;
+  s.anchor = pair.closest.offset;
+  s.rest = s.anchor.norm();
+  s.normal = s.anchor / s.rest;
+  s.stiffness[0] = stiffness_of(s, scene, sheet);
+  s.stiffness[1] = layers_flow(scene) ? 0 : s.stiffness[0];
+  return s;
+}
+} // namespace
+
+void add_springs(std::vector<ContactSpring>& springs, SelfSearch& search, const Scene& scene,
+                 const SpringSheet& sheet) {
+  LinkedVertices linked(springs);
+  const std::vector<NearPair> near = search.near(sheet.end, sheet.reach, linked);
+  std::vector<std::optional<ContactSpring>> found(near.size());
+  each_in_parallel(near.size(), [&](std::size_t i) { found[i] = spring_of(near[i], search.layers(), scene, sheet); });
+  std::erase(found, std::nullopt);
+  std::ranges::stable_sort(found, [](const auto& a, const auto& b) {
+    return a->of_vertex() != b->of_vertex() ? a->of_vertex() : a->anchor.squaredNorm() < b->anchor.squaredNorm();
   });
-  for (const NearPair* pair : order) {
-    const auto& v = pair->pair.vertices;
-    ContactSpring s;
-    s.vertices = v;
-    s.weights = pair->closest.weights;
-    if (std::all_of(v.begin(), v.end(), [&](auto i) { return sheet.fixed[i] == all_axes; }) || is_linked(s) ||
-        !normal_of(s, sheet.end) ||
-        layers.one(sheet.end, s.vertices, s.weights, SheetLayers::of_new, s.mean(sheet.reach)))
-      continue;
-    s.anchor = pair->closest.offset;
-    s.rest = s.anchor.norm();
-    s.normal = s.anchor / s.rest;
-    s.stiffness[0] = stiffness_of(s, scene, sheet);
-    s.stiffness[1] = layers_flow(scene) ? 0 : s.stiffness[0];
-    springs.push_back(s);
-    link(s);
-  }
+  for (const std::optional<ContactSpring>& s : found)
+    if (!linked.join(s->vertices, s->of_vertex())) {
+      springs.push_back(*s);
+      linked.add(*s);
+    }
 }
 
 } // namespace sheet::collide

@@ -69,9 +69,8 @@ void ease_strained(std::vector<ContactSpring>& springs, std::span<const double> 
 // Where the scene merges layers, or some springs have dates, those without one have come to be now [s].
 void date(std::vector<ContactSpring>& springs, const Scene& scene, double now);
 
-// Adds springs for near pairs of two layers that have none.
-void add_springs(std::vector<ContactSpring>& springs, const std::vector<NearPair>& near, const SheetLayers& layers,
-                 const Scene& scene, const SpringSheet& sheet);
+// Adds springs for near pairs of two layers, at the end of the step, that have none.
+void add_springs(std::vector<ContactSpring>& springs, SelfSearch& search, const Scene& scene, const SpringSheet& sheet);
 
 // What comes to touch does not bounce: takes away the velocity of each new spring's features along its normal, relative
 // to each other, by impulses between them, so momentum stays and kinetic energy does not grow (a number of sweeps of

@@ -213,14 +213,14 @@ std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<cons
   return std::move(collector).sorted();
 }
 
-std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reach) {
+std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reach, const LinkedVertices& linked) {
   gather(x, x, reach);
   const Ways ways{x, x, reach};
   const auto test = [&](const FeaturePair& pair, std::vector<NearPair>& out) {
     const Four& v = pair.vertices;
     if (pair.features == Features::edge_edge && !may_cross(x[v[0]], x[v[1]], x[v[2]], x[v[3]]))
       return; // nearly all of those of one layer
-    if (!boxes_overlap(pair, ways, 1))
+    if (!boxes_overlap(pair, ways, 1) || linked.join(v, pair.features == Features::vertex_triangle))
       return;
     const auto closest = facing_points(mesh_, pair, x);
     if (!closest)

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "libsheet/collide/feature_tree.h"
+#include "libsheet/collide/linked_vertices.h"
 #include "libsheet/collide/sheet_layers.h"
 #include "libsheet/collide/swept_pair.h"
 #include "libsheet/geometry/closest_points.h"
@@ -57,8 +58,9 @@ public:
   // Pairs within their contact distance of each other whose surfaces face each other, ascending: a vertex over a
   // triangle, or beside one by no more than 60 degrees off its normal, and edges that cross. Of features joined by an
   // edge of the mesh only vertices over triangles count, so that the sheet next to a vertex is no contact. Whether they
-  // are two layers is not asked.
-  [[nodiscard]] std::vector<NearPair> near(std::span<const Vector3> positions, std::span<const double> reach);
+  // are two layers is not asked. Pairs that springs join already are left out.
+  [[nodiscard]] std::vector<NearPair> near(std::span<const Vector3> positions, std::span<const double> reach,
+                                           const LinkedVertices& linked = LinkedVertices({}));
 
   // The first pair of triangles (lower, higher) that intersect, exactly; triangles without area are passed over. Only
   // pairs of which one is in `chosen` (a flag a triangle; empty: all) are looked at.

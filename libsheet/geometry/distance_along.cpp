@@ -5,8 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <queue>
-#include <unordered_map>
 #include <utility>
 
 namespace sheet {
@@ -27,19 +25,38 @@ double across(const Vector3& a, const Vector3& b, double of_a, double of_b, cons
   return std::min(of_a + to_p.norm(), of_b + (p - b).norm());
 }
 
+// What the walks of a thread leave to the next ones: room. Between walks all distances are infinite.
+struct Room {
+  using Entry = std::pair<double, std::uint32_t>;
+  std::vector<double> distance; // of each vertex
+  std::vector<std::uint32_t> reached;
+  std::vector<Entry> queue; // a heap, the nearest first
+};
+
 class Walk {
 public:
-  Walk(std::span<const Vector3> x, const MeshPoint& from, const MeshPoint& to, double limit)
-      : x_(x), to_(to), limit_(limit) {
+  Walk(std::span<const Vector3> x, const MeshPoint& from, const MeshPoint& to, double limit, Room& room)
+      : x_(x), to_(to), limit_(limit), room_(room) {
+    if (room.distance.size() < x.size())
+      room.distance.resize(x.size(), infinity);
     for (const std::uint32_t v : from.vertices)
       offer(v, (x[v] - from.place).norm(), infinity);
+  }
+  Walk(const Walk&) = delete;
+  Walk& operator=(const Walk&) = delete;
+  ~Walk() {
+    for (const std::uint32_t v : room_.reached)
+      room_.distance[v] = infinity;
+    room_.reached.clear();
+    room_.queue.clear();
   }
 
   // The next vertex to go on from, the nearest first; no_index: there is none.
   std::uint32_t next() {
-    while (!queue_.empty()) {
-      const auto [distance, v] = queue_.top();
-      queue_.pop();
+    while (!room_.queue.empty()) {
+      std::ranges::pop_heap(room_.queue, std::greater<>());
+      const auto [distance, v] = room_.queue.back();
+      room_.queue.pop_back();
       if (distance == at(v))
         return v;
     }
@@ -59,29 +76,30 @@ public:
     const std::uint32_t a = to_.vertices.front(), b = to_.vertices.back();
     return (a == b ? at(a) : across(x_[a], x_[b], at(a), at(b), to_.place)) <= limit_;
   }
+  // Of a vertex, whose distance only falls, it is known as soon as it is.
+  [[nodiscard]] bool arrived_for_good() const { return to_.vertices.size() == 1 && arrived(); }
 
 private:
-  [[nodiscard]] double at(std::uint32_t v) const {
-    const auto found = distance_.find(v);
-    return found == distance_.end() ? infinity : found->second;
-  }
+  [[nodiscard]] double at(std::uint32_t v) const { return room_.distance[v]; }
 
   // The nearer end of an edge that a way within the limit crosses lies on one that is longer by the edge at most.
   void offer(std::uint32_t v, double distance, double edge) {
     constexpr double lower = 1 - 1e-12; // what falls by rounding alone does not go round again
     if (!(distance < lower * at(v)))
       return;
-    distance_[v] = distance;
-    if (distance + (to_.place - x_[v]).norm() <= limit_ + edge)
-      queue_.emplace(distance, v);
+    if (at(v) == infinity)
+      room_.reached.push_back(v);
+    room_.distance[v] = distance;
+    if (distance + (to_.place - x_[v]).norm() > limit_ + edge)
+      return;
+    room_.queue.emplace_back(distance, v);
+    std::ranges::push_heap(room_.queue, std::greater<>());
   }
 
-  using Entry = std::pair<double, std::uint32_t>;
   std::span<const Vector3> x_;
   MeshPoint to_;
   double limit_;
-  std::unordered_map<std::uint32_t, double> distance_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  Room& room_;
 };
 
 } // namespace
@@ -101,8 +119,9 @@ DistanceAlong::DistanceAlong(const Connectivity& mesh) : mesh_(mesh), begin_(mes
 
 bool DistanceAlong::within(std::span<const Vector3> positions, const MeshPoint& from, const MeshPoint& to,
                            double limit) const {
-  Walk walk(positions, from, to, limit);
-  for (std::uint32_t v = walk.next(); v != no_index; v = walk.next())
+  thread_local Room room;
+  Walk walk(positions, from, to, limit, room);
+  for (std::uint32_t v = walk.next(); v != no_index && !walk.arrived_for_good(); v = walk.next())
     for (std::uint32_t i = begin_[v]; i < begin_[v + 1]; ++i)
       walk.pass(v, mesh_.triangles[around_[i]]);
   return walk.arrived();

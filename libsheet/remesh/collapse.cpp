@@ -199,14 +199,16 @@ Vector3 contracted(const EditableSheet& sheet, std::uint32_t u, std::uint32_t v,
 }
 } // namespace
 
-bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit) {
+bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit, std::uint32_t onto) {
   const Mesh& mesh = sheet.mesh();
   if (!keeps_manifold(mesh, side))
     return false;
   const std::uint32_t u = mesh.from(side), v = mesh.to(side);
-  const Stays stays = which_stays(sheet, u, v);
-  if (stays.vertex == no_index)
+  Stays stays = which_stays(sheet, u, v);
+  if (stays.vertex == no_index || (onto != no_index && stays.in_place && stays.vertex != onto))
     return false;
+  if (onto != no_index)
+    stays = {onto, true};
   const std::uint32_t kept = stays.vertex, gone = kept == u ? v : u;
 
   edit.clear();

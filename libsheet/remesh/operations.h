@@ -33,8 +33,9 @@ void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 // Heckbert 1997] and sweeps no volume (but what the vertices' ledgers owe, up to `pay` metres of movement); on a rim,
 // where the rim's area stays [Lindstrom, Turk 1998]; an inner vertex goes to the rim's, a free one to the held one.
 // False where the result would be no manifold [Dey et al. 1999], between rims, between vertices that are held
-// differently, at corners.
-[[nodiscard]] bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit);
+// differently, at corners. `onto`: an end whose place it becomes instead; false if the other one insists on its own.
+[[nodiscard]] bool propose_collapse(const EditableSheet& sheet, std::uint32_t side, double pay, Edit& edit,
+                                    std::uint32_t onto = no_index);
 
 // An inner vertex of three triangles goes, and one triangle takes their place: a pocket whose rim is a triangle, which
 // no other operation can open or close. What liquid it has more than that triangle takes goes to the neighbours, too.
@@ -49,5 +50,10 @@ void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 // The triangle of a rim side goes and its apex, an inner vertex, moves onto the side: cures triangles that are flat
 // towards the rim.
 [[nodiscard]] bool propose_absorb(const EditableSheet& sheet, std::uint32_t rim_side, Edit& edit);
+
+// A triangle at the rim goes, with its tip if two of its sides are the rim's; its liquid goes to its neighbours, which
+// stay as they are. False where it has no neighbour or no rim, where the sheet would be left to hang by a vertex, or a
+// corner is held by more than a solid that it touches.
+[[nodiscard]] bool propose_trim(const EditableSheet& sheet, std::uint32_t triangle, Edit& edit);
 
 } // namespace sheet::remesh

@@ -14,8 +14,8 @@ namespace sheet::remesh {
 
 namespace {
 
-const double cosine_2 = cosine_of_degrees(2), cosine_20 = cosine_of_degrees(20), cosine_22 = cosine_of_degrees(22),
-             cosine_35 = cosine_of_degrees(35);
+const double cosine_2 = cosine_of_degrees(2), cosine_15 = cosine_of_degrees(15), cosine_20 = cosine_of_degrees(20),
+             cosine_22 = cosine_of_degrees(22), cosine_35 = cosine_of_degrees(35);
 
 constexpr double repair_thickness = 1.3; // see Limits::thickness
 constexpr double pocket_thickness = 4;   // likewise
@@ -28,8 +28,8 @@ constexpr int most_passes = 5, most_repairs = 3;
 
 class Remesher {
 public:
-  Remesher(EditableSheet& sheet, SizeField& size, const Options& options, double wanted_triangles)
-      : sheet_(sheet), mesh_(sheet.mesh()), size_(size), options_(options),
+  Remesher(EditableSheet& sheet, SizeField& size, const Options& options, bool tension, double wanted_triangles)
+      : sheet_(sheet), mesh_(sheet.mesh()), size_(size), options_(options), tension_(tension),
         budget_(100 +
                 static_cast<std::uint64_t>(4 * (wanted_triangles + static_cast<double>(mesh_.triangle_count())))) {}
 
@@ -107,9 +107,9 @@ private:
     return true;
   }
 
-  bool collapse(std::uint32_t side, const Limits& limits, double longest) {
+  bool collapse(std::uint32_t side, const Limits& limits, double longest, std::uint32_t onto = no_index) {
     const std::uint32_t a = mesh_.from(side), b = mesh_.to(side);
-    if (!propose_collapse(sheet_, side, most_pay * size_.along(a, b), edit_))
+    if (!propose_collapse(sheet_, side, most_pay * size_.along(a, b), edit_, onto))
       return false;
     for (const Corners& t : edit_.added) // what is collapsed here must not be split there
       for (const std::uint32_t v : t)
@@ -190,6 +190,27 @@ private:
   bool absorb(std::uint32_t rim_side) {
     if (!propose_absorb(sheet_, rim_side, edit_) ||
         !sheet_.make(edit_, limits(cosine_22, 0.5, repair_thickness, least_gain)))
+      return false;
+    ++report_.absorbed;
+    return true;
+  }
+
+  // Angle at a tip of the rim, between two rim sides of a triangle [cosine]; -1 if it has none.
+  [[nodiscard]] double cosine_of_tip(std::uint32_t t) const {
+    for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side)
+      if (mesh_.twin(side) != no_index && mesh_.twin(Mesh::next(side)) == no_index &&
+          mesh_.twin(Mesh::previous(side)) == no_index) {
+        const Vector3& tip = sheet_.at(mesh_.apex(side));
+        return (sheet_.at(mesh_.from(side)) - tip).normalized().dot((sheet_.at(mesh_.to(side)) - tip).normalized());
+      }
+    return -1;
+  }
+
+  // A sliver at the rim that nothing else has cured: a lip folded over onto the sheet, a corner narrower than an edge.
+  // A pointed end is a shape that somebody may want, but tension draws it in before an edge could tell.
+  bool trim(std::uint32_t t) {
+    if (sheet_.shape(t).sharpest < cosine_15 || (!tension_ && cosine_of_tip(t) > cosine_15) ||
+        !propose_trim(sheet_, t, edit_) || !sheet_.make(edit_, limits(1, -1, pocket_thickness)))
       return false;
     ++report_.absorbed;
     return true;
@@ -310,7 +331,22 @@ private:
     bool moved = false;
     for (const std::uint32_t v : corners)
       moved = smooth(v, repair_thickness) || moved;
-    return moved;
+    return moved || collapse_to_an_end(t) || trim(t);
+  }
+
+  // In a crease the point that is best for the volume lies outside, and would turn triangles over.
+  bool collapse_to_an_end(std::uint32_t t) {
+    if (sheet_.shape(t).sharpest < cosine_15)
+      return false;
+    const Corners corners = mesh_.corners(t);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = corners[i], b = corners[(i + 1) % 3];
+      for (const std::uint32_t end : {a, b})
+        if (collapse(mesh_.find_side(a, b), limits(cosine_15, -1, repair_thickness, least_gain), 1.3 * split_above,
+                     end))
+          return true;
+    }
+    return false;
   }
 
   static constexpr double most_pay = 0.02; // of an edge: how far a vertex moves at most to pay back swept volume
@@ -318,6 +354,7 @@ private:
   const Mesh& mesh_;
   SizeField& size_;
   const Options& options_;
+  bool tension_;
   std::uint64_t budget_;
   Edit edit_;
   Report report_;
@@ -376,7 +413,10 @@ Report remesh(formats::Frame& frame, const Scene* scene, const Options& options)
          "edges of {:g} m would cut this sheet into {:.2g} triangles, more than {:.2g}: ask for longer edges",
          size.shortest(), wanted, most_triangles);
   check_lengths(sheet, size);
-  const Report report = Remesher(sheet, size, options, wanted).run();
+  const bool tension = scene != nullptr && std::ranges::any_of(liquids_of(*scene), [](const Liquid& liquid) {
+                         return liquid.surface_tension > 0;
+                       });
+  const Report report = Remesher(sheet, size, options, tension, wanted).run();
   sheet.put(frame);
   return report;
 }

@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
       const SpringSheet sheet{pile.start, safe, reach, reach, ones, std::vector<Axes>(safe.size(), 0), 0.01};
       std::vector<ContactSpring> list;
       SelfSearch own(*search);
-      add_springs(list, own.near(safe, reach), own.layers(), scene, sheet);
+      add_springs(list, own, scene, sheet);
       springs = list.size();
     });
     const auto n = static_cast<double>(pile.triangles.size());

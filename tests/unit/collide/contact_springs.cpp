@@ -42,7 +42,7 @@ struct Layers {
   [[nodiscard]] std::vector<ContactSpring> springs(const Scene& scene) const {
     std::vector<ContactSpring> list;
     SelfSearch search(mesh);
-    add_springs(list, search.near(end, reach), search.layers(), scene, sheet());
+    add_springs(list, search, scene, sheet());
     return list;
   }
   void move(const Eigen::Isometry3d& motion) {
@@ -86,7 +86,7 @@ TEST(ContactSprings, NewOnesAreAtRest) {
   // nothing is added where all is in contact
   std::vector<ContactSpring> again = springs;
   SelfSearch search(layers.mesh);
-  add_springs(again, search.near(layers.end, layers.reach), search.layers(), scene_with(""), layers.sheet());
+  add_springs(again, search, scene_with(""), layers.sheet());
   EXPECT_EQ(again.size(), springs.size());
 }
 

@@ -159,6 +159,19 @@ TEST(SelfSearch, NearAreThoseThatFaceEachOther) {
   }
   EXPECT_GE(vertices, 4u * 16); // nearly all vertices over the layer below and below the one above
   EXPECT_GT(edges, 50u);
+  // what a spring joins is left out, with what has vertices of both its features in common with it
+  const std::vector<NearPair> all = search.near(s.start, s.reach);
+  const auto& first = all.front().pair;
+  ASSERT_EQ(first.features, Features::vertex_triangle);
+  ContactSpring spring;
+  spring.vertices = first.vertices;
+  spring.weights = {1, 0, 0, -1};
+  const std::vector<NearPair> rest = search.near(s.start, s.reach, LinkedVertices({&spring, 1}));
+  EXPECT_LT(rest.size(), all.size());
+  EXPECT_TRUE(std::ranges::none_of(rest, [&](const NearPair& near) { return near.pair == first; }));
+  EXPECT_TRUE(std::ranges::any_of(rest, [&](const NearPair& near) {
+    return near.pair.features == Features::vertex_triangle && near.pair.vertices[0] == first.vertices[1];
+  })); // the other way
   std::fill(s.reach.begin(), s.reach.end(), 0.09);
   EXPECT_TRUE(search.near(s.start, s.reach).empty());
 }

@@ -51,7 +51,7 @@ struct Strip {
   [[nodiscard]] std::vector<ContactSpring> springs() const {
     std::vector<ContactSpring> list;
     SelfSearch search(mesh);
-    add_springs(list, search.near(x, reach), search.layers(), syrup(), sheet());
+    add_springs(list, search, syrup(), sheet());
     return list;
   }
   // Between the two features of a spring, along the curve.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes that are hardly meshes: a right result or a clear error, never a hang.
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -108,6 +109,74 @@ TEST(CornerCase, Spike) {
       middle = v;
   mesh.positions[middle][2] += 3;
   expect_right(test::frame_of(mesh, 0.01), 0.3);
+}
+
+// What a pile has left at a rim, in mm: three triangles in a row from rim to rim, ever narrower.
+formats::Frame tail() {
+  return frame_of({{0.40, -0.18, -0.20},
+                   {-1.34, 0.36, 0.37},
+                   {-1.13, 0.24, 0.50},
+                   {-0.82, 0.28, 0.26},
+                   {-0.62, 0.19, 0.26},
+                   {-0.27, 0.14, 0.11},
+                   {-0.13, 0.04, 0.09}},
+                  {{1, 3, 2}, {3, 5, 4}, {4, 2, 3}, {0, 6, 5}, {6, 4, 5}});
+}
+
+double least_angle(const formats::Frame& frame) {
+  double sharpest = -1;
+  const auto x = positions(frame);
+  for (const Corners& c : triangles(frame))
+    sharpest = std::max(sharpest, TriangleShape(x[c[0]], x[c[1]], x[c[2]]).sharpest);
+  return std::acos(sharpest) * 180 / std::numbers::pi;
+}
+
+TEST(CornerCase, TensionDrawsATailIn) {
+  Scene scene;
+  formats::Frame frame = tail(), pointed = tail();
+  const double volume = test::account_of(frame).volume;
+  static_cast<void>(remesh(pointed, &scene, options(1.5)));
+  EXPECT_LT(least_angle(pointed), 10); // somebody's shape, it may be
+  scene.material.surface_tension = 0.05;
+  static_cast<void>(remesh(frame, &scene, options(1.5)));
+  EXPECT_GT(least_angle(frame), 15);
+  EXPECT_NEAR(test::account_of(frame).volume, volume, 1e-14 * volume);
+  test::expect_consistent(Mesh(frame.vertices, triangles(std::as_const(frame))));
+}
+
+// A square's rim with an ear of one triangle, which lies folded back over it. Its blunt tip touches a solid, so no
+// collapse takes it away, as the square's corners insist on their places, too.
+TEST(CornerCase, AnEarIsTrimmed) {
+  formats::Frame frame =
+      frame_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.05, 0.11}}, {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}});
+  put_masks(frame, "touch")[4] = 1;
+  static_cast<void>(remesh(frame, nullptr, options(1.1)));
+  EXPECT_EQ(frame.triangles, 2U);
+  EXPECT_GT(least_angle(frame), 44);
+}
+
+// A fan of four around 4; without 0 4 1, whose side 0 1 is the rim's, 4 comes to be on the rim.
+TEST(CornerCase, TrimsOfRims) {
+  const std::vector<Vector3> x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.05, 0}};
+  EditableSheet sheet(frame_of(x, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}));
+  const Limits limits = {.thickness = 3, .sharpest = 1, .facing = -1};
+  Edit edit;
+  ASSERT_TRUE(propose_trim(sheet, 0, edit));
+  ASSERT_TRUE(sheet.make(edit, limits));
+  EXPECT_TRUE(sheet.mesh().on_rim(4));
+  EXPECT_EQ(sheet.mesh().triangle_count(), 3U);
+  const auto at = [&](std::uint32_t from, std::uint32_t to) {
+    return Mesh::triangle_of(sheet.mesh().find_side(from, to));
+  };
+  EXPECT_NEAR(sheet.volume(at(1, 2)), 0.015, 1e-15); // two neighbours of one size share what it had
+  test::expect_consistent(sheet.mesh());
+  EXPECT_FALSE(propose_trim(sheet, at(2, 3), edit)); // the sheet would hang by 4
+  ASSERT_TRUE(propose_trim(sheet, at(1, 2), edit));  // a tip
+  ASSERT_TRUE(sheet.make(edit, limits));
+  EXPECT_FALSE(sheet.mesh().has_vertex(1));
+  test::expect_consistent(sheet.mesh());
+  const formats::Frame one = frame_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  EXPECT_FALSE(propose_trim(EditableSheet(one), 0, edit)); // no neighbour takes its liquid
 }
 
 TEST(CornerCase, StripOneTriangleWide) {

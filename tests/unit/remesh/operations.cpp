@@ -74,15 +74,19 @@ TEST_P(RandomEdits, KeepWhatTheyMustKeep) {
   std::mt19937 random(11);
   Edit edit;
   std::array<int, 4> made{};
+  int trims = 0;
   const Limits limits = {
       .thickness = 1.3, .sharpest = cosine_of_degrees(10), .gain = 0, .facing = 0.3, .intersections = true};
+  Limits of_trims = limits;
+  of_trims.thickness = 3;
   Sums before = sums_of(sheet);
   for (int i = 0; i < 3000; ++i) {
     const auto side = static_cast<std::uint32_t>(random() % (3 * sheet.mesh().triangle_slots()));
     if (!sheet.mesh().has_triangle(Mesh::triangle_of(side)))
       continue;
     bool proposed = true;
-    switch (random() % 4) {
+    const bool trim = random() % 64 == 0;
+    switch (trim ? 5 : random() % 5) {
     case 0:
       propose_split(sheet, side, edit);
       break;
@@ -92,12 +96,19 @@ TEST_P(RandomEdits, KeepWhatTheyMustKeep) {
     case 2:
       proposed = propose_collapse(sheet, side, 0.001, edit);
       break;
+    case 3:
+      proposed = propose_collapse(sheet, side, 0.001, edit, sheet.mesh().to(side));
+      break;
+    case 5:
+      proposed = propose_trim(sheet, Mesh::triangle_of(side), edit);
+      break;
     default:
       proposed = propose_smooth(sheet, sheet.mesh().from(side), 0.001, edit);
     }
-    if (!proposed || !sheet.make(edit, limits))
+    if (!proposed || !sheet.make(edit, trim ? of_trims : limits))
       continue;
     ++made[static_cast<std::size_t>(edit.kind)];
+    trims += trim;
     const Sums now = sums_of(sheet);
     ASSERT_NEAR(now.volume, before.volume, 1e-15 * before.volume) << i;
     ASSERT_LT((now.momentum - before.momentum).norm(), 1e-14 * before.speed) << i;
@@ -111,6 +122,7 @@ TEST_P(RandomEdits, KeepWhatTheyMustKeep) {
   test::expect_consistent(sheet.mesh());
   for (const int count : made)
     EXPECT_GT(count, 50);
+  EXPECT_EQ(trims > 0, !closed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, RandomEdits, testing::Values("sphere", "disk", "tube", "wrinkled"),
