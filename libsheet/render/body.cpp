@@ -82,7 +82,8 @@ Body::Body(const World& world) {
   for (const Corners& t : s.triangles)
     touching_.push_back(static_cast<char>(
         std::any_of(t.begin(), t.end(), [&](std::uint32_t p) { return near.closeness[s.source_vertex[p]] > 0; })));
-  normals_ = melted_normals(s, near, melting * static_cast<double>(mean_));
+  normals_ =
+      melted_normals(s, near.closeness, covered_by_others(world, mean_, near), melting * static_cast<double>(mean_));
 }
 
 Vec Body::normal_at(const World& world, const Hit& hit) const {

@@ -69,30 +69,75 @@ std::vector<Part> gathered(const std::vector<Part>& parts, double size) {
   return result;
 }
 
-// Parts in cells of a grid, in the order of the cells.
+// Of vectors, by component; lengths in radii.
+using Columns = std::array<std::vector<float>, 3>;
+
+// Parts in the order of the cells of a grid, so that those of three or more cells in a row stand in one piece.
 class Cells {
 public:
-  Cells(const std::vector<Part>& parts, double size) : size_(size) {
+  Cells(const std::vector<Part>& parts, double radius) : radius_(radius) {
+    std::vector<std::pair<Cell, std::uint32_t>> order;
     for (std::uint32_t p = 0; p < parts.size(); ++p)
-      points_.emplace_back(cell_of(parts[p].place, size), p);
-    std::sort(points_.begin(), points_.end());
+      order.emplace_back(cell_of(parts[p].place, radius / in_a_radius), p);
+    std::sort(order.begin(), order.end());
+    if (!parts.empty())
+      origin_ = parts.front().place;
+    for (const auto& [cell, p] : order) {
+      cells_.push_back(cell);
+      weight_.push_back(parts[p].weight);
+      for (int axis = 0; axis < 3; ++axis) {
+        place_[static_cast<std::size_t>(axis)].push_back(in_radii(parts[p].place)[axis]);
+        normal_[static_cast<std::size_t>(axis)].push_back(parts[p].normal[axis]);
+      }
+    }
   }
 
-  // Calls visit(part) for all parts in the cells around x.
-  template <class Visit> void around(const Vector3& x, Visit&& visit) const {
-    const Cell c = cell_of(x, size_);
-    for (std::int64_t i = c[0] - 1; i <= c[0] + 1; ++i)
-      for (std::int64_t j = c[1] - 1; j <= c[1] + 1; ++j) { // three cells in a row
-        const auto end = std::pair(Cell{i, j, c[2] + 2}, 0U);
-        for (auto p = std::lower_bound(points_.begin(), points_.end(), std::pair(Cell{i, j, c[2] - 1}, 0U));
-             p != points_.end() && *p < end; ++p)
-          visit(p->second);
+  // Σ weight max(0, own · n) (1 - d²)² n of all parts that are d < 1 radii away.
+  [[nodiscard]] Vec mean_around(const Vector3& x, const Vec& own) const {
+    const Cell c = cell_of(x, radius_ / in_a_radius);
+    const Vec place = in_radii(x);
+    Lanes sum{};
+    for (std::int64_t i = c[0] - in_a_radius; i <= c[0] + in_a_radius; ++i)
+      for (std::int64_t j = c[1] - in_a_radius; j <= c[1] + in_a_radius; ++j) {
+        const auto begin = std::ranges::lower_bound(cells_, Cell{i, j, c[2] - in_a_radius});
+        const auto end = std::lower_bound(begin, cells_.end(), Cell{i, j, c[2] + in_a_radius + 1});
+        add(begin - cells_.begin(), end - cells_.begin(), place, own, sum);
       }
+    Vec total = Vec::Zero();
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      total += Vec(sum[0][lane], sum[1][lane], sum[2][lane]);
+    return total;
   }
 
 private:
-  double size_;
-  std::vector<std::pair<Cell, std::uint32_t>> points_;
+  static constexpr std::int64_t in_a_radius = 2; // cells
+  static constexpr std::size_t lanes = 8;        // sums beside each other, for the compiler to make vectors of
+  using Lanes = std::array<std::array<float, lanes>, 3>;
+
+  [[nodiscard]] Vec in_radii(const Vector3& x) const { return ((x - origin_) / radius_).cast<float>(); }
+
+  void add_one(std::size_t p, std::size_t lane, const Vec& place, const Vec& own, Lanes& sum) const {
+    const float x = place_[0][p] - place[0], y = place_[1][p] - place[1], z = place_[2][p] - place[2];
+    const float near = std::max(0.0F, 1 - (x * x + y * y + z * z));
+    const float alike = own[0] * normal_[0][p] + own[1] * normal_[1][p] + own[2] * normal_[2][p];
+    const float part = weight_[p] * std::max(0.0F, alike) * near * near;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sum[axis][lane] += part * normal_[axis][p];
+  }
+  void add(std::ptrdiff_t begin, std::ptrdiff_t end, const Vec& place, const Vec& own, Lanes& sum) const {
+    auto p = static_cast<std::size_t>(begin);
+    for (; p + lanes <= static_cast<std::size_t>(end); p += lanes)
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        add_one(p + lane, lane, place, own, sum);
+    for (; p < static_cast<std::size_t>(end); ++p)
+      add_one(p, 0, place, own, sum);
+  }
+
+  double radius_;
+  Vector3 origin_ = Vector3::Zero();
+  std::vector<Cell> cells_; // of each part
+  std::vector<float> weight_;
+  Columns place_, normal_;
 };
 
 // A third of the triangles around each point.
@@ -109,26 +154,20 @@ std::vector<float> areas(const Surface& s) {
 
 } // namespace
 
-std::vector<Vec> melted_normals(const Surface& surface, const NearLayers& near, double radius) {
+std::vector<Vec> melted_normals(const Surface& surface, const std::vector<float>& closeness,
+                                const std::vector<float>& covered, double radius) {
   std::vector<Vec> result = surface.normals;
   constexpr double fineness = 6; // cells of a gathered part in the radius
-  const std::vector<Part> parts = gathered(bare_parts(surface, near.covered), radius / fineness);
-  const Cells cells(parts, radius);
+  const Cells cells(gathered(bare_parts(surface, covered), radius / fineness), radius);
   const std::vector<float> area = areas(surface);
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t p) {
-    const float closeness = near.closeness[surface.source_vertex[p]];
-    if (!(closeness > 0))
+    const float close = closeness[surface.source_vertex[p]];
+    if (!(close > 0))
       return;
     const Vec& own = surface.normals[p];
-    Vec sum = area[p] * own;
-    cells.around(surface.positions[p], [&](std::uint32_t q) {
-      const double square = (parts[q].place - surface.positions[p]).squaredNorm() / (radius * radius);
-      const float alike = own.dot(parts[q].normal);
-      if (square < 1 && alike > 0)
-        sum += parts[q].weight * alike * static_cast<float>((1 - square) * (1 - square)) * parts[q].normal;
-    });
+    const Vec sum = area[p] * own + cells.mean_around(surface.positions[p], own);
     if (sum.norm() > 0)
-      result[p] = ((1 - closeness) * own + closeness * sum.normalized()).normalized();
+      result[p] = ((1 - close) * own + close * sum.normalized()).normalized();
   });
   return result;
 }

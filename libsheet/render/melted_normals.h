@@ -7,9 +7,10 @@
 
 namespace sheet::render {
 
-// The normals of the surface, each turned so far as layers are close there to the mean of its own and of what is bare
-// around it, not covered by others, up to `radius` [m] away, by area and nearness (a kernel that ends there smoothly),
-// as far as it faces the same way.
-[[nodiscard]] std::vector<Vec> melted_normals(const Surface& surface, const NearLayers& near, double radius);
+// The normals of the surface, each turned so far as layers are close there (`closeness` of near_layers) to the mean of
+// its own and of what is bare around it, not `covered` by others, up to `radius` [m] away, by area and nearness (a
+// kernel that ends there smoothly), as far as it faces the same way.
+[[nodiscard]] std::vector<Vec> melted_normals(const Surface& surface, const std::vector<float>& closeness,
+                                              const std::vector<float>& covered, double radius);
 
 } // namespace sheet::render

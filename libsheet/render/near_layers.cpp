@@ -50,11 +50,10 @@ Neighbour neighbour(const World& world, std::uint32_t point, std::uint32_t liqui
   return {hit.triangle, in_another ? 1 : closeness((hit.distance * cosine - inside) / (std::max(h, mean) / unit))};
 }
 
-// The mean closeness of others in directions around the normal.
-float covered(const World& world, std::uint32_t point, std::uint32_t liquid, float mean) {
-  const Vec& normal = world.surface().normals[point];
-  const Basis basis(normal);
-  float sum = neighbour(world, point, liquid, normal, 1, mean).closeness;
+// The mean closeness of others along the normal and in directions around it.
+float covered(const World& world, std::uint32_t point, std::uint32_t liquid, float mean, float ahead) {
+  const Basis basis(world.surface().normals[point]);
+  float sum = ahead;
   for (int way = 0; way < ways_around; ++way) {
     const float angle = 2 * float_pi * static_cast<float>(way) / ways_around, cosine = std::cos(tilt);
     const Vec direction = basis.world(std::sin(tilt) * std::cos(angle), std::sin(tilt) * std::sin(angle), cosine);
@@ -108,15 +107,22 @@ NearLayers near_layers(const World& world, float mean) {
     near[p] = neighbour(world, static_cast<std::uint32_t>(p), liquids[p], s.normals[p], 1, mean);
   });
   NearLayers result;
-  std::vector<float> close = spread(s, at_vertices(s, near));
-  if (std::none_of(close.begin(), close.end(), [](float c) { return c > 0; }))
-    return result;
-  result.covered.resize(near.size());
-  tbb::parallel_for(std::size_t{0}, near.size(), [&](std::size_t p) {
-    if (close[s.source_vertex[p]] > 0)
-      result.covered[p] = covered(world, static_cast<std::uint32_t>(p), liquids[p], mean);
+  result.closeness = spread(s, at_vertices(s, near));
+  if (std::none_of(result.closeness.begin(), result.closeness.end(), [](float c) { return c > 0; }))
+    return {};
+  for (const Neighbour& n : near)
+    result.ahead.push_back(n.closeness);
+  return result;
+}
+
+std::vector<float> covered_by_others(const World& world, float mean, const NearLayers& near) {
+  const Surface& s = world.surface();
+  const std::vector<std::uint32_t> liquids = liquids_of_points(s);
+  std::vector<float> result(near.ahead.size());
+  tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t p) {
+    if (near.closeness[s.source_vertex[p]] > 0)
+      result[p] = covered(world, static_cast<std::uint32_t>(p), liquids[p], mean, near.ahead[p]);
   });
-  result.closeness = std::move(close);
   return result;
 }
 

@@ -19,10 +19,13 @@ inline float closeness(float gap) { return std::clamp((wide_gap - gap) / (wide_g
 
 struct NearLayers {
   std::vector<float> closeness; // of the sheet's vertices, on either side and one ring on: 0 to 1; empty: none touch
-  std::vector<float> covered;   // of the surface's points: the part of the ways out of there on which another layer is
+  std::vector<float> ahead;     // of the surface's points: the closeness of what is ahead along the normal
 };
 
 // `mean`: the sheet's thickness on average [m].
 [[nodiscard]] NearLayers near_layers(const World& world, float mean);
+
+// Of the surface's points where layers touch, 0 of others: the part of the ways out of there on which another layer is.
+[[nodiscard]] std::vector<float> covered_by_others(const World& world, float mean, const NearLayers& near);
 
 } // namespace sheet::render
