@@ -99,8 +99,14 @@ public:
     Lanes sum{};
     for (std::int64_t i = c[0] - in_a_radius; i <= c[0] + in_a_radius; ++i)
       for (std::int64_t j = c[1] - in_a_radius; j <= c[1] + in_a_radius; ++j) {
-        const auto begin = std::ranges::lower_bound(cells_, Cell{i, j, c[2] - in_a_radius});
-        const auto end = std::lower_bound(begin, cells_.end(), Cell{i, j, c[2] + in_a_radius + 1});
+        const double square = square_beyond(x.x(), i) + square_beyond(x.y(), j);
+        if (square >= radius_ * radius_)
+          continue;
+        const double half = std::sqrt(radius_ * radius_ - square);
+        const std::int64_t low = cell_of(x - half * Vector3::UnitZ(), radius_ / in_a_radius)[2],
+                           high = cell_of(x + half * Vector3::UnitZ(), radius_ / in_a_radius)[2];
+        const auto begin = std::ranges::lower_bound(cells_, Cell{i, j, low});
+        const auto end = std::lower_bound(begin, cells_.end(), Cell{i, j, high + 1});
         add(begin - cells_.begin(), end - cells_.begin(), place, own, sum);
       }
     Vec total = Vec::Zero();
@@ -114,6 +120,11 @@ private:
   static constexpr std::size_t lanes = 8;        // sums beside each other, for the compiler to make vectors of
   using Lanes = std::array<std::array<float, lanes>, 3>;
 
+  // Of the way from a coordinate to the cells of that number [m²].
+  [[nodiscard]] double square_beyond(double x, std::int64_t cell) const {
+    const double size = radius_ / in_a_radius, low = static_cast<double>(cell) * size;
+    return std::pow(std::max({0.0, low - x, x - (low + size)}), 2);
+  }
   [[nodiscard]] Vec in_radii(const Vector3& x) const { return ((x - origin_) / radius_).cast<float>(); }
 
   void add_one(std::size_t p, std::size_t lane, const Vec& place, const Vec& own, Lanes& sum) const {
