@@ -201,14 +201,19 @@ void add_springs(std::vector<ContactSpring>& springs, SelfSearch& search, const 
   const std::vector<NearPair> near = search.near(sheet.end, sheet.reach, linked);
   std::vector<std::optional<ContactSpring>> found(near.size());
   each_in_parallel(near.size(), [&](std::size_t i) { found[i] = spring_of(near[i], search.layers(), scene, sheet); });
-  std::erase(found, std::nullopt);
-  std::ranges::stable_sort(found, [](const auto& a, const auto& b) {
-    return a->of_vertex() != b->of_vertex() ? a->of_vertex() : a->anchor.squaredNorm() < b->anchor.squaredNorm();
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i])
+      order.push_back(i);
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    const bool edges_a = near[a].pair.features == Features::edge_edge,
+               edges_b = near[b].pair.features == Features::edge_edge;
+    return edges_a != edges_b ? edges_b : found[a]->anchor.squaredNorm() < found[b]->anchor.squaredNorm();
   });
-  for (const std::optional<ContactSpring>& s : found)
-    if (!linked.join(s->vertices, s->of_vertex())) {
-      springs.push_back(*s);
-      linked.add(*s);
+  for (const std::size_t i : order)
+    if (const ContactSpring& s = *found[i]; !linked.join(s.vertices, s.of_vertex())) {
+      springs.push_back(s);
+      linked.add(s);
     }
 }
 

@@ -220,10 +220,11 @@ std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reac
     const Four& v = pair.vertices;
     if (pair.features == Features::edge_edge && !may_cross(x[v[0]], x[v[1]], x[v[2]], x[v[3]]))
       return; // nearly all of those of one layer
-    if (!boxes_overlap(pair, ways, 1) || linked.join(v, pair.features == Features::vertex_triangle))
+    const bool of_vertex = pair.features == Features::vertex_triangle;
+    if (!boxes_overlap(pair, ways, 1) || (of_vertex && linked.join(v, true)))
       return;
     const auto closest = facing_points(mesh_, pair, x);
-    if (!closest)
+    if (!closest || (!of_vertex && linked.join(v, closest->weights[0] == 1)))
       return;
     const double distance = closest->offset.norm();
     if (distance > 0 && distance < contact_distance(reach, pair.vertices, closest->weights))

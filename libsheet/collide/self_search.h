@@ -58,7 +58,8 @@ public:
   // Pairs within their contact distance of each other whose surfaces face each other, ascending: a vertex over a
   // triangle, or beside one by no more than 60 degrees off its normal, and edges that cross. Of features joined by an
   // edge of the mesh only vertices over triangles count, so that the sheet next to a vertex is no contact. Whether they
-  // are two layers is not asked. Pairs that springs join already are left out.
+  // are two layers is not asked. Pairs that springs join already are left out (two edges of which one
+  // is near by its first end alone count as that vertex and a triangle, as their spring would).
   [[nodiscard]] std::vector<NearPair> near(std::span<const Vector3> positions, std::span<const double> reach,
                                            const LinkedVertices& linked = LinkedVertices({}));
 
