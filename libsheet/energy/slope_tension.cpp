@@ -52,6 +52,26 @@ struct Pair {
   double falls[2]; // -∂jump/∂A
 };
 
+// The factor of a thread's edges, f = 1 + ε s/(2 l), s = h1 + h2, and its derivatives by the areas and the length.
+struct ThreadFactor {
+  ThreadFactor(const Pair& pair, double epsilon) {
+    const double part = epsilon / (2 * pair.length);
+    double sum = 0;
+    for (int side = 0; side < 2; ++side) {
+      const double area = pair.triangles[side].area, by_area_squared = std::abs(pair.falls[side]); // V/A²
+      sum += by_area_squared * area;
+      by_area[side] = -part * by_area_squared;
+      area2[side] = 2 * part * by_area_squared / area;
+      mixed[side] = -by_area[side] / pair.length;
+    }
+    value += part * sum;
+    by_length = -part * sum / pair.length;
+    length2 = -2 * by_length / pair.length;
+  }
+  double value = 1, by_length = 0, length2 = 0;
+  double by_area[2], area2[2], mixed[2]; // mixed: by an area and the length
+};
+
 // W, and its derivatives by p and q; `curvature` is the factor of (q ∇p - p ∇q)² in the second ones.
 struct Energy {
   Energy(double p, double q, const std::array<double, 2>& tensions) {
@@ -82,26 +102,33 @@ void SlopeTension::begin(const Stage& stage) {
     const auto [one, two] = mesh.edge_triangles[edges_[i].edge];
     const double mean = 0.5 * (stage.surface_tension(one) + stage.surface_tension(two));
     const double gamma = (1 - filled) * mean, wall = edges_[i].on_wall;
-    loads_[i] = {{stage.start->volumes[one], stage.start->volumes[two]}, {2 * (1 - wall) * gamma, wall * gamma}};
+    loads_[i] = {{stage.start->volumes[one], stage.start->volumes[two]},
+                 {2 * (1 - wall) * gamma, wall * gamma},
+                 edges_[i].of_thread * thread_slope};
   }
 }
 
 double SlopeTension::value(std::size_t i, const VectorN<12>& u) const {
   const Pair pair(u, loads_[i].volumes);
-  return loads_[i].tensions[0] * slant(pair.p, pair.q) + loads_[i].tensions[1] * slant(pair.p, 2 * pair.q);
+  const double slope =
+      loads_[i].tensions[0] * slant(pair.p, pair.q) + loads_[i].tensions[1] * slant(pair.p, 2 * pair.q);
+  return slope * ThreadFactor(pair, loads_[i].thread).value;
 }
 
 double SlopeTension::gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const {
   const Pair pair(u, loads_[i].volumes);
   const Energy energy(pair.p, pair.q, loads_[i].tensions);
-  const Vector3 of_length = energy.by_q * pair.jump / (2 * pair.length) * pair.edge;
+  const ThreadFactor factor(pair, loads_[i].thread);
+  const double by_length = factor.value * energy.by_q * pair.jump / 2 + energy.value * factor.by_length;
+  const Vector3 of_length = by_length / pair.length * pair.edge;
   gradient << -of_length, of_length, Vector3::Zero(), Vector3::Zero();
   for (int side = 0; side < 2; ++side) {
-    const double by_area = 2 * energy.by_p / 3 - energy.by_q * pair.length * pair.falls[side] / 2;
+    const double by_area = factor.value * (2 * energy.by_p / 3 - energy.by_q * pair.length * pair.falls[side] / 2) +
+                           energy.value * factor.by_area[side];
     for (int k = 0; k < 3; ++k)
       gradient.segment<3>(3 * corners[side][k]) += by_area * pair.triangles[side].gradient(k);
   }
-  return energy.value;
+  return factor.value * energy.value;
 }
 
 double SlopeTension::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
@@ -118,21 +145,33 @@ double SlopeTension::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
   const VectorN<12> of_p = 2.0 / 3 * (of_area[0] + of_area[1]);
   const VectorN<12> of_jump = -pair.falls[0] * of_area[0] - pair.falls[1] * of_area[1];
   const VectorN<12> of_q = (pair.jump * of_length + pair.length * of_jump) / 2;
-  gradient = energy.by_p * of_p + energy.by_q * of_q;
+  const ThreadFactor factor(pair, loads_[i].thread);
+  const VectorN<12> of_slopes = energy.by_p * of_p + energy.by_q * of_q;
+  const VectorN<12> of_factor =
+      factor.by_area[0] * of_area[0] + factor.by_area[1] * of_area[1] + factor.by_length * of_length;
+  gradient = factor.value * of_slopes + energy.value * of_factor;
   const VectorN<12> across = pair.q * of_p - pair.p * of_q;
-  hessian.noalias() = (energy.curvature * across) * across.transpose();
+  hessian.noalias() = (factor.value * energy.curvature * across) * across.transpose();
   if (definite)
-    return energy.value;
-  for (int side = 0; side < 2; ++side) { // by_p ∇∇p, and of by_q ∇∇q what is of one area
-    const double by_jump = energy.by_q * pair.length * pair.falls[side];
-    add_area_hessian(pair.triangles[side], side, 2 * energy.by_p / 3 - by_jump / 2, hessian);
-    hessian.noalias() += (by_jump / pair.triangles[side].area * of_area[side]) * of_area[side].transpose();
+    return factor.value * energy.value;
+  for (int side = 0; side < 2; ++side) { // f by_p ∇∇p, of f by_q ∇∇q and W ∇∇f what is of one area
+    const double by_jump = factor.value * energy.by_q * pair.length * pair.falls[side];
+    add_area_hessian(pair.triangles[side], side,
+                     2 * factor.value * energy.by_p / 3 - by_jump / 2 + energy.value * factor.by_area[side], hessian);
+    hessian.noalias() += ((by_jump / pair.triangles[side].area + energy.value * factor.area2[side]) * of_area[side]) *
+                         of_area[side].transpose();
   }
-  const VectorN<12> half = energy.by_q / 2 * of_jump;
+  // With the length, and of the factor with the slopes.
+  const VectorN<12> half = factor.value * energy.by_q / 2 * of_jump +
+                           energy.value * (factor.mixed[0] * of_area[0] + factor.mixed[1] * of_area[1]);
   hessian.topRows<6>().noalias() += of_length.head<6>() * half.transpose();
   hessian.leftCols<6>().noalias() += half * of_length.head<6>().transpose();
-  add_length_hessian(along, pair.length, energy.by_q * pair.jump / 2, hessian);
-  return energy.value;
+  add_length_hessian(along, pair.length, factor.value * energy.by_q * pair.jump / 2 + energy.value * factor.by_length,
+                     hessian);
+  hessian.noalias() += (energy.value * factor.length2 * of_length) * of_length.transpose();
+  hessian.noalias() += of_factor * of_slopes.transpose();
+  hessian.noalias() += of_slopes * of_factor.transpose();
+  return factor.value * energy.value;
 }
 
 } // namespace sheet

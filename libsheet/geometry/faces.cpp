@@ -34,6 +34,10 @@ public:
   [[nodiscard]] double length(std::uint32_t edge) const {
     return (x_[mesh_.edges[edge][1]] - x_[mesh_.edges[edge][0]]).norm();
   }
+  [[nodiscard]] double over_length(std::uint32_t edge) const { // the mean beside it
+    const auto [one, two] = mesh_.edge_triangles[edge];
+    return (height_[one] + height_[two]) / (2 * length(edge));
+  }
   [[nodiscard]] Slant slant_at(std::uint32_t edge) const {
     const auto [one, two] = mesh_.edge_triangles[edge];
     return {2 * (area_[one] + area_[two]) / 3, length(edge) * (height_[one] - height_[two]) / 2};
@@ -50,11 +54,15 @@ std::uint32_t opposite(const Connectivity& mesh, std::uint32_t triangle, std::ui
   return mesh.triangles[triangle][static_cast<std::size_t>(std::ranges::find(edges, edge) - edges.begin())];
 }
 
-SlopedEdge sloped_edge(const Connectivity& mesh, std::uint32_t edge, const FreeFaces& faces) {
+// `on_rim`: whether vertices are on free rims.
+SlopedEdge sloped_edge(const Connectivity& mesh, std::uint32_t edge, const FreeFaces& faces,
+                       const std::vector<char>& on_rim) {
   const auto [one, two] = mesh.edge_triangles[edge];
   const auto [a, b] = mesh.edges[edge];
-  SlopedEdge sloped{edge, {a, b, opposite(mesh, one, edge), opposite(mesh, two, edge)}, 0};
+  SlopedEdge sloped{edge, {a, b, opposite(mesh, one, edge), opposite(mesh, two, edge)}, 0, 0};
   sloped.on_wall = faces.part_on_wall(sloped.vertices);
+  if (on_rim[a] != 0 && on_rim[b] != 0)
+    sloped.of_thread = 1 - sloped.on_wall;
   return sloped;
 }
 
@@ -93,7 +101,7 @@ std::vector<SlopedEdge> sloped_edges(const Connectivity& mesh, std::span<const V
     const auto [p, q] = thickness.slant_at(e); // the slope is 2 q/p
     const auto [a, b] = mesh.edges[e];
     if (on_rim[a] != 0 || on_rim[b] != 0 || 2 * std::abs(q) > least * p)
-      sloped.push_back(sloped_edge(mesh, e, faces));
+      sloped.push_back(sloped_edge(mesh, e, faces, on_rim));
   }
   return sloped;
 }
@@ -101,6 +109,7 @@ std::vector<SlopedEdge> sloped_edges(const Connectivity& mesh, std::span<const V
 double extra_area(const Connectivity& mesh, std::span<const Vector3> positions, std::span<const double> volumes,
                   const FreeFaces& faces) {
   const Thickness thickness(mesh, positions, volumes);
+  const std::vector<char> on_rim = at_free_rims(mesh, faces);
   double area = 0;
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
     if (mesh.on_rim(e)) {
@@ -109,8 +118,9 @@ double extra_area(const Connectivity& mesh, std::span<const Vector3> positions, 
       continue;
     }
     const auto [p, q] = thickness.slant_at(e);
-    const double wall = sloped_edge(mesh, e, faces).on_wall;
-    area += 2 * (1 - wall) * slant(p, q) + wall * slant(p, 2 * q);
+    const SlopedEdge sloped = sloped_edge(mesh, e, faces, on_rim);
+    const double wall = sloped.on_wall, factor = 1 + sloped.of_thread * thread_slope * thickness.over_length(e);
+    area += factor * (2 * (1 - wall) * slant(p, q) + wall * slant(p, 2 * q));
   }
   return area;
 }

@@ -9,12 +9,18 @@
 //   slope  2 (√(P² + Q²) - P),   P = 2 (A1 + A2)/3,   Q = l (h1 - h2)/2
 //                          the two faces between the middles of two triangles, of which each rises or falls by half of
 //                          the difference over the distance P/l across their edge; for small slopes ∫ |∇h|²/4 dA
+//   thread  (1 + ε (h1 + h2)/(2 l)) times the slope's where the common edge leads from rim to rim
 // (That is so where triangles are near to equilateral; in right-angled ones of a grid it is 0.83 to 1.5 of it, by the
 // direction. Weights that are right in any triangle, cotangents between the medians, vanish or change sign at the short
 // sides of needles, and sheets then fold into needles.)
-// A strip is then at rest with the section and the energy of the round thread (one row of triangles at w = π h/4,
-// exactly; any number within 0.5 %, where c = π/4 alone would be 5 % low in 20), and a layer's faces level. On a wall
-// one face carries the whole slope, √(P² + 4 Q²) - P, and what the rim costs is the contact angle's.
+// A thread of one row of triangles, w = π h/4 wide, whose section varies along it has the curvature of the round one
+// by that factor: per length and (dr/dx)² the round one has π r, half of it, of the cylinder that it is. Of the
+// strip's, slopes of faces give π r/2 and the slant of its rims π³ r/32; what is missing is that of round rims of
+// varying thickness, c h √(1 + β (dh/dx)²) along each, β = 1/4 - (π/8)², written with the jumps of h from triangle to
+// triangle: of one row of near to equilateral ones ε = 2 π β/√3. A strip is then at rest with the section and the
+// energy of the round thread (one row of triangles at w = π h/4, exactly; any number within 0.5 %, where c = π/4 alone
+// would be 5 % low in 20), and a layer's faces level. On a wall one face carries the whole slope, √(P² + 4 Q²) - P, and
+// what the rim costs is the contact angle's.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -39,6 +45,10 @@ struct RimSide {
   double c = std::numbers::pi / 4, c1 = 0, c2 = 0;
 };
 
+// ε above.
+inline constexpr double thread_slope =
+    2 * std::numbers::pi * (0.25 - std::numbers::pi * std::numbers::pi / 64) / std::numbers::sqrt3;
+
 // √(p² + q²) - p for p > 0, without cancellation.
 [[nodiscard]] inline double slant(double p, double q) { return q * q / (std::sqrt(p * p + q * q) + p); }
 
@@ -54,11 +64,12 @@ struct FreeFaces {
 // All rims free, no wall.
 [[nodiscard]] FreeFaces all_free(const Connectivity& mesh);
 
-// An inner edge, its vertices, those opposite it (of edge_triangles, in that order), and which part of it is on a wall.
+// An inner edge, its vertices, those opposite it (of edge_triangles, in that order), which part of it is on a wall, and
+// to which part it leads from one free rim to another.
 struct SlopedEdge {
   std::uint32_t edge = 0;
   std::array<std::uint32_t, 4> vertices{};
-  double on_wall = 0;
+  double on_wall = 0, of_thread = 0;
 };
 
 // Inner edges at which the thickness is not even, the slope being above `least`, and those that end on a free rim.

@@ -380,6 +380,10 @@ TEST(Derivatives, SlopeTension) {
   EXPECT_GT(edges.size(), 20U);
   check(SlopeTension(edges), {}, true, steep);
   check(SlopeTension(edges), {}, true, steep, touch_two_walls);
+  std::vector<SlopedEdge> of_threads = edges;
+  for (std::size_t i = 0; i < of_threads.size(); i += 2)
+    of_threads[i].of_thread = 1;
+  check(SlopeTension(of_threads), {}, true, steep);
 }
 TEST(Derivatives, WallDrag) { check(WallDrag(), {false, false}, true, crumpled, touch_walls); }
 TEST(Derivatives, WallDragOfFlowCurves) {

@@ -64,6 +64,40 @@ TEST(Faces, RimsAreHalfRoundAndFlatWhereTrianglesResolveTheirRoundness) {
   EXPECT_LT(of_thickness(4), of_thickness(8));
 }
 
+// A strip of one row of near to equilateral triangles, π r wide and 2 r thick, whose r is 1 + a cos(k x): its faces and
+// rims have the area of the round thread, to second order 2 π r + π r (dr/dx)² a length.
+TEST(Faces, AThreadsAreaIsThatOfARoundOne) {
+  constexpr double pi = std::numbers::pi, k = 0.1, a = 0.02;
+  const double width = pi / 2, half = width / std::numbers::sqrt3;
+  const auto cells_along = 2 * static_cast<std::uint32_t>(std::round(2 * pi / k / (2 * half))); // of a whole wave
+  const double step = 2 * pi / k / cells_along;
+  const auto area_of = [&](double amplitude) {
+    const auto r = [&](double x) { return 1 + amplitude * std::cos(k * x); };
+    std::vector<Vector3> x;
+    std::vector<Corners> triangles;
+    for (std::uint32_t i = 0; i <= cells_along; ++i) {
+      x.emplace_back(i * step, (i % 2 == 0 ? -0.5 : 0.5) * width * r(i * step), 0);
+      if (i >= 2)
+        triangles.push_back(i % 2 == 0 ? Corners{i - 2, i, i - 1} : Corners{i - 2, i - 1, i});
+    }
+    const Connectivity mesh = connect(x.size(), triangles);
+    std::vector<double> volumes;
+    double area = 0;
+    for (const Corners& c : triangles) {
+      const double own = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+      volumes.push_back(own * 2 * r((x[c[0]] + x[c[1]] + x[c[2]]).x() / 3));
+      area += 2 * own;
+    }
+    FreeFaces faces = all_free(mesh);
+    for (std::size_t e = 0; e < mesh.edges.size(); ++e) // but the ends
+      if (mesh.edges[e][1] - mesh.edges[e][0] == 1)
+        faces.rims[e] = 0;
+    return area + extra_area(mesh, x, volumes, faces);
+  };
+  const double slopes = pi * a * a * k * k / 2 * 2 * pi / k;
+  EXPECT_NEAR(((area_of(a) + area_of(-a)) / 2 - area_of(0)) / slopes, 1, 0.03);
+}
+
 TEST(Faces, EvenThicknessHasSlopesNearRimsOnly) {
   const Layer even(10, Vector3::Zero()), uneven(10, Vector3(0.1, 0.05, 0));
   const auto count = [](const Layer& layer, const FreeFaces& faces) {
