@@ -3,6 +3,7 @@
 #include "libsheet/base/tool.h"
 #include "libsheet/base/whole_file.h"
 #include "libsheet/quantities/wanted.h"
+#include "libsheet/render/material_option.h"
 #include "libsheet/view/page.h"
 
 int main(int argc, char** argv) {
@@ -19,9 +20,15 @@ int main(int argc, char** argv) {
               "file to write; - for standard output. Its folder is made if it is missing");
   tool.option("--title", o.title, "TEXT", "title of the page; without it, the names of the streams");
   sheet::declare_wanted(tool, o.wanted);
+  sheet::render::declare_materials(
+      tool, o.materials,
+      "what the sheet is made of, which gives it its colour; of several liquids the first, the second, ..., and again "
+      "from the first, as the scene names them. Without it, brown, and several liquids in colours that tell them "
+      "apart");
   tool.example("sheet-view run.sheet -o run.html", "then open run.html by a double click");
   tool.example("sheet-view a.sheet b.sheet -o compare.html", "two runs side by side, with one clock");
   tool.example("sheet-select --every 4 run.sheet | sheet-view > run.html", "every fourth frame: a smaller file");
+  tool.example("sheet-view run.sheet --material chocolate,honey -o run.html", "a run of two liquids");
   return tool.run(argc, argv, [&] {
     if (o.inputs.empty())
       o.inputs.emplace_back("-");

@@ -75,33 +75,6 @@ void colours_option(Tool& tool, const char* name, std::vector<Colour>& values, c
       });
 }
 
-// Several names, with commas.
-void liquids_option(Tool& tool, std::vector<std::size_t>& values) {
-  const auto& names = liquid_names();
-  tool.custom(
-      "--material", "NAME[,NAME...]",
-      fmt::format("what the sheet is made of; of several liquids the first, the second, ..., and again from the first, "
-                  "as the scene names them; of {}",
-                  fmt::join(names, ", ")),
-      [&](const std::string& s) {
-        values.clear();
-        for (std::size_t start = 0, end = 0; end != std::string::npos; start = end + 1) {
-          const std::string name = s.substr(start, (end = s.find(',', start)) - start);
-          const auto at = std::ranges::find(names, name);
-          if (at == names.end())
-            fail(ExitCode::usage, "\"{}\" is not one of {}", name, fmt::join(names, ", "));
-          values.push_back(static_cast<std::size_t>(at - names.begin()));
-        }
-      },
-      [&] {
-        std::vector<std::string> given;
-        for (const std::size_t value : values)
-          given.push_back(names[value]);
-        return fmt::format("{}", fmt::join(given, ","));
-      },
-      Tool::Provenance::record, names);
-}
-
 void quantity_option(Tool& tool, const char* name, const char* placeholder, double& value, const Quantity& kind,
                      const char* text) {
   tool.custom(
@@ -184,7 +157,10 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.flag("--layers", o.layers,
             "draw layers that touch as slabs of their own, each with its two faces; without it, as one body of liquid");
   tool.choice("--look", o.look, looks(), "the material itself, or a quantity in false colours, or the mesh");
-  liquids_option(tool, o.liquids);
+  declare_materials(
+      tool, o.liquids,
+      "what the sheet is made of; of several liquids the first, the second, ..., and again from the first, "
+      "as the scene names them");
   tool.option("--index", o.index, "N", "index of refraction, instead of the material's");
   colour_option(tool, "--absorption", o.absorption, "absorption coefficients [1/m], instead of the material's");
   colour_option(tool, "--scattering", o.scattering, "reduced scattering coefficients [1/m], instead of the material's");

@@ -138,7 +138,7 @@ FieldDescription FramePacker::pack_field(const formats::Frame& frame, const Fiel
   return d;
 }
 
-PackedFrame FramePacker::pack(const formats::Frame& frame) {
+PackedFrame FramePacker::pack(const formats::Frame& frame, std::span<const std::uint32_t> liquids) {
   const auto corners = sheet::triangles(frame);
   const Vectors x = positions(frame), v = velocities(frame);
   PackedNumbers packed;
@@ -147,7 +147,8 @@ PackedFrame FramePacker::pack(const formats::Frame& frame) {
                      .vertices = frame.vertices,
                      .triangles = frame.triangles,
                      .same_mesh = !first_ && vertices_ == frame.vertices && std::ranges::equal(corners_, corners),
-                     .moves = !v.empty()};
+                     .moves = !v.empty(),
+                     .liquids = !liquids.empty()};
   for (const double volume : volumes(frame))
     d.volume += volume;
   set_box(x, d);
@@ -173,6 +174,8 @@ PackedFrame FramePacker::pack(const formats::Frame& frame) {
   fields_.resize(fields().size());
   for (std::size_t i = 0; i < fields().size(); ++i)
     d.fields.push_back(pack_field(frame, fields()[i], fields_[i], d.same_mesh, packed));
+  if (d.liquids)
+    packed.add_bytes(std::vector<std::uint8_t>(liquids.begin(), liquids.end()));
   return {d, packed.text()};
 }
 

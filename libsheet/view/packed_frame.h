@@ -5,11 +5,13 @@
 //              of the edges are shorter than, it is more)
 //   thickness  steps of a ten-thousandth of the logarithm: the error is 0.005 % of the thickness
 //   velocity   a power of two, at most 1/16384 of the frame's greatest speed
-//   others     a power of two, at most 1/4096 of the frame's greatest value; kinds are bytes
+//   others     a power of two, at most 1/4096 of the frame's greatest value; kinds are bytes, and so are numbers of
+//   liquids
 // (Coordinates beyond 2^30 steps get a larger one.)
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,7 @@ struct FrameDescription {
   double position_step = 0, velocity_step = 0;             // [m], [m/s]
   bool position_follows = false, velocity_follows = false; // the frame before
   bool moves = false;                                      // it has velocities
+  bool liquids = false;                                    // it has several
   std::vector<FieldDescription> fields = {};               // of all fields()
   std::array<double, 3> low{}, high{};                     // of positions [m]
   double volume = 0;                                       // [m³]
@@ -52,14 +55,15 @@ inline constexpr double thickness_step = 1e-4; // of its logarithm
 struct PackedFrame {
   FrameDescription description;
   // triangles (unless same_mesh), positions (all x, then y, z), thickness of triangles, velocities, the fields that
-  // are packed, in their order
+  // are packed, in their order, numbers of the vertices' liquids
   std::string text;
 };
 
 // Packs the frames of a stream, one after the other. Precondition: frames obey the format's rules.
 class FramePacker {
 public:
-  [[nodiscard]] PackedFrame pack(const formats::Frame& frame);
+  // `liquids`: the number of each vertex's (FrameLiquids); empty of one liquid.
+  [[nodiscard]] PackedFrame pack(const formats::Frame& frame, std::span<const std::uint32_t> liquids = {});
 
 private:
   struct Numbers {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/view/page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -19,9 +20,11 @@
 #include "libsheet/quantities/scaled_unit.h"
 #include "libsheet/quantities/wanted.h"
 #include "libsheet/render/framing.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/sheet/drop_shells.h"
 #include "libsheet/sheet/drops.h"
+#include "libsheet/view/liquid_looks.h"
 #include "libsheet/view/packed_frame.h"
 #include "libsheet/view/page_parts.h"
 #include "libsheet/view/surroundings.h"
@@ -87,6 +90,7 @@ Json to_json(const FrameDescription& d) {
           {"positionStep", d.position_step},
           {"positionFollows", d.position_follows},
           {"moves", d.moves},
+          {"liquids", d.liquids},
           {"velocityStep", d.velocity_step},
           {"velocityFollows", d.velocity_follows},
           {"low", d.low},
@@ -138,16 +142,21 @@ using Sink = std::function<void(std::string_view)>; // takes the page, piece by 
 // Writes what one stream brings and gathers its description.
 class StreamWriter {
 public:
-  StreamWriter(const Sink& write, std::size_t number, const std::string& name) : write_(write), number_(number) {
-    description_ = {{"name", name}, {"frames", Json::array()}, {"thicknessStep", thickness_step}, {"up", {0, 1, 0}},
-                    {"scene", ""},  {"solids", Json::array()}, {"placements", Json::array()}};
+  // `materials`: as in ViewOptions.
+  StreamWriter(const Sink& write, std::size_t number, const std::string& name,
+               const std::vector<std::size_t>& materials = {})
+      : write_(write), number_(number), materials_(materials) {
+    description_ = {
+        {"name", name}, {"frames", Json::array()}, {"thicknessStep", thickness_step}, {"up", {0, 1, 0}},
+        {"scene", ""},  {"solids", Json::array()}, {"liquids", Json::array()},        {"placements", Json::array()}};
   }
 
   void add(const formats::Frame& frame) {
     if (!scene_)
       take_scene(frame);
     constexpr DropShells small_balls{.partings = 1};
-    const PackedFrame packed = packer_.pack(knows_drops(frame) ? with_drop_shells(frame, small_balls) : frame);
+    const formats::Frame shown = knows_drops(frame) ? with_drop_shells(frame, small_balls) : frame;
+    const PackedFrame packed = packer_.pack(shown, take_liquids(shown));
     Json& frames = description_["frames"];
     write_(data_element(fmt::format("frame-{}-{}", number_, frames.size()), packed.text));
     frames.push_back(to_json(packed.description));
@@ -177,6 +186,28 @@ private:
     }
   }
 
+  // The numbers of the vertices' liquids, none if they have one; those that have come get their colours.
+  std::vector<std::uint32_t> take_liquids(const formats::Frame& frame) {
+    const Scene* scene = scenes_.find(frame);
+    if (scene == nullptr) {
+      add_looks({"liquid 1"}, liquid_thickness(frame, {}, 1));
+      return {};
+    }
+    const FrameLiquids liquids(*scene, frame);
+    add_looks(names_of_liquids(*scene), liquid_thickness(frame, liquids.numbers(), liquids.all().size()));
+    return liquids.numbers_at_vertices(frame);
+  }
+
+  void add_looks(const std::vector<std::string>& names, const std::vector<double>& thickness) {
+    Json& looks = description_["liquids"];
+    if (looks.empty())
+      for (const std::string& name : names)
+        looks.push_back({{"name", name}, {"colour", Json()}});
+    for (std::size_t i = 0; i < std::min(looks.size(), thickness.size()) && !materials_.empty(); ++i)
+      if (Json& colour = looks[i]["colour"]; colour.is_null() && thickness[i] > 0)
+        colour = to_json(colour_on_white(render::preset(materials_[i % materials_.size()]), thickness[i]));
+  }
+
   // The number of the description's placement; most surroundings stand still and need one.
   std::size_t placement_at(double time) {
     Json& placements = description_["placements"];
@@ -189,6 +220,7 @@ private:
 
   const Sink& write_;
   std::size_t number_;
+  std::vector<std::size_t> materials_;
   Json description_;
   FramePacker packer_;
   scene::FrameScene scenes_;
@@ -264,7 +296,7 @@ void write_page(const ViewOptions& options) {
     write_head(write, title_of(options));
     Json streams = Json::array();
     for (const std::string& input : options.inputs) {
-      StreamWriter writer(write, streams.size(), input == "-" ? "standard input" : input);
+      StreamWriter writer(write, streams.size(), input == "-" ? "standard input" : input, options.materials);
       if (const std::exception_ptr error = write_stream(input, options.wanted, writer); error && !cut)
         cut = error;
       streams.push_back(writer.description());

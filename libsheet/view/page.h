@@ -12,8 +12,9 @@ namespace sheet::view {
 struct ViewOptions {
   std::vector<std::string> inputs; // files of streams, "-" for standard input
   std::string output = "-";
-  std::string title;                 // "": made of the names of the inputs
-  std::optional<double> wanted = {}; // thickness, to show the deviation from it [m]
+  std::string title;                  // "": made of the names of the inputs
+  std::optional<double> wanted = {};  // thickness, to show the deviation from it [m]
+  std::vector<std::size_t> materials; // presets (render::liquid_names) of the scene's liquids in turn; empty: none
 };
 
 // Writes the page. Of a stream that is cut short the whole frames are in it; the error is thrown when it is written.

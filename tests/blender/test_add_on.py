@@ -163,6 +163,16 @@ class AddOn(unittest.TestCase):
         np.testing.assert_allclose(places, frame["drop_position"] + 0.005 * frame["drop_velocity"], atol=1e-6)
         self.assertIsNone(self.add_on.import_run("run.sheet").sheet.drops)
 
+    def test_drops_have_the_material_of_their_liquid(self):
+        drops = {"drop_position": np.zeros((3, 3)), "drop_velocity": np.zeros((3, 3)), "drop_volume": np.ones(3),
+                 "drop_liquid": np.array([1, 0, 1], np.uint32)}
+        thing = self.add_on.import_run("run.sheet", material="chocolate,honey")
+        self.add_on.follow.add_drops(thing)
+        self.add_on.follow.follow_drops(thing, drops, 0.0, 1.0)
+        mesh = thing.sheet.drops.data
+        slots = np.array([face.material_index for face in mesh.polygons]).reshape(3, -1)
+        np.testing.assert_array_equal(slots, np.repeat([[1], [0], [1]], slots.shape[1], axis=1))
+
     def test_solids_stand_where_the_scene_has_them(self):
         shell("sed 's/^radius = \"0.2 m\"/&\\nmotion = {kind = \"translating\", velocity = [0.4, 0, 0]}/' scene.toml > moving.toml;"
               "printf '[[solid]]\\nshape = \"capsule\"\\nradius = 0.1\\nlength = 0.4\\ncenter = [2, 0, 0]\\n' >> moving.toml;"
@@ -252,6 +262,29 @@ class AddOn(unittest.TestCase):
                 for name, (index, absorption, scattering) in self.add_on.LIQUIDS.items()]
         self.assertEqual("".join("\t".join(row) + "\n" for row in rows), listed)
         self.assertIn("honey", self.add_on.LIQUIDS)
+
+    def test_each_liquid_has_its_material(self):
+        pathlib.Path("sauce.toml").write_text(
+            "".join(f'[[sheet]]\nname = "{name}"\nshape = "disk"\nradius = {radius}\nedge_length = 0.008\n'
+                    f'thickness = 0.004\ncenter = [0, 0, {height}]\n[sheet.material]\nviscosity = {viscosity}\n'
+                    'density = 1300\n'
+                    for name, radius, height, viscosity in (("below", 0.03, 0, 5), ("above", 0.02, 0.01, 10))))
+        shell("sheet-init sauce.toml | sheet-loop -q --until 0.1 --fps 24 -o sauce.sheet -- 'sheet-remesh | sheet-step'")
+        run = self.add_on.sheetstream.Run("sauce.sheet")
+        thing = self.add_on.import_run("sauce.sheet", material="chocolate,honey")
+        self.assertEqual([m.name for m in thing.data.materials], ["Sheet chocolate", "Sheet honey"])
+        for i in (0, len(run) - 1):
+            bpy.context.scene.frame_set(1 + i)
+            shown = [face.material_index for face in thing.data.polygons]
+            self.assertEqual(shown, np.asarray(run[i]["liquid"]).ravel().tolist())
+            self.assertEqual(set(shown), {0, 1})
+        bpy.ops.sheet.import_run(filepath="sauce.sheet", material="honey", further="chocolate,glass")
+        names = [m.name for m in bpy.context.object.data.materials]
+        self.assertEqual(names, ["Sheet honey", "Sheet chocolate", "Sheet glass"])
+        alone = self.add_on.import_run("sauce.sheet", material="honey")
+        self.assertEqual({face.material_index for face in alone.data.polygons}, {0})
+        with self.assertRaisesRegex(self.add_on.SheetError, 'material "tar" is unknown'):
+            self.add_on.import_run("sauce.sheet", material="honey,tar")
 
     def bodies(self):
         """A sheet that falls on a ball, each frame as one closed body: the files, and what sheet-info says of them."""

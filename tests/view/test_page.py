@@ -218,6 +218,41 @@ class Page(unittest.TestCase):
         pictures.add(picture())
         self.assertEqual(len(pictures), 7)
 
+    def colours_of_liquids(self):
+        return self.browser.js("JSON.parse(document.getElementById('streams').textContent)[0].liquids.map(l => l.colour)")
+
+    def test_each_liquid_has_its_look(self):
+        with open("sauce.toml", "w") as file:
+            for name, radius, height, viscosity in (("below", 0.1, 0, 5), ("above", 0.05, 0.02, 10)):
+                file.write(f'[[sheet]]\nname = "{name}"\nshape = "disk"\nradius = {radius}\nedge_length = 0.02\n'
+                           f"thickness = 0.004\ncenter = [0, 0, {height}]\n[sheet.material]\nviscosity = {viscosity}\n"
+                           "density = 1000\n")
+        sheet("sheet-init sauce.toml -o sauce.sheet; sheet-view sauce.sheet -o told.html; sheet-view sauce.sheet "
+              "--material chocolate,honey -o look.html; sheet-view first.sheet --material honey -o honey.html")
+        number = frames_of("sauce.sheet")[0]["liquid"].ravel()
+        pictures = set()
+        for page in ("told.html", "look.html"):
+            self.open(page)
+            self.assertFalse(self.browser.js("document.getElementById('legend').hidden"))
+            self.browser.screenshot("picture.png")
+            with open("picture.png", "rb") as file:
+                pictures.add(file.read())
+            for name in (0, 1):
+                triangle = np.flatnonzero(number == name)[3]
+                self.go(f"#ask=0,0,{triangle}")
+                self.assertEqual(self.said("liquid"), ["below", "above"][name])
+            colours = self.colours_of_liquids()
+            self.assertEqual(colours == [None, None], page == "told.html")
+        self.assertEqual(len(pictures), 2)
+        chocolate, honey = colours
+        self.assertLess(max(chocolate), 120)
+        self.assertGreater(honey[0], 180)  # amber
+        self.assertLess(honey[2], 80)
+        self.open("honey.html", "#ask=0,0,0")
+        self.assertTrue(self.browser.js("document.getElementById('legend').hidden"))
+        self.assertIsNone(self.said("liquid"))
+        self.assertEqual(self.browser.complaints(), [])
+
     def test_a_narrow_window_holds_everything(self):
         self.browser.size(390, 780, mobile=True)
         self.open("both.html", "#ask=1,0,3&colour=speed&cut=x,1,0,0,0")

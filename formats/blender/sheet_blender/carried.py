@@ -178,8 +178,8 @@ class Carried:
                 if values is not None:
                     self.islands[i] = _Islands(kept["position"], kept["triangle"], values)
 
-    def put(self, mesh: bpy.types.Mesh, frame: Any) -> None:
-        """Gives the frame's mesh its layers and the materials of its faces."""
+    def put(self, mesh: bpy.types.Mesh, frame: Any, materials: bool = True) -> None:
+        """Gives the frame's mesh its layers and, if they shall be those, the materials of its faces."""
         triangle = np.asarray(frame["triangle"])
         for i, layer in enumerate(self.layers):
             if layer.array:
@@ -188,7 +188,7 @@ class Carried:
                 values = self._values_of(i, frame, triangle) if REST in frame else None
             if values is not None:
                 _put_layer(mesh, layer, values.reshape(-1, values.shape[2]))
-        if MATERIAL in frame and len(mesh.materials) > 1:  # else a preset's, which the whole sheet has
+        if materials and MATERIAL in frame and len(mesh.materials) > 1:  # else a preset's, which the whole sheet has
             mesh.polygons.foreach_set("material_index", np.asarray(frame[MATERIAL]).astype(np.int32).ravel())
 
     def _values_of(self, i: int, frame: Any, triangle: Any) -> Any:

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from .compat import sheetstream
-from .meshes import fill_balls
+from .meshes import fill_balls, set_slots
 
 SUBDIVISIONS = 3  # of the icosahedron: 320 triangles a ball
 
@@ -47,6 +47,8 @@ def follow_drops(thing: bpy.types.Object, frame: sheetstream.Frame, ahead: float
     velocity = frame["drop_velocity"]
     fill_balls(drops.data, frame["drop_position"] + ahead * velocity, np.cbrt(3 * volume / (4 * math.pi)),
                velocity_scale * velocity, ball())
+    if thing.sheet.by_liquid and "drop_liquid" in frame:
+        set_slots(drops.data, np.repeat(frame["drop_liquid"], len(drops.data.polygons) // len(volume)))
 
 
 def ball() -> tuple[Any, Any]:

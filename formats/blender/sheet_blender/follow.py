@@ -16,8 +16,8 @@ from . import body_files, carried, compat
 from .compat import sheetstream
 from .drops import add_drops, follow_drops, has_drops
 from .errors import SheetError
-from .looks import set_material
-from .meshes import fill_body, fill_mesh
+from .looks import set_materials
+from .meshes import fill_body, fill_mesh, set_slots
 from .slab import add_slab
 from .solids import add_solids
 
@@ -111,11 +111,13 @@ def _follow_run(thing: bpy.types.Object, scene: bpy.types.Scene) -> str:
     run = open_run(settings.file)
     frame, position = frame_at(run, time_of(scene, settings), settings.between)
     fill_mesh(thing.data, frame, position, settings.speed)
+    if settings.by_liquid:
+        set_slots(thing.data, frame["liquid"] if "liquid" in frame else np.zeros(len(thing.data.polygons)))
     ahead = min(time_of(scene, settings), float(run.times[-1])) - frame.time if settings.between else 0.0
     follow_drops(thing, frame, max(0.0, ahead), settings.speed)
     layers = carried.beside(settings.file, settings.mesh_file)
     if layers is not None:
-        layers.put(thing.data, frame)
+        layers.put(thing.data, frame, materials=not settings.by_liquid)
     return f"frame {int(np.searchsorted(run.times, frame.time))} of {len(run)}, {frame.time:.4g} s"
 
 
@@ -148,7 +150,8 @@ def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: in
     """Adds a run to the scene as an object whose mesh follows the time; returns it. Raises SheetError.
 
     Blender's frame `start` shows the run's first frame; `speed` seconds of the run pass in a second. up: the run's axis
-    that points upwards (X, Y, Z, or AUTO: against the gravity of its scene).
+    that points upwards (X, Y, Z, or AUTO: against the gravity of its scene). material: a preset; of several liquids
+    those of the first, the second, ..., with commas, and again from the first.
     """
     scene = scene or bpy.context.scene
     run = open_run(path)
@@ -157,7 +160,8 @@ def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: in
     thing.sheet.mesh_file = _mesh_file_of(described)
     if slab:
         add_slab(thing)
-    set_material(thing, material, scene)
+    set_materials(thing, material, scene)
+    thing.sheet.by_liquid = "," in material
     if has_drops(described):
         add_drops(thing)
     if adapt_scene:
@@ -179,7 +183,7 @@ def import_bodies(path: str, material: str = "caramel", up: str = "Y", start: in
     scene = scene or bpy.context.scene
     bodies = open_bodies(path, scene.render.fps / scene.render.fps_base)
     thing = _add_object(path, _upright({}, up), bodies.times, start, speed, between, scene)
-    set_material(thing, material, scene)
+    set_materials(thing, material, scene)
     if adapt_scene:
         _adapt_scene(thing, bodies.times, scene)
     _show_first(thing, scene)
@@ -263,5 +267,6 @@ class SheetSettings(bpy.types.PropertyGroup):
         update=_refresh)
     first_time: bpy.props.FloatProperty(name="Time of the first frame", unit="TIME")  # type: ignore[valid-type]
     mesh_file: bpy.props.StringProperty()  # type: ignore[valid-type] # of its scene
+    by_liquid: bpy.props.BoolProperty()  # type: ignore[valid-type] # each liquid has a material
     drops: bpy.props.PointerProperty(type=bpy.types.Object)  # type: ignore[valid-type] # which shows those of the run
     message: bpy.props.StringProperty()  # type: ignore[valid-type]

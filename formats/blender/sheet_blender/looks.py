@@ -95,12 +95,16 @@ def _false_colours(tree: bpy.types.NodeTree) -> Any:
     return matte.outputs["BSDF"]
 
 
-def set_material(thing: bpy.types.Object, kind: str, scene: bpy.types.Scene) -> None:
-    """Gives the object a preset's material, and Cycles enough bounces to see through it."""
-    if kind not in (*LIQUIDS, THICKNESS_LOOK):
-        raise SheetError(f'material "{kind}" is unknown: choose {", ".join((*LIQUIDS, THICKNESS_LOOK))}')
+def set_materials(thing: bpy.types.Object, names: str, scene: bpy.types.Scene) -> None:
+    """Gives the object materials of presets, of which `names` has one or, with commas, those of the scene's liquids in
+    turn; and Cycles enough bounces to see through them."""
+    kinds = [name.strip() for name in names.split(",")]
+    for kind in kinds:
+        if kind not in (*LIQUIDS, THICKNESS_LOOK):
+            raise SheetError(f'material "{kind}" is unknown: choose {", ".join((*LIQUIDS, THICKNESS_LOOK))}')
     thing.data.materials.clear()
-    thing.data.materials.append(make_material(kind))
-    if kind in LIQUIDS and min(LIQUIDS[kind][2]) < OPAQUE and hasattr(scene, "cycles"):
+    for kind in kinds:
+        thing.data.materials.append(make_material(kind))
+    if any(kind in LIQUIDS and min(LIQUIDS[kind][2]) < OPAQUE for kind in kinds) and hasattr(scene, "cycles"):
         scene.cycles.volume_bounces = max(scene.cycles.volume_bounces, 4)
         scene.cycles.transmission_bounces = max(scene.cycles.transmission_bounces, 12)

@@ -39,6 +39,12 @@ def fill_mesh(mesh: bpy.types.Mesh, frame: sheetstream.Frame, position: Any, vel
     mesh.update()
 
 
+def set_slots(mesh: bpy.types.Mesh, liquid: Any) -> None:
+    """Gives each face the material of its liquid; `liquid`: their numbers. They have the mesh's materials in turn."""
+    slots = np.asarray(liquid).ravel() % max(len(mesh.materials), 1)
+    mesh.polygons.foreach_set("material_index", slots.astype(np.int32))
+
+
 def fill_balls(mesh: bpy.types.Mesh, position: Any, radius: Any, velocity: Any, ball: tuple[Any, Any]) -> None:
     """Makes the mesh a ball at each position, with the attribute velocity; ball: positions and triangles of one of
     radius 1 about 0."""

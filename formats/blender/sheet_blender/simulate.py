@@ -15,7 +15,7 @@ from . import cache
 from .compat import confirm
 from .errors import SheetError
 from .follow import forget, open_run, update_object
-from .looks import set_material
+from .looks import set_materials
 from .parts import plan_of, the_sheet, times_of
 from .scene_file import Written, write_scene
 from .slab import add_slab
@@ -110,7 +110,7 @@ def _make_result(thing: bpy.types.Object, scene: bpy.types.Scene) -> bpy.types.O
         for material in materials:
             shown.data.materials.append(material)
     else:
-        set_material(shown, scene.sheet_run.look, scene)
+        set_materials(shown, scene.sheet_run.look, scene)
     _set_hidden(thing, True)
     return shown
 

@@ -3,7 +3,8 @@
 import {cross, length, subtract} from "./vectors.js";
 
 export const quantities = JSON.parse(document.getElementById("quantities").textContent);
-const plainColour = [176, 120, 78];
+// Of liquids without a material, in turn.
+export const plainColours = [[176, 120, 78], [92, 140, 176], [150, 160, 84], [168, 108, 150]];
 
 // The colour at a place of the scale, 0 to 1; stops are [place, colour].
 export function between(stops, place) {
@@ -62,12 +63,12 @@ export function rangeOf(streams, quantity) {
   return high > 0 ? [0.9 * low, 1.1 * high] : [0, 1];
 }
 
-// Red, green, blue, 255 for each vertex; plain where there is no quantity, or the frame does not have it.
+// Red, green, blue, 255 for each vertex; that of its liquid where there is no quantity, or the frame does not have it.
 export function coloursOf(frame, shape, quantity, range) {
   const colours = new Uint8Array(4 * frame.vertices).fill(255);
   const values = quantity && frame.fields[quantities.indexOf(quantity)] && vertexValues(frame, shape, quantity);
   for (let v = 0; v < frame.vertices; ++v) {
-    const colour = !values ? plainColour
+    const colour = !values ? frame.liquidOf(v).colour
       : quantity.kinds.length ? quantity.kinds[values[v]][1]
       : between(quantity.stops, (values[v] - range[0]) / (range[1] - range[0]));
     colours.set(colour, 4 * v);

@@ -11,13 +11,13 @@ export function element(name, text = "", children = []) {
   return made;
 }
 
-// rows: [word, text, exact value]
+// rows: [word, text, exact value if it is not the text]
 function table(rows) {
   const list = element("dl");
   for (const [word, text, exact] of rows) {
     const value = element("dd", text);
     value.dataset.of = word;
-    value.dataset.value = exact;
+    value.dataset.value = exact ?? text;
     list.append(element("dt", word), value);
   }
   return list;
@@ -44,6 +44,7 @@ export function triangleSection(stream, states, now) {
     ["thickness", withUnit(state.thickness, "m"), state.thickness],
     ["position", place.map(x => withUnit(x, "m")).join(", "), place.join(" ")],
     ["speed", withUnit(state.speed, "m/s"), state.speed],
+    ...(frame.liquid ? [["liquid", frame.liquidOf(frame.cornersOf(triangle)[0]).name]] : []),
     ...state.values.map(([{name, kinds, unit}, value]) => [
       name, kinds.length ? kinds[value][0] : withUnit(value, unit), value]),
   ]));

@@ -78,6 +78,7 @@ export function plot(canvas, lines, units, cursor, dashes = []) {
 }
 
 export function drawLegend(canvas, quantity, range, colourAt) {
+  canvas.style.height = `${18 * quantity.kinds.length || 54}px`;
   const {pen, width} = sharp(canvas), ink = themed("--ink");
   pen.textAlign = "left";
   quantity.kinds.forEach(([text, colour], i) => {

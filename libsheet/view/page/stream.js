@@ -2,7 +2,7 @@
 
 import {unpack} from "./numbers.js";
 import {Mesh} from "./mesh.js";
-import {quantities} from "./colours.js";
+import {plainColours, quantities} from "./colours.js";
 
 class Frame {
   constructor(description) {
@@ -20,14 +20,20 @@ class Frame {
   thicknessOf(triangle) { return Math.exp(this.logs[triangle] * this.thicknessStep); }
   // Of a quantity that is packed, at a triangle or vertex.
   valueOf(name, row) { return this.values[name][row] * (this.steps[name] || 1); }
+  // {name, colour} of the liquid at a vertex.
+  liquidOf(v) {
+    const {liquids} = this.stream;
+    return liquids[this.liquid ? this.liquid[v] % liquids.length : 0];
+  }
   cornersOf(triangle) { return this.mesh.corners.subarray(3 * triangle, 3 * triangle + 3); }
 }
 
 export class Stream {
   constructor(number, description) {
-    Object.assign(this, description); // name, scene, up, solids, placements
+    Object.assign(this, description); // name, scene, up, solids, liquids, placements
     this.number = number;
     this.descriptions = description.frames;
+    this.liquids.forEach((liquid, i) => { liquid.colour ??= plainColours[i % plainColours.length]; });
     this.frames = []; // those that are unpacked
     this.times = this.descriptions.map(d => d.time);
   }
@@ -52,6 +58,8 @@ export class Stream {
       frame.values[name] = kinds.length ? data.rawBytes(rows) : data.numbers(rows, field.follows ? before.values[name] : null);
       frame.steps[name] = field.step;
     }
+    frame.liquid = frame.liquids ? data.rawBytes(vertices) : null;
+    frame.stream = this;
     this.frames.push(frame);
   }
 

@@ -57,6 +57,14 @@ function tellLabels() {
   $("labels").replaceChildren(...made);
 }
 
+// The liquids of all streams, [name, colour] each, once; none where no stream has several.
+function liquidKinds() {
+  if (streams.every(({liquids}) => liquids.length < 2))
+    return [];
+  const kinds = streams.flatMap(({liquids}) => liquids.map(({name, colour}) => [name, colour]));
+  return [...new Map(kinds.map(kind => [String(kind), kind])).values()];
+}
+
 export function tell() {
   tellLabels();
   $("time").value = state.moment;
@@ -66,9 +74,10 @@ export function tell() {
   for (const name of ["mesh", "solids"])
     $(name).setAttribute("aria-pressed", state[name]);
   $("measure").setAttribute("aria-pressed", state.measuring);
-  $("legend").hidden = state.colour === "plain";
-  if (state.colour !== "plain")
-    drawLegend($("legend").firstElementChild, quantity(), range(), place => between(quantity().stops, place));
+  const scale = quantity() ?? {kinds: liquidKinds()};
+  $("legend").hidden = state.colour === "plain" && scale.kinds.length === 0;
+  if (!$("legend").hidden)
+    drawLegend($("legend").firstElementChild, scale, range(), place => between(scale.stops, place));
   $("cut").value = state.cut ? state.cut.name : "";
   $("cutter").hidden = !state.cut;
   if (state.cut) {
