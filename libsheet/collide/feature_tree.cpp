@@ -19,11 +19,6 @@ template <class Work> void for_bits(unsigned bits, const Work& work) {
     work(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-void append(FeaturePairs& to, const FeaturePairs& from) {
-  to.vertex_triangle.insert(to.vertex_triangle.end(), from.vertex_triangle.begin(), from.vertex_triangle.end());
-  to.edge_edge.insert(to.edge_edge.end(), from.edge_edge.begin(), from.edge_edge.end());
-}
-
 } // namespace
 
 // Which features of one leaf are joined to a vertex by an edge of the mesh.
@@ -308,7 +303,7 @@ void FeatureTree::place_features(float reaching, float on_way) {
   });
 }
 
-Candidates FeatureTree::candidates(const Ways& ways, double on_way, bool beside, Flags chosen) {
+std::vector<Candidates> FeatureTree::candidates(const Ways& ways, double on_way, bool beside, Flags chosen) {
   constexpr float rounded_up = 0.5F * (1 + 0x1p-22F);
   const float half_on_way = rounded_up * static_cast<float>(on_way), half_reach = beside ? rounded_up : half_on_way;
   place_vertices(ways);
@@ -322,13 +317,7 @@ Candidates FeatureTree::candidates(const Ways& ways, double on_way, bool beside,
   tree_.for_leaves(chosen, [&](std::size_t chunk, std::size_t a, std::size_t b) {
     Visitor(*this, beside, marks, found[chunk]).visit(a, b);
   });
-  Candidates all;
-  for (const Candidates& part : found) {
-    append(all.on_way, part.on_way);
-    append(all.beside, part.beside);
-    all.joined.insert(all.joined.end(), part.joined.begin(), part.joined.end());
-  }
-  return all;
+  return found;
 }
 
 const BoxTree& FeatureTree::triangles_at(std::span<const Vector3> positions) {

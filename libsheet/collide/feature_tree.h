@@ -63,8 +63,8 @@ public:
 
   // All pairs whose boxes (Way::box) overlap, and perhaps a few more, of which at least one is a feature of a triangle
   // in `chosen` (a flag a triangle; empty: all): Candidates::on_way those with the part `on_way`; the others, sought if
-  // `beside` is true, those with the part 1. In an order that depends on what is given alone.
-  [[nodiscard]] Candidates candidates(const Ways& ways, double on_way, bool beside, Flags chosen);
+  // `beside` is true, those with the part 1. In parts; these and their order depend on what is given alone.
+  [[nodiscard]] std::vector<Candidates> candidates(const Ways& ways, double on_way, bool beside, Flags chosen);
 
   // Puts the triangles where their vertices are, for BoxTree::for_overlaps.
   [[nodiscard]] const BoxTree& triangles_at(std::span<const Vector3> positions);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "libsheet/base/each.h"
 #include "libsheet/geometry/triangle_pair.h"
@@ -95,13 +96,22 @@ bool boxes_overlap(const FeaturePair& pair, const Ways& ways, double part) {
   return ways.way(v.first(first)).box(part).overlaps(ways.way(v.subspan(first)).box(part));
 }
 
-// What work(i, out) appends to `out` for i < count goes to the end of `all`, in the order of i.
-template <class Found, class Work> void in_chunks(std::size_t count, std::vector<Found>& all, const Work& work) {
-  constexpr std::size_t chunk = 2048;
-  std::vector<std::vector<Found>> found((count + chunk - 1) / chunk);
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
-    for (std::size_t i = k * chunk; i < std::min((k + 1) * chunk, count); ++i)
-      work(i, found[k]);
+// What work(pair, out) appends to `out`, for the pairs that pairs_of gives of each part, goes to the end of `all`, in
+// the order of the pairs.
+template <class Found, class PairsOf, class Work>
+void for_pairs(const std::vector<Candidates>& parts, const PairsOf& pairs_of, std::vector<Found>& all,
+               const Work& work) {
+  constexpr std::size_t at_once = 2048;
+  std::vector<std::span<const FeaturePairs::Pair>> pieces;
+  for (const Candidates& part : parts) {
+    const std::span<const FeaturePairs::Pair> pairs = pairs_of(part);
+    for (std::size_t begin = 0; begin < pairs.size(); begin += at_once)
+      pieces.push_back(pairs.subspan(begin, std::min(at_once, pairs.size() - begin)));
+  }
+  std::vector<std::vector<Found>> found(pieces.size());
+  tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t k) {
+    for (const FeaturePairs::Pair& pair : pieces[k])
+      work(pair, found[k]);
   });
   for (const auto& part : found)
     all.insert(all.end(), part.begin(), part.end());
@@ -117,27 +127,29 @@ public:
       : mesh_(mesh), flags_(flags), test_(test) {}
 
   // The pairs with a flag, or without.
-  void look_at(const FeaturePairs& pairs, bool flagged) {
-    in_chunks(pairs.vertex_triangle.size(), found_, [&](std::size_t i, std::vector<Found>& out) {
-      look_at(vertex_triangle(pairs.vertex_triangle[i]), flagged, out);
+  void look_at(const std::vector<Candidates>& parts, FeaturePairs Candidates::*pairs, bool flagged) {
+    const auto vertices = [&](const Candidates& part) { return std::span((part.*pairs).vertex_triangle); };
+    const auto edges = [&](const Candidates& part) { return std::span((part.*pairs).edge_edge); };
+    for_pairs(parts, vertices, found_, [&](const FeaturePairs::Pair& pair, std::vector<Found>& out) {
+      look_at(vertex_triangle(pair), flagged, out);
     });
-    in_chunks(pairs.edge_edge.size(), found_, [&](std::size_t i, std::vector<Found>& out) {
-      const auto& [e, f] = pairs.edge_edge[i];
-      const Edge &a = mesh_.edges[e], &b = mesh_.edges[f];
+    for_pairs(parts, edges, found_, [&](const FeaturePairs::Pair& pair, std::vector<Found>& out) {
+      const Edge &a = mesh_.edges[pair[0]], &b = mesh_.edges[pair[1]];
       look_at({Features::edge_edge, {a[0], a[1], b[0], b[1]}}, flagged, out);
     });
   }
-  // Those of which the vertex is over the triangle.
-  void look_over(const std::vector<FeaturePairs::Pair>& pairs, std::span<const Vector3> x, bool flagged) {
-    in_chunks(pairs.size(), found_, [&](std::size_t i, std::vector<Found>& out) {
-      const Corners& c = mesh_.triangles[pairs[i][1]];
-      if (may_be_over_triangle(x[pairs[i][0]], x[c[0]], x[c[1]], x[c[2]]))
-        look_at(vertex_triangle(pairs[i]), flagged, out);
+  // Those joined by an edge of the mesh of which the vertex is over the triangle.
+  void look_over(const std::vector<Candidates>& parts, std::span<const Vector3> x, bool flagged) {
+    const auto joined = [](const Candidates& part) { return std::span(part.joined); };
+    for_pairs(parts, joined, found_, [&](const FeaturePairs::Pair& pair, std::vector<Found>& out) {
+      const Corners& c = mesh_.triangles[pair[1]];
+      if (may_be_over_triangle(x[pair[0]], x[c[0]], x[c[1]], x[c[2]]))
+        look_at(vertex_triangle(pair), flagged, out);
     });
   }
 
   [[nodiscard]] std::vector<Found> sorted() && {
-    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) { return a.pair < b.pair; });
+    tbb::parallel_sort(found_, [](const Found& a, const Found& b) { return a.pair < b.pair; }); // each pair once
     return std::move(found_);
   }
 
@@ -172,10 +184,10 @@ SelfSearch::Flags SelfSearch::outside(const Ways& ways) const {
 
 SelfSearch::Flags SelfSearch::triangles_with(std::span<const std::uint8_t> vertices) const {
   Flags flags(mesh_.triangles.size());
-  for (std::size_t t = 0; t < flags.size(); ++t) {
+  each_in_parallel(flags.size(), [&](std::size_t t) {
     const Corners& c = mesh_.triangles[t];
     flags[t] = vertices[c[0]] | vertices[c[1]] | vertices[c[2]];
-  }
+  });
   return flags;
 }
 
@@ -184,11 +196,12 @@ void SelfSearch::gather(Positions start, Positions end, std::span<const double> 
   if (4 * std::count(flags.begin(), flags.end(), 1) <= static_cast<std::ptrdiff_t>(flags.size()))
     return; // few pairs to be looked up
   around_.assign(mesh_.vertices, {});
-  for (std::size_t v = 0; v < around_.size(); ++v) {
+  each_in_parallel(around_.size(), [&](std::size_t v) {
     around_[v].add(start[v], 0);
     around_[v].add(end[v], 0);
-  }
+  });
   reach_.assign(reach.begin(), reach.end());
+  candidates_.clear(); // before there are others: they are most of the memory
   candidates_ = tree_.candidates({start, end, reach}, nearest_part, true, {});
 }
 
@@ -207,9 +220,9 @@ std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<cons
   const std::span<const std::uint8_t> flags = moved.empty() ? left : moved;
   Collector<Hit, decltype(test)> collector(mesh_, flags, test);
   if (moved.empty())
-    collector.look_at(candidates_.on_way, false);
+    collector.look_at(candidates_, &Candidates::on_way, false);
   if (std::ranges::find(flags, 1) != flags.end())
-    collector.look_at(tree_.candidates(ways, nearest_part, false, triangles_with(flags)).on_way, true);
+    collector.look_at(tree_.candidates(ways, nearest_part, false, triangles_with(flags)), &Candidates::on_way, true);
   return std::move(collector).sorted();
 }
 
@@ -232,10 +245,10 @@ std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reac
   };
   const Flags flags = outside(ways);
   Collector<NearPair, decltype(test)> collector(mesh_, flags, test);
-  const auto look_at = [&](const Candidates& candidates, bool flagged) {
-    collector.look_at(candidates.on_way, flagged);
-    collector.look_at(candidates.beside, flagged);
-    collector.look_over(candidates.joined, x, flagged);
+  const auto look_at = [&](const std::vector<Candidates>& candidates, bool flagged) {
+    collector.look_at(candidates, &Candidates::on_way, flagged);
+    collector.look_at(candidates, &Candidates::beside, flagged);
+    collector.look_over(candidates, x, flagged);
   };
   look_at(candidates_, false);
   if (std::ranges::find(flags, 1) != flags.end())

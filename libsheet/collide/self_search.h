@@ -85,7 +85,7 @@ private:
   const Connectivity& mesh_;
   SheetLayers layers_;
   FeatureTree tree_;
-  Candidates candidates_;
+  std::vector<Candidates> candidates_;
   std::vector<Box> around_;   // of each vertex: the places for which they were gathered
   std::vector<double> reach_; // and the contact distance
 };

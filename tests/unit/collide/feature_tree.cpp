@@ -42,17 +42,19 @@ enum class Kind { none, beside, joined, on_way };
 using Kinds = std::map<std::pair<bool, Pair>, Kind>; // by: of edges or not
 
 // Fails where a pair stands twice.
-Kinds kinds_of(const Candidates& candidates) {
+Kinds kinds_of(const std::vector<Candidates>& candidates) {
   Kinds kinds;
   const auto put = [&](bool edges, const std::vector<Pair>& pairs, Kind kind) {
     for (const Pair& pair : pairs)
       EXPECT_TRUE(kinds.emplace(std::pair(edges, pair), kind).second) << edges << " " << pair[0] << " " << pair[1];
   };
-  put(true, candidates.on_way.edge_edge, Kind::on_way);
-  put(true, candidates.beside.edge_edge, Kind::beside);
-  put(false, candidates.on_way.vertex_triangle, Kind::on_way);
-  put(false, candidates.beside.vertex_triangle, Kind::beside);
-  put(false, candidates.joined, Kind::joined);
+  for (const Candidates& part : candidates) {
+    put(true, part.on_way.edge_edge, Kind::on_way);
+    put(true, part.beside.edge_edge, Kind::beside);
+    put(false, part.on_way.vertex_triangle, Kind::on_way);
+    put(false, part.beside.vertex_triangle, Kind::beside);
+    put(false, part.joined, Kind::joined);
+  }
   return kinds;
 }
 
