@@ -195,22 +195,11 @@ private:
     return true;
   }
 
-  // Angle at a tip of the rim, between two rim sides of a triangle [cosine]; -1 if it has none.
-  [[nodiscard]] double cosine_of_tip(std::uint32_t t) const {
-    for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side)
-      if (mesh_.twin(side) != no_index && mesh_.twin(Mesh::next(side)) == no_index &&
-          mesh_.twin(Mesh::previous(side)) == no_index) {
-        const Vector3& tip = sheet_.at(mesh_.apex(side));
-        return (sheet_.at(mesh_.from(side)) - tip).normalized().dot((sheet_.at(mesh_.to(side)) - tip).normalized());
-      }
-    return -1;
-  }
-
-  // A sliver at the rim that nothing else has cured: a lip folded over onto the sheet, a corner narrower than an edge.
-  // A pointed end is a shape that somebody may want, but tension draws it in before an edge could tell.
+  // A sliver at the rim that nothing else has cured: a lip folded over onto the sheet, or, where tension draws it in
+  // before an edge could tell, a corner narrower than an edge; without tension a pointed end may be somebody's shape.
   bool trim(std::uint32_t t) {
-    if (sheet_.shape(t).sharpest < cosine_15 || (!tension_ && cosine_of_tip(t) > cosine_15) ||
-        !propose_trim(sheet_, t, edit_) || !sheet_.make(edit_, limits(1, -1, pocket_thickness)))
+    if (sheet_.shape(t).sharpest < cosine_15 || !(tension_ || in_crease(t)) || !propose_trim(sheet_, t, edit_) ||
+        !sheet_.make(edit_, limits(1, -1, pocket_thickness)))
       return false;
     ++report_.absorbed;
     return true;
@@ -334,9 +323,17 @@ private:
     return moved || collapse_to_an_end(t) || trim(t);
   }
 
+  // Whether the sheet turns by more than 60 degrees at one of its sides.
+  [[nodiscard]] bool in_crease(std::uint32_t t) const {
+    return std::ranges::any_of(std::array{3 * t, 3 * t + 1, 3 * t + 2}, [&](std::uint32_t side) {
+      const std::uint32_t twin = mesh_.twin(side);
+      return twin != no_index && sheet_.shape(t).normal.dot(sheet_.shape(Mesh::triangle_of(twin)).normal) < 0.5;
+    });
+  }
+
   // In a crease the point that is best for the volume lies outside, and would turn triangles over.
   bool collapse_to_an_end(std::uint32_t t) {
-    if (sheet_.shape(t).sharpest < cosine_15)
+    if (sheet_.shape(t).sharpest < cosine_15 || !in_crease(t))
       return false;
     const Corners corners = mesh_.corners(t);
     for (std::size_t i = 0; i < 3; ++i) {
