@@ -97,7 +97,7 @@ TEST(Validation, RimsAndSlopes) {
   EXPECT_LT(std::abs(of(9, 1, 200, Pattern::equilateral).error), 0.005);
   EXPECT_LT(std::abs(of(10, 1, 200, Pattern::equilateral).error), 0.03);
   EXPECT_LT(std::abs(of(11, 1, 200, Pattern::structured).error), 0.03); // equilateral 5.9 %: half a wave has 3 edges
-  EXPECT_GT(of(13, 1.04, 60).value, 1.05); // the hole opens
+  EXPECT_GT(of(13, 1.04, 60).value, 1.05);                              // the hole opens
 }
 
 // Holes at inclusions: Kolmogorov's test of 400 at the level of 5 %, and Poisson's numbers within two deviations.

@@ -2,6 +2,7 @@
 #include "libsheet/view/liquid_looks.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/render/display.h"
