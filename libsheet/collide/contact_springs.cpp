@@ -77,6 +77,15 @@ double energy_of(const ContactSpring& s, const Scene& scene, std::span<const Vec
   return s.energy(s.offset(x), contacts_adhere(scene));
 }
 
+// Takes away the springs of whose number gone(i) is true.
+template <class Gone> void erase(std::vector<ContactSpring>& springs, const Gone& gone) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    if (!gone(i))
+      springs[kept++] = springs[i];
+  springs.resize(kept);
+}
+
 // Leaves the spring this part of its strain.
 void ease(ContactSpring& s, double part, std::span<const Vector3> x) {
   const Vector3 c = s.offset(x);
@@ -93,8 +102,7 @@ void drop_within_layers(std::vector<ContactSpring>& springs, const SheetLayers& 
     within[i] =
         !s.welded() && layers.one(sheet.start, s.vertices, s.weights, SheetLayers::of_kept, s.mean(sheet.reach));
   });
-  std::erase_if(springs,
-                [&](const ContactSpring& s) { return within[static_cast<std::size_t>(&s - springs.data())] != 0; });
+  erase(springs, [&](std::size_t i) { return within[i] != 0; });
 }
 
 std::vector<double> follow(std::vector<ContactSpring>& springs, const Scene& scene, const SpringSheet& sheet,
@@ -114,8 +122,7 @@ std::vector<double> follow(std::vector<ContactSpring>& springs, const Scene& sce
         std::ranges::any_of(s.vertices, [&](std::uint32_t v) { return sheet.end[v] != free.end[v]; });
     had[i] = corrected ? std::min(as_it_was, turned) : turned;
   });
-  std::erase_if(springs,
-                [&](const ContactSpring& s) { return had[static_cast<std::size_t>(&s - springs.data())] == parts; });
+  erase(springs, [&](std::size_t i) { return had[i] == parts; });
   std::erase(had, parts);
   return had;
 }
