@@ -39,6 +39,7 @@ public:
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     first_.resize(pixels);
     certain_.resize(pixels);
+    near_edge_.resize(pixels);
     samples_.assign(pixels, options.samples);
     whole_.resize(pixels);
     for (Layer& layer : layers_) {
@@ -50,6 +51,7 @@ public:
 
   Picture paint() {
     each_row([&](int x, int y, std::uint64_t& rays) { look_at(x, y, rays); });
+    each_row([&](int x, int y, std::uint64_t&) { near_edge_[index(x, y)] = near_edge(x, y); });
     each_row([&](int x, int y, std::uint64_t& rays) { sample_point(x, y, 0, options_.samples, rays); });
     share_out_samples();
     each_row([&](int x, int y, std::uint64_t& rays) { sample_more(x, y, rays); });
@@ -102,12 +104,21 @@ private:
     }
   }
 
+  // Points that are smoothed over others share the sequence of the picture with them.
+  [[nodiscard]] Sampler sampler_of(int x, int y, int number) const {
+    const std::size_t i = index(x, y);
+    if (near_edge_[i])
+      return {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(number)};
+    return Sampler::on_screen(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                              static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(options_.samples));
+  }
+
   // Adds samples to the halves of a point: those before the middle of all that it is to have to the first.
   void sample_point(int x, int y, int first, int end, std::uint64_t& rays) {
     const std::size_t i = index(x, y);
     const Ray ray = middle_ray(x, y);
     for (int s = first; s < end; ++s) {
-      Sampler sampler(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(options_.first_sample + s));
+      Sampler sampler = sampler_of(x, y, options_.first_sample + s);
       const Light light = tracer_->radiance(ray, first_[i], sampler, rays);
       for (std::size_t l = 0; l < layers_.size(); ++l) {
         Halves& sum = layers_[l].light[i];
@@ -144,7 +155,7 @@ private:
       const auto [mean, points] = mean_around(variance, layers_[0].points, options_.width, x, y);
       const float need = mean / (points * noisy_levels * noisy_levels);
       int& factor = wanted[index(x, y)];
-      if (near_edge(x, y))
+      if (near_edge_[index(x, y)])
         factor = most_samples_factor;
       else
         for (factor = 1; factor < most_samples_factor && static_cast<float>(factor) < need;)
@@ -356,6 +367,7 @@ private:
   float pixel_angle_;
   std::vector<Hit> first_;
   std::vector<Colour> certain_; // in the middles of the pixels
+  std::vector<char> near_edge_; // by pixel
   std::vector<int> samples_;
   std::array<Layer, 2> layers_;
   std::vector<Halves> whole_; // all light there

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/render/types.h"
 
 namespace sheet::render {
 namespace {
@@ -16,6 +17,7 @@ constexpr double smooth_turn = 6 * std::numbers::pi / 180;  // of an edge, that 
 constexpr double rim_corner = 135 * std::numbers::pi / 180; // a rim with a smaller angle has a corner there
 constexpr double smooth_edges = 0.99;                       // of all
 constexpr int most_partings = 3;
+constexpr float tight = 0.15F, tightest = 0.35F; // folds, by what they lack, in edges
 
 std::vector<double> thickness_of(std::span<const Vector3> x, std::span<const Corners> triangles,
                                  std::span<const double> volumes, std::span<const double> areas) {
@@ -122,12 +124,25 @@ std::vector<Vector3> limits(std::span<const Vector3> x, const Mesh& mesh) {
   return result;
 }
 
-// Control points of a surface that goes near to x.
+// The mean distance from those around a vertex [m].
+double distance_around(std::span<const Vector3> x, const Mesh& mesh, std::size_t v) {
+  double sum = 0;
+  for (const std::uint32_t other : mesh.around[v])
+    sum += (x[other] - x[v]).norm();
+  return mesh.around[v].empty() ? 0 : sum / static_cast<double>(mesh.around[v].size());
+}
+
+// Control points of a surface that goes near to x, but where folds are as tight as edges are long: that which is moved
+// out there would stand out between the edges, one bump a vertex.
 std::vector<Vector3> control_points(std::span<const Vector3> x, const Mesh& mesh) {
   const std::vector<Vector3> there = limits(x, mesh);
   std::vector<Vector3> control;
-  for (std::size_t v = 0; v < x.size(); ++v)
-    control.push_back(x[v] + (x[v] - there[v]));
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const Vector3 lacking = x[v] - there[v];
+    const double around = distance_around(x, mesh, v);
+    const auto part = static_cast<float>(around > 0 ? lacking.norm() / around : 0);
+    control.push_back(x[v] + static_cast<double>(1 - smooth_step(tight, tightest, part)) * lacking);
+  }
   return control;
 }
 
@@ -191,6 +206,31 @@ double turn_of_edges(const Middle& middle, const Mesh& mesh) {
   return *at;
 }
 
+// Half of the edges are as long [m].
+double median_edge(std::span<const Vector3> x, const Mesh& mesh) {
+  std::vector<double> lengths;
+  for (const MeshEdge& e : mesh.edges)
+    lengths.push_back((x[e.high] - x[e.low]).norm());
+  if (lengths.empty())
+    return 0;
+  const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::ranges::nth_element(lengths, at);
+  return *at;
+}
+
+// How often triangles are parted in four.
+int partings_of(const Middle& middle, const Mesh& mesh, const PartingLimits& until) {
+  const double turn = turn_of_edges(middle, mesh), edge = median_edge(middle.positions, mesh);
+  if (!(turn > smooth_turn))
+    return 0;
+  int partings = std::min(most_partings, static_cast<int>(std::ceil(std::log2(turn / smooth_turn))));
+  const double chord = edge * turn / 8; // its height; a quarter of that in halves that turn by half as much
+  while (partings > 0 && (middle.triangles.size() << (2 * partings) > until.most_triangles ||
+                          std::ldexp(chord, -2 * (partings - 1)) < until.flat))
+    --partings;
+  return partings;
+}
+
 // Of the vertices of `coarse`, whose triangles are as large as their parts on `smooth`.
 std::vector<double> thickness_on(const Middle& smooth, const Middle& coarse, std::span<const double> volumes) {
   std::vector<double> area_of(volumes.size(), 0);
@@ -230,13 +270,9 @@ Middle middle_of(const formats::Frame& frame) {
   return middle;
 }
 
-Middle smoothed(const Middle& middle, std::span<const double> volumes, std::size_t most_triangles) {
+Middle smoothed(const Middle& middle, std::span<const double> volumes, const PartingLimits& until) {
   Mesh mesh = mesh_of(middle.positions.size(), middle.triangles);
-  const double turn = turn_of_edges(middle, mesh);
-  int partings =
-      turn > smooth_turn ? std::min(most_partings, static_cast<int>(std::ceil(std::log2(turn / smooth_turn)))) : 0;
-  while (partings > 0 && middle.triangles.size() << (2 * partings) > most_triangles)
-    --partings;
+  const int partings = partings_of(middle, mesh, until);
   if (partings == 0)
     return middle;
   find_corners(middle.positions, mesh);

@@ -26,12 +26,19 @@ struct Middle {
 // All volume around a vertex over all area around it [m]; 0 where there is no area.
 [[nodiscard]] std::vector<double> vertex_thickness(const formats::Frame& frame);
 
+// Where parting of triangles ends.
+struct PartingLimits {
+  std::size_t most_triangles;
+  double flat = 0; // as soon as chords as long as the median edge are so near to the surface where it is sharpest [m]
+};
+
 // The same surface with finer triangles, curved between the vertices: that of Loop subdivision [Loop 1987], with
 // control points from one round of progressive interpolation [Cheng, Fan, Lai, Huang, Wang, Yong 2009], so that it goes
-// near to the vertices but follows the noise of single ones by half; rims are cubic splines but for corners below 135
-// degrees [Biermann, Levin, Zorin 2000]. Edges of other than two triangles stay as they are. Triangles are parted in
-// four until 99 of 100 edges turn by less than 6 degrees, at most three times, and as long as there are at
-// most `most_triangles`. The volume, area times thickness, is that of `volumes` [m³], of the frame's triangles.
-[[nodiscard]] Middle smoothed(const Middle& middle, std::span<const double> volumes, std::size_t most_triangles);
+// near to the vertices but follows the noise of single ones by half, and less near where folds are as tight as edges
+// are long; rims are cubic splines but for corners below 135 degrees [Biermann, Levin, Zorin 2000]. Edges of other than
+// two triangles stay as they are. Triangles are parted in four until 99 of 100 edges turn by less than 6 degrees, at
+// most three times, and no farther than `until`. The volume, area times thickness, is that of `volumes` [m³], of the
+// frame's triangles.
+[[nodiscard]] Middle smoothed(const Middle& middle, std::span<const double> volumes, const PartingLimits& until);
 
 } // namespace sheet::render

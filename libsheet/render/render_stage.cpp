@@ -30,6 +30,7 @@ constexpr double farthest = 1e9;                // eye, in sizes of the subject
 constexpr double thinnest = 1e-4;               // of the subject: a sheet below it is drawn as its mid-surface
 constexpr int most_times = 32;                  // at which what moves is drawn while the shutter is open
 constexpr std::size_t most_to_smooth = 200'000; // triangles of the middle surface
+constexpr double flat_enough = 0.7;             // pixels that the chords of its sharpest edges may be off
 
 void check(const RenderOptions& o) {
   const CameraOptions& c = o.camera;
@@ -323,6 +324,13 @@ struct RenderStage::Impl {
             options.layers ? Body() : Body(world)};
   }
 
+  // Of what the pictures are about, the size of a pixel where it is nearest to the camera [m].
+  [[nodiscard]] double pixel_of_nearest() const {
+    const Vector3& eye = fixed->camera.eye();
+    const Vector3 nearest = eye.cwiseMax(fixed->subject.low).cwiseMin(fixed->subject.high);
+    return fixed->camera.pixel_angle(options.draw.height) * (nearest - eye).norm();
+  }
+
   // What there is to see at the time of a frame with balls (drops.h).
   [[nodiscard]] std::unique_ptr<World> world_of(const formats::Frame& frame, double time) const {
     std::vector<Eigen::Isometry3d> motions;
@@ -334,8 +342,9 @@ struct RenderStage::Impl {
     const Middle middle = own_middle(frame);
     const bool smooth = options.look.is_material() && !options.facets;
     const auto own_volumes = volumes(frame).first(own_parts(frame).triangles);
-    Surface surface = make_surface(smooth ? smoothed(middle, own_volumes, most_to_smooth) : middle,
-                                   thinnest * fixed->subject.diagonal());
+    const PartingLimits until{most_to_smooth, flat_enough * pixel_of_nearest()};
+    Surface surface =
+        make_surface(smooth ? smoothed(middle, own_volumes, until) : middle, thinnest * fixed->subject.diagonal());
     add_balls(frame, surface);
     if (scene != nullptr && options.liquids.size() > 1)
       if (const FrameLiquids liquids(*scene, frame); liquids.several())

@@ -4,7 +4,13 @@
 //
 // Each pair of dimensions is the two-dimensional Sobol sequence, shuffled and scrambled by Owen's nested uniform
 // scrambling as a hash [Burley 2020, Practical Hash-based Owen Scrambling; Laine and Karras 2011].
+//
+// Each pixel may have a sequence of its own; or one sequence goes through the whole picture, along Morton's curve
+// [Ahmed and Wonka 2020, Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of
+// Pixels]. Then the samples of pixels next to each other are well spread among them, and means over them have little
+// noise.
 #pragma once
+#include <bit>
 #include <cstdint>
 
 namespace sheet::render {
@@ -16,6 +22,18 @@ struct Point2 {
 class Sampler {
 public:
   Sampler(std::uint32_t pixel, std::uint32_t sample) : seed_(mix(pixel + 0x9e3779b9U)), sample_(reversed(sample)) {}
+
+  // Of the sequence for the whole picture. `together`: so many samples of a pixel are to be well spread among
+  // themselves and with those of its neighbours, the next ones likewise.
+  static Sampler on_screen(std::uint32_t x, std::uint32_t y, std::uint32_t sample, std::uint32_t together) {
+    constexpr int block_bits = 6, round_bits = 2; // 8 x 8 pixels; rounds before the next blocks
+    const int own_bits = std::bit_width(together - 1);
+    const std::uint32_t place = spaced(x) | (spaced(y) << 1), round = sample >> own_bits;
+    const std::uint32_t own = sample & ((1U << own_bits) - 1), in_block = place & ((1U << block_bits) - 1);
+    const std::uint32_t index = own | (in_block << own_bits) | ((round & 3U) << (own_bits + block_bits)) |
+                                ((place >> block_bits) << (own_bits + block_bits + round_bits));
+    return {round >> round_bits, index};
+  }
 
   // The next point of the path.
   Point2 point() {
@@ -31,6 +49,13 @@ private:
     x = (x ^ (x >> 16)) * 0x7feb352dU;
     x = (x ^ (x >> 15)) * 0x846ca68bU;
     return x ^ (x >> 16);
+  }
+  static std::uint32_t spaced(std::uint32_t x) { // its lower 16 bits at the even places
+    x &= 0xffffU;
+    x = (x | (x << 8)) & 0x00ff00ffU;
+    x = (x | (x << 4)) & 0x0f0f0f0fU;
+    x = (x | (x << 2)) & 0x33333333U;
+    return (x | (x << 1)) & 0x55555555U;
   }
   static std::uint32_t reversed(std::uint32_t x) {
     x = (x << 16) | (x >> 16);

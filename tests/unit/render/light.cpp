@@ -35,6 +35,37 @@ TEST(Sampler, EachPairOfDimensionsIsANet) {
     }
 }
 
+TEST(Sampler, ABlockOfThePictureIsANetInEachRound) {
+  constexpr std::uint32_t side = 8, together = 4, cells = 16;
+  for (const std::uint32_t left : {0U, 40U, 4096U})
+    for (std::uint32_t round = 0; round < 5; ++round) {
+      std::array<std::array<int, cells * cells>, 3> found{};
+      for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x)
+          for (std::uint32_t s = 0; s < together; ++s) {
+            Sampler sampler = Sampler::on_screen(left + x, 80 + y, round * together + s, together);
+            for (auto& dimension : found) {
+              const Point2 p = sampler.point();
+              ++dimension[static_cast<std::size_t>(p.y * cells) * cells + static_cast<std::size_t>(p.x * cells)];
+            }
+          }
+      for (const auto& dimension : found)
+        for (const int count : dimension)
+          ASSERT_EQ(count, 1);
+    }
+}
+
+TEST(Sampler, PlacesAndRoundsOfAPictureAreUnlike) {
+  int alike = 0;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    const float a = Sampler::on_screen(i, 7, 3, 4).number();
+    for (const Sampler& other : {Sampler::on_screen(i + 1, 7, 3, 4), Sampler::on_screen(i, 8, 3, 4),
+                                 Sampler::on_screen(i, 7, 7, 4), Sampler::on_screen(i, 7, 19, 4)})
+      alike += std::abs(Sampler(other).number() - a) < 0.001F ? 1 : 0;
+  }
+  EXPECT_LT(alike, 30); // of 4000; by chance 8
+}
+
 TEST(Sampler, PixelsAndDimensionsAreUnlike) {
   double correlation_pixels = 0, correlation_pairs = 0;
   constexpr int n = 4096;
