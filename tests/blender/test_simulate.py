@@ -4,101 +4,20 @@ kept, and what differs between Blenders.
 
     blender -b --factory-startup --python-exit-code 1 --python test_simulate.py -- sheet-blender.zip
 """
-import json
-import os
 import pathlib
-import shutil
 import subprocess
 import sys
-import tempfile
 import time
 import types
-import unittest
 
 import bpy
 import numpy as np
 
-archive = sys.argv[sys.argv.index("--") + 1]
-FPS = 24
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from simulating import FPS, Case, corners_of, loop_values, places_of, run_all, uv_of
 
 
-def loop_values(data, name, width):
-    values = np.empty(width * len(data), np.float32)
-    data.foreach_get(name, values)
-    return values.reshape(-1, width)
-
-
-def places_of(mesh):
-    return loop_values(mesh.vertices, "co", 3)
-
-
-def corners_of(mesh):
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    return corners.reshape(-1, 3)
-
-
-def uv_of(mesh, name="UVMap"):
-    return loop_values(mesh.uv_layers[name].data, "uv", 2).reshape(-1, 3, 2)
-
-
-class Simulating(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        bpy.ops.preferences.addon_install(filepath=archive)
-        bpy.ops.preferences.addon_enable(module="sheet_blender")
-        import sheet_blender
-        cls.add_on = sheet_blender
-
-    def setUp(self):
-        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-        self.scene = bpy.context.scene
-        self.scene.render.fps, self.scene.frame_start, self.scene.frame_end = FPS, 1, 6
-        self.folder = pathlib.Path(tempfile.mkdtemp(dir=os.getcwd()))
-
-    def save(self):
-        bpy.ops.wm.save_as_mainfile(filepath=str(self.folder / "kept.blend"))
-
-    def cloth(self, size=0.4, cuts=10, height=0.2):
-        """A square above the origin, with UV, two materials and a colour, in a collection of its own."""
-        bpy.ops.mesh.primitive_grid_add(x_subdivisions=cuts, y_subdivisions=cuts, size=size, location=(0, 0, height))
-        thing = bpy.context.object
-        thing.name = "Cloth"
-        own = bpy.data.collections.new("Liquid")
-        self.scene.collection.children.link(own)
-        for collection in thing.users_collection:
-            collection.objects.unlink(thing)
-        own.objects.link(thing)
-        for name in ("Left", "Right"):
-            thing.data.materials.append(bpy.data.materials.new(name))
-        for face in thing.data.polygons:
-            face.material_index = int(face.center.x > 0)
-        colour = thing.data.color_attributes.new("Tint", "FLOAT_COLOR", "POINT")
-        x = places_of(thing.data)
-        colour.data.foreach_set("color", np.concatenate([x + 0.5, np.ones((len(x), 1))], 1).astype(np.float32).ravel())
-        thing.sheet_part.role, thing.sheet_part.thickness = "SHEET", 0.02
-        return thing
-
-    def ball(self):
-        bpy.ops.mesh.primitive_uv_sphere_add(radius=0.1, location=(0, 0, 0), segments=16, ring_count=8)
-        bpy.context.object.sheet_part.role = "SOLID"
-        return bpy.context.object
-
-    def wait_for_frames(self, folder, frames):
-        for _ in range(300):
-            if self.add_on.cache.progress_of(folder).frames >= frames:
-                return
-            time.sleep(0.1)
-        self.fail((folder / "log.txt").read_text())
-
-    def told(self):
-        folder = self.folder / "told"
-        return "\n".join(self.add_on.simulate.write_here(folder, self.scene).told)
-
-    def refused(self, pattern, operator, **options):
-        with self.assertRaisesRegex(RuntimeError, pattern):
-            operator(**options)
-
+class Simulating(Case):
     # ---- a run
 
     def test_a_run_is_simulated_stopped_gone_on_with_and_freed(self):
@@ -247,6 +166,56 @@ class Simulating(unittest.TestCase):
 
     # ---- the panel's settings
 
+    def test_a_scene_of_one_sheet_is_this_text(self):
+        cloth, ball = self.cloth(), self.ball()
+        cloth.name, ball.sheet_part.contact = 'Clöth "x"', "slip"
+        x = places_of(cloth.data)[:, 0]
+        for name, chosen in (("pinned a", x < -0.19), ("in", x > 0.19)):
+            cloth.vertex_groups.new(name=name).add(np.flatnonzero(chosen).tolist(), 1.0, "REPLACE")
+        cloth.sheet_part.inlet = "in"
+        for thing in (cloth, ball):
+            for frame, place in ((1, 0.0), (6, 0.5)):
+                thing.location.x = place
+                thing.keyframe_insert("location", frame=frame)
+        self.scene.sheet_run.liquid = "honey"
+        self.told()
+        self.assertEqual((self.folder / "told/scene.toml").read_text(), """# made by Blender of "Clöth \\"x\\""
+[sheet]
+shape = "mesh"
+file = "scene.ply"
+thickness = 0.02
+arrays = ["blender.uv", "blender.color", "blender.material"]
+
+[material]
+viscosity = 19.0
+density = 1420.0
+surface_tension = 0.055
+
+[environment]
+gravity = [0.0, 0.0, -9.81]
+
+[contact]
+self = true
+
+[[hold]] # "pinned a"
+region = {array = "painted.0"}
+kind = "pinned"
+motion = {kind = "keyframed", file = "scene.csv"}
+
+[inflow] # "in"
+region = {array = "entry"}
+velocity = [-0.1, 0.0, 0.0]
+thickness = 0.02
+
+[[solid]] # "Sphere"
+shape = "mesh"
+file = "scene_solid_0.ply"
+contact = "slip"
+center = [0, 0, 0] # the mesh stands where it is at time 0
+rotation = {axis = [0, 0, 1], angle = 0}
+motion = {kind = "keyframed", file = "scene_solid_0.csv"}
+""")
+
     def test_edges_are_split_and_uv_with_them(self):
         cloth = self.cloth(cuts=2)
         cloth.sheet_part.edges = 0.04
@@ -256,6 +225,24 @@ class Simulating(unittest.TestCase):
         sides = shape.position[shape.triangle] - shape.position[np.roll(shape.triangle, 1, axis=1)]
         self.assertLessEqual(np.linalg.norm(sides, axis=2).max(), 1.4 * 0.04 + 1e-6)
         np.testing.assert_allclose(vertices["blender.uv"], shape.position[:, :2] / 0.4 + 0.5, atol=1e-6)
+
+    def test_thickness_at_faces_is_that_however_many_vertices_there_are(self):
+        bpy.ops.mesh.primitive_cylinder_add(vertices=12, end_fill_type="NOTHING")
+        band = bpy.context.object
+        band.sheet_part.role = "SHEET"
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.quads_convert_to_tris()
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertEqual(len(band.data.vertices), len(band.data.polygons))
+        wanted = np.linspace(0.01, 0.02, 24).astype(np.float32)
+        band.data.attributes.new("thickness", "FLOAT", "FACE").data.foreach_set("value", wanted)
+        self.told()
+        subprocess.run(["sheet-init", "scene.toml", "-o", "first.sheet"], cwd=self.folder / "told", check=True)
+        frame = self.add_on.sheetstream.Run(str(self.folder / "told/first.sheet"))[0]
+        np.testing.assert_allclose(frame.thickness(), wanted, rtol=1e-5)
+        band.data.attributes.remove(band.data.attributes["thickness"])
+        band.data.attributes.new("thickness", "INT", "POINT")
+        self.assertIn('its attribute "thickness" is not taken: it must be a Float', self.told())
 
     def test_an_inlet_and_holds_are_taken_from_what_is_selected(self):
         cloth = self.cloth()
@@ -288,16 +275,14 @@ class Simulating(unittest.TestCase):
         cloth.sheet_part.role = ball.sheet_part.role = "AUTO"
         self.assertEqual(self.add_on.parts.role_of(cloth), "NONE")
         cloth.users_collection[0].sheet_collection.role = "SHEET"
-        self.assertEqual(self.add_on.parts.the_sheet(self.scene), cloth)
-        ball.users_collection[0]  # the scene's own has no role
+        self.assertEqual(self.add_on.parts.sheets_of(self.scene), [cloth])
         other = self.cloth()
-        with self.assertRaisesRegex(self.add_on.SheetError, "both sheets.*join them"):
-            self.add_on.parts.the_sheet(self.scene)
+        self.assertEqual(set(self.add_on.parts.sheets_of(self.scene)), {cloth, other})
         other.sheet_part.role = "NONE"
-        self.assertEqual(self.add_on.parts.the_sheet(self.scene), cloth)
+        self.assertEqual(self.add_on.parts.sheets_of(self.scene), [cloth])
         cloth.sheet_part.role = "NONE"
         with self.assertRaisesRegex(self.add_on.SheetError, "no object is a sheet"):
-            self.add_on.parts.the_sheet(self.scene)
+            self.add_on.parts.sheets_of(self.scene)
 
     # ---- check
 
@@ -495,14 +480,4 @@ class Simulating(unittest.TestCase):
         self.assertEqual(said, ["25 %, a", 0.5])
 
 
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
-    names = os.environ.get("ONLY")
-    loader = unittest.defaultTestLoader
-    loader.testNamePatterns = [f"*{names}*"] if names else None
-    good = unittest.TextTestRunner(stream=sys.stdout, verbosity=2).run(
-        loader.loadTestsFromModule(sys.modules["__main__"])).wasSuccessful()
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    os.chdir("/")
-    if not good:
-        raise SystemExit(1)
+run_all()

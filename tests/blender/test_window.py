@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a hand does in Blender's window, without a terminal: model, choose in the panel, simulate, cancel by Escape,
-resume, look, render.
+"""What a hand does in Blender's window, without a terminal: model two sheets, choose in the panel, simulate, cancel by
+Escape, resume, look, render.
 
     blender --factory-startup --enable-event-simulate --python test_window.py -- sheet-blender.zip [PICTURES]
 
@@ -40,13 +40,24 @@ def show_physics(window):
     region.view_location, region.view_distance = (0, 0, 0.03), 0.5
 
 
+def add_jam():
+    """A second sheet above the first, of a liquid of its own."""
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=16, y_subdivisions=16, size=0.14, location=(0, 0, 0.125))
+    jam = bpy.context.object
+    jam.name = "Jam"
+    part = jam.sheet_part
+    part.role, part.thickness, part.edges, part.liquid.own = "SHEET", 0.005, 0.008, True
+    part.liquid.liquid = "caramel"
+    return jam
+
+
 def newest_is_shown(scene, cloth):
     shown = cloth.sheet_part.result
     return shown is not None and len(shown.data.vertices) > 0 and scene.frame_current > scene.frame_start
 
 
 def steps():
-    """Yields what to wait for: a function, at most 60 s each."""
+    """Yields what to wait for: a function, at most 120 s each."""
     bpy.ops.preferences.addon_install(filepath=archive)
     bpy.ops.preferences.addon_enable(module="sheet_blender")
     import sheet_blender
@@ -56,10 +67,11 @@ def steps():
     with bpy.context.temp_override(window=window):
         cloth, ball = example_simulate.model()
         example_simulate.choose(scene, cloth, ball, LONG)
+        add_jam()
         show_physics(window)
         assert bpy.ops.sheet.check("EXEC_DEFAULT") == {"FINISHED"}
         assert bpy.ops.sheet.simulate("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
-    folder = cache.folder_of(scene, cloth)
+    folder = cache.folder_of(scene)
     yield lambda: newest_is_shown(scene, cloth) and cache.progress_of(folder).frames >= 3
     bpy.ops.wm.save_mainfile()
     bpy.ops.wm.open_mainfile(filepath=str(work / "tea.blend"))  # while it goes on
@@ -82,9 +94,15 @@ def steps():
     kinds = np.empty(len(shown.data.polygons), np.int32)
     shown.data.polygons.foreach_get("material_index", kinds)
     assert 0 < kinds.mean() < 1
+    jam = scene.objects["Jam"]
+    glaze = jam.sheet_part.result
+    assert glaze.name == "Jam sheet" and [m.name for m in glaze.data.materials] == ["Sheet caramel"]
+    assert shown.sheet.number == 0 and glaze.sheet.number == 1 and jam.hide_get()
+    places = np.array([glaze.matrix_world @ v.co for v in glaze.data.vertices])
+    assert len(places) > 200 and np.abs(places[:, 0]).max() < 0.12, len(places)
     assert scene.frame_end == last and cloth.hide_get()
     with bpy.context.temp_override(window=window):
-        bpy.context.view_layer.objects.active = cloth
+        bpy.context.view_layer.objects.active = jam
         show_physics(window)
     for _ in range(10):
         yield lambda: True
@@ -106,6 +124,7 @@ def steps():
     assert (folder / "run/run.sheet").exists()
     assert bpy.ops.sheet.free("EXEC_DEFAULT") == {"FINISHED"}
     assert not folder.exists() and not cloth.hide_get() and "Cloth sheet" not in bpy.data.objects
+    assert "Jam sheet" not in bpy.data.objects and not jam.hide_get()
 
 
 state = {"steps": None, "until": None, "since": 0.0}
@@ -120,7 +139,7 @@ def advance():
         elif state["until"]():
             state["until"] = next(state["steps"])
             state["since"] = time.monotonic()
-        elif time.monotonic() - state["since"] > 60:
+        elif time.monotonic() - state["since"] > 120:
             raise TimeoutError(f"waited in vain in line {state['steps'].gi_frame.f_lineno}")
     except StopIteration:
         print("window: ok", flush=True)

@@ -16,12 +16,14 @@ from __future__ import annotations
 import bpy
 
 from . import (body_files, cache, carried, checks, compat, evaluated, follow, holds, liquids, looks, menus, meshes,
-               panels, parts, programs, scene_file, simulate, slab, solids)
+               movement, panels, parts, plan, ply_file, programs, scene_file, selection, sheet_tables, simulate, slab,
+               solids)
 from .compat import sheetstream
 from .errors import SheetError
 from .follow import import_bodies, import_run
+from .movement import export_motion
 from .programs import LIQUIDS
-from .scene_file import export_motion, export_scene
+from .scene_file import export_scene
 
 __all__ = ["LIQUIDS", "SheetError", "body_files", "carried", "compat", "evaluated", "export_motion", "export_scene",
            "holds", "import_bodies", "import_run", "liquids", "meshes", "sheetstream", "slab", "solids"]
@@ -36,7 +38,8 @@ bl_info = {
     "category": "Physics",
 }
 
-CLASSES = (programs.SheetPreferences, follow.SheetSettings, parts.SheetPart, parts.SheetCollection, parts.SheetRun,
+CLASSES = (programs.SheetPreferences, follow.SheetSettings, parts.SheetLiquid, parts.SheetPart, parts.SheetCollection,
+           parts.SheetRun,
            *menus.CLASSES, *simulate.CLASSES, *checks.CLASSES, *panels.CLASSES)
 
 

@@ -26,7 +26,7 @@ import numpy as np
 
 from .compat import fcurves_of
 from .errors import SheetError
-from .parts import plan_of, things_with
+from .parts import plan_of, sheets_of, things_with
 from .programs import environment, find_program
 
 SCENE, RUN, PROGRESS = "scene.toml", "run/run.sheet", "run/progress.json"
@@ -47,15 +47,17 @@ class Progress(NamedTuple):
         return self.state in ("starting", "running", "ending")
 
 
-def folder_of(scene: bpy.types.Scene, thing: bpy.types.Object) -> pathlib.Path:
-    """Where the run of a sheet is. Raises SheetError if there is no place for it yet."""
+def folder_of(scene: bpy.types.Scene) -> pathlib.Path:
+    """Where the run of the scene's sheets is; beside the .blend it has the name of the first one, or of that for which
+    there is a folder. Raises SheetError if there is no place for it yet."""
+    names = [re.sub(r"[^\w.-]+", "_", thing.name) for thing in sheets_of(scene)]
     if scene.sheet_run.cache:
         return pathlib.Path(bpy.path.abspath(scene.sheet_run.cache))
     if not bpy.data.filepath:
         raise SheetError("save the .blend first: the run is kept beside it (or choose a folder, Sheet Run > Cache)")
     blend = pathlib.Path(bpy.data.filepath)
-    name = re.sub(r"[^\w.-]+", "_", thing.name)
-    return blend.with_name(f"{blend.stem}_sheet") / name
+    folders = [blend.with_name(f"{blend.stem}_sheet") / name for name in names]
+    return next((folder for folder in folders if folder.exists()), folders[0])
 
 
 # ---- the process
@@ -215,25 +217,32 @@ def checksum_of_settings(scene: bpy.types.Scene) -> str:
     """Of what the panels and the objects say, quickly: for a panel to tell that a run is older. (Weights that are
     painted anew are seen when a run is gone on with.) Raises SheetError."""
     plan = plan_of(scene)
-    words = [repr(value) for name, value in vars(plan).items() if name not in ("sheet", "solids")]
+    words = [repr(value) for said in (plan, *plan.sheets) for name, value in vars(said).items()
+             if name not in ("thing", "sheets", "solids")]
     words += [scene.sheet_run.quality, repr(scene.render.fps / scene.render.fps_base), str(scene.frame_start),
               str(list(scene.gravity)), str(scene.use_gravity), repr(scene.unit_settings.scale_length)]
     digest = hashlib.sha256("\n".join(words).encode())
-    for thing in (plan.sheet, *things_with("SOLID", scene)):
+    for thing in (*(sheet.thing for sheet in plan.sheets), *things_with("SOLID", scene)):
         digest.update(_said_of(thing))
     return digest.hexdigest()
 
 
 def note_settings(folder: pathlib.Path, scene: bpy.types.Scene, files: list[str]) -> None:
-    said = {"settings": checksum_of_settings(scene), "files": checksum_of_files(files)}
+    said = {"settings": checksum_of_settings(scene), "files": checksum_of_files(files),
+            "sheets": [thing.name for thing in sheets_of(scene)]}
     (folder / "settings.json").write_text(json.dumps(said))
 
 
-def noted(folder: pathlib.Path) -> dict[str, str]:
+def noted(folder: pathlib.Path) -> dict[str, Any]:
     try:
         return dict(json.loads((folder / "settings.json").read_text()))
     except (OSError, ValueError):
         return {}
+
+
+def sheets_noted(folder: pathlib.Path) -> list[str]:
+    """The names of the objects that the run's sheets are, in its order; empty if nobody has noted them."""
+    return [str(name) for name in noted(folder).get("sheets", [])]
 
 
 _older: dict[str, tuple[float, bool]] = {}

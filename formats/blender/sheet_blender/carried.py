@@ -20,6 +20,7 @@ from .evaluated import Triangles
 
 ENDING = "_carried.npz"  # behind the name of the sheet's mesh file, beside the scene
 MATERIAL, REST = "blender.material", "blender.rest"
+SHEET = "blender.sheet"  # where a scene has several: the number of each triangle's
 SEAM = 1e-6  # corners of a vertex that differ by more stand at a seam
 
 

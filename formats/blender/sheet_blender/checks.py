@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is wrong with the scene, in plain words: faults of the sheet's mesh with Blender's own remedies, the faulty
+"""What is wrong with the scene, in plain words: faults of the sheets' meshes with Blender's own remedies, the faulty
 elements selected, what the scene cannot have, and what sheet-init --check says."""
 from __future__ import annotations
 
@@ -12,11 +12,14 @@ from typing import Any, NamedTuple
 
 import bmesh
 import bpy
+import numpy as np
 
 from .errors import SheetError
 from .evaluated import surface_of, triangles_of
-from .parts import the_sheet, things_with, times_of
+from .parts import plan_of, things_with, times_of
+from .plan import Plan, SheetPlan
 from .programs import environment, find_program
+from .sheet_tables import common_edges
 from .simulate import write_here
 
 TEXT = "Sheet check"  # the text block that keeps what the last check said
@@ -24,7 +27,8 @@ WIDTH = 90  # of a popup [characters]
 
 
 class Fault(NamedTuple):
-    """what, with Blender's remedy; kind: verts, edges, faces; elements: their numbers in the object's mesh."""
+    """what, with Blender's remedy; of whose mesh; kind: verts, edges, faces; elements: their numbers in the mesh."""
+    thing: bpy.types.Object
     what: str
     kind: str
     elements: list[int]
@@ -37,27 +41,27 @@ def faults_of(thing: bpy.types.Object) -> list[Fault]:
     made = bmesh.new()
     try:
         made.from_mesh(thing.data)
-        return [fault for fault in _found(made) if fault.elements]
+        return [Fault(thing, *found) for found in _found(made) if found[2]]
     finally:
         made.free()
 
 
-def _found(made: Any) -> list[Fault]:
+def _found(made: Any) -> list[tuple[str, str, list[int]]]:
     crowded = [e.index for e in made.edges if len(e.link_faces) > 2]
     turned = [e.index for e in made.edges if len(e.link_faces) == 2 and not e.is_contiguous]
     flat = [f.index for f in made.faces if f.calc_area() == 0]
     loose = [v.index for v in made.verts if not v.link_faces]
     pinched = [v.index for v in made.verts if v.link_faces and not v.is_manifold and not v.is_wire and
                all(len(e.link_faces) <= 2 for e in v.link_edges)]
-    return [Fault(f"{_counted(crowded, 'edge')} of more than two faces: a sheet has two sides. Delete the faces that do"
-                  " not belong to it, or separate them (Mesh > Separate > Selection)", "edges", crowded),
-            Fault(f"{_counted(turned, 'edge')} between faces that look to different sides: Mesh > Normals > Recalculate"
-                  " Outside", "edges", turned),
-            Fault(f"{_counted(flat, 'face')} without area: Mesh > Clean Up > Degenerate Dissolve", "faces", flat),
-            Fault(f"{_counted(pinched, 'vertex', 'vertices')} in which parts of the sheet touch in a point: Mesh >"
-                  " Split > Faces by Edges, or fill the gap", "verts", pinched),
-            Fault(f"{_counted(loose, 'vertex', 'vertices')} without faces are left out: Mesh > Clean Up > Delete Loose",
-                  "verts", loose)]
+    return [(f"{_counted(crowded, 'edge')} of more than two faces: a sheet has two sides. Delete the faces that do"
+             " not belong to it, or separate them (Mesh > Separate > Selection)", "edges", crowded),
+            (f"{_counted(turned, 'edge')} between faces that look to different sides: Mesh > Normals > Recalculate"
+             " Outside", "edges", turned),
+            (f"{_counted(flat, 'face')} without area: Mesh > Clean Up > Degenerate Dissolve", "faces", flat),
+            (f"{_counted(pinched, 'vertex', 'vertices')} in which parts of the sheet touch in a point: Mesh >"
+             " Split > Faces by Edges, or fill the gap", "verts", pinched),
+            (f"{_counted(loose, 'vertex', 'vertices')} without faces are left out: Mesh > Clean Up > Delete Loose",
+             "verts", loose)]
 
 
 def _counted(elements: list[int], one: str, many: str = "") -> str:
@@ -80,25 +84,31 @@ def with_remedy(line: str) -> str:
     return f"{line}. In Blender: {remedy}" if remedy else line
 
 
-def named_elements(line: str, thing: bpy.types.Object) -> Fault | None:
-    """The vertex or triangle of the sheet's mesh file that a line of sheet-init names, in the object's mesh; None if
-    there is none, or modifiers make the file's mesh another one."""
+def named_elements(line: str, sheets: list[SheetPlan], edges: float) -> Fault | None:
+    """The vertex or triangle that a line of sheet-init names, in the mesh of its object; None if there is none, or
+    modifiers make the sheet's mesh another one. The sheets lie one behind the other, and a line that names the file of
+    one counts in that alone. edges: as they are split to."""
     match = re.search(r"\b(vertex|triangle) (\d+)\b", line)
     if match is None or "solid" in line[:match.start()].split(":")[-1] and "starts" not in line:
         return None
-    with surface_of(thing, thing.sheet_part.edges) as mesh:
-        if len(mesh.vertices) != len(thing.data.vertices) or len(mesh.polygons) != len(thing.data.polygons):
-            return None
-        number = int(match[2])
-        if match[1] == "triangle":
-            faces = triangles_of(mesh, thing.matrix_world, 1.0).face
-            return Fault(line, "faces", [int(faces[number])]) if number < len(faces) else None
-        return Fault(line, "verts", [number]) if number < len(mesh.vertices) else None
+    number, file = int(match[2]), re.search(r"scene_sheet_(\d+)\.ply", line)
+    for sheet in sheets[int(file[1]):] if file else sheets:
+        with surface_of(sheet.thing, edges) as mesh:
+            shape = triangles_of(mesh, sheet.thing.matrix_world, 1.0)
+            in_mesh = shape.face if match[1] == "triangle" else np.unique(shape.triangle)  # loose vertices do not go
+            if number < len(in_mesh):
+                own = sheet.thing.data
+                if len(mesh.vertices) != len(own.vertices) or len(mesh.polygons) != len(own.polygons):
+                    return None
+                kind = "faces" if match[1] == "triangle" else "verts"
+                return Fault(sheet.thing, line, kind, [int(in_mesh[number])])
+            number -= len(in_mesh)
+    return None
 
 
-def select(thing: bpy.types.Object, fault: Fault) -> None:
+def select(fault: Fault) -> None:
     """Shows the elements in Edit Mode, and nothing else selected."""
-    view = bpy.context.view_layer
+    view, thing = bpy.context.view_layer, fault.thing
     if view.objects.active is not None and view.objects.active.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     thing.hide_set(False)
@@ -127,10 +137,10 @@ class Report(NamedTuple):
 
 def check(scene: bpy.types.Scene) -> Report:
     """Everything that can be said before a run. Raises SheetError, OSError."""
-    thing = the_sheet(scene)
-    faults = faults_of(thing)
-    wrong = [fault.what for fault in faults if "are left out" not in fault.what]
-    told = [fault.what for fault in faults if "are left out" in fault.what]
+    plan = plan_of(scene)
+    faults = [fault for sheet in plan.sheets for fault in faults_of(sheet.thing)]
+    wrong = [_whose(fault, plan) for fault in faults if "are left out" not in fault.what]
+    told = [_whose(fault, plan) for fault in faults if "are left out" in fault.what]
     for solid in things_with("SOLID", scene):
         told += [f'"{solid.name}": {fault.what}' for fault in faults_of(solid)]
     if wrong:
@@ -144,12 +154,17 @@ def check(scene: bpy.types.Scene) -> Report:
     if done.returncode != 0:
         said = [_in_names(re.sub(r"^(sheet-init: )?(error: )?(scene\.toml(:\d+)*: )?", "", line.strip()), scene)
                 for line in done.stderr.splitlines() if line.strip()]
-        fault = next((f for line in said if (f := named_elements(line, thing)) is not None), None)
+        edges = common_edges(plan)
+        fault = next((f for line in said if (f := named_elements(line, plan.sheets, edges)) is not None), None)
         return Report([with_remedy(line) for line in said], told, done.stdout, fault)
     section = re.search(r"^Warnings\n((?:  .*\n)+)", done.stdout, re.M)
     items = re.findall(r"^  (\S.*(?:\n   +\S.*)*)", section[1], re.M) if section else []
     told += [with_remedy(_in_names(" ".join(item.split()), scene)) for item in items]
     return Report([], told, done.stdout, faults[0] if faults else None)
+
+
+def _whose(fault: Fault, plan: Plan) -> str:
+    return f'"{fault.thing.name}": {fault.what}' if len(plan.sheets) > 1 else fault.what
 
 
 def _in_names(line: str, scene: bpy.types.Scene) -> str:
@@ -178,7 +193,7 @@ class SHEET_OT_check(bpy.types.Operator):
             return {"CANCELLED"}
         keep_text(report)
         if report.fault is not None:
-            select(the_sheet(context.scene), report.fault)
+            select(report.fault)
         if not bpy.app.background:
             _pop_up(report)
         for line in report.told:

@@ -25,6 +25,12 @@ class Triangles(NamedTuple):
     face: Any
 
 
+class Thickness(NamedTuple):
+    """values [m], at each vertex or triangle; place: vertex or face."""
+    values: Any
+    place: str
+
+
 @contextmanager
 def surface_of(thing: bpy.types.Object, edges: float = 0.0) -> Iterator[bpy.types.Mesh]:
     """The mesh of an object with its modifiers, for as long as the block lasts; its edges are split until none is
@@ -57,20 +63,16 @@ def _split(mesh: bpy.types.Mesh, matrix: Any, longest: float) -> bpy.types.Mesh 
     made = bmesh.new()
     try:
         made.from_mesh(mesh)
-        changed = False
-        for _ in range(MOST_SPLITS):
+        bmesh.ops.triangulate(made, faces=made.faces)  # diagonals of faces become edges, too
+        for rounds in range(MOST_SPLITS):
             long = [edge for edge in made.edges
                     if (matrix.to_3x3() @ (edge.verts[1].co - edge.verts[0].co)).length > longest]
             if not long:
                 break
-            changed = True
-            bmesh.ops.triangulate(made, faces=made.faces)
-            long = [edge for edge in made.edges
-                    if (matrix.to_3x3() @ (edge.verts[1].co - edge.verts[0].co)).length > longest]
             bmesh.ops.subdivide_edges(made, edges=long, cuts=1, use_grid_fill=True, use_single_edge=True)
-        if not changed:
+            bmesh.ops.triangulate(made, faces=made.faces)
+        if rounds == 0:
             return None
-        bmesh.ops.triangulate(made, faces=made.faces)
         result = bpy.data.meshes.new("Sheet split")
         made.to_mesh(result)
         for slot in mesh.materials:
@@ -108,11 +110,11 @@ def painted_groups(thing: bpy.types.Object, mesh: bpy.types.Mesh, names: list[st
     return painted
 
 
-def thickness_of(mesh: bpy.types.Mesh, faces: Any) -> Any:
-    """The attribute "thickness" [m], at vertices or triangles; None without one."""
+def thickness_of(mesh: bpy.types.Mesh, faces: Any) -> Thickness | None:
+    """The attribute "thickness"; None without one."""
     attribute = mesh.attributes.get("thickness")
     if attribute is None or attribute.data_type != "FLOAT" or attribute.domain not in ("POINT", "FACE"):
         return None
     values = np.empty(len(attribute.data))
     attribute.data.foreach_get("value", values)
-    return values if attribute.domain == "POINT" else values[faces]
+    return Thickness(values, "vertex") if attribute.domain == "POINT" else Thickness(values[faces], "face")

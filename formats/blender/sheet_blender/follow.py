@@ -18,6 +18,7 @@ from .drops import add_drops, follow_drops, has_drops
 from .errors import SheetError
 from .looks import set_materials
 from .meshes import fill_body, fill_mesh, set_slots
+from .selection import sheet_of
 from .slab import add_slab
 from .solids import add_solids
 
@@ -110,6 +111,8 @@ def _follow_run(thing: bpy.types.Object, scene: bpy.types.Scene) -> str:
     settings = thing.sheet
     run = open_run(settings.file)
     frame, position = frame_at(run, time_of(scene, settings), settings.between)
+    if settings.number >= 0:
+        frame, position = sheet_of(frame, position, settings.number)
     fill_mesh(thing.data, frame, position, settings.speed)
     if settings.by_liquid:
         set_slots(thing.data, frame["liquid"] if "liquid" in frame else np.zeros(len(thing.data.polygons)))
@@ -147,7 +150,9 @@ def on_frame_change(scene: bpy.types.Scene, _depsgraph: Any = None) -> None:
 def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: int = 1, speed: float = 1.0,
                between: bool = True, slab: bool = True, solids: bool = True, adapt_scene: bool = True,
                scene: bpy.types.Scene | None = None) -> bpy.types.Object:
-    """Adds a run to the scene as an object whose mesh follows the time; returns it. Raises SheetError.
+    """Adds a run to the scene as an object whose mesh follows the time; returns it. Of a run of several sheets that was
+    simulated in Blender each is an object, with the UV maps, colours and materials that it carries; the first one is
+    returned. Raises SheetError.
 
     Blender's frame `start` shows the run's first frame; `speed` seconds of the run pass in a second. up: the run's axis
     that points upwards (X, Y, Z, or AUTO: against the gravity of its scene). material: a preset; of several liquids
@@ -156,20 +161,25 @@ def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: in
     scene = scene or bpy.context.scene
     run = open_run(path)
     described = scene_of(run)
-    thing = _add_object(path, _upright(described, up), run.times, start, speed, between, scene)
-    thing.sheet.mesh_file = _mesh_file_of(described)
-    if slab:
-        add_slab(thing)
-    set_materials(thing, material, scene)
-    thing.sheet.by_liquid = "," in material
+    things = []
+    for number, (name, mesh_file) in _sheets_in(described, run).items():
+        thing = _add_object(path, _upright(described, up), run.times, start, speed, between, scene)
+        thing.name = f"{thing.name} {name}" if number >= 0 else thing.name
+        thing.sheet.mesh_file, thing.sheet.number = mesh_file, number
+        if slab:
+            add_slab(thing)
+        set_materials(thing, material, scene)
+        thing.sheet.by_liquid = "," in material
+        things.append(thing)
     if has_drops(described):
-        add_drops(thing)
+        add_drops(things[0])
     if adapt_scene:
-        _adapt_scene(thing, run.times, scene)
+        _adapt_scene(things[0], run.times, scene)
     if solids:
-        add_solids(described, thing, scene)
-    _show_first(thing, scene)
-    return thing
+        add_solids(described, things[0], scene)
+    for thing in things:
+        _show_first(thing, scene)
+    return things[0]
 
 
 def import_bodies(path: str, material: str = "caramel", up: str = "Y", start: int = 1, speed: float = 1.0,
@@ -219,8 +229,15 @@ def _show_first(thing: bpy.types.Object, scene: bpy.types.Scene) -> None:
         raise SheetError(thing.sheet.message[7:])
 
 
-def _mesh_file_of(described: dict[str, Any]) -> str:
-    sheet = described.get("sheet")
+def _sheets_in(described: dict[str, Any], run: sheetstream.Run) -> dict[int, tuple[str, str]]:
+    """{number: (name, mesh file)} of the sheets that are shown apart, or of all as one, whose number is -1."""
+    sheets = described.get("sheet")
+    if isinstance(sheets, list) and carried.SHEET in run[0]:
+        return {number: (str(sheet.get("name", number)), _mesh_file_of(sheet)) for number, sheet in enumerate(sheets)}
+    return {-1: ("", _mesh_file_of(sheets))}
+
+
+def _mesh_file_of(sheet: Any) -> str:
     file = sheet.get("file", "") if isinstance(sheet, dict) else ""
     return file if isinstance(file, str) else ""
 
@@ -267,6 +284,7 @@ class SheetSettings(bpy.types.PropertyGroup):
         update=_refresh)
     first_time: bpy.props.FloatProperty(name="Time of the first frame", unit="TIME")  # type: ignore[valid-type]
     mesh_file: bpy.props.StringProperty()  # type: ignore[valid-type] # of its scene
+    number: bpy.props.IntProperty(default=-1)  # type: ignore[valid-type] # of the run's sheet; -1: all that it has
     by_liquid: bpy.props.BoolProperty()  # type: ignore[valid-type] # each liquid has a material
     drops: bpy.props.PointerProperty(type=bpy.types.Object)  # type: ignore[valid-type] # which shows those of the run
     message: bpy.props.StringProperty()  # type: ignore[valid-type]

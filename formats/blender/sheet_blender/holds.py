@@ -17,27 +17,28 @@ def kind_of(group: str) -> str | None:
     return next((kind for kind in HOLD_KINDS if group.lower().startswith(kind)), None)
 
 
-def hold_tables(groups: dict[str, Any], kinds: dict[str, str], motion: str) -> tuple[list[str], dict[str, Any]]:
+def hold_tables(groups: dict[str, Any], kinds: dict[str, str], motion: str, first: int,
+                of: str) -> tuple[list[str], dict[str, Any]]:
     """The lines of a [[hold]] for each group, and the arrays at vertices by which they choose. motion: the value of the
-    key, "" for none."""
+    key, "" for none; first: the number of the first one in the scene; of: the line that names the sheet, or ""."""
     lines: list[str] = []
     arrays = {}
-    if len(groups) > MOST_HOLDS:
-        raise SheetError(f"{len(groups)} vertex groups are holds, a scene has {MOST_HOLDS} at most: join some of them")
-    for number, (name, painted) in enumerate(groups.items()):
+    for number, (name, painted) in enumerate(groups.items(), first):
         if not painted.any():
             raise SheetError(f'vertex group "{name}" holds nothing: no vertex has a weight above 0.5')
         array = f"painted.{number}"
         arrays[array] = painted.astype(np.uint8)
-        lines += ["", f"[[hold]] # {quoted(name)}", f'region = {{array = "{array}"}}', f'kind = "{kinds[name]}"']
+        lines += ["", f"[[hold]] # {quoted(name)}", *([of] if of else []), f'region = {{array = "{array}"}}',
+                  f'kind = "{kinds[name]}"']
         if motion:
             lines.append(f"motion = {motion}")
     return lines, arrays
 
 
-def inflow_table(name: str, painted: Any, position: Any, triangle: Any, speed: float,
-                 thickness: float) -> tuple[list[str], dict[str, Any]]:
-    """The lines of the [inflow] at the painted part of the border, along the sheet into it, and its array."""
+def inflow_table(name: str, painted: Any, position: Any, triangle: Any, speed: float, thickness: float, several: bool,
+                 of: str) -> tuple[list[str], dict[str, Any]]:
+    """The lines of the [inflow] at the painted part of the border, along the sheet into it, and its array. several:
+    whether the scene has more of them; of: the line that names the sheet, or ""."""
     border = rim_vertices(triangle, len(position))
     entry = painted & border
     inwards = np.zeros(3)
@@ -53,8 +54,9 @@ def inflow_table(name: str, painted: Any, position: Any, triangle: Any, speed: f
         raise SheetError(f'vertex group "{name}" has no edge of the sheet\'s border, where alone liquid can enter: in'
                          ' Edit Mode select border edges, and choose Inlet in the panel')
     velocity = speed * inwards / np.linalg.norm(inwards)
-    lines = ["", f"[inflow] # {quoted(name)}", 'region = {array = "entry"}', f"velocity = {row(velocity)}",
-             f"thickness = {thickness!r}"]
+    table = "[[inflow]]" if several else "[inflow]"
+    lines = ["", f"{table} # {quoted(name)}", *([of] if of else []), 'region = {array = "entry"}',
+             f"velocity = {row(velocity)}", f"thickness = {thickness!r}"]
     return lines, {"entry": entry.astype(np.uint8)}
 
 

@@ -10,8 +10,9 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 from .errors import SheetError
 from .follow import import_bodies, import_run
 from .looks import THICKNESS_LOOK
+from .plan import Material, Plan, SheetPlan, holds_by_name, plain
 from .programs import LIQUIDS, key_property
-from .scene_file import Plan, holds_by_name, plain, write_scene
+from .scene_file import write_scene
 
 
 def _material_items() -> list[tuple[str, str, str]]:
@@ -111,9 +112,8 @@ class SHEET_OT_export(bpy.types.Operator, ExportHelper):
             if active is None:
                 raise SheetError("choose a mesh: there is no active object")
             length = context.scene.unit_settings.scale_length
-            plan = Plan(active, plain(self.thickness * length), viscosity=plain(self.viscosity),
-                        density=plain(self.density), self_contact=self.self_contact, solids=others,
-                        holds=holds_by_name(active))
+            plan = Plan([SheetPlan(active, plain(self.thickness * length), holds=holds_by_name(active))],
+                        Material(plain(self.viscosity), plain(self.density)), self.self_contact, others)
             written = write_scene(self.filepath, plan)
         except (SheetError, OSError) as error:
             self.report({"ERROR"}, str(error))

@@ -12,8 +12,9 @@ from . import cache
 from .compat import draw_socket, progress
 from .errors import SheetError
 from .evaluated import WITH_SURFACE
-from .parts import role_of, the_sheet, times_of
-from .scene_file import told_of_scene, holds_by_name
+from .parts import role_of, sheets_of, things_with, times_of
+from .plan import holds_by_name
+from .scene_file import told_of_scene
 from .simulate import duration, words_of
 from .slab import FACTOR, GROUP
 
@@ -103,7 +104,7 @@ class SHEET_PT_held(bpy.types.Panel):
 
 
 class SHEET_PT_liquid(bpy.types.Panel):
-    """Of what the sheet is."""
+    """Of what the sheet is, or all of them."""
     bl_label, bl_parent_id = "Liquid", "SHEET_PT_part"
     bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "physics"
 
@@ -112,15 +113,18 @@ class SHEET_PT_liquid(bpy.types.Panel):
         return not context.object.sheet.file and role_of(context.object) == "SHEET"
 
     def draw(self, context: Any) -> None:
-        layout, run = self.layout, context.scene.sheet_run
+        layout, run, own = self.layout, context.scene.sheet_run, context.object.sheet_part.liquid
         layout.use_property_split, layout.use_property_decorate = True, False
-        layout.prop(run, "liquid")
+        if own.own or len(things_with("SHEET", context.scene)) > 1:
+            layout.prop(own, "own")
+        liquid = own if own.own else run
+        layout.prop(liquid, "liquid")
         for name, label, unit in (("viscosity", "Viscosity", "Pa s"), ("density", "Density", "kg/m³"),
                                   ("surface_tension", "Tension", "N/m")):
             row = layout.row()
-            row.prop(run, name, text=label)
+            row.prop(liquid, name, text=label)
             row.label(text=unit)
-        layout.prop(run, "look")
+        layout.prop(liquid, "look")
         layout.prop(run, "self_contact")
 
 
@@ -141,13 +145,13 @@ class SHEET_PT_run(bpy.types.Panel):
         for line in told_of_scene(scene):
             _message(layout, line, "ERROR")
         try:
-            thing = the_sheet(scene)
+            names = " and ".join(f'"{thing.name}"' for thing in sheets_of(scene))
             _, until = times_of(scene)
-            folder = cache.folder_of(scene, thing)
+            folder = cache.folder_of(scene)
         except SheetError as error:
             _message(layout, str(error), "INFO")
             return
-        layout.label(text=f"Frames {scene.frame_start} to {scene.frame_end}, {until:.3g} s of \"{thing.name}\"")
+        layout.label(text=f"Frames {scene.frame_start} to {scene.frame_end}, {until:.3g} s of {names}")
         self.draw_buttons(layout, cache.progress_of(folder))
         if cache.is_older(folder, scene):
             _message(layout, "The run is older than the settings", "ERROR")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the user says of objects, collections and the scene: which is the sheet, which are solids, of what and how."""
+"""What the user says of objects, collections and the scene: which are sheets, which solids, of what and how."""
 from __future__ import annotations
 
 from typing import Any
@@ -11,10 +11,10 @@ from .evaluated import WITH_SURFACE
 from .liquids import OWN, PRESETS
 from .looks import THICKNESS_LOOK
 from .programs import LIQUIDS, SCENE_KEYS, key_property
-from .scene_file import Plan, holds_by_name, plain
+from .plan import Material, Plan, SheetPlan, holds_by_name, plain
 
 ROLES = (("AUTO", "As Its Collection", "What the collection is that the object is in"),
-         ("SHEET", "Sheet", "A sheet of liquid"),
+         ("SHEET", "Sheet", "A sheet of liquid; there may be several"),
          ("SOLID", "Solid", "What the liquid meets; it may be animated"),
          ("NONE", "None", "Not in the simulation"))
 QUALITIES = (("draft", "Draft", "Edges of twice the length and larger steps: a first look"),
@@ -27,6 +27,34 @@ def _contact_items() -> list[tuple[str, str, str]]:
     what = {"stick": "Liquid stays where it touches", "flow": "It flows in a layer that the solid drags",
             "slip": "It slides without drag"}
     return [(word, word.capitalize(), what[word]) for word in words]
+
+
+def _take_preset(self: Any, _context: Any) -> None:
+    if self.liquid in PRESETS:
+        preset = PRESETS[self.liquid]
+        self.viscosity, self.density, self.surface_tension = preset.viscosity, preset.density, preset.surface_tension
+        self.look = preset.look
+
+
+class _Liquid:
+    """What a liquid is and how it looks."""
+    liquid: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Liquid", description="Sets viscosity, density, surface tension and look", update=_take_preset,
+        items=[*((name, name.capitalize(), preset.note) for name, preset in PRESETS.items()),
+               (OWN, "Own", "As it is set below")], default="caramel")
+    viscosity: key_property("material.viscosity", default=PRESETS["caramel"].viscosity)  # type: ignore[valid-type]
+    density: key_property("material.density", default=PRESETS["caramel"].density)  # type: ignore[valid-type]
+    surface_tension: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Surface tension [N/m]", description=SCENE_KEYS["material.surface_tension"][2], min=0.0, precision=4)
+    look: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Look", description="Of the result, if the mesh has no materials of its own", default="caramel",
+        items=[(name, name.capitalize(), "") for name in (*LIQUIDS, THICKNESS_LOOK)])
+
+
+class SheetLiquid(_Liquid, bpy.types.PropertyGroup):
+    """Of an object, if that has its own."""
+    own: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Own Liquid", description="This sheet is of another liquid than the others", default=False)
 
 
 class SheetPart(bpy.types.PropertyGroup):
@@ -49,6 +77,7 @@ class SheetPart(bpy.types.PropertyGroup):
     contact: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Contact", description=SCENE_KEYS["solid.N.contact"][2].capitalize(), items=_contact_items(),
         default="stick")
+    liquid: bpy.props.PointerProperty(type=SheetLiquid)  # type: ignore[valid-type]
     result: bpy.props.PointerProperty(type=bpy.types.Object)  # type: ignore[valid-type]
 
 
@@ -58,26 +87,8 @@ class SheetCollection(bpy.types.PropertyGroup):
         name="Role", description="Of its objects that have none of their own", items=ROLES[1:], default="NONE")
 
 
-def _take_preset(self: Any, _context: Any) -> None:
-    if self.liquid in PRESETS:
-        preset = PRESETS[self.liquid]
-        self.viscosity, self.density, self.surface_tension = preset.viscosity, preset.density, preset.surface_tension
-        self.look = preset.look
-
-
-class SheetRun(bpy.types.PropertyGroup):
+class SheetRun(_Liquid, bpy.types.PropertyGroup):
     """Of the scene: of what liquid, and how it is run."""
-    liquid: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Liquid", description="Sets viscosity, density, surface tension and look", update=_take_preset,
-        items=[*((name, name.capitalize(), preset.note) for name, preset in PRESETS.items()),
-               (OWN, "Own", "As it is set below")], default="caramel")
-    viscosity: key_property("material.viscosity", default=PRESETS["caramel"].viscosity)  # type: ignore[valid-type]
-    density: key_property("material.density", default=PRESETS["caramel"].density)  # type: ignore[valid-type]
-    surface_tension: bpy.props.FloatProperty(  # type: ignore[valid-type]
-        name="Surface tension [N/m]", description=SCENE_KEYS["material.surface_tension"][2], min=0.0, precision=4)
-    look: bpy.props.EnumProperty(  # type: ignore[valid-type]
-        name="Look", description="Of the result, if the mesh has no materials of its own", default="caramel",
-        items=[(name, name.capitalize(), "") for name in (*LIQUIDS, THICKNESS_LOOK)])
     self_contact: bpy.props.BoolProperty(  # type: ignore[valid-type]
         name="Self Contact", description="The sheet does not pass through itself", default=True)
     quality: bpy.props.EnumProperty(  # type: ignore[valid-type]
@@ -102,27 +113,37 @@ def things_with(role: str, scene: bpy.types.Scene) -> list[bpy.types.Object]:
                   key=lambda thing: thing.name)
 
 
-def the_sheet(scene: bpy.types.Scene) -> bpy.types.Object:
-    """The only sheet of the scene. Raises SheetError."""
+def sheets_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """The sheets of the scene, at least one. Raises SheetError."""
     found = things_with("SHEET", scene)
     if not found:
         raise SheetError("no object is a sheet: choose one, and Sheet > Role > Sheet in its physics properties")
-    if len(found) > 1:
-        raise SheetError(f'"{found[0].name}" and "{found[1].name}" are both sheets, and a run has one: join them'
-                         ' (Object > Join; their parts stay apart), or set Role > None for one of them')
-    return found[0]
+    return found
+
+
+def liquid_of(thing: bpy.types.Object, scene: bpy.types.Scene) -> Any:
+    """The settings of a sheet's liquid: its own, or those of the scene."""
+    return thing.sheet_part.liquid if thing.sheet_part.liquid.own else scene.sheet_run
+
+
+def _material_of(liquid: Any) -> Material:
+    return Material(plain(liquid.viscosity), plain(liquid.density), plain(liquid.surface_tension))
+
+
+def _sheet_plan_of(thing: bpy.types.Object, scene: bpy.types.Scene) -> SheetPlan:
+    part, length = thing.sheet_part, scene.unit_settings.scale_length
+    holds = holds_by_name(thing) | {name: kind for name, kind in ((part.pinned, "pinned"), (part.clamped, "clamped"))
+                                    if name}
+    return SheetPlan(thing, plain(part.thickness * length), part.edges,
+                     _material_of(part.liquid) if part.liquid.own else None, holds, part.inlet,
+                     plain(part.inlet_speed * length))
 
 
 def plan_of(scene: bpy.types.Scene) -> Plan:
     """What the panels say. Raises SheetError."""
-    thing, run = the_sheet(scene), scene.sheet_run
-    part, length = thing.sheet_part, scene.unit_settings.scale_length
-    holds = holds_by_name(thing) | {name: kind for name, kind in ((part.pinned, "pinned"), (part.clamped, "clamped"))
-                                    if name}
-    return Plan(thing, plain(part.thickness * length), part.edges, plain(run.viscosity), plain(run.density),
-                plain(run.surface_tension), run.self_contact,
-                [(solid, solid.sheet_part.contact) for solid in things_with("SOLID", scene)], holds, part.inlet,
-                plain(part.inlet_speed * length))
+    run = scene.sheet_run
+    return Plan([_sheet_plan_of(thing, scene) for thing in sheets_of(scene)], _material_of(run), run.self_contact,
+                [(solid, solid.sheet_part.contact) for solid in things_with("SOLID", scene)])
 
 
 def times_of(scene: bpy.types.Scene) -> tuple[float, float]:

@@ -16,8 +16,10 @@ from .compat import confirm
 from .errors import SheetError
 from .follow import forget, open_run, update_object
 from .looks import set_materials
-from .parts import plan_of, the_sheet, times_of
-from .scene_file import Written, write_scene
+from .parts import liquid_of, plan_of, sheets_of, times_of
+from .plan import Written
+from .scene_file import write_scene
+from .sheet_tables import mesh_file_of
 from .slab import add_slab
 
 INTERVAL = 0.2  # [s] between looks at a run
@@ -29,7 +31,8 @@ def write_here(folder: pathlib.Path, scene: bpy.types.Scene) -> Written:
     """Writes what the panels say, at the scene's first frame. Raises SheetError, OSError."""
     folder.mkdir(parents=True, exist_ok=True)
     plan, now = plan_of(scene), scene.frame_current
-    hidden = [thing for thing in (plan.sheet, *(solid for solid, _ in plan.solids)) if thing.hide_viewport]
+    hidden = [thing for thing in (*(sheet.thing for sheet in plan.sheets), *(solid for solid, _ in plan.solids))
+              if thing.hide_viewport]
     try:
         for thing in hidden:
             thing.hide_viewport = False  # what is disabled in viewports is not evaluated
@@ -43,8 +46,7 @@ def write_here(folder: pathlib.Path, scene: bpy.types.Scene) -> Written:
 
 def begin(scene: bpy.types.Scene) -> list[str]:
     """Writes the scene anew and starts its run; returns what is told. Raises SheetError, OSError."""
-    thing = the_sheet(scene)
-    folder = cache.folder_of(scene, thing)
+    folder = cache.folder_of(scene)
     rate, until = times_of(scene)
     if cache.process_of(folder) is not None:
         raise SheetError("the run goes on already: stop it first")
@@ -58,7 +60,7 @@ def begin(scene: bpy.types.Scene) -> list[str]:
 
 def go_on(scene: bpy.types.Scene) -> list[str]:
     """Goes on with the run that is there, to the scene's last frame. Raises SheetError, OSError."""
-    folder = cache.folder_of(scene, the_sheet(scene))
+    folder = cache.folder_of(scene)
     rate, until = times_of(scene)
     if not (folder / cache.RUN).exists():
         raise SheetError("there is no run to go on with: Simulate begins one")
@@ -74,24 +76,32 @@ def go_on(scene: bpy.types.Scene) -> list[str]:
 # ---- what is shown
 
 
-def result_of(scene: bpy.types.Scene) -> bpy.types.Object | None:
-    """The object that shows the run of the scene's sheet, made when the run has a frame, in the sheet's collection,
-    with its name and its materials, or those of the liquid; the sheet itself is hidden. None as long as there is no
-    frame."""
-    thing = the_sheet(scene)
-    folder = cache.folder_of(scene, thing)
+def results_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """The objects that show the run of the scene's sheets, one for each, made when the run has a frame: in the sheet's
+    collections, with its name and its materials, or those of its liquid; the sheets themselves are hidden. None as long
+    as there is no frame."""
+    folder = cache.folder_of(scene)
     file = folder / cache.RUN
     try:
         run = open_run(str(file)) if file.exists() else None
     except SheetError:  # it is just being made
         run = None
     if run is None:
-        return None
+        return []
+    names = cache.sheets_noted(folder) or [thing.name for thing in sheets_of(scene)]
+    return [_result_of(scene.objects[name], number if len(names) > 1 else -1, folder, scene)
+            for number, name in enumerate(names) if name in scene.objects]
+
+
+def _result_of(thing: bpy.types.Object, number: int, folder: pathlib.Path,
+               scene: bpy.types.Scene) -> bpy.types.Object:
     shown = thing.sheet_part.result
     if shown is None or shown.name not in scene.objects:
         shown = _make_result(thing, scene)
         thing.sheet_part.result = shown
-    wanted = {"first_time": 0.0, "mesh_file": str(folder / "scene.ply"), "start": scene.frame_start, "file": str(file)}
+    mesh_file = mesh_file_of(folder / cache.SCENE, max(number, 0), number >= 0)
+    wanted = {"first_time": 0.0, "mesh_file": str(mesh_file), "start": scene.frame_start, "number": number,
+              "file": str(folder / cache.RUN)}
     for name, value in wanted.items():
         if getattr(shown.sheet, name) != value:  # each change shows the run anew
             setattr(shown.sheet, name, value)
@@ -110,7 +120,7 @@ def _make_result(thing: bpy.types.Object, scene: bpy.types.Scene) -> bpy.types.O
         for material in materials:
             shown.data.materials.append(material)
     else:
-        set_materials(shown, scene.sheet_run.look, scene)
+        set_materials(shown, liquid_of(thing, scene).look, scene)
     _set_hidden(thing, True)
     return shown
 
@@ -125,15 +135,16 @@ def _set_hidden(thing: bpy.types.Object, hidden: bool) -> None:
 
 def show_newest(scene: bpy.types.Scene) -> int:
     """Shows what there is of the run; the scene goes to its newest frame if it shall. Returns the number of frames."""
-    shown = result_of(scene)
-    if shown is None:
+    shown = results_of(scene)
+    if not shown:
         return 0
-    run = open_run(shown.sheet.file)
+    run = open_run(shown[0].sheet.file)
     newest = scene.frame_start + len(run) - 1
     if scene.sheet_run.follow and scene.frame_current != newest:
         scene.frame_set(newest)
     else:
-        update_object(shown, scene)
+        for thing in shown:
+            update_object(thing, scene)
     return len(run)
 
 
@@ -164,7 +175,7 @@ class _Watching:
     wait: bpy.props.BoolProperty(name="Wait", default=True, options={"SKIP_SAVE"})  # type: ignore[valid-type]
 
     def watch(self, context: Any) -> set[str]:
-        self.folder = cache.folder_of(context.scene, the_sheet(context.scene))
+        self.folder = cache.folder_of(context.scene)
         self.scene_name, self.seen = context.scene.name, -1
         _watched.add(str(self.folder))
         self.timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
@@ -210,7 +221,7 @@ class _Watching:
 
     def follow_to_end(self, context: Any) -> set[str]:
         """Of scripts."""
-        folder = cache.folder_of(context.scene, the_sheet(context.scene))
+        folder = cache.folder_of(context.scene)
         while self.wait and cache.progress_of(folder).alive:
             time.sleep(INTERVAL)
         show_newest(context.scene)
@@ -247,7 +258,7 @@ def _redraw(context: Any) -> None:
 
 
 class SHEET_OT_simulate(_Watching, bpy.types.Operator):
-    """Simulate the sheet from the scene's first frame to its last; a run that is there is kept as run~, once"""
+    """Simulate the sheets from the scene's first frame to its last; a run that is there is kept as run~, once"""
     bl_idname = "sheet.simulate"
     bl_label = "Simulate"
 
@@ -287,7 +298,7 @@ class SHEET_OT_stop(bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         try:
-            stopped = cache.stop(cache.folder_of(context.scene, the_sheet(context.scene)))
+            stopped = cache.stop(cache.folder_of(context.scene))
             show_newest(context.scene)
         except (SheetError, OSError) as error:
             self.report({"ERROR"}, str(error))
@@ -298,7 +309,7 @@ class SHEET_OT_stop(bpy.types.Operator):
 
 
 class SHEET_OT_free(bpy.types.Operator):
-    """Remove the run from the disk, and show the sheet itself again"""
+    """Remove the run from the disk, and show the sheets themselves again"""
     bl_idname = "sheet.free"
     bl_label = "Free the Run"
 
@@ -307,17 +318,17 @@ class SHEET_OT_free(bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         try:
-            thing = the_sheet(context.scene)
-            folder = cache.folder_of(context.scene, thing)
+            folder = cache.folder_of(context.scene)
             cache.free(folder)
         except (SheetError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         forget(str(folder / cache.RUN))
-        shown = thing.sheet_part.result
-        if shown is not None:
-            bpy.data.objects.remove(shown)
-        _set_hidden(thing, False)
+        shown = [(thing, thing.sheet_part.result) for thing in context.scene.objects if thing.sheet_part.result]
+        for thing, result in shown:
+            if result.sheet.file == str(folder / cache.RUN):
+                bpy.data.objects.remove(result)
+                _set_hidden(thing, False)
         return {"FINISHED"}
 
 
@@ -330,14 +341,14 @@ def _find_again() -> None:
     window = bpy.context.window_manager.windows[0] if bpy.context.window_manager.windows else None
     for scene in bpy.data.scenes:
         try:
-            folder = cache.folder_of(scene, the_sheet(scene))
+            folder = cache.folder_of(scene)
         except SheetError:
             continue
         if cache.process_of(folder) is not None and window is not None and str(folder) not in _watched:
             with bpy.context.temp_override(window=window, scene=scene):
                 bpy.ops.sheet.watch("INVOKE_DEFAULT")
         else:
-            result_of(scene)
+            results_of(scene)
 
 
 @persistent
