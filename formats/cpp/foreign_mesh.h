@@ -46,6 +46,16 @@ struct ForeignMesh {
         return &array;
     return nullptr;
   }
+
+  // Those with seams, where triangles at a point differ: the first array of six components at cells that is called
+  // "corner_uv", or NAME.corner_uv: u and v at each corner. Where it is, texture() is of no account. Or nullptr.
+  [[nodiscard]] const MeshArray* corner_texture() const {
+    for (const MeshArray& array : arrays)
+      if (array.place == MeshPlace::cell && array.components == 6 &&
+          (array.name == "corner_uv" || array.name.ends_with(".corner_uv")))
+        return &array;
+    return nullptr;
+  }
 };
 
 enum class MeshFormat { obj, off, ply, stl, vtu };

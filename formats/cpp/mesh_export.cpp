@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "formats/cpp/mesh_export.h"
 
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <map>
 
 #include "formats/cpp/byte_store.h"
 #include "formats/cpp/export_check.h"
@@ -36,6 +38,26 @@ void append_point(std::string& text, std::span<const double> point) {
     text += ' ';
     append_real(text, x);
   }
+}
+
+// The different texture coordinates in the order in which corners come to them, and the number of each corner's, from
+// 0.
+struct CornerTexture {
+  MeshArray different{"uv", MeshPlace::point, 2, {}};
+  std::vector<std::uint64_t> number;
+};
+
+CornerTexture numbered(const MeshArray& corners) {
+  CornerTexture result;
+  std::map<std::array<double, 2>, std::uint64_t> known;
+  for (std::size_t i = 0; i < corners.values.size(); i += 2) {
+    const std::array uv{corners.values[i], corners.values[i + 1]};
+    const auto [place, is_new] = known.try_emplace(uv, known.size());
+    if (is_new)
+      result.different.values.insert(result.different.values.end(), uv.begin(), uv.end());
+    result.number.push_back(place->second);
+  }
+  return result;
 }
 
 // A line for each tuple of an array, if there is one.
@@ -70,6 +92,11 @@ void check_export(const ForeignMesh& mesh) {
 std::string encode_obj(const ForeignMesh& mesh) {
   check_export(mesh);
   const MeshArray *texture = mesh.texture(), *normal = mesh.find("normal", MeshPlace::point);
+  CornerTexture corners;
+  if (const MeshArray* seamed = mesh.corner_texture()) {
+    corners = numbered(*seamed);
+    texture = &corners.different;
+  }
   if (normal && normal->components != 3)
     normal = nullptr;
   std::string text = "# written by Sheet\n";
@@ -80,12 +107,14 @@ std::string encode_obj(const ForeignMesh& mesh) {
   }
   append_lines(text, "vt", texture);
   append_lines(text, "vn", normal);
-  for (const auto& triangle : mesh.triangles) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     text += 'f';
-    for (const std::uint32_t corner : triangle) {
-      const std::string number = std::to_string(corner + std::uint64_t{1});
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string number = std::to_string(mesh.triangles[t][i] + std::uint64_t{1});
       text += " " + number;
-      if (texture || normal)
+      if (!corners.number.empty())
+        text += "/" + std::to_string(corners.number[3 * t + i] + 1);
+      else if (texture || normal)
         text += "/" + (texture ? number : "");
       if (normal)
         text += "/" + number;

@@ -44,7 +44,7 @@ std::vector<fs::path>& stream_folders() {
   return folders;
 }
 
-// A file of this name and checksum is looked for.
+// A file of this name and checksum ("": any) is looked for.
 struct Search {
   std::string name, checksum;
   std::string other = {}; // the first of its name that is another
@@ -57,7 +57,7 @@ struct Search {
         const std::string path = (as_told / ending).string();
         if (!fs::is_regular_file(path, error))
           continue;
-        if (checksum_of_file(path) == checksum)
+        if (checksum.empty() || checksum_of_file(path) == checksum)
           return path;
         if (other.empty())
           other = path;
@@ -121,6 +121,14 @@ std::string find_named_file(const std::string& name, const std::string& checksum
        "{}: there is no such file, neither as seen from here, from the stream's folder or from one above, nor without "
        "its folders",
        name);
+}
+
+std::optional<std::string> find_by_name(const std::string& name) {
+  Search search{.name = name, .checksum = {}};
+  for (const fs::path& folder : stream_folders())
+    if (auto found = search.upwards_from(folder, folder))
+      return found;
+  return search.upwards_from(fs::current_path(), {});
 }
 
 formats::MeshImport import_named_mesh(const std::string& path, formats::WantedArrays arrays) try {

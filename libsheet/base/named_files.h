@@ -2,6 +2,7 @@
 // Files that a scene or an option names: meshes, level sets, pictures. They are read whole and may be read again, so a
 // pipe or a device, which would keep a program waiting for ever, is refused.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "formats/cpp/mesh_import.h"
@@ -20,6 +21,10 @@ void check_named_file(const std::string& path);
 // stream may be worked on elsewhere; then likewise from the folders of the streams that are read. Throws Error:
 // bad_input (another file has its place), io (there is none).
 [[nodiscard]] std::string find_named_file(const std::string& name, const std::string& checksum);
+
+// Where a file of this name is, whatever it holds: from the folders of the streams that are read, then from the current
+// one; each time as named and without its leading folders, there and in each folder above. Nothing if there is none.
+[[nodiscard]] std::optional<std::string> find_by_name(const std::string& name);
 
 // Streams in this file are read: what they name may lie beside it.
 void look_beside(const std::string& stream);

@@ -17,6 +17,7 @@
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/shape/export.h"
 #include "libsheet/shape/gltf.h"
+#include "libsheet/shape/seam_texture.h"
 #include "libsheet/sheet/drop_shells.h"
 #include "libsheet/sheet/drops.h"
 
@@ -42,14 +43,17 @@ ExportFormat format_by_name(const std::string& name) {
        name);
 }
 
-std::string encode(formats::ForeignMesh mesh, ExportFormat format, const Scene* scene) {
+// scene: null if there is none, or it does not matter.
+std::string encode(formats::ForeignMesh mesh, ExportFormat format, const Scene* scene, SeamTextures& textures) {
+  if (scene != nullptr)
+    textures.add(*scene, mesh);
   switch (format) {
   case ExportFormat::vtu:
     return encode_vtu(mesh);
   case ExportFormat::ply:
     return encode_ply(mesh);
   case ExportFormat::obj:
-    if (mesh.texture()) // a textured surface is to be drawn smooth
+    if (mesh.texture() || mesh.corner_texture()) // a textured surface is to be drawn smooth
       add_normals(mesh);
     else
       std::erase_if(mesh.arrays, [](const formats::MeshArray& array) { return array.name == "normal"; });
@@ -64,6 +68,15 @@ std::string encode(formats::ForeignMesh mesh, ExportFormat format, const Scene* 
   }
   const std::optional<Eigen::Vector3d> upwards = scene != nullptr ? up(scene->environment) : std::nullopt;
   return encode_gltf(mesh, upwards.value_or(Eigen::Vector3d::UnitY()));
+}
+
+// Whether what is written depends on the scene: by what is up, or by texture coordinates with seams.
+bool needs_scene(ExportFormat format, const formats::Frame& frame) {
+  const auto is_rest = [](const formats::Array& array) {
+    return array.name == "rest" || array.name.ends_with(".rest");
+  };
+  return format == ExportFormat::glb ||
+         (format != ExportFormat::stl && format != ExportFormat::off && std::ranges::any_of(frame.arrays, is_rest));
 }
 
 // What contradicts itself.
@@ -105,7 +118,8 @@ public:
     settings_.level_set = format == ExportFormat::vdb;
   }
 
-  std::string operator()(const formats::Frame& frame, const std::string& path, const Scene* scene) {
+  std::string operator()(const formats::Frame& frame, const std::string& path, const Scene* scene,
+                         SeamTextures& textures) {
     const ChosenUnion chosen = choose_union(frame, settings_);
     if (!told_ && chosen.options.voxel > chosen.wanted_voxel) {
       log::warning(
@@ -116,7 +130,7 @@ public:
     }
     solid::SlabUnion body = unite_layers(frame, chosen.options);
     tell(path, body, chosen.options);
-    return settings_.level_set ? std::move(body.level_set) : encode(union_mesh(frame, body), format_, scene);
+    return settings_.level_set ? std::move(body.level_set) : encode(union_mesh(frame, body), format_, scene, textures);
   }
 
 private:
@@ -138,6 +152,7 @@ void export_frames(const ExportOptions& o) {
   formats::StreamReader reader(in.descriptor(), in.name());
   formats::Frame frame;
   FrameScene scenes;
+  SeamTextures textures;
   std::vector<formats::PvdEntry> collection;
   make_folder_of(name.of(0));
   while (reader.read(frame)) {
@@ -148,11 +163,12 @@ void export_frames(const ExportOptions& o) {
            "sheet-select",
            in.name());
     const std::string path = name.of(index);
-    const Scene* const scene = format == ExportFormat::glb ? scenes.find(frame) : nullptr;
+    const Scene* const scene = needs_scene(format, frame) ? scenes.find(frame) : nullptr;
     if (knows_drops(frame))
       frame = with_drop_shells(frame);
-    write_file(path, o.unite ? united(frame, path, scene)
-                             : encode(o.solidify ? to_solid_mesh(frame) : to_foreign_mesh(frame), format, scene));
+    write_file(path, o.unite
+                         ? united(frame, path, scene, textures)
+                         : encode(o.solidify ? to_solid_mesh(frame) : to_foreign_mesh(frame), format, scene, textures));
     collection.push_back({frame.time, std::filesystem::path(path).filename().string()});
   }
   if (reader.frames() == 0)

@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <numeric>
 #include <sstream>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -98,38 +102,75 @@ std::vector<Eigen::Vector3d> normals_of(const TriangleMesh& mesh) {
   return normals;
 }
 
+// The vertices that are written: points of the mesh, those on seams once for each texture coordinate that they have.
+struct Vertices {
+  std::vector<std::uint32_t> point;   // of each vertex
+  std::vector<std::uint32_t> corners; // their numbers, triangle after triangle
+  std::vector<float> texture;         // u and v of each, v pointing down as in glTF; empty: none
+};
+
+Vertices vertices_of(const ForeignMesh& mesh) {
+  Vertices out;
+  constexpr const char* what = "the texture coordinate";
+  if (const MeshArray* seamed = mesh.corner_texture()) {
+    std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;
+    for (std::size_t i = 0; i < 3 * mesh.triangles.size(); ++i) {
+      const std::uint32_t point = mesh.triangles[i / 3][i % 3];
+      const float u = single(seamed->values[2 * i], what, point),
+                  v = single(1 - seamed->values[2 * i + 1], what, point);
+      const auto [place, is_new] = known.try_emplace({point, u, v}, static_cast<std::uint32_t>(known.size()));
+      if (is_new) {
+        out.point.push_back(point);
+        out.texture.insert(out.texture.end(), {u, v});
+      }
+      out.corners.push_back(place->second);
+    }
+    return out;
+  }
+  out.point.resize(mesh.points.size());
+  std::iota(out.point.begin(), out.point.end(), 0);
+  for (const auto& triangle : mesh.triangles)
+    out.corners.insert(out.corners.end(), triangle.begin(), triangle.end());
+  if (const MeshArray* texture = mesh.texture())
+    for (std::size_t i = 0; i < texture->values.size(); i += 2) {
+      out.texture.push_back(single(texture->values[i], what, i / 2));
+      out.texture.push_back(single(1 - texture->values[i + 1], what, i / 2));
+    }
+  return out;
+}
+
 tinygltf::Primitive pack(const ForeignMesh& mesh, Writer& writer) {
   TriangleMesh shape;
   for (const auto& point : mesh.points)
     shape.positions.emplace_back(point[0], point[1], point[2]);
   shape.triangles = mesh.triangles;
-  std::vector<std::uint32_t> corners;
-  for (const auto& triangle : mesh.triangles)
-    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  const Vertices vertices = vertices_of(mesh);
+  const auto of_vertices = [&](const auto& of_points) {
+    std::vector<std::remove_cvref_t<decltype(of_points[0])>> values;
+    for (const std::uint32_t point : vertices.point)
+      values.push_back(of_points[point]);
+    return values;
+  };
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   primitive.material = 0;
-  primitive.attributes["POSITION"] = writer.floats(flat(shape.positions, "the coordinate"), TINYGLTF_TYPE_VEC3);
-  primitive.attributes["NORMAL"] = writer.floats(flat(normals_of(shape), "the normal"), TINYGLTF_TYPE_VEC3);
-  const MeshArray* texture = mesh.texture();
+  primitive.attributes["POSITION"] =
+      writer.floats(flat(of_vertices(shape.positions), "the coordinate"), TINYGLTF_TYPE_VEC3);
+  primitive.attributes["NORMAL"] =
+      writer.floats(flat(of_vertices(normals_of(shape)), "the normal"), TINYGLTF_TYPE_VEC3);
+  const bool textured = !vertices.texture.empty();
   if (const MeshArray* thickness = mesh.find("thickness", MeshPlace::point)) {
     std::vector<float> values, as_texture;
-    for (const double h : thickness->values) {
+    for (const double h : of_vertices(thickness->values)) {
       values.push_back(single(h, "the thickness", values.size()));
       as_texture.insert(as_texture.end(), {values.back(), 0});
     }
     primitive.attributes["_THICKNESS"] = writer.floats(values, TINYGLTF_TYPE_SCALAR);
-    primitive.attributes[texture ? "TEXCOORD_1" : "TEXCOORD_0"] = writer.floats(as_texture, TINYGLTF_TYPE_VEC2);
+    primitive.attributes[textured ? "TEXCOORD_1" : "TEXCOORD_0"] = writer.floats(as_texture, TINYGLTF_TYPE_VEC2);
   }
-  if (texture) {
-    std::vector<float> values;
-    for (std::size_t i = 0; i < texture->values.size(); i += 2) { // v points down in glTF
-      values.push_back(single(texture->values[i], "the texture coordinate", i / 2));
-      values.push_back(single(1 - texture->values[i + 1], "the texture coordinate", i / 2));
-    }
-    primitive.attributes["TEXCOORD_0"] = writer.floats(values, TINYGLTF_TYPE_VEC2);
-  }
-  primitive.indices = writer.indices(corners);
+  if (textured)
+    primitive.attributes["TEXCOORD_0"] = writer.floats(vertices.texture, TINYGLTF_TYPE_VEC2);
+  primitive.indices = writer.indices(vertices.corners);
   return primitive;
 }
 

@@ -3,6 +3,7 @@
 
     blender -b --factory-startup --python-exit-code 1 --python test_several.py -- sheet-blender.zip
 """
+import json
 import pathlib
 import subprocess
 import sys
@@ -90,6 +91,53 @@ class Several(Case):
             self.assertAlmostEqual(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2, area, delta=0.1)
         self.assertEqual(cloth.sheet_part.result.sheet.number, 0)
         self.assertEqual(jam.sheet_part.result.sheet.number, 1)
+
+    def exported(self, run, index):
+        """u and v at the corners of a frame, as other programs get them: by OBJ, and by glTF through Blender."""
+        for ending in ("obj", "glb"):
+            subprocess.run(["sheet-export", run, "-o", self.folder / f"out/frame_%02d.{ending}"], check=True)
+        lines = [line.split() for line in (self.folder / f"out/frame_{index:02}.obj").read_text().splitlines()]
+        uv = np.array([line[1:] for line in lines if line[0] == "vt"], float)
+        corner = np.array([[int(c.split("/")[1]) for c in line[1:]] for line in lines if line[0] == "f"]) - 1
+        binary = (self.folder / f"out/frame_{index:02}.glb").read_bytes()
+        size = int.from_bytes(binary[12:16], "little")
+        model = json.loads(binary[20:20 + size])
+
+        def values(accessor, kind, width):
+            said = model["accessors"][accessor]
+            start = 28 + size + model["bufferViews"][said["bufferView"]].get("byteOffset", 0)
+            return np.frombuffer(binary, kind, said["count"] * width, start).reshape(-1, width)
+        primitive = model["meshes"][0]["primitives"][0]
+        corners = values(primitive["indices"], "<u4", 1).reshape(-1, 3)
+        gltf = values(primitive["attributes"]["TEXCOORD_0"], "<f4", 2)[corners]
+        return uv[corner], np.stack([gltf[..., 0], 1 - gltf[..., 1]], axis=2)
+
+    def test_seams_come_out_of_sheet_export(self):
+        self.cloth(), self.jam(), self.ball()
+        self.save()
+        bpy.ops.sheet.simulate()
+        file = self.folder / "kept_sheet/Cloth/run/run.sheet"
+        run = self.add_on.sheetstream.Run(str(file))
+        for index in (0, len(run) - 1):
+            self.scene.frame_set(1 + index)
+            shown = np.concatenate([uv_of(bpy.data.objects[f"{name} sheet"].data) for name in ("Cloth", "Jam")])
+            number = np.asarray(run[index]["blender.sheet"]).ravel()
+            shown = shown[np.argsort(np.argsort(number, kind="stable"))]
+            for uv in self.exported(file, index):
+                far = np.abs(uv - shown).max(axis=(1, 2)) > 1e-6
+                if index == 0:
+                    self.assertFalse(far.any())
+                self.assertLess(far.mean(), 0.01)  # the middle of a triangle may be as near to one island as to another
+                self.assertTrue((uv[number == 1] > 1).any() and (uv[number == 0] <= 1 + 1e-6).all())
+        for kind in (["--solidify"], ["--union", "--voxel", "6mm"]):
+            subprocess.run(["sheet-export", *kind, file, "-o", self.folder / "out/body_%02d.obj"], check=True)
+            body = (self.folder / f"out/body_{len(run) - 1:02}.obj").read_text().splitlines()
+            u = np.array([line.split()[1] for line in body if line.startswith("vt ")], float)
+            self.assertTrue((u > 2.01).any() and ((u < 1 + 1e-6) | (u > 2 - 1e-6)).all())  # none between the islands
+        (self.folder / "kept_sheet/Cloth/scene_sheet_1.ply").unlink()
+        done = subprocess.run(["sheet-export", file, "-o", self.folder / "out/frame_%02d.obj"], check=True,
+                              capture_output=True, text=True)
+        self.assertIn("scene_sheet_1.ply: this mesh of the scene, which has texture coordinates with seams", done.stderr)
 
     def test_a_run_that_is_imported_is_an_object_for_each_sheet(self):
         self.cloth(), self.ball()

@@ -20,6 +20,7 @@ from .evaluated import Triangles
 
 ENDING = "_carried.npz"  # behind the name of the sheet's mesh file, beside the scene
 MATERIAL, REST = "blender.material", "blender.rest"
+CORNERS = "blender.corner_uv"
 SHEET = "blender.sheet"  # where a scene has several: the number of each triangle's
 SEAM = 1e-6  # corners of a vertex that differ by more stand at a seam
 
@@ -62,7 +63,7 @@ def _at_vertices(values: Any, triangle: Any, vertices: int) -> Any:
 
 
 def collect(mesh: bpy.types.Mesh, shape: Triangles) -> tuple[dict[str, Any], dict[str, Any], list[Layer]]:
-    """Arrays at vertices and at triangles for the scene's mesh file, and the layers that they are."""
+    """Arrays at vertices and at triangles that go along, and the layers that they are."""
     at_vertices: dict[str, Any] = {}
     layers = []
     count = {"uv": 0, "color": 0}
@@ -80,6 +81,13 @@ def collect(mesh: bpy.types.Mesh, shape: Triangles) -> tuple[dict[str, Any], dic
     mesh.polygons.foreach_get("material_index", slots)
     at_triangles = {MATERIAL: slots[shape.face]} if slots.any() else {}
     return at_vertices, at_triangles, layers
+
+
+def corner_arrays(layers: list[Layer]) -> dict[str, Any]:
+    """Those at triangles that stay in the mesh file: u and v at the corners, where the first UV map has seams, for
+    programs other than Blender, which look them up there as it does."""
+    first = next((layer for layer in layers if layer.kind == "uv"), None)
+    return {} if first is None or first.array else {CORNERS: first.values.reshape(-1, 6)}
 
 
 def file_of(mesh_file: pathlib.Path) -> pathlib.Path:

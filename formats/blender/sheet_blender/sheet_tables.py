@@ -101,7 +101,7 @@ class SheetTables:
             self.written.files.append(str(carried.file_of(mesh_file)))
         else:  # of another state
             carried.file_of(mesh_file).unlink(missing_ok=True)
-        write_ply(mesh_file, shape, thickness, at_vertices, at_triangles)
+        write_ply(mesh_file, shape, thickness, at_vertices, at_triangles | carried.corner_arrays(layers))
         return inflow, _mean_edge(shape)
 
     def _add_table(self, number: int, thickness: Thickness | None, kept: list[str]) -> None:

@@ -111,6 +111,18 @@ TEST(MeshExport, WritesFilesForReadback) {
   export_pvd(folder + "/mesh.pvd", std::vector<PvdEntry>{{0.0, "mesh.vtu"}, {0.25, "mesh.vtu"}});
 }
 
+TEST(MeshExport, ObjHasSeamsOfTheTexture) {
+  ForeignMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {2, 1, 3}};
+  mesh.arrays.push_back({"uv", MeshPlace::point, 2, {9, 9, 9, 9, 9, 9, 9, 9}}); // of no account
+  mesh.arrays.push_back({"corner_uv", MeshPlace::cell, 6, {0, 0, 1, 0, 0, 1, 0, 1, 0.5, 0.5, 0.75, 0}});
+  EXPECT_EQ(encode_obj(mesh), "# written by Sheet\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+                              "vt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0.5\nvt 0.75 0\nf 1/1 2/2 3/3\nf 3/3 2/4 4/5\n");
+  mesh.arrays.push_back({"normal", MeshPlace::point, 3, {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}});
+  EXPECT_THAT(encode_obj(mesh), testing::HasSubstr("f 1/1/1 2/2/2 3/3/3\nf 3/3/3 2/4/2 4/5/4\n"));
+}
+
 TEST(MeshExport, ObjHasTextureAndNormals) {
   ForeignMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

@@ -101,5 +101,27 @@ TEST(Gltf, TextureCoordinatesComeFirstAndPointDown) {
             (std::vector<float>{0.1F, 0, 0.2F, 0, 0.3F, 0, 0.4F, 0, 0, 0}));
 }
 
+TEST(Gltf, PointsOnSeamsStandOnceForEachTextureCoordinate) {
+  ForeignMesh mesh = two_triangles(); // which share the points 1 and 2
+  mesh.arrays.push_back({"a.corner_uv", MeshPlace::cell, 6, {0, 0, 1, 0, 0, 1, 0, 1, 0.5, 0.5, 0.75, 0}});
+  const tinygltf::Model model = read(encode_gltf(mesh, Eigen::Vector3d::UnitY()));
+  const tinygltf::Primitive& primitive = model.meshes.at(0).primitives.at(0);
+  EXPECT_EQ(values<std::uint32_t>(model, primitive.indices), (std::vector<std::uint32_t>{0, 1, 2, 2, 3, 4}));
+  EXPECT_EQ(values<float>(model, primitive.attributes.at("TEXCOORD_0")),
+            (std::vector<float>{0, 1, 1, 1, 0, 0, 0.5F, 0.5F, 0.75F, 1}));
+  EXPECT_EQ(values<float>(model, primitive.attributes.at("_THICKNESS")),
+            (std::vector<float>{0.1F, 0.2F, 0.3F, 0.2F, 0.4F}));
+  const std::vector<float> places = values<float>(model, primitive.attributes.at("POSITION")),
+                           normals = values<float>(model, primitive.attributes.at("NORMAL"));
+  const std::vector<float> smooth = values<float>(
+      read(encode_gltf(two_triangles(), Eigen::Vector3d::UnitY())),
+      read(encode_gltf(two_triangles(), Eigen::Vector3d::UnitY())).meshes[0].primitives[0].attributes.at("NORMAL"));
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_EQ(places[3 + c], places[9 + c]);
+    EXPECT_EQ(normals[3 + c], normals[9 + c]); // a seam of the texture is none of the shape
+    EXPECT_EQ(normals[3 + c], smooth[3 + c]);
+  }
+}
+
 } // namespace
 } // namespace sheet

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/shape/seam_texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include "libsheet/base/log.h"
+#include "libsheet/base/named_files.h"
+#include "libsheet/solid/triangle_distance.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::ForeignMesh;
+using formats::MeshArray;
+using formats::MeshPlace;
+using Uv = std::array<double, 2>;
+using SeamKernel = CGAL::Simple_cartesian<double>;
+using SeamTriangles = std::vector<SeamKernel::Triangle_3>;
+using SeamTree = CGAL::AABB_tree<
+    CGAL::AABB_traits<SeamKernel, CGAL::AABB_triangle_primitive<SeamKernel, SeamTriangles::const_iterator>>>;
+
+constexpr double seam = 1e-6; // texture coordinates that differ by more do
+
+bool alike(const Uv& a, const Uv& b) { return std::abs(a[0] - b[0]) <= seam && std::abs(a[1] - b[1]) <= seam; }
+
+// Triangles among which the nearest one is found.
+class Nearby {
+public:
+  void add(const SeamKernel::Triangle_3& triangle, std::uint32_t number) {
+    triangles_.push_back(triangle);
+    numbers_.push_back(number);
+  }
+  void build() {
+    tree_.insert(triangles_.cbegin(), triangles_.cend());
+    tree_.build();
+  }
+  // The number of a nearest triangle.
+  [[nodiscard]] std::uint32_t nearest(const Eigen::Vector3d& x) const {
+    const auto [point, primitive] = tree_.closest_point_and_primitive({x.x(), x.y(), x.z()});
+    return numbers_[static_cast<std::size_t>(primitive - triangles_.cbegin())];
+  }
+
+private:
+  SeamTriangles triangles_;
+  std::vector<std::uint32_t> numbers_;
+  SeamTree tree_;
+};
+
+// Islands by the least of their triangles: those with a side of the same ends and the same coordinates at them.
+std::vector<std::uint32_t> islands_of(const ForeignMesh& mesh, const std::vector<std::array<Uv, 3>>& uv) {
+  std::vector<std::uint32_t> parent(mesh.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::uint32_t t) {
+    while (parent[t] != t)
+      t = parent[t] = parent[parent[t]];
+    return t;
+  };
+  struct Side {
+    std::uint32_t triangle;
+    Uv first, second;
+  };
+  std::map<std::array<std::uint32_t, 2>, std::vector<Side>> sides;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][j];
+      const Side side = a < b ? Side{t, uv[t][i], uv[t][j]} : Side{t, uv[t][j], uv[t][i]};
+      std::vector<Side>& others = sides[{std::min(a, b), std::max(a, b)}];
+      for (const Side& other : others)
+        if (alike(side.first, other.first) && alike(side.second, other.second)) {
+          const std::uint32_t p = root(t), q = root(other.triangle);
+          parent[std::max(p, q)] = std::min(p, q);
+        }
+      others.push_back(side);
+    }
+  for (std::uint32_t t = 0; t < parent.size(); ++t)
+    parent[t] = root(t);
+  return parent;
+}
+
+// Arrays that are called so, or NAME.so.
+const MeshArray* array_called(const ForeignMesh& mesh, const std::string& name, MeshPlace place, int components) {
+  for (const MeshArray& array : mesh.arrays)
+    if (array.place == place && array.components == components &&
+        (array.name == name || array.name.ends_with("." + name)))
+      return &array;
+  return nullptr;
+}
+
+Eigen::Vector3d place_of(const MeshArray& rest, std::uint32_t vertex) {
+  return Eigen::Map<const Eigen::Vector3d>(rest.values.data() + 3 * std::size_t{vertex});
+}
+
+} // namespace
+
+// The map of one sheet's file.
+class SeamTextures::Map {
+public:
+  Map(ForeignMesh mesh, const MeshArray& corners) : mesh_(std::move(mesh)), uv_(mesh_.triangles.size()) {
+    for (std::size_t i = 0; i < 3 * uv_.size(); ++i)
+      uv_[i / 3][i % 3] = {corners.values[2 * i], corners.values[2 * i + 1]};
+    island_ = islands_of(mesh_, uv_);
+    for (std::uint32_t t = 0; t < uv_.size(); ++t) {
+      const auto point = [&](std::size_t i) {
+        const std::array<double, 3>& x = mesh_.points[mesh_.triangles[t][i]];
+        return SeamKernel::Point_3(x[0], x[1], x[2]);
+      };
+      const SeamKernel::Triangle_3 triangle(point(0), point(1), point(2));
+      all_.add(triangle, t);
+      of_island_[island_[t]].add(triangle, t);
+      for (std::size_t i = 0; i < 3; ++i)
+        longest_ = std::max(longest_, std::sqrt(CGAL::squared_distance(point(i), point((i + 1) % 3))));
+    }
+    all_.build();
+    for (auto& [island, triangles] : of_island_)
+      triangles.build();
+  }
+
+  // Whether half of these places or more are in the mesh or within an edge of it, as those are that remeshing makes.
+  [[nodiscard]] bool fits(const std::vector<Eigen::Vector3d>& places) const {
+    const auto is_near = [&](const Eigen::Vector3d& x) {
+      return (solid::nearest_on_triangle(x, corners_of(all_.nearest(x))).point - x).norm() <= longest_;
+    };
+    return 2 * std::ranges::count_if(places, is_near) >= std::ssize(places);
+  }
+
+  // u and v at the corners of a triangle whose corners were at these places.
+  [[nodiscard]] std::array<Uv, 3> at(const std::array<Eigen::Vector3d, 3>& places) const {
+    const std::uint32_t island = island_[all_.nearest((places[0] + places[1] + places[2]) / 3)];
+    const Nearby& triangles = of_island_.at(island);
+    std::array<Uv, 3> result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t t = triangles.nearest(places[i]);
+      const auto near = solid::nearest_on_triangle(places[i], corners_of(t));
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t c = 0; c < 2; ++c)
+          result[i][c] += near.weights[k] * uv_[t][k][c];
+    }
+    return result;
+  }
+
+private:
+  [[nodiscard]] solid::Triangle3 corners_of(std::uint32_t t) const {
+    const auto point = [&](std::size_t i) {
+      return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(mesh_.points[mesh_.triangles[t][i]].data()));
+    };
+    return {point(0), point(1), point(2)};
+  }
+
+  ForeignMesh mesh_;
+  std::vector<std::array<Uv, 3>> uv_; // at the corners of each triangle
+  std::vector<std::uint32_t> island_; // of each triangle
+  Nearby all_;
+  std::map<std::uint32_t, Nearby> of_island_;
+  double longest_ = 0; // edge [units of the file]
+};
+
+SeamTextures::SeamTextures() = default;
+SeamTextures::~SeamTextures() = default;
+
+std::unique_ptr<SeamTextures::Map> SeamTextures::find(const scene::SheetTable& sheet, const std::string& rest,
+                                                      const std::string& name,
+                                                      const std::vector<Eigen::Vector3d>& places) {
+  const auto* named = std::get_if<scene::SheetMesh>(&sheet.shape);
+  if (named == nullptr || std::ranges::find(sheet.arrays, rest) == sheet.arrays.end())
+    return nullptr;
+  const std::optional<std::string> file = find_by_name(named->file);
+  if (!file) {
+    log::warning("{}: this mesh of the scene, which has texture coordinates with seams, is neither beside the stream "
+                 "nor above it: they are left out",
+                 named->file);
+    return nullptr;
+  }
+  const std::array wanted{name};
+  formats::MeshImport import = import_named_mesh(*file, wanted);
+  const MeshArray* corners = import.mesh.find(name, MeshPlace::cell);
+  if (corners == nullptr || corners->components != 6)
+    return nullptr;
+  const MeshArray kept = *corners;
+  auto map = std::make_unique<Map>(std::move(import.mesh), kept);
+  if (!map->fits(places)) {
+    log::warning("{}: this is not the mesh that the run began with: texture coordinates with seams are left out",
+                 *file);
+    return nullptr;
+  }
+  return map;
+}
+
+void SeamTextures::add(const Scene& scene, ForeignMesh& mesh) {
+  const MeshArray* const rest = array_called(mesh, "rest", MeshPlace::point, 3);
+  if (rest == nullptr)
+    return;
+  const std::string name = rest->name.substr(0, rest->name.size() - 4) + "corner_uv";
+  const MeshArray* const number = array_called(mesh, "sheet", MeshPlace::cell, 1);
+  const MeshArray* const smooth = mesh.texture();
+  const auto sheet_of = [&](std::size_t t) {
+    return number == nullptr ? 0 : static_cast<std::size_t>(number->values[t]);
+  };
+  const auto places_of = [&](std::size_t t) {
+    const auto& corners = mesh.triangles[t];
+    return std::array{place_of(*rest, corners[0]), place_of(*rest, corners[1]), place_of(*rest, corners[2])};
+  };
+  maps_.resize(scene.sheets.size());
+  for (std::size_t sheet = 0; sheet < maps_.size(); ++sheet) {
+    std::vector<Eigen::Vector3d> places;
+    for (std::size_t t = 0; !maps_[sheet] && t < mesh.triangles.size(); ++t)
+      if (sheet_of(t) == sheet)
+        std::ranges::copy(places_of(t), std::back_inserter(places));
+    if (!maps_[sheet] && !places.empty())
+      maps_[sheet] = find(scene.sheets[sheet], rest->name, name, places);
+  }
+  if (std::ranges::none_of(maps_, [](const auto& map) { return map && *map; }))
+    return;
+  MeshArray result{name, MeshPlace::cell, 6, {}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<Uv, 3> uv{};
+    if (const std::size_t sheet = sheet_of(t); sheet < maps_.size() && maps_[sheet] && *maps_[sheet])
+      uv = (*maps_[sheet])->at(places_of(t));
+    else if (smooth != nullptr)
+      for (std::size_t i = 0; i < 3; ++i)
+        std::copy_n(smooth->values.begin() + 2 * std::ptrdiff_t{mesh.triangles[t][i]}, 2, uv[i].begin());
+    for (const Uv& corner : uv)
+      result.values.insert(result.values.end(), corner.begin(), corner.end());
+  }
+  mesh.arrays.push_back(std::move(result));
+}
+
+} // namespace sheet
