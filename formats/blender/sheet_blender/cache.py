@@ -49,15 +49,32 @@ class Progress(NamedTuple):
 
 def folder_of(scene: bpy.types.Scene) -> pathlib.Path:
     """Where the run of the scene's sheets is; beside the .blend it has the name of the first one, or of that for which
-    there is a folder. Raises SheetError if there is no place for it yet."""
-    names = [re.sub(r"[^\w.-]+", "_", thing.name) for thing in sheets_of(scene)]
+    there is a folder, and that of the scene if another one has the sheet, too. Raises SheetError if there is no place
+    for it yet."""
+    names = [_as_file(thing.name) for thing in sheets_of(scene)]
     if scene.sheet_run.cache:
-        return pathlib.Path(bpy.path.abspath(scene.sheet_run.cache))
+        chosen = pathlib.Path(bpy.path.abspath(scene.sheet_run.cache))
+        if _is_of_another(chosen, scene):
+            raise SheetError(f'{chosen} has the run of the scene "{noted(chosen)["scene"]}": choose another folder, Sheet'
+                             " Run > Cache")
+        return chosen
     if not bpy.data.filepath:
         raise SheetError("save the .blend first: the run is kept beside it (or choose a folder, Sheet Run > Cache)")
     blend = pathlib.Path(bpy.data.filepath)
-    folders = [blend.with_name(f"{blend.stem}_sheet") / name for name in names]
-    return next((folder for folder in folders if folder.exists()), folders[0])
+    folders = [blend.with_name(f"{blend.stem}_sheet") / each
+               for name in names for each in (name, f"{name}_{_as_file(scene.name)}")]
+    free = [folder for folder in folders if not _is_of_another(folder, scene)]
+    return next((folder for folder in free if folder.exists()), (free or folders)[0])
+
+
+def _as_file(name: str) -> str:
+    return re.sub(r"[^\w.-]+", "_", name)
+
+
+def _is_of_another(folder: pathlib.Path, scene: bpy.types.Scene) -> bool:
+    """Whether a folder has the run of another scene of this file."""
+    name = noted(folder).get("scene", scene.name)
+    return name != scene.name and name in bpy.data.scenes
 
 
 # ---- the process
@@ -229,7 +246,7 @@ def checksum_of_settings(scene: bpy.types.Scene) -> str:
 
 def note_settings(folder: pathlib.Path, scene: bpy.types.Scene, files: list[str]) -> None:
     said = {"settings": checksum_of_settings(scene), "files": checksum_of_files(files),
-            "sheets": [thing.name for thing in sheets_of(scene)]}
+            "scene": scene.name, "sheets": [thing.name for thing in sheets_of(scene)]}
     (folder / "settings.json").write_text(json.dumps(said))
 
 

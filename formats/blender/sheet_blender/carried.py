@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an artist's mesh has beside its shape (UV maps, colours, materials) on its way through a run and back.
+"""What an artist's mesh has beside its shape (UV maps, colours, numbers, materials) on its way through a run and back.
 
 A layer that has one value at each vertex goes as an array at vertices, which remeshing interpolates ("blender.uv"). One
 that has seams, where the corners at a vertex differ, cannot: there each vertex carries where it was in the mesh at the
@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import pathlib
+from collections import Counter
 from typing import Any, NamedTuple
 
 import bpy
@@ -17,6 +18,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from .evaluated import Triangles
+from .meshes import set_attribute
 
 ENDING = "_carried.npz"  # behind the name of the sheet's mesh file, beside the scene
 MATERIAL, REST = "blender.material", "blender.rest"
@@ -26,7 +28,7 @@ SEAM = 1e-6  # corners of a vertex that differ by more stand at a seam
 
 
 class Layer(NamedTuple):
-    """kind: uv, color; array: the frames' array, "" if it is looked up; values: at the corners of the triangles at the
+    """kind: uv, color, or the type of an attribute at vertices; array: the frames' array, "" if it is looked up; values: at the corners of the triangles at the
     start (m x 3 x components)."""
     kind: str
     name: str
@@ -55,6 +57,37 @@ def _color_layers(mesh: bpy.types.Mesh, triangle: Any, corner: Any) -> list[tupl
     return found
 
 
+ATTRIBUTES = {"FLOAT": ("value", 1), "FLOAT_VECTOR": ("vector", 3)}  # at vertices, which go along
+OWN = ("thickness", "triangle_thickness", "velocity", "slab", "touch")  # what a run has of these names
+BUILT_IN = ("position", "material_index", "shade_smooth", "sharp_face", "sharp_edge", "crease_edge", "crease_vert",
+            "bevel_weight_edge", "bevel_weight_vert", "custom_normal", "freestyle_edge", "freestyle_face", "id",
+            "uv_seam")
+
+
+def _foreign_attributes(mesh: bpy.types.Mesh) -> list[Any]:
+    """Those that are neither Blender's own nor UV maps, nor colours."""
+    known = {*OWN, *BUILT_IN, *(layer.name for layer in mesh.uv_layers), *(c.name for c in mesh.color_attributes)}
+    return [each for each in mesh.attributes if each.name not in known and not each.name.startswith(".")]
+
+
+def left_out(mesh: bpy.types.Mesh) -> list[str]:
+    """The names of attributes that do not go along."""
+    return [each.name for each in _foreign_attributes(mesh)
+            if each.domain != "POINT" or each.data_type not in ATTRIBUTES] + \
+        [each.name for each in mesh.color_attributes if each.domain not in ("POINT", "CORNER")]
+
+
+def _attribute_layers(mesh: bpy.types.Mesh, triangle: Any) -> list[tuple[str, str, Any]]:
+    found = []
+    for each in _foreign_attributes(mesh):
+        if each.domain == "POINT" and each.data_type in ATTRIBUTES:
+            name, width = ATTRIBUTES[each.data_type]
+            values = np.empty(width * len(each.data), np.float32)
+            each.data.foreach_get(name, values)
+            found.append((each.data_type, each.name, values.reshape(-1, width)[triangle].astype(float)))
+    return found
+
+
 def _at_vertices(values: Any, triangle: Any, vertices: int) -> Any:
     """Corner values as those of vertices (n x components); None if they have seams."""
     result = np.zeros((vertices, values.shape[2]))
@@ -66,14 +99,15 @@ def collect(mesh: bpy.types.Mesh, shape: Triangles) -> tuple[dict[str, Any], dic
     """Arrays at vertices and at triangles that go along, and the layers that they are."""
     at_vertices: dict[str, Any] = {}
     layers = []
-    count = {"uv": 0, "color": 0}
-    for kind, name, values in _uv_layers(mesh, shape.corner) + _color_layers(mesh, shape.triangle, shape.corner):
+    count: Counter[str] = Counter()
+    for kind, name, values in (*_uv_layers(mesh, shape.corner), *_color_layers(mesh, shape.triangle, shape.corner),
+                               *_attribute_layers(mesh, shape.triangle)):
         smooth = _at_vertices(values, shape.triangle, len(shape.position))
         number = f".{count[kind]}" if count[kind] else ""
-        array = "" if smooth is None else f"blender{number}.{kind}"
+        array = "" if smooth is None else f"blender{number}.{kind.lower()}"
         count[kind] += 1
         if smooth is not None:
-            at_vertices[array] = smooth
+            at_vertices[array] = smooth if smooth.shape[1] > 1 else smooth[:, 0]
         layers.append(Layer(kind, name, array, values))
     if any(not layer.array for layer in layers):
         at_vertices[REST] = shape.position
@@ -193,6 +227,9 @@ class Carried:
         for i, layer in enumerate(self.layers):
             if layer.array:
                 values = np.asarray(frame[layer.array])[triangle] if layer.array in frame else None
+                if layer.kind in ATTRIBUTES and layer.array in frame:
+                    set_attribute(mesh, layer.name, layer.kind, "POINT", frame[layer.array])
+                    continue
             else:
                 values = self._values_of(i, frame, triangle) if REST in frame else None
             if values is not None:

@@ -46,8 +46,10 @@ def surface_of(thing: bpy.types.Object, edges: float = 0.0) -> Iterator[bpy.type
     split = None
     try:
         if mesh is None or not len(mesh.polygons):
-            remedy = "" if thing.type == "MESH" else \
-                ": fill it, or give it a depth (Object Data > Geometry), or make it a mesh (Object > Convert > Mesh)"
+            remedy = ": fill it, or give it a depth (Object Data > Geometry), or make it a mesh (Object > Convert > Mesh)"
+            if thing.type == "MESH":
+                made_by_nodes = any(modifier.type == "NODES" for modifier in thing.modifiers)
+                remedy = ": its geometry nodes may need Realize Instances" if made_by_nodes else ""
             raise SheetError(f'"{thing.name}" has no faces{remedy}')
         if edges > 0:
             split = _split(mesh, thing.matrix_world, 1.4 * edges)
@@ -64,6 +66,7 @@ def _split(mesh: bpy.types.Mesh, matrix: Any, longest: float) -> bpy.types.Mesh 
     try:
         made.from_mesh(mesh)
         bmesh.ops.triangulate(made, faces=made.faces)  # diagonals of faces become edges, too
+        _keep_weights_above(0.5, made)
         for rounds in range(MOST_SPLITS):
             long = [edge for edge in made.edges
                     if (matrix.to_3x3() @ (edge.verts[1].co - edge.verts[0].co)).length > longest]
@@ -73,6 +76,7 @@ def _split(mesh: bpy.types.Mesh, matrix: Any, longest: float) -> bpy.types.Mesh 
             bmesh.ops.triangulate(made, faces=made.faces)
         if rounds == 0:
             return None
+        _keep_weights_above(0.999, made)  # a new vertex is in the groups that both ends of its edge are in
         result = bpy.data.meshes.new("Sheet split")
         made.to_mesh(result)
         for slot in mesh.materials:
@@ -80,6 +84,18 @@ def _split(mesh: bpy.types.Mesh, matrix: Any, longest: float) -> bpy.types.Mesh 
         return result
     finally:
         made.free()
+
+
+def _keep_weights_above(least: float, made: Any) -> None:
+    """Makes those weights in vertex groups 1, and takes others away."""
+    layer = made.verts.layers.deform.active
+    for vertex in made.verts if layer is not None else ():
+        weights = vertex[layer]
+        for group, weight in list(weights.items()):
+            if weight > least:
+                weights[group] = 1.0
+            else:
+                del weights[group]
 
 
 def triangles_of(mesh: bpy.types.Mesh, matrix: Any, length: float) -> Triangles:
@@ -99,15 +115,16 @@ def triangles_of(mesh: bpy.types.Mesh, matrix: Any, length: float) -> Triangles:
     return Triangles(position, triangles, corner, faces)
 
 
-def painted_groups(thing: bpy.types.Object, mesh: bpy.types.Mesh, names: list[str]) -> dict[str, Any]:
-    """Which vertices have a weight above 0.5 in each of these vertex groups."""
+def painted_groups(thing: bpy.types.Object, mesh: bpy.types.Mesh, names: list[str], triangle: Any) -> dict[str, Any]:
+    """Which vertices of triangles have a weight above 0.5 in each of these vertex groups."""
     groups = {group.index: group.name for group in thing.vertex_groups if group.name in names}
     painted = {name: np.zeros(len(mesh.vertices), bool) for name in groups.values()}
     for vertex in mesh.vertices if groups else ():
         for membership in vertex.groups:
             if membership.group in groups and membership.weight > 0.5:
                 painted[groups[membership.group]][vertex.index] = True
-    return painted
+    with_faces = np.isin(np.arange(len(mesh.vertices)), triangle)
+    return {name: chosen & with_faces for name, chosen in painted.items()}
 
 
 def thickness_of(mesh: bpy.types.Mesh, faces: Any) -> Thickness | None:

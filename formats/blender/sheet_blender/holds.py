@@ -25,7 +25,7 @@ def hold_tables(groups: dict[str, Any], kinds: dict[str, str], motion: str, firs
     arrays = {}
     for number, (name, painted) in enumerate(groups.items(), first):
         if not painted.any():
-            raise SheetError(f'vertex group "{name}" holds nothing: no vertex has a weight above 0.5')
+            raise SheetError(f'vertex group "{name}" holds nothing: no vertex of a face has a weight above 0.5')
         array = f"painted.{number}"
         arrays[array] = painted.astype(np.uint8)
         lines += ["", f"[[hold]] # {quoted(name)}", *([of] if of else []), f'region = {{array = "{array}"}}',

@@ -7,6 +7,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from mathutils import Matrix, Quaternion
 
 from .errors import SheetError
 from .evaluated import WITH_SURFACE, surface_of
@@ -20,20 +21,39 @@ def moves(rows: Any) -> bool:
 
 def motion_of(thing: bpy.types.Object, scene: bpy.types.Scene) -> Any:
     """How an object moves from the scene's frame to its last: rows of time [s], place [m] and rotation (a unit
-    quaternion w, x, y, z), one a frame. Raises SheetError if its size changes."""
+    quaternion w, x, y, z), one a frame. Raises SheetError if its size or shape changes."""
     now, rate, length = scene.frame_current, scene.render.fps / scene.render.fps_base, scene.unit_settings.scale_length
     rows = []
     try:
         for frame in range(now, max(scene.frame_end, now) + 1):
             scene.frame_set(frame)
-            place, turn, scale = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.decompose()
-            size = scale if frame == now else size
-            if (scale - size).length > 1e-4 * size.length:
-                raise SheetError(f'"{thing.name}" changes its size at frame {frame}: solids move, but stay as they are')
+            matrix = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.copy()
+            place, turn, _ = matrix.decompose()
+            if frame == now:
+                first, first_turn = matrix, turn
+            elif not _is_turned(first, matrix, turn @ first_turn.inverted()):  # a parent may shear what it turns
+                turn = _turn_between(first, matrix) @ first_turn
+                if not _is_turned(first, matrix, turn @ first_turn.inverted()):
+                    raise SheetError(f'"{thing.name}" changes its size at frame {frame}: solids move, but stay as they'
+                                     " are")
             rows.append(((frame - now) / rate, *(length * place), *turn))
     finally:
         scene.frame_set(now)
     return np.array(rows)
+
+
+def _is_turned(first: Matrix, now: Matrix, turn: Quaternion) -> bool:
+    """Whether a matrix is another one with this turn before it, but for places."""
+    before, after = turn.to_matrix() @ first.to_3x3(), now.to_3x3()
+    size = max(row.length for row in after)
+    return all((a - b).length <= 1e-4 * size for a, b in zip(before, after))
+
+
+def _turn_between(first: Matrix, now: Matrix) -> Quaternion:
+    try:
+        return (now.to_3x3() @ first.to_3x3().inverted()).to_quaternion()
+    except ValueError:  # it is flat
+        return Quaternion()
 
 
 def changes_shape(thing: bpy.types.Object, scene: bpy.types.Scene) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 from .errors import SheetError
 from .evaluated import surface_of, triangles_of
 from .holds import quoted, row
+from .left_out import told_of_things
 from .movement import changes_shape, motion_of, moves, write_rows
 from .plan import Material, Plan, SheetPlan, Written, holds_by_name, plain
 from .ply_file import write_ply
@@ -44,7 +45,7 @@ def write_scene(path: str, plan: Plan) -> Written:
     """Writes the scene at the scene's frame, which is time 0 of the run. Raises SheetError, OSError."""
     target = pathlib.Path(path)
     scene = bpy.context.scene
-    written = Written([str(target)], list(told_of_scene(scene)))
+    written = Written([str(target)], told_of_scene(scene) + told_of_things(plan))
     tables = SheetTables(target, plan, written)
     lines = ["# made by Blender of " + ", ".join(quoted(sheet.thing.name) for sheet in plan.sheets), *tables.sheets]
     lines += _common_tables(plan, written.told)
@@ -83,6 +84,9 @@ def told_of_scene(scene: bpy.types.Scene) -> list[str]:
         right = FREE_FALL / scene.unit_settings.scale_length
         told.append(f"gravity is {strength:.4g} m/s² at this unit scale: for the Earth's set Scene > Gravity such that"
                     f" it shows 9.81 m/s² ({right:.5g} in Python)")
+    if scene.render.frame_map_old != scene.render.frame_map_new:
+        told.append("what is animated follows Time Stretching (Output > Frame Range), and the run follows the frames: set"
+                    " Old and New alike")
     fields = [thing.name for thing in scene.objects if thing.field and thing.field.type != "NONE"]
     if fields:
         told.append(f'force fields do not act on the sheet: "{fields[0]}"' + (" and others" if len(fields) > 1 else ""))

@@ -74,8 +74,9 @@ class SheetTables:
         with surface_of(thing, self.edges) as mesh:
             shape = triangles_of(mesh, thing.matrix_world, length)
             thickness = thickness_of(mesh, shape.face)
-            groups = painted_groups(thing, mesh, sheet.groups)
+            groups = painted_groups(thing, mesh, sheet.groups, shape.triangle)
             at_vertices, at_triangles, layers = carried.collect(mesh, shape)
+            lost = carried.left_out(mesh)
         self.written.files.append(str(mesh_file))
         missing = [name for name in sheet.groups if name not in groups]
         if missing:
@@ -83,7 +84,7 @@ class SheetTables:
         if self.several:
             at_triangles[carried.SHEET] = np.full(len(shape.triangle), number, np.int32)
         self._add_table(number, thickness, [*at_vertices, *at_triangles])
-        self._tell(sheet, thickness)
+        self._tell(sheet, thickness, lost)
         motion = self._motion(sheet, mesh_file)
         of = f"sheet = {quoted(self.names[number])}" if self.several else ""
         held = {name: groups[name] for name in sheet.holds}
@@ -134,12 +135,17 @@ class SheetTables:
         self.written.files.append(str(file))
         return f'{{kind = "keyframed", file = {quoted(file.name)}}}'
 
-    def _tell(self, sheet: SheetPlan, thickness: Thickness | None) -> None:
+    def _tell(self, sheet: SheetPlan, thickness: Thickness | None, lost: list[str]) -> None:
         idle = [group.name for group in sheet.thing.vertex_groups if group.name not in sheet.groups]
         if idle:
             self.written.told.append(
                 f'vertex group "{idle[0]}"' + (f" and {len(idle) - 1} more hold" if len(idle) > 1 else " holds") +
                 ' nothing: names that begin with "pinned" or "clamped" do, and those that the panel names')
+        if lost:
+            self.written.told.append(
+                f'attribute "{lost[0]}" of "{sheet.thing.name}"' + (f" and {len(lost) - 1} more do" if len(lost) > 1 else
+                                                                    " does") +
+                " not come back: those of numbers or vectors at vertices do")
         attributes = getattr(sheet.thing.data, "attributes", {})
         if thickness is None and "thickness" in attributes:
             self.written.told.append(f'"{sheet.thing.name}": its attribute "thickness" is not taken: it must be a Float'

@@ -88,15 +88,27 @@ def results_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
         run = None
     if run is None:
         return []
+    return [_result_of(scene.objects[name], number, folder, scene) for number, name in _numbered_sheets(folder, scene)]
+
+
+def _numbered_sheets(folder: pathlib.Path, scene: bpy.types.Scene) -> list[tuple[int, str]]:
+    """The objects that are a run's sheets, by number and name; -1 for the only one."""
     names = cache.sheets_noted(folder) or [thing.name for thing in sheets_of(scene)]
-    return [_result_of(scene.objects[name], number if len(names) > 1 else -1, folder, scene)
-            for number, name in enumerate(names) if name in scene.objects]
+    return [(number if len(names) > 1 else -1, name) for number, name in enumerate(names) if name in scene.objects]
+
+
+def _results_there(folder: pathlib.Path,
+                   scene: bpy.types.Scene) -> list[tuple[bpy.types.Object, bpy.types.Object]]:
+    """The sheets of a run and what shows them, where that is."""
+    shown = [(scene.objects[name], _shown_for(scene.objects[name], number, folder, scene))
+             for number, name in _numbered_sheets(folder, scene)]
+    return [(thing, each) for thing, each in shown if each is not None]
 
 
 def _result_of(thing: bpy.types.Object, number: int, folder: pathlib.Path,
                scene: bpy.types.Scene) -> bpy.types.Object:
-    shown = thing.sheet_part.result
-    if shown is None or shown.name not in scene.objects:
+    shown = _shown_for(thing, number, folder, scene)
+    if shown is None:
         shown = _make_result(thing, scene)
         thing.sheet_part.result = shown
     mesh_file = mesh_file_of(folder / cache.SCENE, max(number, 0), number >= 0)
@@ -108,10 +120,21 @@ def _result_of(thing: bpy.types.Object, number: int, folder: pathlib.Path,
     return shown
 
 
+def _shown_for(thing: bpy.types.Object, number: int, folder: pathlib.Path,
+               scene: bpy.types.Scene) -> bpy.types.Object | None:
+    """What shows a sheet in this scene: the object knows what was made last, maybe in another scene."""
+    shown = thing.sheet_part.result
+    if shown is not None and shown.name in scene.objects:
+        return shown
+    return next((each for each in scene.objects if each.sheet.file == str(folder / cache.RUN) and
+                 each.sheet.number == number and each.name.startswith(thing.name)), None)
+
+
 def _make_result(thing: bpy.types.Object, scene: bpy.types.Scene) -> bpy.types.Object:
     name = f"{thing.name} sheet"
     shown = bpy.data.objects.new(name, bpy.data.meshes.new(name))
-    for collection in thing.users_collection or (scene.collection,):
+    here = [c for c in (scene.collection, *scene.collection.children_recursive) if thing.name in c.objects]
+    for collection in here or [scene.collection]:
         collection.objects.link(shown)
     shown.matrix_world = Matrix.Scale(1 / scene.unit_settings.scale_length, 4)
     add_slab(shown)
@@ -319,16 +342,15 @@ class SHEET_OT_free(bpy.types.Operator):
     def execute(self, context: Any) -> set[str]:
         try:
             folder = cache.folder_of(context.scene)
+            results = _results_there(folder, context.scene)
             cache.free(folder)
         except (SheetError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         forget(str(folder / cache.RUN))
-        shown = [(thing, thing.sheet_part.result) for thing in context.scene.objects if thing.sheet_part.result]
-        for thing, result in shown:
-            if result.sheet.file == str(folder / cache.RUN):
-                bpy.data.objects.remove(result)
-                _set_hidden(thing, False)
+        for thing, shown in results:
+            bpy.data.objects.remove(shown)
+            _set_hidden(thing, False)
         return {"FINISHED"}
 
 
