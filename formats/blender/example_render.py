@@ -51,7 +51,8 @@ def light_and_camera(scene, thing):
     scene.camera = camera
     add_light(scene, Vector(middle) + 4 * radius * Vector((-0.8, -0.5, 1)), middle, 3 * radius, 400 * radius**2)
     scene.world = scene.world or bpy.data.worlds.new("World")
-    scene.world.use_nodes = True
+    if scene.world.node_tree is None:  # before Blender 5.0
+        scene.world.use_nodes = True
     sky = scene.world.node_tree.nodes["Background"].inputs
     sky["Color"].default_value, sky["Strength"].default_value = (0.75, 0.85, 1, 1), 0.8
 

@@ -18,7 +18,8 @@ def look_at(thing, target):
 
 def material(name, colour, texture=None):
     made = bpy.data.materials.new(name)
-    made.use_nodes = True
+    if made.node_tree is None:  # before Blender 5.0
+        made.use_nodes = True
     made.diffuse_color = (*colour, 1)
     surface = made.node_tree.nodes["Principled BSDF"]
     surface.inputs["Base Color"].default_value, surface.inputs["Roughness"].default_value = (*colour, 1), 0.3

@@ -441,6 +441,72 @@ motion = {kind = "keyframed", file = "scene_solid_0.csv"}
         action = types.SimpleNamespace(layers=[types.SimpleNamespace(strips=[strip])])
         data = types.SimpleNamespace(action=action, action_slot="own")
         self.assertEqual(compat.fcurves_of(types.SimpleNamespace(animation_data=data)), ["x", "y"])
+        action.fcurves = ["of", "the", "first", "slot"]  # in 4.4 and 4.5
+        self.assertEqual(compat.fcurves_of(types.SimpleNamespace(animation_data=data)), ["x", "y"])
+        for slot in ("another", None):
+            data.action_slot = slot
+            self.assertEqual(compat.fcurves_of(types.SimpleNamespace(animation_data=data)), [])
+
+    def test_nodes_are_those_of_every_blender(self):
+        compat = self.add_on.compat
+
+        class Older:  # has a tree as soon as it uses nodes
+            node_tree = None
+
+            def __setattr__(self, name, value):
+                object.__setattr__(self, "node_tree", "made")
+
+        class Newer:  # has one, and warns of whom asks for it
+            node_tree = "there"
+
+            def __setattr__(self, name, value):
+                raise DeprecationWarning(name)
+
+        self.assertEqual((compat.nodes_of(Older()), compat.nodes_of(Newer())), ("made", "there"))
+        older = [types.SimpleNamespace(name=name, identifier=name) for name in ("Color", "Fac")]
+        newer = [older[0], types.SimpleNamespace(name="Factor", identifier="Fac")]
+        self.assertEqual([compat.socket_of(sockets, "Fac") for sockets in (older, newer)], [older[1], newer[1]])
+        tree = compat.new_modifier_tree("Tried")
+        self.assertEqual((tree.bl_idname, hasattr(tree, "is_modifier")), ("GeometryNodeTree", False))
+        made = types.SimpleNamespace(is_modifier=False)
+        data = types.SimpleNamespace(node_groups=types.SimpleNamespace(new=lambda name, kind: made))
+        kept, compat.bpy = compat.bpy, types.SimpleNamespace(data=data)
+        try:
+            self.assertTrue(compat.new_modifier_tree("Tried").is_modifier)
+        finally:
+            compat.bpy = kept
+
+    def test_faces_have_their_sizes_in_every_blender(self):
+        compat = self.add_on.compat
+        for read_only in (False, True):
+            said = []
+            mesh = types.SimpleNamespace(polygons=types.SimpleNamespace(foreach_set=lambda *a: said.append(a)))
+            sizes = types.SimpleNamespace(is_readonly=read_only)
+            rna = types.SimpleNamespace(properties={"loop_total": sizes})
+            kinds = types.SimpleNamespace(MeshPolygon=types.SimpleNamespace(bl_rna=rna))
+            kept, compat.bpy = compat.bpy, types.SimpleNamespace(types=kinds)
+            try:
+                compat.set_polygon_sizes(mesh, [3, 3])
+            finally:
+                compat.bpy = kept
+            self.assertEqual(said, [] if read_only else [("loop_total", [3, 3])])
+
+    def test_questions_are_asked_in_every_blender(self):
+        compat = self.add_on.compat
+        operator = types.SimpleNamespace(bl_label="Free the Run")
+        for newer in (False, True):
+            def ask(*asked, **more):
+                if more and not newer:
+                    raise TypeError("keyword arguments")
+                return asked, more
+            kept, compat.bpy = compat.bpy, types.SimpleNamespace(context=types.SimpleNamespace(
+                window_manager=types.SimpleNamespace(invoke_confirm=ask)))
+            try:
+                answer = compat.confirm(operator, "event", "It is gone then.")
+            finally:
+                compat.bpy = kept
+            more = {"title": "Free the Run", "message": "It is gone then."} if newer else {}
+            self.assertEqual(answer, ((operator, "event"), more))
 
     def test_sockets_are_shown_in_every_blender(self):
         compat = self.add_on.compat

@@ -55,8 +55,8 @@ def folder_of(scene: bpy.types.Scene) -> pathlib.Path:
     if scene.sheet_run.cache:
         chosen = pathlib.Path(bpy.path.abspath(scene.sheet_run.cache))
         if _is_of_another(chosen, scene):
-            raise SheetError(f'{chosen} has the run of the scene "{noted(chosen)["scene"]}": choose another folder, Sheet'
-                             " Run > Cache")
+            raise SheetError(f'{chosen} has the run of the scene "{noted(chosen)["scene"]}": choose another folder,'
+                             " Sheet Run > Cache")
         return chosen
     if not bpy.data.filepath:
         raise SheetError("save the .blend first: the run is kept beside it (or choose a folder, Sheet Run > Cache)")

@@ -28,8 +28,8 @@ SEAM = 1e-6  # corners of a vertex that differ by more stand at a seam
 
 
 class Layer(NamedTuple):
-    """kind: uv, color, or the type of an attribute at vertices; array: the frames' array, "" if it is looked up; values: at the corners of the triangles at the
-    start (m x 3 x components)."""
+    """kind: uv, color, or the type of an attribute at vertices; array: the frames' array, "" if it is looked up;
+    values: at the corners of the triangles at the start (m x 3 x components)."""
     kind: str
     name: str
     array: str

@@ -20,8 +20,8 @@ except ImportError:
         raise ImportError("Sheet's add-on needs the package sheetstream: install sheet-blender.zip, which has it, or"
                           " put the folder formats/python on PYTHONPATH") from error
 
-__all__ = ["add_socket", "confirm", "draw_socket", "fcurves_of", "progress", "read_toml", "set_polygon_sizes",
-           "sheetstream"]
+__all__ = ["add_socket", "confirm", "draw_socket", "fcurves_of", "new_modifier_tree", "nodes_of", "progress",
+           "read_toml", "set_polygon_sizes", "sheetstream", "socket_of"]
 
 
 def read_toml(text: str) -> dict[str, Any]:
@@ -34,6 +34,26 @@ def read_toml(text: str) -> dict[str, Any]:
             continue
         return dict(reader.loads(text))
     raise ImportError("this Blender's Python has no reader of TOML")
+
+
+def nodes_of(thing: Any) -> Any:
+    """The tree of nodes of a material or a world, made if there is none."""
+    if thing.node_tree is None:  # since 5.0 there always is one, and to ask for it is deprecated
+        thing.use_nodes = True
+    return thing.node_tree
+
+
+def socket_of(sockets: Any, identifier: str) -> Any:
+    """A socket of a node by what it is called in files: names change, as Fac became Factor in 5.0."""
+    return next(socket for socket in sockets if socket.identifier == identifier)
+
+
+def new_modifier_tree(name: str) -> Any:
+    """A node group for modifiers of geometry nodes."""
+    tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    if hasattr(tree, "is_modifier"):  # since 4.0 groups may be tools, too, and modifiers offer those that say so
+        tree.is_modifier = True
+    return tree
 
 
 def add_socket(tree: Any, name: str, side: str, kind: str) -> Any:
@@ -56,12 +76,14 @@ def draw_socket(layout: Any, modifier: Any, name: str) -> None:
 
 
 def fcurves_of(thing: Any) -> list[Any]:
-    """The curves that animate an object; none if it has no action."""
+    """The curves that animate an object; none if it has no action, or no slot of it."""
     data = thing.animation_data
     if data is None or data.action is None:
         return []
-    if hasattr(data.action, "fcurves"):  # until 5.0 took the old way out
+    if not hasattr(data, "action_slot"):  # since 4.4 an action may have curves of several objects
         return list(data.action.fcurves)
+    if data.action_slot is None:
+        return []
     return [curve for layer in data.action.layers for strip in layer.strips
             for bag in [strip.channelbag(data.action_slot)] if bag is not None for curve in bag.fcurves]
 

@@ -46,7 +46,8 @@ def surface_of(thing: bpy.types.Object, edges: float = 0.0) -> Iterator[bpy.type
     split = None
     try:
         if mesh is None or not len(mesh.polygons):
-            remedy = ": fill it, or give it a depth (Object Data > Geometry), or make it a mesh (Object > Convert > Mesh)"
+            remedy = ": fill it, or give it a depth (Object Data > Geometry), or make it a mesh (Object > Convert >" \
+                " Mesh)"
             if thing.type == "MESH":
                 made_by_nodes = any(modifier.type == "NODES" for modifier in thing.modifiers)
                 remedy = ": its geometry nodes may need Realize Instances" if made_by_nodes else ""

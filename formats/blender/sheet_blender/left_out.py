@@ -24,8 +24,8 @@ def _of_instances(plan: Plan) -> list[str]:
             thing, parent = shown.instance_object.original, shown.parent.original
             if thing.name in things or parent.name in things or role_of(thing) != "NONE":
                 count[thing.name, parent.name] += 1
-    return [f'"{parent}" shows {"a copy" if n == 1 else f"{n} copies"} of "{thing}", which the run has not: Object > Apply'
-            " > Make Instances Real makes objects of them (in geometry nodes Realize Instances)"
+    return [f'"{parent}" shows {"a copy" if n == 1 else f"{n} copies"} of "{thing}", which the run has not: Object >'
+            " Apply > Make Instances Real makes objects of them (in geometry nodes Realize Instances)"
             for (thing, parent), n in count.items()]
 
 

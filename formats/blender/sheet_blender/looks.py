@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from .compat import sheetstream
+from .compat import nodes_of, sheetstream, socket_of
 from .errors import SheetError
 from .programs import LIQUIDS
 
@@ -32,12 +32,12 @@ def make_material(kind: str) -> bpy.types.Material:
     if name in bpy.data.materials:
         return bpy.data.materials[name]
     material = bpy.data.materials.new(name)
-    material.use_nodes = True
-    nodes, link = material.node_tree.nodes, material.node_tree.links.new
+    tree = nodes_of(material)
+    nodes, link = tree.nodes, tree.links.new
     nodes.clear()
     output = nodes.new("ShaderNodeOutputMaterial")
     if kind == THICKNESS_LOOK:
-        link(_false_colours(material.node_tree), output.inputs["Surface"])
+        link(_false_colours(tree), output.inputs["Surface"])
         return material
     index, absorption, scattering = LIQUIDS[kind]
     opaque = min(scattering) >= OPAQUE
@@ -52,7 +52,7 @@ def make_material(kind: str) -> bpy.types.Material:
         surface = nodes.new("ShaderNodeBsdfGlass")
         surface.inputs["Roughness"].default_value = 0.0
         surface.inputs["IOR"].default_value = index
-        link(_volume(material.node_tree, absorption, scattering), output.inputs["Volume"])
+        link(_volume(tree, absorption, scattering), output.inputs["Volume"])
     link(surface.outputs["BSDF"], output.inputs["Surface"])
     return material
 
@@ -89,8 +89,8 @@ def _false_colours(tree: bpy.types.NodeTree) -> Any:
         element.position = place
         element.color = (*(((c + 0.055) / 1.055)**2.4 if c > 0.04045 else c / 12.92 for c in colour), 1)
     matte = tree.nodes.new("ShaderNodeBsdfDiffuse")
-    tree.links.new(attribute.outputs["Fac"], scale.inputs["Value"])
-    tree.links.new(scale.outputs["Result"], ramp.inputs["Fac"])
+    tree.links.new(socket_of(attribute.outputs, "Fac"), scale.inputs["Value"])
+    tree.links.new(scale.outputs["Result"], socket_of(ramp.inputs, "Fac"))
     tree.links.new(ramp.outputs["Color"], matte.inputs["Color"])
     return matte.outputs["BSDF"]
 

@@ -85,8 +85,8 @@ def told_of_scene(scene: bpy.types.Scene) -> list[str]:
         told.append(f"gravity is {strength:.4g} m/s² at this unit scale: for the Earth's set Scene > Gravity such that"
                     f" it shows 9.81 m/s² ({right:.5g} in Python)")
     if scene.render.frame_map_old != scene.render.frame_map_new:
-        told.append("what is animated follows Time Stretching (Output > Frame Range), and the run follows the frames: set"
-                    " Old and New alike")
+        told.append("what is animated follows Time Stretching (Output > Frame Range), and the run follows the frames:"
+                    " set Old and New alike")
     fields = [thing.name for thing in scene.objects if thing.field and thing.field.type != "NONE"]
     if fields:
         told.append(f'force fields do not act on the sheet: "{fields[0]}"' + (" and others" if len(fields) > 1 else ""))

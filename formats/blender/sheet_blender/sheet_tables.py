@@ -142,10 +142,9 @@ class SheetTables:
                 f'vertex group "{idle[0]}"' + (f" and {len(idle) - 1} more hold" if len(idle) > 1 else " holds") +
                 ' nothing: names that begin with "pinned" or "clamped" do, and those that the panel names')
         if lost:
-            self.written.told.append(
-                f'attribute "{lost[0]}" of "{sheet.thing.name}"' + (f" and {len(lost) - 1} more do" if len(lost) > 1 else
-                                                                    " does") +
-                " not come back: those of numbers or vectors at vertices do")
+            more = f" and {len(lost) - 1} more do" if len(lost) > 1 else " does"
+            self.written.told.append(f'attribute "{lost[0]}" of "{sheet.thing.name}"{more} not come back: those of'
+                                     " numbers or vectors at vertices do")
         attributes = getattr(sheet.thing.data, "attributes", {})
         if thickness is None and "thickness" in attributes:
             self.written.told.append(f'"{sheet.thing.name}": its attribute "thickness" is not taken: it must be a Float'

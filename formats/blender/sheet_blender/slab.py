@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 
-from .compat import add_socket
+from .compat import add_socket, new_modifier_tree
 
 SLAB, FACTOR = "Sheet slab", "Thickness Factor"  # the modifier, and its input
 GROUP = "Sheet slab of two sides"
@@ -30,7 +30,7 @@ def slab_group() -> bpy.types.NodeTree:
     """The node group of the slab, made once a file. Its input FACTOR makes the slab thicker than it is."""
     if GROUP in bpy.data.node_groups:
         return bpy.data.node_groups[GROUP]
-    tree = bpy.data.node_groups.new(GROUP, "GeometryNodeTree")
+    tree = new_modifier_tree(GROUP)
     add_socket(tree, "Geometry", "INPUT", "NodeSocketGeometry")
     factor = add_socket(tree, FACTOR, "INPUT", "NodeSocketFloat")
     factor.default_value, factor.min_value = 1.0, 0.0
