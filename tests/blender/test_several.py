@@ -63,6 +63,9 @@ class Several(Case):
                                  (mine.sum(), len(np.unique(corners))))
                 np.testing.assert_allclose(places_of(thing.data)[corners_of(thing.data)], frame["position"][corners],
                                            atol=1e-6)
+        self.scene.frame_end += 1
+        self.assertEqual(bpy.ops.sheet.resume(), {"FINISHED"})
+        self.assertEqual([thing.sheet.message[:12] for thing in shown], ["frame 6 of 7"] * 2)
         self.assertEqual(bpy.ops.sheet.free(), {"FINISHED"})
         self.assertFalse({"Cloth sheet", "Jam sheet"} & set(bpy.data.objects.keys()))
         self.assertFalse(cloth.hide_get() or jam.hide_get())
@@ -158,6 +161,7 @@ class Several(Case):
 
     def test_holds_and_inlets_are_each_sheets_own(self):
         cloth, jam = self.cloth(), self.jam()
+        jam.name = 'Gelée "süß" 糖'
         for thing, half in ((cloth, 0.2), (jam, 0.1)):
             x = places_of(thing.data)[:, 0]
             for name, chosen in (("pinned", x < -half + 1e-3), ("entry", x > half - 1e-3)):
@@ -173,7 +177,7 @@ class Several(Case):
             self.assertEqual((held.sum(), held[mine].sum()), (count, count))
         speeds = [table["velocity"][0] for table in first.scene()["inflow"]]
         np.testing.assert_allclose(speeds, (-0.2, -0.1), atol=1e-7)
-        self.assertEqual([table["sheet"] for table in first.scene()["hold"]], ["Cloth", "Jam"])
+        self.assertEqual([table["sheet"] for table in first.scene()["hold"]], ["Cloth", jam.name])
         for number in (0, 1):  # what enters is of the sheet where it does
             volumes = [frame["volume"][np.asarray(frame["blender.sheet"]).ravel() == number].sum()
                        for frame in (first, last)]

@@ -40,15 +40,15 @@ def show_physics(window):
     region.view_location, region.view_distance = (0, 0, 0.03), 0.5
 
 
-def add_jam():
-    """A second sheet above the first, of a liquid of its own."""
+def add_icing():
+    """A second sheet above the first, of another liquid."""
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=16, y_subdivisions=16, size=0.14, location=(0, 0, 0.125))
-    jam = bpy.context.object
-    jam.name = "Jam"
-    part = jam.sheet_part
+    icing = bpy.context.object
+    icing.name = "Icing"
+    part = icing.sheet_part
     part.role, part.thickness, part.edges, part.liquid.own = "SHEET", 0.005, 0.008, True
     part.liquid.liquid = "caramel"
-    return jam
+    part.liquid.look = "chocolate"
 
 
 def newest_is_shown(scene, cloth):
@@ -67,7 +67,7 @@ def steps():
     with bpy.context.temp_override(window=window):
         cloth, ball = example_simulate.model()
         example_simulate.choose(scene, cloth, ball, LONG)
-        add_jam()
+        add_icing()
         show_physics(window)
         assert bpy.ops.sheet.check("EXEC_DEFAULT") == {"FINISHED"}
         assert bpy.ops.sheet.simulate("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
@@ -94,15 +94,15 @@ def steps():
     kinds = np.empty(len(shown.data.polygons), np.int32)
     shown.data.polygons.foreach_get("material_index", kinds)
     assert 0 < kinds.mean() < 1
-    jam = scene.objects["Jam"]
-    glaze = jam.sheet_part.result
-    assert glaze.name == "Jam sheet" and [m.name for m in glaze.data.materials] == ["Sheet caramel"]
-    assert shown.sheet.number == 0 and glaze.sheet.number == 1 and jam.hide_get()
-    places = np.array([glaze.matrix_world @ v.co for v in glaze.data.vertices])
+    icing = scene.objects["Icing"]
+    second = icing.sheet_part.result
+    assert second.name == "Icing sheet" and [m.name for m in second.data.materials] == ["Sheet chocolate"]
+    assert shown.sheet.number == 0 and second.sheet.number == 1 and icing.hide_get()
+    places = np.array([second.matrix_world @ v.co for v in second.data.vertices])
     assert len(places) > 200 and np.abs(places[:, 0]).max() < 0.12, len(places)
     assert scene.frame_end == last and cloth.hide_get()
     with bpy.context.temp_override(window=window):
-        bpy.context.view_layer.objects.active = jam
+        bpy.context.view_layer.objects.active = icing
         show_physics(window)
     for _ in range(10):
         yield lambda: True
@@ -124,7 +124,7 @@ def steps():
     assert (folder / "run/run.sheet").exists()
     assert bpy.ops.sheet.free("EXEC_DEFAULT") == {"FINISHED"}
     assert not folder.exists() and not cloth.hide_get() and "Cloth sheet" not in bpy.data.objects
-    assert "Jam sheet" not in bpy.data.objects and not jam.hide_get()
+    assert "Icing sheet" not in bpy.data.objects and not icing.hide_get()
 
 
 state = {"steps": None, "until": None, "since": 0.0}

@@ -54,7 +54,7 @@ class _Liquid:
 class SheetLiquid(_Liquid, bpy.types.PropertyGroup):
     """Of an object, if that has its own."""
     own: bpy.props.BoolProperty(  # type: ignore[valid-type]
-        name="Own Liquid", description="This sheet is of another liquid than the others", default=False)
+        name="Another Liquid", description="This sheet is of another liquid than the others", default=False)
 
 
 class SheetPart(bpy.types.PropertyGroup):
