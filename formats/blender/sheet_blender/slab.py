@@ -42,26 +42,23 @@ def slab_group() -> bpy.types.NodeTree:
     named.inputs["Name"].default_value = "slab"
     slab = next(s for s in named.outputs if s.enabled and s.type == "VECTOR")
 
-    def node(kind: str, operation: str, *inputs: Any, data_type: str = "") -> Any:
-        """A node of numbers whose first inputs are these sockets or constants; its first output that is in use."""
-        made = tree.nodes.new(kind)
-        if data_type:
-            made.data_type = data_type
+    def math(operation: str, *inputs: Any) -> Any:
+        """A node of numbers whose first inputs are these sockets or constants; its output."""
+        made = tree.nodes.new("ShaderNodeMath")
         made.operation = operation
-        sockets = [s for s in made.inputs if s.enabled]
-        for socket, value in zip(sockets, inputs):
+        for socket, value in zip(made.inputs, inputs):
             if isinstance(value, (int, float)):
                 socket.default_value = value
             else:
                 link(value, socket)
-        return next(s for s in made.outputs if s.enabled)
+        return made.outputs[0]
 
     def moved(geometry: Any, by: Any, selection: Any = None) -> Any:
         """By so many times the factor and the slab."""
         place, scale = tree.nodes.new("GeometryNodeSetPosition"), tree.nodes.new("ShaderNodeVectorMath")
         scale.operation = "SCALE"
         link(slab, scale.inputs[0])
-        link(node("ShaderNodeMath", "MULTIPLY", entry.outputs[FACTOR], by), scale.inputs["Scale"])
+        link(math("MULTIPLY", entry.outputs[FACTOR], by), scale.inputs["Scale"])
         link(geometry, place.inputs["Geometry"])
         link(scale.outputs["Vector"], place.inputs["Offset"])
         if selection is not None:
@@ -74,19 +71,17 @@ def slab_group() -> bpy.types.NodeTree:
 
     def in_first(count: str) -> Any:
         """1 in the first of the two sides, by the number of its points, edges or faces."""
-        half = node("ShaderNodeMath", "DIVIDE", size.outputs[count], 2.0)
-        return node("ShaderNodeMath", "LESS_THAN", index, half)
+        return math("LESS_THAN", index, math("DIVIDE", size.outputs[count], 2.0))
 
-    sides = moved(entry.outputs["Geometry"], node("ShaderNodeMath", "MULTIPLY_ADD", in_first("Point Count"), 2.0, -1.0))
+    sides = moved(entry.outputs["Geometry"], math("MULTIPLY_ADD", in_first("Point Count"), 2.0, -1.0))
     flip = tree.nodes.new("GeometryNodeFlipFaces")
     link(sides, flip.inputs[0])
-    link(node("ShaderNodeMath", "SUBTRACT", 1.0, in_first("Face Count")), flip.inputs["Selection"])
+    link(math("SUBTRACT", 1.0, in_first("Face Count")), flip.inputs["Selection"])
     rim = tree.nodes.new("GeometryNodeExtrudeMesh")
     rim.mode = "EDGES"
-    alone = node("FunctionNodeCompare", "EQUAL", tree.nodes.new("GeometryNodeInputMeshEdgeNeighbors").outputs[0], 1,
-                 data_type="INT")
+    alone = math("COMPARE", tree.nodes.new("GeometryNodeInputMeshEdgeNeighbors").outputs[0], 1.0, 0.5)
     link(flip.outputs[0], rim.inputs["Mesh"])
-    link(node("ShaderNodeMath", "MULTIPLY", alone, in_first("Edge Count")), rim.inputs["Selection"])
+    link(math("MULTIPLY", alone, in_first("Edge Count")), rim.inputs["Selection"])
     rim.inputs["Offset Scale"].default_value = 0.0
     link(moved(rim.outputs["Mesh"], -2.0, rim.outputs["Top"]), leave.inputs["Geometry"])
     for i, node in enumerate(tree.nodes):
