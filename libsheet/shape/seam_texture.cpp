@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <map>
-#include <numeric>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,9 +41,9 @@ bool alike(const Uv& a, const Uv& b) { return std::abs(a[0] - b[0]) <= seam && s
 // Triangles among which the nearest one is found.
 class Nearby {
 public:
-  void add(const SeamKernel::Triangle_3& triangle, std::uint32_t number) {
-    triangles_.push_back(triangle);
-    numbers_.push_back(number);
+  void add(const solid::Triangle3& c) {
+    const auto point = [&](std::size_t i) { return SeamKernel::Point_3(c[i].x(), c[i].y(), c[i].z()); };
+    triangles_.emplace_back(point(0), point(1), point(2));
   }
   void build() {
     tree_.insert(triangles_.cbegin(), triangles_.cend());
@@ -52,45 +52,49 @@ public:
   // The number of a nearest triangle.
   [[nodiscard]] std::uint32_t nearest(const Eigen::Vector3d& x) const {
     const auto [point, primitive] = tree_.closest_point_and_primitive({x.x(), x.y(), x.z()});
-    return numbers_[static_cast<std::size_t>(primitive - triangles_.cbegin())];
+    return static_cast<std::uint32_t>(primitive - triangles_.cbegin());
   }
 
 private:
   SeamTriangles triangles_;
-  std::vector<std::uint32_t> numbers_;
   SeamTree tree_;
 };
 
-// Islands by the least of their triangles: those with a side of the same ends and the same coordinates at them.
-std::vector<std::uint32_t> islands_of(const ForeignMesh& mesh, const std::vector<std::array<Uv, 3>>& uv) {
-  std::vector<std::uint32_t> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::uint32_t t) {
-    while (parent[t] != t)
-      t = parent[t] = parent[parent[t]];
-    return t;
-  };
+// The weights of a triangle's corners in the foot of a point on its plane.
+std::array<double, 3> weights_of(const solid::Triangle3& c, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d u = c[1] - c[0], v = c[2] - c[0], w = x - c[0], n = u.cross(v);
+  if (n.isZero())
+    return {1, 0, 0};
+  const double second = w.cross(v).dot(n) / n.squaredNorm(), third = u.cross(w).dot(n) / n.squaredNorm();
+  return {1 - second - third, second, third};
+}
+
+constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
+
+// The triangle on the other side of the side opposite each corner; none at borders and seams.
+std::vector<std::array<std::uint32_t, 3>> neighbours_of(const ForeignMesh& mesh,
+                                                        const std::vector<std::array<Uv, 3>>& uv) {
   struct Side {
     std::uint32_t triangle;
+    std::size_t index; // of the corner opposite
     Uv first, second;
   };
+  std::vector<std::array<std::uint32_t, 3>> result(mesh.triangles.size(), {no_triangle, no_triangle, no_triangle});
   std::map<std::array<std::uint32_t, 2>, std::vector<Side>> sides;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][j];
-      const Side side = a < b ? Side{t, uv[t][i], uv[t][j]} : Side{t, uv[t][j], uv[t][i]};
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      const std::uint32_t a = mesh.triangles[t][j], b = mesh.triangles[t][k];
+      const Side side = a < b ? Side{t, i, uv[t][j], uv[t][k]} : Side{t, i, uv[t][k], uv[t][j]};
       std::vector<Side>& others = sides[{std::min(a, b), std::max(a, b)}];
       for (const Side& other : others)
         if (alike(side.first, other.first) && alike(side.second, other.second)) {
-          const std::uint32_t p = root(t), q = root(other.triangle);
-          parent[std::max(p, q)] = std::min(p, q);
+          result[t][i] = other.triangle;
+          result[other.triangle][other.index] = t;
         }
       others.push_back(side);
     }
-  for (std::uint32_t t = 0; t < parent.size(); ++t)
-    parent[t] = root(t);
-  return parent;
+  return result;
 }
 
 // Arrays that are called so, or NAME.so.
@@ -114,47 +118,86 @@ public:
   Map(ForeignMesh mesh, const MeshArray& corners) : mesh_(std::move(mesh)), uv_(mesh_.triangles.size()) {
     for (std::size_t i = 0; i < 3 * uv_.size(); ++i)
       uv_[i / 3][i % 3] = {corners.values[2 * i], corners.values[2 * i + 1]};
-    island_ = islands_of(mesh_, uv_);
+    neighbour_ = neighbours_of(mesh_, uv_);
     for (std::uint32_t t = 0; t < uv_.size(); ++t) {
-      const auto point = [&](std::size_t i) {
-        const std::array<double, 3>& x = mesh_.points[mesh_.triangles[t][i]];
-        return SeamKernel::Point_3(x[0], x[1], x[2]);
-      };
-      const SeamKernel::Triangle_3 triangle(point(0), point(1), point(2));
-      all_.add(triangle, t);
-      of_island_[island_[t]].add(triangle, t);
+      const solid::Triangle3 c = corners_of(t);
+      nearby_.add(c);
       for (std::size_t i = 0; i < 3; ++i)
-        longest_ = std::max(longest_, std::sqrt(CGAL::squared_distance(point(i), point((i + 1) % 3))));
+        longest_ = std::max(longest_, (c[(i + 1) % 3] - c[i]).norm());
     }
-    all_.build();
-    for (auto& [island, triangles] : of_island_)
-      triangles.build();
+    nearby_.build();
   }
 
   // Whether half of these places or more are in the mesh or within an edge of it, as those are that remeshing makes.
   [[nodiscard]] bool fits(const std::vector<Eigen::Vector3d>& places) const {
     const auto is_near = [&](const Eigen::Vector3d& x) {
-      return (solid::nearest_on_triangle(x, corners_of(all_.nearest(x))).point - x).norm() <= longest_;
+      return (solid::nearest_on_triangle(x, corners_of(nearby_.nearest(x))).point - x).norm() <= longest_;
     };
     return 2 * std::ranges::count_if(places, is_near) >= std::ssize(places);
   }
 
   // u and v at the corners of a triangle whose corners were at these places.
   [[nodiscard]] std::array<Uv, 3> at(const std::array<Eigen::Vector3d, 3>& places) const {
-    const std::uint32_t island = island_[all_.nearest((places[0] + places[1] + places[2]) / 3)];
-    const Nearby& triangles = of_island_.at(island);
+    const std::uint32_t start = nearby_.nearest((places[0] + places[1] + places[2]) / 3);
     std::array<Uv, 3> result{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t t = triangles.nearest(places[i]);
-      const auto near = solid::nearest_on_triangle(places[i], corners_of(t));
+      const Found found = way_to(places[i], start);
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t c = 0; c < 2; ++c)
-          result[i][c] += near.weights[k] * uv_[t][k][c];
+          result[i][c] += found.weights[k] * uv_[found.triangle][k][c];
     }
     return result;
   }
 
 private:
+  struct Found {
+    std::uint32_t triangle;
+    std::array<double, 3> weights; // of its corners
+    double distance;
+  };
+
+  [[nodiscard]] Found found_in(std::uint32_t t, const Eigen::Vector3d& x) const {
+    const auto near = solid::nearest_on_triangle(x, corners_of(t));
+    return {t, near.weights, (near.point - x).norm()};
+  }
+
+  // The triangle nearest to x on the way there from another one: over the side beyond which x is, of two the one beyond
+  // which it is further; or, where x is above or below the triangle, that to one that is nearer.
+  [[nodiscard]] Found way_to(const Eigen::Vector3d& x, std::uint32_t start) const {
+    constexpr int most_steps = 64;
+    Found best = found_in(start, x);
+    std::uint32_t before = no_triangle, now = start;
+    for (int step = 0; step < most_steps && best.distance > 1e-9 * longest_; ++step) {
+      const std::uint32_t next = next_to(x, now, before, best.distance);
+      if (next == no_triangle)
+        break;
+      before = now;
+      now = next;
+      if (const Found found = found_in(now, x); found.distance < best.distance)
+        best = found;
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::uint32_t next_to(const Eigen::Vector3d& x, std::uint32_t now, std::uint32_t before,
+                                      double distance) const {
+    const std::array<double, 3> beyond = weights_of(corners_of(now), x);
+    const bool above = std::ranges::all_of(beyond, [](double weight) { return weight >= -1e-12; });
+    std::uint32_t next = no_triangle;
+    double least = above ? distance : -1e-12; // of the distances, or of the weights
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t t = neighbour_[now][i];
+      if (t == no_triangle || t == before)
+        continue;
+      const double cost = above ? found_in(t, x).distance : beyond[i];
+      if (cost < least) {
+        least = cost;
+        next = t;
+      }
+    }
+    return next;
+  }
+
   [[nodiscard]] solid::Triangle3 corners_of(std::uint32_t t) const {
     const auto point = [&](std::size_t i) {
       return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(mesh_.points[mesh_.triangles[t][i]].data()));
@@ -164,9 +207,8 @@ private:
 
   ForeignMesh mesh_;
   std::vector<std::array<Uv, 3>> uv_; // at the corners of each triangle
-  std::vector<std::uint32_t> island_; // of each triangle
-  Nearby all_;
-  std::map<std::uint32_t, Nearby> of_island_;
+  std::vector<std::array<std::uint32_t, 3>> neighbour_;
+  Nearby nearby_;
   double longest_ = 0; // edge [units of the file]
 };
 

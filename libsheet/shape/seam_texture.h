@@ -2,7 +2,8 @@
 // Texture coordinates with seams, where triangles at a vertex differ: no array at vertices can carry those through a
 // run. Vertices carry where they were in the sheet's mesh file instead (the array "rest", or NAME.rest), and the file
 // has u and v at the corners of its triangles (the array "corner_uv", or NAME.corner_uv, of six components at faces).
-// What a triangle has now is found there, in the island (triangles joined without a seam) in which its middle was.
+// What a triangle has now is found there: from where its middle was the way goes to where its corners were, over sides
+// that are no seams, so what reaches over a seam ends at it, and an island that meets itself keeps its sides apart.
 #pragma once
 #include <cstddef>
 #include <memory>

@@ -153,6 +153,34 @@ class Simulating(Case):
                 self.assertAlmostEqual(np.abs(area).sum(), 1, places=5)
             self.assertAlmostEqual(np.abs(area).sum(), 1, delta=0.1)
 
+    def test_an_island_that_meets_itself_keeps_its_sides_apart(self):
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=0.2, segments=24, ring_count=12)  # a seam from pole to pole
+        ball = bpy.context.object
+        ball.name = "Ball"
+        ball.sheet_part.role, ball.sheet_part.thickness = "SHEET", 0.01
+        bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, -0.71))
+        bpy.context.object.sheet_part.role = "SOLID"
+        self.scene.gravity.z = -60  # it comes down in these frames, and is remeshed
+        self.save()
+        bpy.ops.sheet.simulate()
+        shown = bpy.data.objects["Ball sheet"].data
+        self.scene.frame_set(1)
+        with self.add_on.evaluated.surface_of(ball) as mesh:
+            corner = self.add_on.evaluated.triangles_of(mesh, ball.matrix_world, 1.0).corner
+            wanted = loop_values(mesh.uv_layers[0].data, "uv", 2)[corner]
+        np.testing.assert_allclose(uv_of(shown), wanted, atol=1e-6)
+        run = self.add_on.sheetstream.Run(str(self.folder / "kept_sheet/Ball/run/run.sheet"))
+        self.assertFalse(run[-1].triangles == run[0].triangles and (run[-1]["triangle"] == run[0]["triangle"]).all())
+        for frame in range(1, self.scene.frame_end + 1):
+            self.scene.frame_set(frame)
+            uv = uv_of(shown)
+            middle = uv.mean(axis=1)
+            clear = np.abs(middle[:, 1] - 0.5) < 0.3  # from the poles, where all of u is near
+            self.assertLess(np.ptp(uv[clear], axis=1)[:, 0].max(), 0.2)  # no triangle has all of the map in it
+            a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+            area = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+            self.assertAlmostEqual(np.abs(area[clear]).sum(), 0.6, delta=0.08)
+
     def test_the_liquid_gives_its_look_where_the_mesh_has_none(self):
         self.cloth().data.materials.clear()
         self.ball()

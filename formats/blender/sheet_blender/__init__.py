@@ -15,9 +15,9 @@ from __future__ import annotations
 
 import bpy
 
-from . import (body_files, cache, carried, checks, compat, evaluated, follow, holds, liquids, looks, menus, meshes,
-               movement, panels, parts, plan, ply_file, programs, scene_file, selection, sheet_tables, simulate, slab,
-               solids)
+from . import (body_files, cache, carried, checks, compat, evaluated, follow, holds, left_out, liquids, looks, menus,
+               meshes, movement, panels, parts, plan, ply_file, programs, scene_file, seams, selection, sheet_tables,
+               simulate, slab, solids)
 from .compat import sheetstream
 from .errors import SheetError
 from .follow import import_bodies, import_run

@@ -3,8 +3,8 @@
 
 A layer that has one value at each vertex goes as an array at vertices, which remeshing interpolates ("blender.uv"). One
 that has seams, where the corners at a vertex differ, cannot: there each vertex carries where it was in the mesh at the
-start ("blender.rest"), and the layer is looked up there, in the island (faces joined without a seam) in which the
-middle of the face was. Materials are numbers of triangles, which remeshing copies ("blender.material").
+start ("blender.rest"), and the layer is looked up there (seams.py). Materials are numbers of triangles, which
+remeshing copies ("blender.material").
 """
 from __future__ import annotations
 
@@ -15,16 +15,15 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
-from mathutils.bvhtree import BVHTree
 
 from .evaluated import Triangles
 from .meshes import set_attribute
+from .seams import SEAM, Seamed
 
 ENDING = "_carried.npz"  # behind the name of the sheet's mesh file, beside the scene
 MATERIAL, REST = "blender.material", "blender.rest"
 CORNERS = "blender.corner_uv"
 SHEET = "blender.sheet"  # where a scene has several: the number of each triangle's
-SEAM = 1e-6  # corners of a vertex that differ by more stand at a seam
 
 
 class Layer(NamedTuple):
@@ -137,89 +136,19 @@ def keep(mesh_file: pathlib.Path, layers: list[Layer], shape: Triangles) -> None
     np.savez(file_of(mesh_file), layers=np.array(json.dumps(said)), **looked_up)
 
 
-class _Islands:
-    """The faces of the mesh at the start, by those that a layer joins without a seam."""
-
-    def __init__(self, position: Any, triangle: Any, values: Any) -> None:
-        self.position, self.triangle, self.values = position, triangle, values
-        self.whole = BVHTree.FromPolygons(position.tolist(), triangle.tolist())
-        self.island = self._joined()
-        self.trees: dict[int, tuple[BVHTree, Any]] = {}
-
-    def _joined(self) -> Any:
-        """The number of each triangle's island: the least of its triangles. Sides with the same two vertices and values
-        at them join."""
-        n = len(self.triangle)
-        keys = []
-        for i in range(3):
-            a, b = self.triangle[:, i], self.triangle[:, (i + 1) % 3]
-            u, v = self.values[:, i], self.values[:, (i + 1) % 3]
-            swap = (a > b)[:, None]
-            ends = np.sort(np.stack([a, b], 1), 1)
-            keys.append(np.concatenate([ends, np.round(np.where(swap, v, u) / SEAM),
-                                        np.round(np.where(swap, u, v) / SEAM)], 1))
-        _, side = np.unique(np.concatenate(keys), axis=0, return_inverse=True)
-        side = side.reshape(3, n)
-        label = np.arange(n)
-        while True:
-            least = np.full(side.max() + 1, n)
-            for i in range(3):
-                np.minimum.at(least, side[i], label)
-            after = np.minimum(label, least[side].min(0))
-            after = np.minimum(after, after[after])
-            if np.array_equal(after, label):
-                return label
-            label = after
-
-    def _tree(self, island: int) -> tuple[BVHTree, Any]:
-        if island not in self.trees:
-            rows = np.flatnonzero(self.island == island)
-            self.trees[island] = (BVHTree.FromPolygons(self.position.tolist(), self.triangle[rows].tolist()), rows)
-        return self.trees[island]
-
-    def _value(self, face: int, point: Any) -> Any:
-        """The layer's value at the place of the face that is nearest to the point; exact to rounding on the face."""
-        a, b, c = self.position[self.triangle[face]]
-        u, v, w = b - a, c - a, point - a
-        uu, uv, vv, wu, wv = u @ u, u @ v, v @ v, w @ u, w @ v
-        scale = uu * vv - uv * uv
-        if scale <= 0:
-            return self.values[face, 0]
-        weights = np.array([0.0, (vv * wu - uv * wv) / scale, (uu * wv - uv * wu) / scale])
-        weights[0] = 1 - weights[1] - weights[2]
-        weights = np.clip(weights, 0, 1)
-        return weights / weights.sum() @ self.values[face]
-
-    def look_up(self, rest: Any, triangle: Any) -> Any:
-        """Values at the corners of triangles (m x 3 x components) whose vertices were at `rest` (n x 3) then."""
-        middles = rest[triangle].mean(axis=1)
-        known: dict[tuple[int, int], Any] = {}
-        result = np.empty((len(triangle), 3, self.values.shape[2]))
-        for i, (corners, middle) in enumerate(zip(triangle.tolist(), middles)):
-            island = int(self.island[self.whole.find_nearest(middle)[2]])
-            for k, vertex in enumerate(corners):
-                value = known.get((vertex, island))
-                if value is None:
-                    tree, rows = self._tree(island)
-                    value = self._value(int(rows[tree.find_nearest(rest[vertex])[2]]), rest[vertex])
-                    known[vertex, island] = value
-                result[i, k] = value
-        return result
-
-
 class Carried:
     """What the frames of a run carry of the artist's mesh."""
 
     def __init__(self, file: pathlib.Path) -> None:
         self.layers: list[Layer] = []
-        self.islands: dict[int, _Islands] = {}
+        self.seamed: dict[int, Seamed] = {}
         self.looked_up: dict[int, tuple[bytes, Any]] = {}
         with np.load(file) as kept:
             for i, said in enumerate(json.loads(str(kept["layers"]))):
                 values = None if said["array"] else kept[f"values_{i}"]
                 self.layers.append(Layer(said["kind"], said["name"], said["array"], values))
                 if values is not None:
-                    self.islands[i] = _Islands(kept["position"], kept["triangle"], values)
+                    self.seamed[i] = Seamed(kept["position"], kept["triangle"], values)
 
     def put(self, mesh: bpy.types.Mesh, frame: Any, materials: bool = True) -> None:
         """Gives the frame's mesh its layers and, if they shall be those, the materials of its faces."""
@@ -241,7 +170,7 @@ class Carried:
         rest = np.asarray(frame[REST])
         key = rest.tobytes() + triangle.tobytes()
         if i not in self.looked_up or self.looked_up[i][0] != key:  # the same as long as the mesh is
-            self.looked_up[i] = (key, self.islands[i].look_up(rest, triangle))
+            self.looked_up[i] = (key, self.seamed[i].look_up(rest, triangle))
         return self.looked_up[i][1]
 
 

@@ -73,6 +73,7 @@ REMEDIES = ((r"starts inside|starts across", "move the sheet or the solid in Obj
             (r"has no area|sharp|needles", "Mesh > Clean Up > Degenerate Dissolve, or the modifier Remesh"),
             (r"same direction|orientation|normals|face outward|inside out",
              "Mesh > Normals > Recalculate Outside in Edit Mode"),
+            (r"closed surface has at least", "give it a thickness (modifier Solidify)"),
             (r"not closed|open edges|watertight|has a border",
              "Mesh > Fill, or Mesh > Clean Up > Fill Holes, in Edit Mode"),
             (r"not a manifold|more than two", "Select > Select All by Trait > Non Manifold in Edit Mode shows where"))

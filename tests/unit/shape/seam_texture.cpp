@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/seam_texture.h"
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -85,6 +86,45 @@ TEST_F(SeamTexture, TheFilesOwnTrianglesGetTheirs) {
       EXPECT_NEAR(mesh.corner_texture()->values[6 * t + 2 * i], t < 2 ? x[0] : 9 - x[0], 1e-14);
       EXPECT_NEAR(mesh.corner_texture()->values[6 * t + 2 * i + 1], x[1], 1e-14);
     }
+}
+
+// A tube of six sides, u from 0 to 6 around: one island that meets itself.
+TEST_F(SeamTexture, AnIslandThatMeetsItselfKeepsItsSidesApart) {
+  ForeignMesh tube;
+  formats::MeshArray corners{"a.corner_uv", MeshPlace::cell, 6, {}}, rest{"a.rest", MeshPlace::point, 3, {}};
+  for (int i = 0; i < 12; ++i)
+    tube.points.push_back({std::cos(i / 2 * M_PI / 3), std::sin(i / 2 * M_PI / 3), i % 2 * 1.0});
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % 6);
+    tube.triangles.push_back({a, b, a + 1});
+    tube.triangles.push_back({b, b + 1, a + 1});
+    const double u = i;
+    corners.values.insert(corners.values.end(), {u, 0, u + 1, 0, u, 1, u + 1, 0, u + 1, 1, u, 1});
+  }
+  for (const auto& x : tube.points)
+    rest.values.insert(rest.values.end(), x.begin(), x.end());
+  tube.arrays = {corners};
+  formats::export_mesh(file_, tube);
+  tube.arrays = {rest};
+  SeamTextures textures;
+  textures.add(scene_of(file_, 1), tube);
+  ASSERT_NE(tube.corner_texture(), nullptr);
+  for (std::size_t i = 0; i < corners.values.size(); ++i)
+    EXPECT_NEAR(tube.corner_texture()->values[i], corners.values[i], 1e-12) << i;
+  // one that reaches over the seam: its middle is before it, so what is behind it has u = 6
+  tube.triangles = {{0, 1, 2}};
+  tube.points.resize(3);
+  tube.arrays = {
+      {"a.rest",
+       MeshPlace::point,
+       3,
+       {0.625, -std::sqrt(3) * 0.375, 0.5, 0.75, -std::sqrt(3) * 0.25, 0.25, 0.99, 0.01 * std::sqrt(3), 0.5}}};
+  textures.add(scene_of(file_, 1), tube);
+  const std::vector<double>& uv = tube.corner_texture()->values;
+  EXPECT_NEAR(uv[0], 5.25, 1e-12);
+  EXPECT_NEAR(uv[2], 5.5, 1e-12);
+  EXPECT_NEAR(uv[4], 6, 0.02);
+  EXPECT_NEAR(uv[5], 0.5, 1e-12);
 }
 
 TEST_F(SeamTexture, OfSeveralSheetsEachHasItsOwn) {
