@@ -17,7 +17,7 @@ constexpr double smooth_turn = 6 * std::numbers::pi / 180;  // of an edge, that 
 constexpr double rim_corner = 135 * std::numbers::pi / 180; // a rim with a smaller angle has a corner there
 constexpr double smooth_edges = 0.99;                       // of all
 constexpr int most_partings = 3;
-constexpr float tight = 0.15F, tightest = 0.35F; // folds, by what they lack, in edges
+constexpr float tight_turn = 0.5F, tightest_turn = 1; // of folds whose radius is two edges, and one [rad]
 
 std::vector<double> thickness_of(std::span<const Vector3> x, std::span<const Corners> triangles,
                                  std::span<const double> volumes, std::span<const double> areas) {
@@ -124,24 +124,49 @@ std::vector<Vector3> limits(std::span<const Vector3> x, const Mesh& mesh) {
   return result;
 }
 
-// The mean distance from those around a vertex [m].
-double distance_around(std::span<const Vector3> x, const Mesh& mesh, std::size_t v) {
-  double sum = 0;
-  for (const std::uint32_t other : mesh.around[v])
-    sum += (x[other] - x[v]).norm();
-  return mesh.around[v].empty() ? 0 : sum / static_cast<double>(mesh.around[v].size());
+// By how much the surface turns over each edge [rad]; 0 where there are not two triangles.
+std::vector<double> turns_of_edges(const Middle& middle, const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 2>> sides(mesh.edges.size());
+  std::vector<std::size_t> found(mesh.edges.size(), 0);
+  for (std::uint32_t t = 0; t < middle.triangles.size(); ++t)
+    for (const std::uint32_t e : mesh.sides[t])
+      if (found[e] < 2)
+        sides[e][found[e]++] = t;
+  std::vector<double> turns(mesh.edges.size(), 0);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.edges[e].triangles == 2) {
+      const Vector3 a = area_normal(middle.positions, middle.triangles[sides[e][0]]),
+                    b = area_normal(middle.positions, middle.triangles[sides[e][1]]);
+      turns[e] = std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  return turns;
 }
 
-// Control points of a surface that goes near to x, but where folds are as tight as edges are long: that which is moved
-// out there would stand out between the edges, one bump a vertex.
-std::vector<Vector3> control_points(std::span<const Vector3> x, const Mesh& mesh) {
+// By how much the surface turns over nearly all inner edges [rad].
+double turn_of_most(const Mesh& mesh, std::span<const double> turns) {
+  std::vector<double> inner;
+  for (std::size_t e = 0; e < turns.size(); ++e)
+    if (mesh.edges[e].triangles == 2)
+      inner.push_back(turns[e]);
+  if (inner.empty())
+    return 0;
+  const auto at = inner.begin() + static_cast<std::ptrdiff_t>(smooth_edges * static_cast<double>(inner.size() - 1));
+  std::ranges::nth_element(inner, at);
+  return *at;
+}
+
+// Control points of a surface that goes near to x, but where folds are as tight as edges are long: what is moved out
+// there would stand out between the edges, one bump a vertex.
+std::vector<Vector3> control_points(std::span<const Vector3> x, const Mesh& mesh, std::span<const double> turns) {
+  std::vector<double> sharpest(x.size(), 0);
+  for (std::size_t e = 0; e < turns.size(); ++e)
+    for (const std::uint32_t v : {mesh.edges[e].low, mesh.edges[e].high})
+      sharpest[v] = std::max(sharpest[v], turns[e]);
   const std::vector<Vector3> there = limits(x, mesh);
   std::vector<Vector3> control;
   for (std::size_t v = 0; v < x.size(); ++v) {
-    const Vector3 lacking = x[v] - there[v];
-    const double around = distance_around(x, mesh, v);
-    const auto part = static_cast<float>(around > 0 ? lacking.norm() / around : 0);
-    control.push_back(x[v] + static_cast<double>(1 - smooth_step(tight, tightest, part)) * lacking);
+    const float tight = smooth_step(tight_turn, tightest_turn, static_cast<float>(sharpest[v]));
+    control.push_back(x[v] + static_cast<double>(1 - tight) * (x[v] - there[v]));
   }
   return control;
 }
@@ -184,28 +209,6 @@ void part(Middle& middle, Mesh& mesh, std::vector<std::array<std::uint32_t, 2>>&
       mesh.roles[v] = Role::corner;
 }
 
-// By how much the surface turns over nearly all edges [rad].
-double turn_of_edges(const Middle& middle, const Mesh& mesh) {
-  std::vector<std::array<std::uint32_t, 2>> sides(mesh.edges.size());
-  std::vector<int> found(mesh.edges.size(), 0);
-  for (std::uint32_t t = 0; t < middle.triangles.size(); ++t)
-    for (const std::uint32_t e : mesh.sides[t])
-      if (found[e] < 2)
-        sides[e][static_cast<std::size_t>(found[e]++)] = t;
-  std::vector<double> turns;
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    if (mesh.edges[e].triangles == 2) {
-      const Vector3 a = area_normal(middle.positions, middle.triangles[sides[e][0]]),
-                    b = area_normal(middle.positions, middle.triangles[sides[e][1]]);
-      turns.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
-    }
-  if (turns.empty())
-    return 0;
-  const auto at = turns.begin() + static_cast<std::ptrdiff_t>(smooth_edges * static_cast<double>(turns.size() - 1));
-  std::ranges::nth_element(turns, at);
-  return *at;
-}
-
 // Half of the edges are as long [m].
 double median_edge(std::span<const Vector3> x, const Mesh& mesh) {
   std::vector<double> lengths;
@@ -218,9 +221,9 @@ double median_edge(std::span<const Vector3> x, const Mesh& mesh) {
   return *at;
 }
 
-// How often triangles are parted in four.
-int partings_of(const Middle& middle, const Mesh& mesh, const PartingLimits& until) {
-  const double turn = turn_of_edges(middle, mesh), edge = median_edge(middle.positions, mesh);
+// How often triangles are parted in four whose edges turn by that.
+int partings_of(const Middle& middle, const Mesh& mesh, double turn, const PartingLimits& until) {
+  const double edge = median_edge(middle.positions, mesh);
   if (!(turn > smooth_turn))
     return 0;
   int partings = std::min(most_partings, static_cast<int>(std::ceil(std::log2(turn / smooth_turn))));
@@ -272,12 +275,13 @@ Middle middle_of(const formats::Frame& frame) {
 
 Middle smoothed(const Middle& middle, std::span<const double> volumes, const PartingLimits& until) {
   Mesh mesh = mesh_of(middle.positions.size(), middle.triangles);
-  const int partings = partings_of(middle, mesh, until);
+  const std::vector<double> turns = turns_of_edges(middle, mesh);
+  const int partings = partings_of(middle, mesh, turn_of_most(mesh, turns), until);
   if (partings == 0)
     return middle;
   find_corners(middle.positions, mesh);
   Middle result = middle;
-  result.positions = control_points(middle.positions, mesh);
+  result.positions = control_points(middle.positions, mesh, turns);
   std::vector<std::array<std::uint32_t, 2>> parents;
   for (int i = 0; i < partings; ++i)
     part(result, mesh, parents);
