@@ -250,8 +250,10 @@ void SeamTextures::add(const Scene& scene, ForeignMesh& mesh) {
   const std::string name = rest->name.substr(0, rest->name.size() - 4) + "corner_uv";
   const MeshArray* const number = array_called(mesh, "sheet", MeshPlace::cell, 1);
   const MeshArray* const smooth = mesh.texture();
-  const auto sheet_of = [&](std::size_t t) {
-    return number == nullptr ? 0 : static_cast<std::size_t>(number->values[t]);
+  const auto sheet_of = [&](std::size_t t) { // whatever others call "sheet" may hold any number
+    const double value = number == nullptr ? 0 : number->values[t];
+    return value >= 0 && value < static_cast<double>(scene.sheets.size()) ? static_cast<std::size_t>(value)
+                                                                          : scene.sheets.size();
   };
   const auto places_of = [&](std::size_t t) {
     const auto& corners = mesh.triangles[t];

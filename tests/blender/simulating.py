@@ -34,15 +34,20 @@ def uv_of(mesh, name="UVMap"):
     return loop_values(mesh.uv_layers[name].data, "uv", 2).reshape(-1, 3, 2)
 
 
+def add_on():
+    """The add-on, installed from the zip file that users install, and switched on."""
+    bpy.ops.preferences.addon_install(filepath=archive)
+    bpy.ops.preferences.addon_enable(module="sheet_blender")
+    import sheet_blender
+    return sheet_blender
+
+
 class Case(unittest.TestCase):
     """An empty scene of six frames, and what tests put into it."""
 
     @classmethod
     def setUpClass(cls):
-        bpy.ops.preferences.addon_install(filepath=archive)
-        bpy.ops.preferences.addon_enable(module="sheet_blender")
-        import sheet_blender
-        cls.add_on = sheet_blender
+        cls.add_on = add_on()
 
     def setUp(self):
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)

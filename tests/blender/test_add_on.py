@@ -19,9 +19,10 @@ import bpy
 import numpy as np
 from mathutils import Quaternion, Vector
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from simulating import FPS, add_on, archive
+
 root = pathlib.Path(__file__).resolve().parents[2]
-archive = sys.argv[sys.argv.index("--") + 1]
-FPS = 24
 
 
 def shell(command):
@@ -63,11 +64,8 @@ def shown_volume(thing):
 class AddOn(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        bpy.ops.preferences.addon_install(filepath=archive)
-        bpy.ops.preferences.addon_enable(module="sheet_blender")
-        import sheet_blender
-        cls.add_on = sheet_blender
-        assert pathlib.Path(sheet_blender.__file__).is_relative_to(os.environ["BLENDER_USER_SCRIPTS"])
+        cls.add_on = add_on()
+        assert pathlib.Path(cls.add_on.__file__).is_relative_to(os.environ["BLENDER_USER_SCRIPTS"])
         shell("sheet-init --example | sed 's/^edge_length = .*/edge_length = 0.1/' > scene.toml; "
               f"sheet-init scene.toml | sheet-loop -q --until 0.3 --fps {FPS} -o run.sheet -- "
               "'sheet-remesh | sheet-step | sheet-collide'; sheet-info --csv run.sheet > run.csv")

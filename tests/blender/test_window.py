@@ -18,7 +18,9 @@ import traceback
 import bpy
 import numpy as np
 
-archive = sys.argv[sys.argv.index("--") + 1]
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from simulating import add_on
+
 rest = sys.argv[sys.argv.index("--") + 2:]
 work = pathlib.Path(tempfile.mkdtemp())
 pictures = pathlib.Path(rest[0]).resolve() if rest else work
@@ -58,9 +60,7 @@ def newest_is_shown(scene, cloth):
 
 def steps():
     """Yields what to wait for: a function, at most 120 s each."""
-    bpy.ops.preferences.addon_install(filepath=archive)
-    bpy.ops.preferences.addon_enable(module="sheet_blender")
-    import sheet_blender
+    sheet_blender = add_on()
     cache = sheet_blender.cache
     bpy.ops.wm.save_as_mainfile(filepath=str(work / "tea.blend"))
     window, scene = bpy.context.window_manager.windows[0], bpy.context.scene

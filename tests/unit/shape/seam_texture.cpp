@@ -140,6 +140,18 @@ TEST_F(SeamTexture, OfSeveralSheetsEachHasItsOwn) {
     EXPECT_NEAR(mesh.corner_texture()->values[i], wanted[i], 1e-14) << i;
 }
 
+TEST_F(SeamTexture, TrianglesOfNoSheetHaveNone) {
+  ForeignMesh mesh = remeshed();
+  mesh.arrays.push_back({"a.sheet", MeshPlace::cell, 1, {-3, 0, std::nan("")}});
+  SeamTextures textures;
+  textures.add(scene_of(file_, 1), mesh);
+  ASSERT_NE(mesh.corner_texture(), nullptr);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(mesh.corner_texture()->values[i], 0);
+    EXPECT_EQ(mesh.corner_texture()->values[12 + i], 0);
+  }
+}
+
 TEST_F(SeamTexture, IsLeftOutWithoutItsFileOrWithAnother) {
   const auto added = [&](const Scene& scene, double shift) {
     ForeignMesh mesh = remeshed();
