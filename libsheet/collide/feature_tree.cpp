@@ -110,7 +110,10 @@ private:
       joined_edges_.reset();
       for (std::size_t p = 0; p < (a == b ? q + 1 : edges.size()); ++p)
         for_bits(edges[p].reaching.may_overlap(around), [&](std::size_t lane) {
-          unsigned bits = others[q].reaching.may_overlap(edges[p].reaching[lane]);
+          const unsigned wanted = (edges[p].chosen >> lane & 1U) != 0 ? all_lanes : others[q].chosen;
+          if (wanted == 0)
+            return;
+          unsigned bits = others[q].reaching.may_overlap(edges[p].reaching[lane]) & wanted;
           if (a == b && p == q)
             bits &= ~1U << lane; // those behind it
           if (bits != 0)
@@ -159,8 +162,9 @@ private:
       return;
     const std::uint32_t v = vertex.index;
     const auto& [a, b, c] = tree_.leaves_[leaf].corners;
+    const unsigned wanted = vertex.chosen ? all_lanes : tree_.leaves_[leaf].chosen;
     const unsigned bits =
-        tree.boxes(leaf).may_overlap(vertex.boxes.reaching) & ~(a.equal(v) | b.equal(v) | c.equal(v)).bits();
+        tree.boxes(leaf).may_overlap(vertex.boxes.reaching) & wanted & ~(a.equal(v) | b.equal(v) | c.equal(v)).bits();
     if (bits == 0)
       return;
     const std::span<const std::uint32_t> triangles = tree.indices(leaf);
@@ -257,70 +261,108 @@ void FeatureTree::own_features() {
   leaves_.back().first_vertex = static_cast<std::uint32_t>(vertices_.size());
 }
 
-FeatureTree::Grown FeatureTree::grown(std::span<const std::uint32_t> feature, float reaching, float on_way) const {
+FeatureTree::Grown FeatureTree::grown(std::span<const std::uint32_t> feature) const {
   QuickBox places;
   float most = 0;
   for (const std::uint32_t v : feature) {
     places.add(ways_[v]);
     most = std::max(most, reach_[v]);
   }
-  return {places.grown(reaching * most), places.grown(on_way * most)};
+  return {places.grown(growth_.reaching * most), places.grown(growth_.on_way * most)};
 }
 
-void FeatureTree::place_vertices(const Ways& ways) {
+// Notes which vertices move, in other ways or with another reach than before; all, if `anew`.
+void FeatureTree::place_vertices(const Ways& ways, bool anew) {
   ways_.resize(mesh_.vertices);
   reach_.resize(mesh_.vertices);
+  moved_.resize(mesh_.vertices);
   each_in_parallel(mesh_.vertices, [&](std::size_t v) {
-    Box way;
-    way.add(ways.start[v]);
-    way.add(ways.end[v]);
-    ways_[v] = QuickBox(way);
-    reach_[v] = static_cast<float>(ways.reach[v]) * (1 + 0x1p-22F);
+    Box exact;
+    exact.add(ways.start[v]);
+    exact.add(ways.end[v]);
+    const QuickBox way(exact);
+    const float reach = static_cast<float>(ways.reach[v]) * (1 + 0x1p-22F);
+    moved_[v] = anew || way != ways_[v] || reach != reach_[v];
+    ways_[v] = way;
+    reach_[v] = reach;
   });
 }
 
-void FeatureTree::place_features(float reaching, float on_way) {
-  each_in_parallel(vertices_.size(), [&](std::size_t i) {
-    vertices_[i].boxes = grown({&vertices_[i].index, 1}, reaching, on_way);
+void FeatureTree::place(const Ways& ways, Growth growth) {
+  const bool anew = growth != growth_;
+  growth_ = growth;
+  place_vertices(ways, anew);
+  boxes_.resize(mesh_.triangles.size());
+  changed_.resize(boxes_.size());
+  each_in_parallel(boxes_.size(), [&](std::size_t t) {
+    const Corners& c = mesh_.triangles[t];
+    changed_[t] = moved_[c[0]] | moved_[c[1]] | moved_[c[2]];
+    if (changed_[t] != 0)
+      boxes_[t] = grown(c).reaching;
   });
-  each_in_parallel(edges_.size(), [&](std::size_t i) {
+  place_tree();
+  each_in_parallel(tree_.leaves(), [&](std::size_t k) {
+    if (std::ranges::any_of(tree_.indices(k), [&](std::uint32_t t) { return changed_[t] != 0; }))
+      place_features(leaves_[k], k);
+  });
+}
+
+void FeatureTree::place_features(Leaf& leaf, std::size_t number) {
+  for (std::uint32_t i = leaf.first_vertex; i < leaves_[number + 1].first_vertex; ++i)
+    vertices_[i].boxes = grown({&vertices_[i].index, 1});
+  leaf.around_edges = {};
+  for (std::uint32_t i = leaf.first_edges; i < leaves_[number + 1].first_edges; ++i) {
     OwnEdges& edges = edges_[i];
     for (std::size_t lane = 0; lane < edges.count; ++lane) {
-      const Grown boxes = grown(mesh_.edges[edges.index[lane]], reaching, on_way);
+      const Grown boxes = grown(mesh_.edges[edges.index[lane]]);
       edges.reaching.put(lane, boxes.reaching);
       edges.on_way.put(lane, boxes.on_way);
+      leaf.around_edges.add(boxes.reaching);
     }
-  });
+  }
+  std::size_t lane = 0;
+  for (const std::uint32_t t : tree_.indices(number))
+    leaf.on_way.put(lane++, grown(mesh_.triangles[t]).on_way);
+}
+
+// Marks the features that have a vertex among these; all, if there are none.
+void FeatureTree::choose(Flags vertices) {
+  if (vertices.empty() && chosen_.empty())
+    return; // as before
+  const auto has = [&](std::span<const std::uint32_t> feature) {
+    return vertices.empty() || std::ranges::any_of(feature, [&](std::uint32_t v) { return vertices[v] != 0; });
+  };
+  chosen_.resize(vertices.empty() ? 0 : mesh_.triangles.size());
+  each_in_parallel(chosen_.size(), [&](std::size_t t) { chosen_[t] = has(mesh_.triangles[t]); });
   each_in_parallel(tree_.leaves(), [&](std::size_t k) {
     Leaf& leaf = leaves_[k];
-    std::size_t lane = 0;
-    for (const std::uint32_t t : tree_.indices(k))
-      leaf.on_way.put(lane++, grown(mesh_.triangles[t], reaching, on_way).on_way);
-    leaf.around_edges = {};
-    for (const OwnEdges& edges : edges_of(k))
-      for (lane = 0; lane < edges.count; ++lane)
-        leaf.around_edges.add(edges.reaching[lane]);
+    leaf.chosen = tree_.chosen_in(k, chosen_);
+    for (std::uint32_t i = leaf.first_vertex; i < leaves_[k + 1].first_vertex; ++i)
+      vertices_[i].chosen = leaf.chosen != 0 && has({&vertices_[i].index, 1});
+    for (std::uint32_t i = leaf.first_edges; i < leaves_[k + 1].first_edges; ++i) {
+      OwnEdges& edges = edges_[i];
+      edges.chosen = 0;
+      for (std::size_t lane = 0; lane < edges.count && leaf.chosen != 0; ++lane)
+        edges.chosen |= static_cast<unsigned>(has(mesh_.edges[edges.index[lane]])) << lane;
+    }
   });
 }
 
 std::vector<Candidates> FeatureTree::candidates(const Ways& ways, double on_way, bool beside, Flags chosen) {
   constexpr float rounded_up = 0.5F * (1 + 0x1p-22F);
-  const float half_on_way = rounded_up * static_cast<float>(on_way), half_reach = beside ? rounded_up : half_on_way;
-  place_vertices(ways);
-  boxes_.resize(mesh_.triangles.size());
-  each_in_parallel(boxes_.size(),
-                   [&](std::size_t t) { boxes_[t] = grown(mesh_.triangles[t], half_reach, 0).reaching; });
-  place_tree();
-  place_features(half_reach, half_on_way);
+  const float half_on_way = rounded_up * static_cast<float>(on_way);
+  place(ways, {beside ? rounded_up : half_on_way, half_on_way});
+  choose(chosen);
   std::vector<Candidates> found(tree_.chunks());
   tbb::enumerable_thread_specific<Marks> marks([&] { return Marks(*this); });
-  tree_.for_leaves(chosen, [&](std::size_t chunk, std::size_t a, std::size_t b) {
+  tree_.for_leaves(chosen_, [&](std::size_t chunk, std::size_t a, std::size_t b) {
     Visitor(*this, beside, marks, found[chunk]).visit(a, b);
   });
   return found;
 }
 
 const BoxTree& FeatureTree::triangles_at(std::span<const Vector3> positions) {
+  growth_ = {};
   boxes_.resize(mesh_.triangles.size());
   each_in_parallel(boxes_.size(), [&](std::size_t t) { boxes_[t] = QuickBox(box_of(positions, mesh_.triangles[t])); });
   place_tree();

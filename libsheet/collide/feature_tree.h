@@ -61,9 +61,9 @@ public:
   // `mesh` must outlive it.
   explicit FeatureTree(const Connectivity& mesh);
 
-  // All pairs whose boxes (Way::box) overlap, and perhaps a few more, of which at least one is a feature of a triangle
-  // in `chosen` (a flag a triangle; empty: all): Candidates::on_way those with the part `on_way`; the others, sought if
-  // `beside` is true, those with the part 1. In parts; these and their order depend on what is given alone.
+  // All pairs with a vertex in `chosen` (a flag a vertex; empty: all) whose boxes (Way::box) overlap, and perhaps a few
+  // more: Candidates::on_way those with the part `on_way`; the others, sought if `beside` is true, those with the part
+  // 1. In parts; these and their order depend on what is given alone. Asked again, only what has moved is placed anew.
   [[nodiscard]] std::vector<Candidates> candidates(const Ways& ways, double on_way, bool beside, Flags chosen);
 
   // Puts the triangles where their vertices are, for BoxTree::for_overlaps.
@@ -77,27 +77,37 @@ private:
   struct OwnVertex {
     Grown boxes;
     std::uint32_t index;
+    bool chosen = true;
   };
   struct OwnEdges { // up to eight
     BoxLanes reaching, on_way;
     IndexLanes index;
     std::array<IndexLanes, 2> ends;
     std::uint32_t count = 0;
+    unsigned chosen = all_lanes; // as bits
   };
   struct Leaf {
     std::uint32_t first_edges = 0, first_vertex = 0;
     std::array<IndexLanes, 3> corners; // of its triangles
     BoxLanes on_way;                   // of its triangles
     QuickBox around_edges;
+    unsigned chosen = all_lanes; // of its triangles, as bits
   };
+  struct Growth { // of boxes, times what their features reach
+    float reaching = -1, on_way = -1;
+    bool operator==(const Growth&) const = default;
+  };
+  static constexpr unsigned all_lanes = ~0U;
   class Marks;
   class Visitor;
 
   void place_tree();
   void own_features();
-  void place_vertices(const Ways& ways);
-  void place_features(float reaching, float on_way);
-  [[nodiscard]] Grown grown(std::span<const std::uint32_t> feature, float reaching, float on_way) const;
+  void place(const Ways& ways, Growth growth);
+  void place_vertices(const Ways& ways, bool anew);
+  void place_features(Leaf& leaf, std::size_t number);
+  void choose(Flags vertices);
+  [[nodiscard]] Grown grown(std::span<const std::uint32_t> feature) const;
   [[nodiscard]] std::span<const OwnEdges> edges_of(std::size_t leaf) const;
   [[nodiscard]] std::span<const OwnVertex> vertices_of(std::size_t leaf) const;
 
@@ -107,9 +117,12 @@ private:
   std::vector<Leaf> leaves_; // and one more, at which what the last one owns ends
   std::vector<OwnEdges> edges_;
   std::vector<OwnVertex> vertices_;
-  std::vector<QuickBox> boxes_; // of triangles
-  std::vector<QuickBox> ways_;  // of vertices
-  std::vector<float> reach_;    // of vertices, rounded up
+  std::vector<QuickBox> boxes_;               // of triangles
+  std::vector<QuickBox> ways_;                // of vertices
+  std::vector<float> reach_;                  // of vertices, rounded up
+  Growth growth_;                             // with which all is placed; of triangles_at none
+  std::vector<std::uint8_t> moved_, changed_; // since the last placing: vertices, triangles
+  std::vector<std::uint8_t> chosen_;          // triangles with a chosen vertex; empty: all
 };
 
 } // namespace sheet::collide

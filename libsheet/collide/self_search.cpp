@@ -51,9 +51,9 @@ std::optional<Hit> hit_of(const FeaturePair& pair, std::span<const Vector3> star
   const double wanted = nearest_part * contact_distance(reach, pair.vertices, even_weights(pair.features));
   if (surely_apart(swept, wanted))
     return std::nullopt;
-  const double distance = closest(pair.features, swept.start).offset.norm();
-  const double gap = std::min(wanted, kept_part * distance);
-  const auto time = first_contact(swept, {.gap = gap, .time_tolerance = 1e-4, .budget = 1024});
+  const Vector3 offset = closest(pair.features, swept.start).offset;
+  const double distance = offset.norm(), gap = std::min(wanted, kept_part * distance);
+  const auto time = first_contact(swept, {.gap = gap, .time_tolerance = 1e-4, .budget = 1024, .towards = offset});
   if (!time)
     return std::nullopt;
   return Hit{pair, *time, gap, distance};
@@ -182,15 +182,6 @@ SelfSearch::Flags SelfSearch::outside(const Ways& ways) const {
   return flags;
 }
 
-SelfSearch::Flags SelfSearch::triangles_with(std::span<const std::uint8_t> vertices) const {
-  Flags flags(mesh_.triangles.size());
-  each_in_parallel(flags.size(), [&](std::size_t t) {
-    const Corners& c = mesh_.triangles[t];
-    flags[t] = vertices[c[0]] | vertices[c[1]] | vertices[c[2]];
-  });
-  return flags;
-}
-
 void SelfSearch::gather(Positions start, Positions end, std::span<const double> reach) {
   const Flags flags = outside({start, end, reach});
   if (4 * std::count(flags.begin(), flags.end(), 1) <= static_cast<std::ptrdiff_t>(flags.size()))
@@ -222,7 +213,7 @@ std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<cons
   if (moved.empty())
     collector.look_at(candidates_, &Candidates::on_way, false);
   if (std::ranges::find(flags, 1) != flags.end())
-    collector.look_at(tree_.candidates(ways, nearest_part, false, triangles_with(flags)), &Candidates::on_way, true);
+    collector.look_at(tree_.candidates(ways, nearest_part, false, flags), &Candidates::on_way, true);
   return std::move(collector).sorted();
 }
 
@@ -252,7 +243,7 @@ std::vector<NearPair> SelfSearch::near(Positions x, std::span<const double> reac
   };
   look_at(candidates_, false);
   if (std::ranges::find(flags, 1) != flags.end())
-    look_at(tree_.candidates(ways, nearest_part, true, triangles_with(flags)), true);
+    look_at(tree_.candidates(ways, nearest_part, true, flags), true);
   return std::move(collector).sorted();
 }
 

@@ -79,7 +79,6 @@ private:
   using Flags = std::vector<std::uint8_t>;
 
   [[nodiscard]] Flags outside(const Ways& ways) const;
-  [[nodiscard]] Flags triangles_with(std::span<const std::uint8_t> vertices) const;
   template <class Found, class Test> class Collector;
 
   const Connectivity& mesh_;

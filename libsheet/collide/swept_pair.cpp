@@ -18,11 +18,11 @@ namespace sheet::collide {
 
 namespace {
 
-// Differences of the features' points, relative to the largest: where they are at times 0 and 1.
+// Differences of the features' points: where they are at times 0 and 1.
 struct Differences {
   int count = 0;
   std::array<Vector3, 4> start, end;
-  double size = 0; // the largest, before scaling
+  double size = 0; // the largest
   bool moving = false;
 };
 
@@ -37,6 +37,11 @@ Differences differences(const SweptPair& p) {
       d.moving = d.moving || d.start[i] != d.end[i];
       d.size = std::max({d.size, d.start[i].lpNorm<Eigen::Infinity>(), d.end[i].lpNorm<Eigen::Infinity>()});
     }
+  return d;
+}
+
+// Relative to the largest.
+Differences scaled(Differences d) {
   if (d.size > 0)
     for (int i = 0; i < d.count; ++i) {
       d.start[i] /= d.size;
@@ -45,9 +50,10 @@ Differences differences(const SweptPair& p) {
   return d;
 }
 
-// The differences at both ends of an interval of time.
+// The differences at both ends of an interval of time; `size` is the largest.
 struct Hull {
   int count = 0;
+  double size = 1;
   std::array<Vector3, 8> points;
 
   Hull(const Differences& d, double from, double to) {
@@ -56,10 +62,17 @@ struct Hull {
       points[count++] = (1 - to) * d.start[i] + to * d.end[i];
     }
   }
+  // At both ends of all of the time, as they are.
+  explicit Hull(const Differences& d) : size(d.size) {
+    for (int i = 0; i < d.count; ++i) {
+      points[count++] = d.start[i];
+      points[count++] = d.end[i];
+    }
+  }
   // d·p > gap |d| for all points p. Differences, interpolation and products together round by less than 16 units in
-  // the last place of numbers below 2; twice smallest_gap is a thousand times that.
+  // the last place of numbers below twice the size; twice smallest_gap of it is a thousand times that.
   [[nodiscard]] bool beyond(const Vector3& direction, double gap) const {
-    const double least = (gap + 2 * smallest_gap) * direction.norm();
+    const double least = (gap + 2 * smallest_gap * size) * direction.norm();
     for (int i = 0; i < count; ++i)
       if (!(direction.dot(points[i]) > least)) // also where something is not a number
         return false;
@@ -183,18 +196,18 @@ bool surely_apart(const SweptPair& pair, double gap) {
   const Differences d = differences(pair);
   if (!d.moving)
     return true;
-  const Hull whole(d, 0, 1);
-  const double wanted = std::max(gap / d.size, smallest_gap);
-  Vector3 direction = middle(whole);
-  return whole.beyond(across(d, direction), wanted) || apart(whole, wanted, direction);
+  const Hull whole(d);
+  const double wanted = std::max(gap, smallest_gap * d.size);
+  const Vector3 direction = middle(whole);
+  return whole.beyond(across(d, direction), wanted) || whole.beyond(direction, wanted);
 }
 
 std::optional<double> first_contact(const SweptPair& pair, const SweptOptions& options) {
-  const Differences d = differences(pair);
+  const Differences d = scaled(differences(pair));
   if (!d.moving)
     return std::nullopt;
-  Search search{d, std::max(options.gap / d.size, smallest_gap), options.time_tolerance, options.budget,
-                middle(Hull(d, 0, 1))};
+  const Vector3 direction = options.towards.isZero(0) ? middle(Hull(d, 0, 1)) : options.towards;
+  Search search{d, std::max(options.gap / d.size, smallest_gap), options.time_tolerance, options.budget, direction};
   return search.between(0, 1);
 }
 

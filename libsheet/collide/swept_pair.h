@@ -22,16 +22,18 @@ struct SweptPair {
 };
 
 struct SweptOptions {
-  double gap = 0;               // distance that counts as contact, in the unit of the points; see smallest_gap
-  double time_tolerance = 1e-6; // intervals of time that are not divided further
-  int budget = 4096;            // of intervals to look at; then the rest of the time counts as a contact
+  double gap = 0;                    // distance that counts as contact, in the unit of the points; see smallest_gap
+  double time_tolerance = 1e-6;      // intervals of time that are not divided further
+  int budget = 4096;                 // of intervals to look at; then the rest of the time counts as a contact
+  Vector3 towards = Vector3::Zero(); // the first feature from the second, roughly: tried first, if it is not zero
 };
 
 // A gap below this part of the pair's size (the largest distance of a point of one feature from one of the other) is
 // taken for it: what rounding needs.
 inline constexpr double smallest_gap = 1e-12;
 
-// Cheap: true only if the features surely are further apart than the gap all the time; mostly decides.
+// Cheap: true only if the features surely are further apart than the gap all the time; of layers it mostly is, if they
+// are.
 [[nodiscard]] bool surely_apart(const SweptPair& pair, double gap);
 
 // A time until which the features are surely further apart than the gap, and shortly after which they may not be; none

@@ -33,12 +33,18 @@ struct QuickBox {
     box.high = high + by(high);
     return box;
   }
+  [[nodiscard]] bool operator==(const QuickBox& other) const {
+    const auto other_places = reinterpret_cast<Halves>((low != other.low) | (high != other.high));
+    return (other_places[0] | other_places[1]) == 0;
+  }
   // False only if the boxes surely have no point in common.
   [[nodiscard]] bool may_overlap(const QuickBox& other) const {
-    using Halves = long long __attribute__((vector_size(16)));
     const auto apart = reinterpret_cast<Halves>((low > other.high) | (other.low > high));
     return (apart[0] | apart[1]) == 0;
   }
+
+private:
+  using Halves = long long __attribute__((vector_size(16)));
 };
 
 // What eight lanes say, each 0 or -1.

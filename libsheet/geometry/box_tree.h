@@ -33,6 +33,16 @@ public:
     return std::span(order_).subspan(leaves_[leaf].begin, leaves_[leaf].end - leaves_[leaf].begin);
   }
 
+  // Which of a leaf's boxes are in `chosen` (a flag a box; empty: all), as bits.
+  [[nodiscard]] unsigned chosen_in(std::size_t leaf, std::span<const std::uint8_t> chosen) const {
+    if (chosen.empty())
+      return ~0U;
+    unsigned bits = 0, lane = 0;
+    for (const std::uint32_t i : indices(leaf))
+      bits |= static_cast<unsigned>(chosen[i] != 0) << lane++;
+    return bits;
+  }
+
   // Calls visit(chunk, a, b) for the leaves a and b whose boxes may overlap and of which at least one has a box in
   // `chosen` (a flag a box; empty: all), each pair once, and each leaf with itself; those of a come one after the
   // other. Chunk by chunk on all threads, chunks 0 to chunks() - 1; what a chunk visits, and in which order, depends on
@@ -72,16 +82,6 @@ private:
     std::uint32_t index;
   };
   void split(std::span<Place> places, std::size_t node);
-
-  // Which of a leaf's boxes are chosen, as bits.
-  [[nodiscard]] unsigned chosen_in(std::size_t leaf, std::span<const std::uint8_t> chosen) const {
-    if (chosen.empty())
-      return ~0U;
-    unsigned bits = 0, lane = 0;
-    for (const std::uint32_t i : indices(leaf))
-      bits |= static_cast<unsigned>(chosen[i] != 0) << lane++;
-    return bits;
-  }
 
   // The leaf itself and those behind it; where only some boxes are chosen and the leaf has such, those before it, too,
   // that have none.

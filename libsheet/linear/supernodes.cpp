@@ -12,7 +12,7 @@ namespace {
 // each of its rows, for each entry of its panel and of its update matrix, and for a product of the dense kernels.
 constexpr double front_cost = 250, row_cost = 4, panel_entry_cost = 0.2, update_entry_cost = 0.3, product_cost = 0.03;
 
-double seconds_of(double pivots, double rows) {
+double nanoseconds_of(double pivots, double rows) {
   const double below = rows - pivots;
   const double products = pivots * (below * (below + pivots) / 2 + pivots * pivots / 6);
   return front_cost + row_cost * rows + panel_entry_cost * pivots * rows + update_entry_cost * below * below / 2 +
@@ -31,6 +31,13 @@ void Supernodes::analyze(const NodeGraph& graph) {
   merge();
   number_fronts();
   find_rows();
+}
+
+double Supernodes::seconds() const {
+  double sum = 0;
+  for (const Supernode& f : fronts)
+    sum += 1e-9 * nanoseconds_of(f.pivots, f.rows);
+  return sum;
 }
 
 // [Liu 1990], from the rows of the lower triangle, with compressed paths.
@@ -151,10 +158,10 @@ void Supernodes::merge() {
       const int x = rows[a] - pivots[a], y = rows[b] - pivots[b];
       return x != y ? x > y : a < b;
     });
-    double cost = seconds_of(pivots[v], rows[v]);
+    double cost = nanoseconds_of(pivots[v], rows[v]);
     for (const int c : candidates) {
-      const double together = seconds_of(pivots[v] + pivots[c], rows[v] + pivots[c]);
-      if (together > cost + seconds_of(pivots[c], rows[c]))
+      const double together = nanoseconds_of(pivots[v] + pivots[c], rows[v] + pivots[c]);
+      if (together > cost + nanoseconds_of(pivots[c], rows[c]))
         continue;
       cost = together;
       into_[c] = v;

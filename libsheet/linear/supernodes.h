@@ -28,6 +28,9 @@ public:
   // The graph must be in a fill-reducing order.
   void analyze(const NodeGraph& graph);
 
+  // That the factorisation takes on one thread, by the model by which supernodes were merged.
+  [[nodiscard]] double seconds() const;
+
   std::vector<Supernode> fronts; // every subtree in one piece, ascending
   std::vector<int> children;
   std::vector<int> touched;  // nodes in the order of elimination, ascending in each front

@@ -16,14 +16,16 @@ namespace sheet {
 namespace {
 constexpr double response = 0.1; // what respond() leaves
 constexpr int response_products = 10;
-constexpr double spread_shift = 1e-6; // for a starting point only
+constexpr int coordinates = 3, with_angles = 6; // at a vertex, which has three edges
+constexpr double spread_shift = 1e-6;           // for a starting point only
 } // namespace
 
 void LinearSystem::analyze(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles) {
   Stopwatch watch;
   const std::size_t vertices = mesh->vertices;
   assembly_ = Assembly(std::move(mesh), terms, angles);
-  assembly_.set_order(elimination_order(vertices, assembly_.vertex_graph()));
+  const int unknowns = angles ? with_angles : coordinates;
+  assembly_.set_order(elimination_order(vertices, assembly_.vertex_graph(), unknowns));
   const NodeGraph graph = assembly_.pattern().node_graph();
   tbb::parallel_invoke([&] { single_.analyze(graph); },
                        [&] {

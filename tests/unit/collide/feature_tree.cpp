@@ -154,34 +154,49 @@ TEST(FeatureTree, DegenerateSheets) {
                       0.1);
 }
 
-TEST(FeatureTree, ChosenTrianglesHaveTheirPairs) {
+TEST(FeatureTree, ChosenVerticesHaveTheirPairs) {
   const Moving m = crumpled(10, 0.05, 0.1, 2);
-  std::vector<std::uint8_t> chosen(m.mesh.triangles.size(), 0);
-  std::set<std::uint32_t> vertices;
-  for (std::size_t t = 0; t < chosen.size(); t += 50) {
-    chosen[t] = 1;
-    vertices.insert(m.mesh.triangles[t].begin(), m.mesh.triangles[t].end());
-  }
-  // as the search asks: all triangles with one of some vertices
-  for (std::size_t t = 0; t < chosen.size(); ++t)
-    for (const std::uint32_t v : m.mesh.triangles[t])
-      chosen[t] = chosen[t] | static_cast<std::uint8_t>(vertices.contains(v));
+  std::vector<std::uint8_t> chosen(m.mesh.vertices, 0);
+  for (std::size_t v = 0; v < chosen.size(); v += 20)
+    chosen[v] = 1;
   FeatureTree tree(m.mesh);
   const Kinds all = kinds_of(tree.candidates(m.ways(), 0.1, true, {}));
   const Kinds some = kinds_of(tree.candidates(m.ways(), 0.1, true, chosen));
   EXPECT_LT(some.size(), all.size());
   AllPairs(m, 0.1).each([&](bool edges, const Pair& pair, auto a, auto b) {
     const auto with = [&](auto feature) {
-      return std::ranges::any_of(feature, [&](std::uint32_t v) { return vertices.contains(v); });
+      return std::ranges::any_of(feature, [&](std::uint32_t v) { return chosen[v] != 0; });
     };
     const auto whole = all.find({edges, pair}), part = some.find({edges, pair});
-    if (whole != all.end() && (with(a) || with(b))) {
-      EXPECT_NE(part, some.end()) << edges << " " << pair[0] << " " << pair[1];
-    }
+    EXPECT_EQ(part != some.end(), whole != all.end() && (with(a) || with(b)))
+        << edges << " " << pair[0] << " " << pair[1];
     if (part != some.end()) {
-      EXPECT_EQ(part->second, all.at({edges, pair}));
+      EXPECT_EQ(part->second, whole->second);
     }
   });
+}
+
+TEST(FeatureTree, WhatHasMovedIsPlacedAnew) {
+  Moving m = crumpled(10, 0.05, 0.1, 3);
+  FeatureTree kept(m.mesh);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> by(-0.3, 0.3);
+  for (std::uint32_t round = 0; round < 6; ++round) {
+    const bool beside = round % 3 == 0;
+    std::vector<std::uint8_t> chosen(m.mesh.vertices, 0);
+    for (std::size_t v = round; v < chosen.size(); v += 17) {
+      m.end[v] += Vector3(by(random), by(random), by(random));
+      m.reach[v] *= 1 + by(random);
+      chosen[v] = 1;
+    }
+    if (round == 4)
+      (void)kept.triangles_at(m.start);
+    FeatureTree fresh(m.mesh);
+    const std::span<const std::uint8_t> of = round % 2 == 0 ? std::span<const std::uint8_t>() : chosen;
+    EXPECT_EQ(kinds_of(kept.candidates(m.ways(), 0.1, beside, of)),
+              kinds_of(fresh.candidates(m.ways(), 0.1, beside, of)))
+        << round;
+  }
 }
 
 } // namespace
