@@ -113,18 +113,30 @@ std::string file_list(const Source& source) {
   return sheet::formats::printable(text);
 }
 
+// Where a ring begins without --check.
+void warn_of_symmetry(const sheet::Scene& scene, const sheet::formats::Frame& frame) {
+  const auto sheets = scene.inflows.empty() ? std::vector<std::size_t>() : sheet::sheets_in_their_planes(scene);
+  if (sheets.empty())
+    return;
+  std::string sets;
+  for (const std::string& set : sheet::small_noise(scene, sheets, sheet::measured_sheets(scene, frame)))
+    sets += fmt::format(" --set '{}'", set);
+  sheet::log::warning(
+      "all is symmetric about the sheet's plane: what is poured grows thicker where it should fold. Let "
+      "it begin:{}",
+      sets);
+}
+
 // What --check prints; of that, what --ring does.
 std::string explained(Source source, bool ring_alone) {
   const sheet::Scene with_heat = read(source), scene = sheet::scene::as_it_starts(with_heat);
   const sheet::formats::Frame frame = sheet::checked_first_frame(with_heat);
   const std::vector<sheet::scene::Measured> measured = sheet::measured_sheets(scene, frame);
   sheet::scene::Explanation explanation = sheet::scene::explain(with_heat, measured, sheet::modelled(with_heat));
-  const double thickness = sheet::landing_thickness(scene, frame);
-  if (sheet::stays_in_its_plane(scene, frame, thickness)) {
+  if (const auto sheets = sheet::sheets_in_their_planes(scene); !sheets.empty()) {
     explanation.warnings.emplace_back("all is symmetric about the sheet's plane: it would grow thicker where it should "
                                       "fold. [[sheet]] perturbation lets it begin, as in the ring below");
-    for (const std::string& set : sheet::small_noise(scene, measured))
-      source.sets.push_back(set);
+    std::ranges::copy(sheet::small_noise(scene, sheets, measured), std::back_inserter(source.sets));
   }
   std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
@@ -224,7 +236,9 @@ int main(int argc, char** argv) {
       file.close();
       return;
     }
-    sheet::formats::Frame frame = sheet::checked_first_frame(read(source));
+    const sheet::Scene scene = read(source);
+    sheet::formats::Frame frame = sheet::checked_first_frame(scene);
+    warn_of_symmetry(scene, frame);
     if (!no_provenance)
       sheet::record_provenance(frame, tool.command_line());
     sheet::log::detail("{} vertices, {} triangles", frame.vertices, frame.triangles);

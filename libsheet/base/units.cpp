@@ -397,6 +397,11 @@ std::optional<double> read_quantity(std::string_view text, const Quantity& expec
     return {};
   }
   rest = trim(rest);
+  if (expected.name == quantity::turning_rate.name && rest.ends_with("Hz")) {
+    problem = mismatch(expected,
+                       fmt::format("\"{}\", which may be turns or radians: write turn/s, rpm or rad/s", excerpt(text)));
+    return {};
+  }
   Unit unit{expected.dimension};
   const bool celsius = expected.dimension == quantity::temperature.dimension && is_celsius(rest);
   if (!rest.empty() && !celsius) {

@@ -5,12 +5,17 @@
 // A bath acts from below only: ∫ min(d, 0)² dA takes the place of ∫ d² dA unless it clings to the sheet. In a triangle
 // of which one vertex a is under the surface q is d_a² s r with s = d_a/(d_a - d_b), r = d_a/(d_a - d_c), and the same
 // of the one vertex above it is what a triangle lacks of which two are under it.
-// The normals must point upwards. ρ in kg/m³, g in m/s².
+// The normals must point upwards: below zero, where W would have no lower bound, A_z counts as nothing, and smoothly so
+// from a twentieth of the area on. What has its face down at the start of a step is overturned and under water wet on
+// both faces: it is lifted by the weight of as much of the bath as it is itself (Archimedes), ρ g V/3 at each corner
+// under the surface. ρ in kg/m³, g in m/s².
 #pragma once
 #include <algorithm>
 #include <tuple>
+#include <vector>
 
 #include "libsheet/energy/element.h"
+#include "libsheet/geometry/area.h"
 
 namespace sheet {
 
@@ -22,33 +27,81 @@ public:
   Bath(double density, const Vector3& gravity, double level, bool clings)
       : weight_(density * gravity.norm() / 12), up_(-gravity.normalized()), level_(level), clings_(clings) {}
   [[nodiscard]] const char* name() const { return "bath"; }
-  [[nodiscard]] std::size_t size() const { return count_; }
-  void begin(const Stage& stage) { count_ = stage.start->mesh->triangles.size(); }
-
-  [[nodiscard]] double value(std::size_t, const VectorN<9>& u) const {
-    const Parts p(*this, u);
-    return weight_ * p.area * p.depth.square;
+  [[nodiscard]] std::size_t size() const { return start_.size(); }
+  void begin(const Stage& stage) {
+    const auto& triangles = stage.start->mesh->triangles;
+    const auto& x = stage.start->positions;
+    start_.resize(triangles.size());
+    for (std::size_t t = 0; t < start_.size(); ++t) {
+      const Corners& c = triangles[t];
+      const TriangleArea area(x[c[0]], x[c[1]], x[c[2]]);
+      start_[t] = {.steep = steep * area.area, .overturned = up_.dot(area.normal) < 0};
+      for (int a = 0; a < 3 && start_[t].overturned; ++a)
+        start_[t].lift[a] = up_.dot(x[c[a]]) < level_ ? 4 * weight_ * stage.start->volumes[t] : 0; // ρ g V/3
+    }
   }
 
-  double derivatives(std::size_t, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian, bool definite) const {
+  [[nodiscard]] double value(std::size_t t, const VectorN<9>& u) const {
+    if (start_[t].overturned)
+      return lifted(t, u);
     const Parts p(*this, u);
-    gradient = weight_ * (p.depth.square * p.by_area + p.area * p.by_square);
-    const Matrix3 upright = (weight_ * (definite ? std::max(0.0, p.area) : p.area)) * (up_ * up_.transpose());
+    return weight_ * Projection(p.area, start_[t].steep).value * p.depth.square;
+  }
+
+  double derivatives(std::size_t t, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
+                     bool definite) const {
+    if (start_[t].overturned) {
+      for (int a = 0; a < 3; ++a)
+        gradient.segment<3>(3 * a) = -start_[t].lift[a] * up_;
+      hessian.setZero();
+      return lifted(t, u);
+    }
+    const Parts p(*this, u);
+    const Projection area(p.area, start_[t].steep);
+    gradient = weight_ * (area.first * p.depth.square * p.by_area + area.value * p.by_square);
+    const Matrix3 upright = (weight_ * area.value) * (up_ * up_.transpose());
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
         hessian.block<3, 3>(3 * a, 3 * b) = p.depth.second(a, b) * upright;
+    if (area.second > 0)
+      hessian += (weight_ * area.second * p.depth.square) * p.by_area * p.by_area.transpose();
     if (!definite) {
-      const Matrix3 turn = (0.5 * weight_ * p.depth.square) * skew(up_);
+      const Matrix3 turn = (0.5 * weight_ * area.first * p.depth.square) * skew(up_);
       for (int a = 0; a < 3; ++a) {
         hessian.block<3, 3>(3 * a, 3 * ((a + 2) % 3)) += turn;
         hessian.block<3, 3>(3 * a, 3 * ((a + 1) % 3)) -= turn;
       }
-      hessian += weight_ * (p.by_area * p.by_square.transpose() + p.by_square * p.by_area.transpose());
+      hessian += (weight_ * area.first) * (p.by_area * p.by_square.transpose() + p.by_square * p.by_area.transpose());
     }
-    return weight_ * p.area * p.depth.square;
+    return weight_ * area.value * p.depth.square;
   }
 
 private:
+  static constexpr double steep = 0.05; // of the area
+  struct Start {
+    double steep = 0; // the projection below which it counts less [m²]
+    bool overturned = false;
+    Vector3 lift = Vector3::Zero(); // at each corner [N]
+  };
+
+  // What counts of A_z, with its derivatives: itself, a parabola between ±s, nothing below.
+  struct Projection {
+    double value, first = 1, second = 0;
+    Projection(double area, double s) : value(area) {
+      if (area >= s)
+        return;
+      const double above = std::max(0.0, area + s);
+      value = above > 0 ? above * above / (4 * s) : 0;
+      first = above > 0 ? above / (2 * s) : 0;
+      second = above > 0 ? 1 / (2 * s) : 0;
+    }
+  };
+
+  [[nodiscard]] double lifted(std::size_t t, const VectorN<9>& u) const {
+    const Vector3 heights = Eigen::Map<const Matrix3>(u.data()).transpose() * up_ - Vector3::Constant(level_);
+    return -start_[t].lift.dot(heights);
+  }
+
   // q as a function of the heights of the three vertices, with its derivatives.
   struct Depth {
     double square = 0;
@@ -112,7 +165,7 @@ private:
   Vector3 up_;
   double level_;
   bool clings_;
-  std::size_t count_ = 0;
+  std::vector<Start> start_; // of each triangle
 };
 
 } // namespace sheet

@@ -21,6 +21,8 @@ using formats::Frame;
 
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double tall = 2;             // thicker than so many edges: no sheet
+constexpr double least_crushed = 0.01; // of the volume: less is a rim or a crumb
 
 struct Triangle {
   Vector3 normal, middle;
@@ -87,27 +89,52 @@ private:
   Vector3 place_ = Vector3::Zero();
 };
 
-// The least thickness with which liquid of the scene begins [m]; where meshes say it, the mean of the sheet now.
-double start_thickness(const Scene& scene, const Surface& surface) {
-  double least = infinity;
+// The least and the greatest thickness with which liquid of the scene begins [m]; where meshes say it, the mean of the
+// sheet now.
+std::pair<double, double> start_thickness(const Scene& scene, const Surface& surface) {
+  std::vector<double> all;
   for (const scene::SheetTable& sheet : scene.sheets)
     if (const auto* uniform = std::get_if<double>(&sheet.thickness))
-      least = std::min(least, *uniform);
+      all.push_back(*uniform);
   for (const scene::Inflow& inflow : scene.inflows)
-    least = std::min(least, inflow.thickness);
-  return std::isfinite(least) ? least : surface.volume / surface.area;
+    all.push_back(inflow.thickness);
+  if (all.empty())
+    all.push_back(surface.volume / surface.area);
+  const auto [least, greatest] = std::ranges::minmax(all);
+  return {least, greatest};
 }
 
 // With [tear] the scene itself says what becomes of thin places.
 void look_for_thin(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
   if (scene.tear)
     return;
-  const double start = start_thickness(scene, surface);
+  const double start = start_thickness(scene, surface).first;
   const auto volume = volumes(frame);
   Worst worst(Trouble::thin);
   for (std::size_t t = 0; t < frame.triangles; ++t)
     worst.see(volume[t] / (surface.triangles[t].area * start), surface.triangles[t]);
   worst.add_to(seen, surface.area);
+}
+
+// What lies on solids may be as thick as it likes.
+void look_for_crushed(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
+  const double start = start_thickness(scene, surface).second;
+  const auto touch = touched_solids(frame, scene.solids.size());
+  const auto volume = volumes(frame);
+  const auto lies = [&](std::uint32_t v) { return !touch.empty() && touch[v] != no_solid; };
+  Worst worst(Trouble::crushed);
+  double crushed = 0;
+  for (std::size_t t = 0; t < frame.triangles; ++t) {
+    const Triangle& triangle = surface.triangles[t];
+    const double thickness = volume[t] / triangle.area;
+    if (thickness <= tall * triangle.longest || std::ranges::all_of(triangles(frame)[t], lies))
+      continue;
+    if (thickness > kind_of(Trouble::crushed).noted.worst * start)
+      crushed += volume[t];
+    worst.see(thickness / start, triangle);
+  }
+  if (crushed > least_crushed * surface.volume)
+    worst.add_to(seen, surface.area);
 }
 
 void look_for_sharp(const Surface& surface, std::vector<Observation>& seen) {
@@ -211,6 +238,7 @@ std::vector<Observation> look(const Frame& frame, const Scene* scene) {
   if (scene == nullptr)
     return seen;
   look_for_thin(frame, surface, *scene, seen);
+  look_for_crushed(frame, surface, *scene, seen);
   look_at_solids(frame, surface, *scene, seen);
   look_at_step(frame, surface, *scene, seen);
   return seen;

@@ -136,6 +136,16 @@ constexpr std::array table{
          .remedy =
              "leave what is squeezed a way out, and edges shorter than that way; slower solids or a wider gap have no "
              "such places"},
+    Kind{.trouble = Trouble::crushed,
+         .name = "crushed",
+         .least = false,
+         .told = Told::plainly,
+         .what = "triangles are up to {} times as thick as what entered, and thicker than twice their longest edge",
+         .counted = "",
+         .noted = {.worst = 4, .share = 0, .times = 3},
+         .serious = {.worst = 10, .share = 0, .times = 3},
+         .remedy = "what should fold does not, or has no room: [[sheet]] perturbation where all is symmetric about the "
+                   "sheet's plane (sheet-init --check), more room, or shorter edges"},
 };
 
 } // namespace

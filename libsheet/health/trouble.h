@@ -24,6 +24,7 @@ enum class Trouble : std::uint8_t {
   crumbs = 11,
   volume = 12,
   two_solids = 13,
+  crushed = 14,
 };
 
 // From where on trouble counts: all three must be reached.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -50,8 +51,12 @@ std::string law_of(const scene::Pressure& pressure) {
                  [](const scene::GasPressure& p) {
                    const std::string start = p.amount ? fmt::format("that fills {} m³ outside", brief(*p.amount))
                                                       : fmt::format("of {} Pa at the start", brief(p.value));
-                   return fmt::format("enclosed gas {}, {} Pa outside, p ~ V^-{}{}", start, brief(p.ambient),
-                                      brief(p.exponent),
+                   const bool lasts = p.amount || p.leak > 0 || !(p.value > 0 && p.ambient > 0);
+                   const double growth = std::pow(1 + p.value / p.ambient, 1 / p.exponent) - 1;
+                   const std::string gone =
+                       lasts ? "" : fmt::format(", none once its room has grown by {} %", brief(100 * growth));
+                   return fmt::format("enclosed gas {}, {} Pa outside, p ~ V^-{}{}{}", start, brief(p.ambient),
+                                      brief(p.exponent), gone,
                                       p.leak > 0 ? fmt::format(", leaving at {} m³/s per Pa", brief(p.leak)) : "");
                  }},
       pressure);

@@ -233,6 +233,8 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
   return warnings;
 }
 
+constexpr double coldest_likely = 200; // that a liquid starts at [K]
+
 std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales> scales) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
@@ -251,6 +253,9 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
   if (std::ranges::all_of(scales, [](const Scales& s) { return s.speed == 0; }) && !scene.environment.pressure &&
       !scene.environment.gravity)
     warn("nothing drives the sheet: it stays as it is");
+  if (scene.heat && scene.heat->temperature < coldest_likely)
+    warn(fmt::format("heat.temperature is {:g} K, {:.4g} degC: a plain number is in K", scene.heat->temperature,
+                     scene.heat->temperature - 273.15));
   return warnings;
 }
 
@@ -292,7 +297,7 @@ std::vector<std::string> left_out_of(const Scene& scene, const Scales& scales) {
   }
   if (const auto& pressure = scene.environment.pressure; pressure && std::holds_alternative<GasPressure>(*pressure))
     left_out.push_back("enclosed gas has one pressure everywhere, and stays in where the sheet is torn");
-  else if (pressure)
+  else if (pressure && depends_on_volume(*pressure))
     left_out.push_back("enclosed gas is not compressed");
   if (scene.tear && scene.tear->below)
     left_out.push_back("tearing goes by thickness alone");

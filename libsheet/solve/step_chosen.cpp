@@ -60,12 +60,13 @@ public:
 
   // The next step to try.
   [[nodiscard]] double next() const {
-    const double factor = report_.unfinished > 0 || jumps_ ? 1
-                                                           : std::clamp(safety * std::sqrt(tolerance_ / best_->error),
-                                                                        least_factor, greatest_factor);
-    // A step that was cut to land says nothing against the longer one that was wanted.
+    const bool as_it_was = report_.unfinished > 0 || jumps_;
+    const double factor =
+        as_it_was ? 1 : std::clamp(safety * std::sqrt(tolerance_ / best_->error), least_factor, greatest_factor);
+    // A step that was cut to land says nothing against the longer one that was wanted; one that was shortened does.
+    const bool shortened = !as_it_was && best_->dt < first_;
     return std::max(std::max(shortest_, best_->dt * factor),
-                    factor >= 1 ? std::min(wanted_, greatest_factor * best_->dt) : 0.0);
+                    factor >= 1 && !shortened ? std::min(wanted_, greatest_factor * best_->dt) : 0.0);
   }
 
   [[nodiscard]] bool lands() const { return best_->dt >= remaining_; }

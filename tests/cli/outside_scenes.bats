@@ -221,9 +221,14 @@ center = [0, "18 mm", 0]
 END
   sheet-init --check upright.toml > text
   grep -q "all is symmetric about the sheet's plane" text
-  grep -qF -- "--set 'sheet.perturbation={amplitude = \"0.3 um\", seed = 1}' -o first.sheet" text
+  grep -qF -- "--set 'sheet.perturbation={amplitude = \"30 um\", seed = 1}' -o first.sheet" text
   eval "$(grep -o 'sheet-init .*' text)"
-  sheet-print first.sheet | grep -q 'amplitude = 3e-07'
+  sheet-print first.sheet | grep -q 'amplitude = 3e-05'
+  # told where a ring begins by hand, too, and not once it is mended
+  sheet-init upright.toml -o hand.sheet 2> text
+  grep -qF -- "Let it begin: --set 'sheet.perturbation={amplitude = \"30 um\", seed = 1}'" text
+  eval "sheet-init upright.toml $(grep -o -- "--set '.*'" text) -o hand.sheet" 2> text
+  [ ! -s text ]
   # what moves aside, or meets an edge off its middle is not symmetric
   for set in 'sheet.velocity=[0, "1 mm/s", 0]' 'solid.center=[0, "20.5 mm", 0]' \
     'solid.surface_velocity=[0, 0.1, 0]' 'inflow.velocity=[0, 0.01, -0.1]' \

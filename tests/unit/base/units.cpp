@@ -95,6 +95,8 @@ TEST(Units, OtherFactors) {
   EXPECT_EQ(read("45°", quantity::angle), std::numbers::pi / 4);
   EXPECT_EQ(read("0.5 turn", quantity::angle), std::numbers::pi);
   EXPECT_DOUBLE_EQ(read("30 rpm", quantity::turning_rate), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(read("0.5 turn/s", quantity::turning_rate), std::numbers::pi);
+  EXPECT_EQ(read("50 Hz", quantity::strain_rate), 50);
   EXPECT_DOUBLE_EQ(read("90 deg/s", quantity::turning_rate), std::numbers::pi / 2);
   EXPECT_EQ(read("3 m/min", quantity::velocity), 0.05);
 }
@@ -141,6 +143,9 @@ TEST(Units, ProblemsSayWhatWasExpected) {
   EXPECT_EQ(
       problem("1 kg/m s", quantity::viscosity),
       "expected a viscosity such as \"100 Pa*s\": unit \"kg/m s\" is ambiguous: write brackets, as in \"kg/(m*s)\"");
+  EXPECT_EQ(problem("1 Hz", quantity::turning_rate),
+            "expected a turning rate such as \"0.3 rad/s\", got \"1 Hz\", which "
+            "may be turns or radians: write turn/s, rpm or rad/s");
   EXPECT_EQ(problem("5 10/s", quantity::turning_rate),
             "expected a turning rate such as \"0.3 rad/s\": cannot read \"10/s\" in unit \"10/s\"");
   EXPECT_EQ(problem("1 (m", quantity::length), "expected a length such as \"2.5 mm\": missing \")\" in unit \"(m\"");

@@ -402,9 +402,13 @@ TEST(Derivatives, Bath) { check(Bath(3, {0.3, -9, 2}, 0.1, true), {false, false}
 
 // With none, one, two and three vertices under the surface: continuous across it, and never a pull from above.
 TEST(Derivatives, BathActsFromBelowOnly) {
-  const Bath bath(3, {0, 0, -1}, 0, false), clinging(3, {0, 0, -1}, 0, true);
+  Bath bath(3, {0, 0, -1}, 0, false), clinging(3, {0, 0, -1}, 0, true);
   VectorN<9> u;
   u << 0, 0, 0.3, 1, 0, 0.2, 0, 1, 0.1;
+  const State s = test::at_rest({{{0, 0, 0.3}, {1, 0, 0.2}, {0, 1, 0.1}}, {{0, 1, 2}}}, 0.1);
+  const Stage stage = first_stage(s, Liquid{}, 0.1, 0.1, false);
+  bath.begin(stage);
+  clinging.begin(stage);
   VectorN<9> gradient;
   MatrixN<9> hessian;
   EXPECT_EQ(bath.derivatives(0, u, gradient, hessian, false), 0);
@@ -427,6 +431,51 @@ TEST(Derivatives, BathActsFromBelowOnly) {
     EXPECT_GE(eigenvalues_of(hessian)[0], -1e-12);
   }
   EXPECT_NEAR(bath.value(0, u), clinging.value(0, u), 1e-15); // all of it is under the surface
+}
+// From upright through standing on edge to upside down: a potential with a lower bound, smooth on the way.
+TEST(Derivatives, BathOfWhatStandsOnEdge) {
+  const State s = test::at_rest({{{0, 0, -0.3}, {1, 0, -0.3}, {0, 1, -0.3}}, {{0, 1, 2}}}, 0.1);
+  const Stage stage = first_stage(s, Liquid{}, 0.1, 0.1, false);
+  for (const bool clings : {false, true}) {
+    Bath bath(3, {0, 0, -1}, 0, clings);
+    bath.begin(stage);
+    for (const double angle : {1.0, 1.5, 1.53, 1.56, 1.58, 1.61, 1.7, 3.0}) { // from the level, about the x axis
+      VectorN<9> u, gradient;
+      MatrixN<9> hessian, scrap;
+      u << 0, 0, -0.3, 1, 0, -0.4, 0, std::cos(angle), -0.3 - std::sin(angle);
+      const double value = bath.derivatives(0, u, gradient, hessian, false);
+      EXPECT_GE(value, 0);
+      EXPECT_EQ(value, bath.value(0, u));
+      if (angle > 1.63) {
+        EXPECT_EQ(value, 0);
+      }
+      for (int i = 0; i < 9; ++i) {
+        VectorN<9> below = u, above = u, g_below, g_above;
+        below[i] -= 1e-6, above[i] += 1e-6;
+        EXPECT_NEAR(gradient[i], (bath.value(0, above) - bath.value(0, below)) / 2e-6, 1e-8) << angle;
+        static_cast<void>(bath.derivatives(0, below, g_below, scrap, false));
+        static_cast<void>(bath.derivatives(0, above, g_above, scrap, false));
+        EXPECT_LE((hessian.col(i) - (g_above - g_below) / 2e-6).norm(), 1e-6) << angle;
+      }
+      static_cast<void>(bath.derivatives(0, u, gradient, hessian, true));
+      EXPECT_GE(eigenvalues_of(hessian)[0], -1e-12);
+    }
+  }
+}
+// What is upside down under the surface is lifted by the weight of its own volume of the bath, above it by nothing.
+TEST(Derivatives, BathLiftsWhatIsOverturned) {
+  for (const double depth : {0.3, -0.3}) {
+    const State s = test::at_rest({{{0, 0, -depth}, {0, 1, -depth}, {1, 0, -depth}}, {{0, 1, 2}}}, 0.1);
+    const Stage stage = first_stage(s, Liquid{}, 0.1, 0.1, false);
+    Bath bath(3, {0, 0, -2}, 0, false);
+    bath.begin(stage);
+    VectorN<9> u, gradient;
+    MatrixN<9> hessian;
+    u << s.positions[0], s.positions[1], s.positions[2];
+    static_cast<void>(bath.derivatives(0, u, gradient, hessian, false));
+    const Vector3 force = -gradient.segment<3>(0) - gradient.segment<3>(3) - gradient.segment<3>(6);
+    EXPECT_NEAR((force - Vector3(0, 0, depth > 0 ? 3 * 2 * 0.05 : 0)).norm(), 0, 1e-15);
+  }
 }
 TEST(Derivatives, Pressure) { check(Pressure({PressureLaw::Kind::constant, 3, 1, 1}), {false, false}); }
 // On a free rim the force is p n A/3 at each corner, at rest exactly: the cap's part of the enclosed volume is taken

@@ -100,6 +100,26 @@ TEST(Health, FindsThinPlacesByTheStart) {
   EXPECT_TRUE(look(frame, &tearing).empty());
 }
 
+// Triangles of edges of 0.25 m, 1 m thick, of 0.01 m.
+TEST(Health, FindsWhatIsCrushed) {
+  const Scene scene = scene_with(),
+              with_thick = scene_with("[[inflow]]\nregion = \"x_max\"\nvelocity = [-1, 0, 0]\n"
+                                      "thickness = 0.3\n"),
+              with_plane = scene_with("[[solid]]\nshape = \"plane\"\n");
+  Frame frame = flat();
+  volumes(frame)[3] = 1.0 / 32;
+  const Observation seen = only(look(frame, &scene));
+  EXPECT_EQ(seen.trouble, Trouble::crushed);
+  EXPECT_NEAR(seen.value, 100, 1e-9);
+  EXPECT_TRUE(look(frame, &with_thick).empty()); // 3.3 times what enters
+  volumes(frame)[3] = 0.7 / 32;                  // of twice its longest edge, 0.707 m
+  EXPECT_TRUE(look(frame, &scene).empty());
+  volumes(frame)[3] = 1.0 / 32;
+  put_touched_solids(frame, std::vector<std::int32_t>(frame.vertices, 0), 1);
+  EXPECT_THAT(look(frame, &with_plane),
+              testing::Not(testing::Contains(testing::Field(&Observation::trouble, Trouble::crushed))));
+}
+
 TEST(Health, FindsSharpTriangles) {
   const Scene scene = scene_with();
   Frame frame = flat();

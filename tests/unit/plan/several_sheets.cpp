@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is planned of a scene by what its sheets are counts each of them.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -43,9 +44,30 @@ TEST(SeveralSheets, TheFirstThatIsBlownUpEndsTheRun) {
 
 TEST(SeveralSheets, NoiseGoesByEachOnesThickness) {
   const Scene scene = with_liquid(sphere(0.1, 0.01) + sphere(0.2, 0.001));
-  EXPECT_THAT(small_noise(scene, measured_sheets(scene, first_frame(scene))),
-              ElementsAre(StartsWith("sheet.0.perturbation={amplitude = \"1 um\""),
-                          StartsWith("sheet.1.perturbation={amplitude = \"0.1 um\"")));
+  const std::vector<scene::Measured> measured = measured_sheets(scene, first_frame(scene));
+  EXPECT_THAT(small_noise(scene, std::array<std::size_t, 2>{0, 1}, measured),
+              ElementsAre(StartsWith("sheet.0.perturbation={amplitude = \"1e+02 um\""),
+                          StartsWith("sheet.1.perturbation={amplitude = \"10 um\"")));
+}
+
+// Two ribbons side by side come down each in its own plane; the third one is pushed out of it.
+TEST(SeveralSheets, EachStaysInItsOwnPlane) {
+  const auto ribbon = [](double x, double aside) {
+    return fmt::format("[[sheet]]\nname = \"r{}\"\nshape = \"rectangle\"\nsize = [0.02, 0.01]\nplane = \"xy\"\n"
+                       "edge_length = 0.003\nthickness = 0.004\ncenter = [0, 0.08, {}]\nvelocity = [0, -0.3, {}]\n",
+                       x, x, aside);
+  };
+  const std::string all = ribbon(-0.025, 0) + ribbon(0.025, 0) + ribbon(0.1, 0.01);
+  const std::string below = "[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\n";
+  EXPECT_THAT(sheets_in_their_planes(with_liquid(all + below)), ElementsAre(0, 1));
+  // both faces meet the same to a thousandth of the thickness
+  const auto over = [&](double center) {
+    return sheets_in_their_planes(
+        with_liquid(ribbon(0, 0) + "[environment]\ngravity = [0, -9.81, 0]\n" +
+                    fmt::format("[[solid]]\nshape = \"sphere\"\nradius = 0.02\ncenter = [0, 0, {}]\n", center)));
+  };
+  EXPECT_THAT(over(1e-6), ElementsAre(0));
+  EXPECT_THAT(over(1e-4), ElementsAre());
 }
 
 TEST(SeveralSheets, RunsLastAsLongAsTheSlowestOne) {

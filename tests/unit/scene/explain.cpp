@@ -233,7 +233,7 @@ Dimensionless numbers
   Reynolds = rho V L / mu = 3.16
       Viscosity and inertia both matter.
 
-Left out: enclosed gas is not compressed; air has neither drag nor mass
+Left out: air has neither drag nor mass
 )");
 }
 

@@ -36,6 +36,18 @@ DimensionlessNumber number_of(const Scene& scene, std::string_view name) {
   return {name, "", std::numeric_limits<double>::quiet_NaN(), ""};
 }
 
+TEST(ExplainHeat, NamesAStartThatWasMeantInCelsius) {
+  const auto warnings = [](std::string text) {
+    text.erase(text.rfind("0\n"), 1);
+    return explain(parse_scene(text, "s")).warnings;
+  };
+  const std::string text = "[sheet]\nshape = \"disk\"\nradius = 0.1\nedge_length = 0.02\nthickness = 0.004\n"
+                           "[material]\ndensity = 2500\nviscosity = 10\n[environment]\ngravity = [0, -10, 0]\n"
+                           "[heat]\nspecific_heat = 1200\ntemperature = 1100\n";
+  EXPECT_THAT(warnings(text), testing::Contains("heat.temperature is 110 K, -163.1 degC: a plain number is in K"));
+  EXPECT_THAT(explain(parse_scene(text, "s")).warnings, Not(testing::Contains(HasSubstr("plain number"))));
+}
+
 TEST(ExplainHeat, SaysNothingWhereThereIsNone) {
   const Scene scene = parse_scene(disk + liquid, "s");
   const Scales scales = scales_of_sheets(scene, {}).front();

@@ -187,6 +187,18 @@ TEST(HardCases, FailureIsBoundedWhereStepsAreChosen) {
   EXPECT_EQ(s.positions, before.positions);
 }
 
+// What was too long is not tried again at once, whichever side of the tolerance the shorter step came to.
+TEST(HardCases, RefusedStepsAreNotWantedNext) {
+  for (const double tolerance : {1e-3, 2e-3, 3e-3, 5e-3, 8e-3}) {
+    State s = square(0.02);
+    StepControl control{tolerance, 0.05};
+    const StepReport r = Stepper(sagging(s), {}).step_within(s, 1, control);
+    ASSERT_GT(r.rejected, 0) << tolerance;
+    ASSERT_LE(r.error, tolerance);
+    EXPECT_NEAR(control.dt, 0.9 * s.time * std::sqrt(tolerance / r.error), 1e-9 * s.time);
+  }
+}
+
 // Films that heavy triangles hang from, without inertia: neither steps of a thousandth of a microsecond nor shorter
 // ones converge. They are done all the same, lower the potential, and say so.
 TEST(HardCases, NoStepConvergesWhereStepsAreChosen) {
