@@ -95,7 +95,7 @@ Vec Body::normal_at(const World& world, const Hit& hit) const {
 }
 
 // What gaps are measured by along a ray that leaves a layer at `hit`.
-float Body::width_at(const World& world, const Hit& hit, const Vec& direction) const {
+float Body::width_at(const World& world, const Face& hit, const Vec& direction) const {
   if (!touches(hit))
     return 0;
   const float width = std::max(world.thickness_at(hit), mean_) / static_cast<float>(world.unit());
@@ -106,7 +106,7 @@ namespace {
 
 // The gap before the face that a ray hits, in widths. None before a face that leads out: that which leads in lies so
 // near before it that rays skip it.
-float gap_before(const Hit& hit, const Vec& direction, const Within& within) {
+float gap_before(const Face& hit, const Vec& direction, const Within& within) {
   if (within.layer || within.layers > 0 || direction.dot(hit.face) > 0)
     return 0;
   return within.width > 0 ? hit.distance / within.width : std::numeric_limits<float>::infinity();
@@ -116,18 +116,18 @@ float gap_before(const Hit& hit, const Vec& direction, const Within& within) {
 
 float Body::bridged(float number) { return narrow_gap + number * (wide_gap - narrow_gap); }
 
-Within Body::after(const World& world, const Hit& hit, const Vec& direction, bool enters, float bridged) const {
+Within Body::after(const World& world, const Face& hit, const Vec& direction, bool enters, float bridged) const {
   const bool out = direction.dot(hit.face) > 0, inside = enters && !out, leaves = !enters && out;
   const std::uint32_t liquid = hit.id == sheet_id ? world.surface().liquid(hit.triangle) : 0;
   return {bridged, inside, inside ? 1 : 0, liquid, leaves ? width_at(world, hit, direction) : 0};
 }
 
-bool Body::is_by_chance(const Hit& hit, const Vec& direction, const Within& within) {
+bool Body::is_by_chance(const Face& hit, const Vec& direction, const Within& within) {
   const float gap = hit.id == sheet_id ? gap_before(hit, direction, within) : 0;
   return gap > narrow_gap && gap < wide_gap;
 }
 
-bool Body::passes(const World& world, const Hit& hit, const Vec& direction, Within& within) const {
+bool Body::passes(const World& world, const Face& hit, const Vec& direction, Within& within) const {
   if (hit.id != sheet_id || !world.surface().closed)
     return false;
   const bool leaves = direction.dot(hit.face) > 0;
@@ -150,7 +150,7 @@ Depth Body::depth(const World& world, const Hit& hit, const Vec& way, float cosi
   const float own = world.thickness_at(hit), slab = cosine * static_cast<float>(world.unit());
   const bool enters = way.dot(hit.face) < 0;
   Within within = after(world, hit, way, enters, wide_gap);
-  Ray ray = leave(hit, way);
+  FacesAhead ahead(world, leave(hit, way));
   float inside = 0, widest = narrow_gap; // of the way; gap so far
   int faces = 0;
   Depth result;
@@ -164,8 +164,7 @@ Depth Body::depth(const World& world, const Hit& hit, const Vec& way, float cosi
     widest = gap;
   };
   for (; faces < most_faces; ++faces) {
-    ++rays;
-    const Hit next = world.nearest(ray);
+    const Face next = ahead.next(rays);
     if (!next.anything())
       break;
     const float gap = gap_before(next, way, within);
@@ -177,7 +176,6 @@ Depth Body::depth(const World& world, const Hit& hit, const Vec& way, float cosi
       inside += next.distance;
     if (!goes_on)
       break;
-    ray = leave(next, way);
   }
   end(wide_gap);
   return result;

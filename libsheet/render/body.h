@@ -40,7 +40,7 @@ public:
   explicit Body(const World& world);
 
   // Whether another layer may touch the one that is hit.
-  [[nodiscard]] bool touches(const Hit& hit) const {
+  [[nodiscard]] bool touches(const Face& hit) const {
     return hit.id == sheet_id && !touching_.empty() && touching_[hit.triangle] != 0;
   }
   // The normal of the surface at a hit of the sheet: smooth across the folds of layers that touch.
@@ -51,12 +51,12 @@ public:
   [[nodiscard]] bool has_layers_that_touch() const { return !touching_.empty(); }
   // Whether the ray that is `within` passes the face that it hits without meeting it: it leaves the layer it is in, or
   // goes from layer to layer in the body. `within` is then where it goes on.
-  [[nodiscard]] bool passes(const World& world, const Hit& hit, const Vec& direction, Within& within) const;
+  [[nodiscard]] bool passes(const World& world, const Face& hit, const Vec& direction, Within& within) const;
   // Whether rays that bridge other gaps do not all do as that one does.
-  [[nodiscard]] static bool is_by_chance(const Hit& hit, const Vec& direction, const Within& within);
+  [[nodiscard]] static bool is_by_chance(const Face& hit, const Vec& direction, const Within& within);
   // Where a ray is that goes on from a layer at `hit` in that direction; `enters`: it came there from outside, so that
   // what is thrown back is in air and bridges nothing.
-  [[nodiscard]] Within after(const World& world, const Hit& hit, const Vec& direction, bool enters,
+  [[nodiscard]] Within after(const World& world, const Face& hit, const Vec& direction, bool enters,
                              float bridged) const;
   // How deep the body is along a ray that meets it at `hit`, which touches. `way`: the direction inside, refracted;
   // `cosine`: of its angle with the normal. Adds the rays that it took to `rays`.
@@ -66,7 +66,7 @@ public:
   [[nodiscard]] float deepest(float thickest) const;
 
 private:
-  [[nodiscard]] float width_at(const World& world, const Hit& hit, const Vec& direction) const;
+  [[nodiscard]] float width_at(const World& world, const Face& hit, const Vec& direction) const;
 
   std::vector<char> touching_; // of Surface's triangles: another layer is near; empty: none is
   std::vector<Vec> normals_;   // of Surface's points

@@ -84,7 +84,7 @@ std::size_t choose(const std::array<float, 4>& chance, float choice) {
 
 // A path on its way.
 struct PathTracer::Path {
-  Ray ray{};
+  FacesAhead ahead;
   Colour weight = Colour::Ones();
   Within within;                  // a sheet whose slab has been met already
   int passed = 0;                 // faces within it
@@ -143,7 +143,7 @@ PathTracer::PathTracer(const World& world, const Lighting& lighting, const std::
 // `number` of [0, 1) decides which gaps between layers the path bridges.
 PathTracer::Path PathTracer::start(const Ray& ray, float number) const {
   Path path;
-  path.ray = ray;
+  path.ahead = {*world_, ray};
   path.within.bridged = Body::bridged(number);
   return path;
 }
@@ -155,19 +155,16 @@ Light PathTracer::radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays
 
 Light PathTracer::radiance(const Ray& ray, const Hit& first, Sampler& sampler, std::uint64_t& rays) const {
   Path path = start(ray, body_.has_layers_that_touch() ? sampler.number() : middle);
+  if (first.anything())
+    path.ahead = {*world_, leave(first, ray.direction)};
   Light light;
   follow(path, first, sampler, rays, light);
   return light;
 }
 
-Hit PathTracer::nearest(const Path& path, std::uint64_t& rays) const {
-  ++rays;
-  return world_->nearest(path.ray);
-}
-
 // The light from infinity at the end of a path.
 Colour PathTracer::from_afar(const Path& path) const {
-  const Vec& direction = path.ray.direction;
+  const Vec& direction = path.ahead.ray().direction;
   if (path.straight)
     return path.weight * lighting_->backdrop(direction);
   if (!path.density && path.indirect)
@@ -185,24 +182,28 @@ Colour PathTracer::bounded(const Colour& light) const {
 }
 
 // Goes on past a face within the liquid that the path has met already.
-bool PathTracer::passes(const Hit& hit, Path& path) const {
-  path.certain = path.certain && !Body::is_by_chance(hit, path.ray.direction, path.within);
-  if (path.passed >= most_passed || !body_.passes(*world_, hit, path.ray.direction, path.within))
+bool PathTracer::passes(const Face& face, Path& path) const {
+  path.certain = path.certain && !Body::is_by_chance(face, path.ahead.ray().direction, path.within);
+  if (path.passed >= most_passed || !body_.passes(*world_, face, path.ahead.ray().direction, path.within))
     return false;
   ++path.passed;
-  path.ray = leave(hit, path.ray.direction);
   return true;
+}
+
+// Where a path meets something next; nothing at its end.
+Hit PathTracer::next_met(Path& path, std::uint64_t& rays) const {
+  for (;;)
+    if (const Face face = path.ahead.next(rays); !passes(face, path))
+      return path.ahead.hit(face);
 }
 
 void PathTracer::follow(Path path, const Hit& first, Sampler& sampler, std::uint64_t& rays, Light& light) const {
   Hit hit = first;
-  for (int meetings = 0; meetings < longest_path; hit = nearest(path, rays)) {
+  for (int meetings = 0; meetings < longest_path; hit = next_met(path, rays)) {
     if (!hit.anything()) {
       light.of(path.certain, path.layer) += from_afar(path);
       return;
     }
-    if (passes(hit, path))
-      continue;
     if (hit.id == sheet_id)
       meet_sheet(hit, path, sampler, rays, light);
     else
@@ -252,7 +253,7 @@ Vec PathTracer::mirrored(const Hit& hit, const Meeting& meeting, const Vec& dire
 
 // The mirror image is what it is to all paths on average, so that it is certain.
 PathTracer::Crossing PathTracer::cross(const Hit& hit, const Path& path, std::uint64_t& rays) const {
-  const Vec& direction = path.ray.direction;
+  const Vec& direction = path.ahead.ray().direction;
   const Meeting meeting = meet(hit, direction);
   const Depth depths = depth(hit, meeting, direction, path.within.bridged, rays);
   const float h = depths.thickness;
@@ -278,8 +279,13 @@ PathTracer::Crossing PathTracer::cross(const Hit& hit, const Path& path, std::ui
 
 // Sends a path on from a meeting with a sheet.
 void PathTracer::go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path) const {
-  path.ray = leave(hit, direction);
+  path.ahead = {*world_, leave(hit, direction)};
   path.within = body_.after(*world_, hit, direction, meeting.enters, path.within.bridged);
+}
+
+// Sends it straight on.
+void PathTracer::go_on(const Hit& hit, const Meeting& meeting, Path& path) const {
+  path.within = body_.after(*world_, hit, path.ahead.ray().direction, meeting.enters, path.within.bridged);
 }
 
 // Takes the mirror image out of a path, to be followed for itself.
@@ -297,7 +303,7 @@ PathTracer::Path PathTracer::split(const Hit& hit, Crossing& crossing, Path& pat
 }
 
 void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const {
-  const Vec direction = path.ray.direction;
+  const Vec direction = path.ahead.ray().direction;
   Crossing crossing = cross(hit, path, rays);
   const Meeting& meeting = crossing.meeting;
   const RoughMirror rough(meeting.normal, direction, optics(hit).slab.liquid().roughness);
@@ -312,7 +318,8 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
       image.certain = false;
       image.density = density;
     }
-    follow(image, nearest(image, rays), sampler, rays, light);
+    const Hit first = next_met(image, rays);
+    follow(image, first, sampler, rays, light);
   }
   const std::array<float, 4> chance = chances(path.weight, crossing.part);
   if (optics(hit).is_rough() && chance[mirror] > 0) {
@@ -331,7 +338,7 @@ void PathTracer::meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::u
   path.certain = path.certain && !crossing.by_chance && lobe == through && chance[lobe] == 1;
   path.weight *= crossing.part[lobe] / chance[lobe];
   if (lobe == through) {
-    go(hit, meeting, direction, path);
+    go_on(hit, meeting, path);
     return;
   }
   path.straight = false;
@@ -354,7 +361,7 @@ Colour PathTracer::lamp_mirrored(const Hit& hit, const Path& image, const Colour
                                  float chance, Sampler& sampler, std::uint64_t& rays) const {
   const float choice = sampler.number();
   const Lighting::Sample lamp = lighting_->sample(choice, sampler.point());
-  const bool before = lamp.direction.dot(hit.face) * image.ray.direction.dot(hit.face) > 0;
+  const bool before = lamp.direction.dot(hit.face) * image.ahead.ray().direction.dot(hit.face) > 0;
   const float density = rough.density(lamp.direction);
   if (!before || !(lamp.light.density > 0 && density > 0))
     return Colour::Zero();
@@ -396,7 +403,7 @@ Colour PathTracer::fade(const Hit& hit, Path& path) const {
   if (!path.straight || !hit.plane)
     return Colour::Zero();
   const float gone = smooth_step(surroundings_.fade_from, surroundings_.fade_to, hit.position.norm());
-  const Colour seen = path.weight * gone * lighting_->backdrop(path.ray.direction);
+  const Colour seen = path.weight * gone * lighting_->backdrop(path.ahead.ray().direction);
   path.weight *= 1 - gone;
   return seen;
 }
@@ -424,7 +431,7 @@ Colour PathTracer::reflectance(const Hit& hit, const Vec& direction) const {
 }
 
 void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const {
-  const Vec direction = path.ray.direction;
+  const Vec direction = path.ahead.ray().direction;
   light.of(path.certain, path.layer) += fade(hit, path);
   const float side = direction.dot(hit.face) < 0 ? 1.0F : -1.0F;
   const Vec face = side * hit.face;
@@ -460,7 +467,7 @@ void PathTracer::meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::u
   path.splits = 0;
   path.indirect = true;
   path.within = {path.within.bridged};
-  path.ray = leave(hit, d);
+  path.ahead = {*world_, leave(hit, d)};
 }
 
 Sight PathTracer::look(const Ray& ray, std::uint64_t& rays) const {
@@ -473,9 +480,8 @@ Sight PathTracer::look(const Ray& ray, std::uint64_t& rays) const {
 // Goes on straight where most of the light does, and into the first mirror image.
 void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
   SightLayer& layer = sight.layers[path.layer];
-  float length = 0;
   for (int meetings = 0; meetings < longest_look; ++meetings) {
-    const Hit hit = nearest(path, rays);
+    const Hit hit = next_met(path, rays);
     if (meetings == 0)
       sight.first = hit;
     if (!hit.anything()) {
@@ -483,12 +489,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
         sight.certain += from_afar(path);
       return;
     }
-    length += hit.distance;
-    if (passes(hit, path)) {
-      meetings -= body_.touches(hit) ? 1 : 0;
-      continue;
-    }
-    const Meeting meeting = meet(hit, path.ray.direction);
+    const Meeting meeting = meet(hit, path.ahead.ray().direction);
     const Colour faded = hit.id == sheet_id ? Colour(Colour::Zero()) : fade(hit, path);
     if (path.certain)
       sight.certain += faded;
@@ -496,7 +497,7 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     layer.end = hit.id;
     layer.normal = meeting.normal;
     layer.position = hit.position;
-    layer.length = length;
+    layer.length = (hit.position - path.ahead.ray().origin).norm();
     layer.weight = path.weight;
     if (hit.id != sheet_id)
       return;
@@ -522,22 +523,22 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     }
     path.certain = path.certain && !crossing.by_chance && chance[through] == 1;
     path.weight *= crossing.part[through];
-    go(hit, meeting, path.ray.direction, path);
+    go_on(hit, meeting, path);
   }
 }
 
 // What a ray that leaves `hit` brings of the light from infinity: all layers of sheet passed straight.
 Colour PathTracer::visible(const Hit& hit, const Vec& direction, Within within, std::uint64_t& rays) const {
   Colour left = Colour::Ones();
-  Ray ray = leave(hit, direction);
+  FacesAhead ahead(*world_, leave(hit, direction));
   for (int layers = 0; layers < longest_path; ++layers) {
-    ++rays;
-    const Hit next = world_->nearest(ray);
-    if (!next.anything())
+    const Face face = ahead.next(rays);
+    if (!face.anything())
       return left;
-    if (next.id != sheet_id)
+    if (face.id != sheet_id)
       return Colour::Zero();
-    if (!body_.passes(*world_, next, direction, within)) {
+    if (!body_.passes(*world_, face, direction, within)) {
+      const Hit next = ahead.hit(face);
       const Meeting meeting = meet(next, direction);
       left *= optics(next)
                   .slab.straight(meeting.cosine, depth(next, meeting, direction, within.bridged, rays).thickness)
@@ -546,7 +547,6 @@ Colour PathTracer::visible(const Hit& hit, const Vec& direction, Within within, 
         return Colour::Zero();
       within = body_.after(*world_, next, direction, meeting.enters, within.bridged);
     }
-    ray = leave(next, direction);
   }
   return Colour::Zero();
 }

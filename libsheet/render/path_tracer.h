@@ -81,12 +81,13 @@ private:
   void look(Path path, Sight& sight, std::uint64_t& rays) const;
   void meet_sheet(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const;
   void meet_matte(const Hit& hit, Path& path, Sampler& sampler, std::uint64_t& rays, Light& light) const;
-  Hit nearest(const Path& path, std::uint64_t& rays) const;
+  Hit next_met(Path& path, std::uint64_t& rays) const;
   [[nodiscard]] Vec mirrored(const Hit& hit, const Meeting& meeting, const Vec& direction) const;
   [[nodiscard]] Crossing cross(const Hit& hit, const Path& path, std::uint64_t& rays) const;
   [[nodiscard]] Meeting meet(const Hit& hit, const Vec& direction) const;
   Depth depth(const Hit& hit, const Meeting& meeting, const Vec& direction, float bridged, std::uint64_t& rays) const;
   void go(const Hit& hit, const Meeting& meeting, const Vec& direction, Path& path) const;
+  void go_on(const Hit& hit, const Meeting& meeting, Path& path) const;
   Path split(const Hit& hit, Crossing& crossing, Path& path) const;
   Colour lamp_at_sheet(const Hit& hit, const Path& path, const Crossing& crossing, const std::array<float, 4>& chance,
                        Sampler& sampler, std::uint64_t& rays) const;
@@ -95,7 +96,7 @@ private:
   Colour arriving(const Hit& hit, const Lighting::Sample& lamp, const Colour& share, const Within& within, float number,
                   std::uint64_t& rays) const;
   Colour visible(const Hit& hit, const Vec& direction, Within within, std::uint64_t& rays) const;
-  [[nodiscard]] bool passes(const Hit& hit, Path& path) const;
+  [[nodiscard]] bool passes(const Face& face, Path& path) const;
   [[nodiscard]] Colour bounded(const Colour& light) const;
   [[nodiscard]] Colour from_afar(const Path& path) const;
   [[nodiscard]] Colour fade(const Hit& hit, Path& path) const;

@@ -2,8 +2,10 @@
 #include "libsheet/render/world.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
@@ -38,16 +40,27 @@ struct World::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   struct alignas(32) Point { // in one cache line, since rays hit points in any order
-    Vec position;
-    float thickness; // of the sheet [m]
-    Vec normal;
+    Vec position, normal;
   };
   struct Geometry {
     std::uint32_t id;
     std::vector<Point> points;
     std::vector<Corners> triangles;
+
+    // Where a face is hit, and the normal there.
+    void place(Hit& hit) const {
+      const Corners& t = triangles[hit.triangle];
+      const auto between = [&](Vec Point::*value) -> Vec {
+        return (1 - hit.u - hit.v) * points[t[0]].*value + hit.u * points[t[1]].*value + hit.v * points[t[2]].*value;
+      };
+      hit.position = between(&Point::position); // rounded less than along the ray
+      const Vec n = between(&Point::normal);
+      const float length = n.norm();
+      hit.normal = length > 1e-3F ? Vec(n / length) : hit.face;
+    }
   };
-  std::vector<Geometry> geometries; // by Embree's number; the sheet's is the first
+  std::vector<Geometry> geometries;            // by Embree's number; the sheet's is the first
+  std::vector<std::array<float, 3>> thickness; // at the corners of its triangles [m]: rays go through many
   std::vector<PlaneF> planes;
 
   ~Impl() {
@@ -71,7 +84,7 @@ struct World::Impl {
       fail(ExitCode::io, "not enough memory for the rays' data structure");
     std::vector<Point> points;
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      const Vec& x = points.emplace_back(Point{to_world(place(positions[i])), 0, normals[i]}).position;
+      const Vec& x = points.emplace_back(Point{to_world(place(positions[i])), normals[i]}).position;
       corners[i] = {x.x(), x.y(), x.z(), 0};
     }
     std::copy(triangles.begin(), triangles.end(), indices);
@@ -86,21 +99,14 @@ struct World::Impl {
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
       return hit;
     const Geometry& g = geometries[r.hit.geomID];
-    const Corners& t = g.triangles[r.hit.primID];
     hit.id = g.id;
     hit.distance = r.ray.tfar;
     hit.face = Vec(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z).stableNormalized();
     hit.u = r.hit.u;
     hit.v = r.hit.v;
     hit.triangle = r.hit.primID;
-    const auto between = [&](Vec Point::*value) -> Vec {
-      return (1 - hit.u - hit.v) * g.points[t[0]].*value + hit.u * g.points[t[1]].*value +
-             hit.v * g.points[t[2]].*value;
-    };
-    hit.position = between(&Point::position); // rounded less than along the ray
-    const Vec n = between(&Point::normal);
-    const float length = n.norm();
-    hit.normal = length > 1e-3F ? Vec(n / length) : hit.face;
+    hit.part = r.hit.geomID;
+    g.place(hit);
     return hit;
   }
 
@@ -135,10 +141,13 @@ World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
     fail(ExitCode::internal, "Embree cannot start: error {}", static_cast<int>(error));
   }
   impl_->scene = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+
   impl_->add(sheet_id, surface.positions, surface.normals, surface.triangles, [](const Vector3& x) { return x; });
-  for (std::size_t p = 0; p < surface.positions.size() && !surface.triangles.empty(); ++p)
-    impl_->geometries.front().points[p].thickness = surface.thickness[surface.source_vertex[p]];
+  for (const Corners& t : surface.triangles) {
+    const auto h = [&](std::size_t corner) { return surface.thickness[surface.source_vertex[t[corner]]]; };
+    impl_->thickness.push_back({h(0), h(1), h(2)});
+  }
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const SolidMesh& mesh = meshes[i];
     std::vector<Vec> normals;
@@ -161,9 +170,7 @@ World::~World() = default;
 
 namespace {
 
-RTCRayHit shoot(RTCScene scene, const Ray& ray, float beyond, float within = infinity) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+RTCRayHit shoot(RTCScene scene, RTCIntersectContext& context, const Ray& ray, float beyond, float within) {
   RTCRayHit r{};
   r.ray.org_x = ray.origin.x();
   r.ray.org_y = ray.origin.y();
@@ -178,6 +185,48 @@ RTCRayHit shoot(RTCScene scene, const Ray& ray, float beyond, float within = inf
   rtcIntersect1(scene, &context, &r);
   return r;
 }
+
+RTCRayHit shoot(RTCScene scene, const Ray& ray, float beyond, float within = infinity) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  return shoot(scene, context, ray, beyond, within);
+}
+
+// The nearest faces that a traversal has come to, for Embree's filter of hits.
+struct Gathering {
+  RTCIntersectContext context{}; // first: Embree hands on its address
+  std::span<Face> found;
+  std::size_t count = 0;
+
+  explicit Gathering(std::span<Face> room) : found(room) {
+    rtcInitIntersectContext(&context);
+    context.filter = [](const RTCFilterFunctionNArguments* a) {
+      auto& ray = *reinterpret_cast<RTCRay*>(a->ray);
+      // A hit that is taken ends what Embree looks at; others do not.
+      a->valid[0] = reinterpret_cast<Gathering*>(a->context)->keep(ray, *reinterpret_cast<RTCHit*>(a->hit)) ? -1 : 0;
+    };
+  }
+
+  // Whether there is no room for any farther than the last; that is then where the ray ends.
+  bool keep(RTCRay& ray, const RTCHit& hit) {
+    if (count == found.size() && ray.tfar >= found.back().distance)
+      return false;
+    std::size_t i = count < found.size() ? count++ : count - 1;
+    for (; i > 0 && found[i - 1].distance > ray.tfar; --i)
+      found[i] = found[i - 1];
+    Face& face = found[i];
+    face.part = hit.geomID;
+    face.distance = ray.tfar;
+    face.face = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
+    face.u = hit.u;
+    face.v = hit.v;
+    face.triangle = hit.primID;
+    if (count < found.size())
+      return false;
+    ray.tfar = found.back().distance;
+    return true;
+  }
+};
 
 } // namespace
 
@@ -199,11 +248,31 @@ Hit World::nearest_sheet(const Ray& ray, float beyond, float within) const {
   return hit.id == sheet_id ? hit : Hit{};
 }
 
-float World::thickness_at(const Hit& hit) const {
-  const Impl::Geometry& sheet = impl_->geometries.front();
-  const Corners& t = sheet.triangles[hit.triangle];
-  const auto h = [&](std::uint32_t point) { return sheet.points[point].thickness; };
-  return (1 - hit.u - hit.v) * h(t[0]) + hit.u * h(t[1]) + hit.v * h(t[2]);
+std::size_t World::faces(const Ray& ray, float beyond, float within, std::span<Face> found) const {
+  Gathering gathering(found);
+  shoot(impl_->scene, gathering.context, ray, beyond, within);
+  for (Face& face : found.first(gathering.count)) {
+    face.id = impl_->geometries[face.part].id;
+    face.face.stableNormalize();
+  }
+  return gathering.count;
+}
+
+Hit World::nearest_plane(const Ray& ray) const {
+  Hit hit;
+  impl_->planes_nearer(ray, 0, hit);
+  return hit;
+}
+
+Hit World::hit_of(const Face& face) const {
+  Hit hit{face, Vec::Zero(), Vec::Zero()};
+  impl_->geometries[face.part].place(hit);
+  return hit;
+}
+
+float World::thickness_at(const Face& hit) const {
+  const std::array<float, 3>& h = impl_->thickness[hit.triangle];
+  return (1 - hit.u - hit.v) * h[0] + hit.u * h[1] + hit.v * h[2];
 }
 
 const Surface& World::surface() const { return impl_->surface; }
@@ -211,10 +280,56 @@ Vec World::to_world(const Vector3& x) const { return impl_->to_world(x); }
 Vector3 World::from_world(const Vec& x) const { return impl_->center + impl_->unit * x.cast<double>(); }
 double World::unit() const { return impl_->unit; }
 
+namespace {
+
+// How far from a surface rays start there.
+float step_off(const Vec& position) { return skip * std::max(1.0F, position.cwiseAbs().maxCoeff()); }
+
+Face counted_from(float distance, Face face) {
+  face.distance -= distance;
+  return face;
+}
+
+} // namespace
+
+FacesAhead::FacesAhead(const World& world, const Ray& ray)
+    : world_(&world), ray_(ray), plane_(world.nearest_plane(ray)) {}
+
+// Whether a ray that has left the last face would not hit it, since it starts beside that (leave()).
+bool FacesAhead::is_before(const Face& face) const {
+  if (!last_.anything())
+    return false;
+  const float off = step_off(ray_.origin + last_.distance * ray_.direction), cosine = ray_.direction.dot(face.face);
+  const float side = ray_.direction.dot(last_.face) > 0 ? off : -off;
+  return !(face.distance - last_.distance > side * last_.face.dot(face.face) / cosine);
+}
+
+bool FacesAhead::look_on(std::uint64_t& rays) {
+  if (count_ < found_.size())
+    return false;
+  ++rays;
+  const float beyond = last_.anything() ? std::nextafter(found_.back().distance, infinity) : 0;
+  count_ = world_->faces(ray_, beyond, plane_.anything() ? plane_.distance : infinity, found_);
+  at_ = 0;
+  return count_ > 0;
+}
+
+Face FacesAhead::next(std::uint64_t& rays) {
+  while (at_ < count_ || look_on(rays))
+    if (const Face& face = found_[at_++]; !is_before(face))
+      return counted_from(std::exchange(last_, face).distance, face);
+  return counted_from(last_.distance, plane_);
+}
+
+Hit FacesAhead::hit(const Face& told) const {
+  Hit hit = told.plane || !told.anything() ? plane_ : world_->hit_of(told);
+  hit.distance = told.distance;
+  return hit;
+}
+
 Ray leave(const Hit& hit, const Vec& direction) {
   const float side = direction.dot(hit.face) > 0 ? 1.0F : -1.0F;
-  const float size = std::max(1.0F, hit.position.cwiseAbs().maxCoeff());
-  return {hit.position + side * skip * size * hit.face, direction};
+  return {hit.position + side * step_off(hit.position) * hit.face, direction};
 }
 
 } // namespace sheet::render

@@ -379,6 +379,9 @@ motion = {kind = "keyframed", file = "scene_solid_0.csv"}
         for number in (0, 1):
             body = self.add_on.body_files.read_body(self.folder / f"told/scene_solid_{number}.ply")
             self.assertGreater(len(body.triangle), 50)
+        done = subprocess.run(["sheet-init", "--check", str(self.folder / "told/scene.toml")], capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
         bpy.context.view_layer.objects.active = circle  # as the sheet of a scene, too
         bpy.ops.sheet.export_scene(filepath=str(self.folder / "circle.toml"))
         self.assertGreater((self.folder / "circle.ply").stat().st_size, 1000)

@@ -152,7 +152,8 @@ class Told(Case):
         self.assertEqual(self.told(), "")
         self.assertAlmostEqual(self.area_and_volume("scene")[0], 2 * 0.4**2, places=6)
         fine = cloth.modifiers.new("Fine", "SUBSURF")
-        self.told()
+        self.assertEqual(self.told(), 'modifier "Fine" of "Cloth" has 1 level in viewports and 2 levels in renders: the'
+                         " run begins with the first")
         self.assertEqual(len(self.body().triangle), 2 * 4 * 2 * 100)
         fine.show_viewport = False
         self.assertEqual(self.told(), 'modifier "Fine" of "Cloth" is off in viewports: the run begins without it')
@@ -161,6 +162,51 @@ class Told(Case):
         cloth.modifiers.remove(fine)
         cloth.modifiers.new("Thick", "SOLIDIFY")
         self.assertRegex(self.told(), 'modifier "Thick" of "Cloth" makes two sheets of one.*Thickness')
+
+    def test_simplified_subdivisions_are_told(self):
+        cloth = self.cloth()
+        fine = cloth.modifiers.new("Fine", "SUBSURF")
+        fine.levels = fine.render_levels = 2
+        self.assertEqual(self.told(), "")
+        self.assertEqual(len(self.body().triangle), 2 * 16 * 100)
+        self.scene.render.use_simplify, self.scene.render.simplify_subdivision = True, 0
+        self.assertRegex(self.told(), '"Fine" of "Cloth" has 0 levels in viewports and 2 levels in renders')
+        self.assertEqual(len(self.body().triangle), 2 * 100)
+
+    def test_a_flat_solid_is_a_plane_and_an_open_one_is_refused(self):
+        self.cloth(height=0.5)
+        bpy.ops.mesh.primitive_plane_add(size=1, location=(0.3, 0, 0.1), rotation=(np.pi + 0.1, 0, 0))  # looks down
+        plane = bpy.context.object
+        plane.sheet_part.role, plane.sheet_part.contact = "SOLID", "slip"
+        bpy.context.view_layer.update()
+        self.assertEqual(self.told(), '"Plane" is flat: the run takes it as a plane without end. For a plate with edges'
+                         " give it a thickness (modifier Solidify)")
+        solid, = self.add_on.compat.read_toml((self.folder / "told/scene.toml").read_text())["solid"]
+        self.assertEqual((solid["shape"], solid["contact"]), ("plane", "slip"))
+        np.testing.assert_allclose(solid["center"], (0.3, 0, 0.1), atol=1e-6)
+        np.testing.assert_allclose(solid["normal"], (0, -np.sin(0.1), np.cos(0.1)), atol=1e-6)
+        done = subprocess.run(["sheet-init", "--check", str(self.folder / "told/scene.toml")], capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.turn(plane)
+        with self.assertRaisesRegex(self.add_on.SheetError, '"Plane" moves and is flat: give it a thickness'):
+            self.told()
+        plane.animation_data_clear()
+        plane.modifiers.new("Thick", "SOLIDIFY").thickness = 0.05
+        self.assertEqual(self.told(), "")
+        self.assertAlmostEqual(self.area_and_volume("scene_solid_0")[1], 0.05, places=4)
+        bpy.data.objects.remove(plane)
+        ball = self.ball()
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.edge_split(type="EDGE")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertEqual(self.told(), "")  # its vertices are one again in the run
+        self.assertEqual(len(self.body("scene_solid_0").position), 16 * 7 + 2)
+        bpy.data.objects.remove(ball)
+        bpy.ops.mesh.primitive_cylinder_add(end_fill_type="NOTHING", radius=0.1, depth=0.2, vertices=12)
+        bpy.context.object.sheet_part.role = "SOLID"
+        with self.assertRaisesRegex(self.add_on.SheetError, '"Cylinder" is open along 24 edges.*Solidify'):
+            self.told()
 
     def test_what_modifiers_make_of_a_uv_map_comes_back(self):
         cloth = self.cloth()

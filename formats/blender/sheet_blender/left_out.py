@@ -38,7 +38,21 @@ def _of_modifiers(plan: Plan) -> list[str]:
             if modifier.show_viewport != modifier.show_render:
                 told.append(f"{where} is off in viewports: the run begins without it" if modifier.show_render else
                             f"{where} is off in renders: the run begins with it")
+            elif (levels := _levels(modifier)) is not None and levels[0] != levels[1]:
+                told.append(f"{where} has {levels[0]} in viewports and {levels[1]} in renders: the run begins with the"
+                            " first")
             if modifier.type == "SOLIDIFY" and modifier.show_viewport and thing in sheets:
                 told.append(f"{where} makes two sheets of one, joined at the rim: take it away, as a sheet has its"
                             " Thickness without it")
     return told
+
+
+def _levels(modifier: bpy.types.Modifier) -> tuple[str, str] | None:
+    """How finely a modifier subdivides in viewports and in renders, as the scene's Simplify lets it; None if it does
+    not subdivide."""
+    if modifier.type not in ("SUBSURF", "MULTIRES"):
+        return None
+    render = bpy.context.scene.render
+    most = (render.simplify_subdivision, render.simplify_subdivision_render) if render.use_simplify else (100, 100)
+    levels = (min(modifier.levels, most[0]), min(modifier.render_levels, most[1]))
+    return tuple(f"{level} {'level' if level == 1 else 'levels'}" for level in levels)  # type: ignore[return-value]

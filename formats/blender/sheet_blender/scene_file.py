@@ -9,13 +9,11 @@ import bpy
 import numpy as np
 
 from .errors import SheetError
-from .evaluated import surface_of, triangles_of
 from .holds import quoted, row
 from .left_out import told_of_things
-from .movement import changes_shape, motion_of, moves, write_rows
 from .plan import Material, Plan, SheetPlan, Written, holds_by_name, plain
-from .ply_file import write_ply
 from .sheet_tables import SheetTables, material_lines
+from .solid_tables import write_solid
 
 FREE_FALL = 9.81  # [m/s²]
 
@@ -52,7 +50,7 @@ def write_scene(path: str, plan: Plan) -> Written:
     lines += tables.behind
     for number, (solid, contact) in enumerate(plan.solids):
         file = target.with_name(f"{target.stem}_solid_{number}.ply")
-        lines += _write_solid(file, solid, contact, written)
+        lines += write_solid(file, solid, contact, plan, written)
     target.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return written
 
@@ -91,26 +89,3 @@ def told_of_scene(scene: bpy.types.Scene) -> list[str]:
     if fields:
         told.append(f'force fields do not act on the sheet: "{fields[0]}"' + (" and others" if len(fields) > 1 else ""))
     return told
-
-
-def _write_solid(file: pathlib.Path, solid: bpy.types.Object, contact: str, written: Written) -> list[str]:
-    files, told = written
-    with surface_of(solid) as mesh:
-        shape = triangles_of(mesh, solid.matrix_world, bpy.context.scene.unit_settings.scale_length)
-    write_ply(file, shape, None, {}, {})
-    files.append(str(file))
-    lines = ["", f"[[solid]] # {quoted(solid.name)}", 'shape = "mesh"', f"file = {quoted(file.name)}"]
-    if contact != "stick":
-        lines.append(f'contact = "{contact}"')
-    if changes_shape(solid, bpy.context.scene):
-        told.append(f'"{solid.name}" changes its shape from frame to frame: solids move, but keep the shape of the'
-                    " first frame")
-    rows = motion_of(solid, bpy.context.scene)
-    if moves(rows):
-        file = file.with_suffix(".csv")
-        write_rows(file, rows)
-        files.append(str(file))
-        lines += ["center = [0, 0, 0] # the mesh stands where it is at time 0",
-                  "rotation = {axis = [0, 0, 1], angle = 0}",
-                  f'motion = {{kind = "keyframed", file = {quoted(file.name)}}}']
-    return lines

@@ -96,6 +96,34 @@ std::vector<Colour> seen(const formats::Frame& frame, const Liquid& liquid, Draw
 
 const Liquid clear{1.5F, {0, 1, 2}, Colour::Zero()}; // lets pass 0.82 of blue light over ten layers
 
+TEST(FacesAhead, AreThoseThatRaysFromEachToTheNextFind) {
+  const formats::Frame frame = stack(12, 0.98);
+  const auto world = world_of(frame, Drawn::as_body, {{ground_id, Vector3(0, -0.1, 0), Vector3::UnitY()}});
+  for (int i = 0; i < 200; ++i) {
+    const Vec start(0.6F * std::sin(2.1F * static_cast<float>(i)), 0.5F, 0.6F * std::cos(3.3F * static_cast<float>(i)));
+    const Vec aim(0.4F * std::cos(1.7F * static_cast<float>(i)), -0.1F, 0.4F * std::sin(0.7F * static_cast<float>(i)));
+    Ray ray{start, (aim - start).normalized()};
+    FacesAhead ahead(*world, ray);
+    std::uint64_t traversals = 0;
+    int faces = 0;
+    for (Hit hit = world->nearest(ray); hit.anything(); hit = world->nearest(ray), ++faces) {
+      const Hit told = ahead.hit(ahead.next(traversals));
+      ASSERT_EQ(told.id, hit.id) << "ray " << i << ", face " << faces;
+      EXPECT_NEAR(told.distance, hit.distance, 3e-5F);
+      // Those rays go aside by 1e-6 at each face, along its normal.
+      EXPECT_LT((told.position - hit.position).norm(), 2e-6F * static_cast<float>(faces + 1) / -ray.direction.y());
+      EXPECT_LT((told.normal - hit.normal).norm(), 0.01F);
+      if (hit.plane)
+        break;
+      ray = leave(hit, ray.direction);
+    }
+    if (!world->nearest(ray).plane) {
+      EXPECT_FALSE(ahead.next(traversals).anything()) << "ray " << i << " behind " << faces;
+    }
+    EXPECT_LE(traversals, static_cast<std::uint64_t>(faces) / 16 + 1);
+  }
+}
+
 TEST(Body, TenLayersThatTouchLetThroughWhatOneSlabDoes) {
   for (const double degrees : {90.0, 50.0}) {
     const std::vector<Colour> slab = seen(stack(1, 1, 10 * layer_thickness), clear, Drawn::as_layers, degrees, 1);
