@@ -66,6 +66,12 @@ Node parse_toml(std::string_view text, std::string_view name) {
     std::string reason(error.description());
     std::replace_if(
         reason.begin(), reason.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    constexpr std::string_view twice = "cannot redefine existing table '"; // [solid] over each of several
+    if (const std::size_t at = reason.find(twice); at != std::string::npos) {
+      const std::size_t begin = at + twice.size();
+      const std::string table = reason.substr(begin, reason.find('\'', begin) - begin);
+      reason += fmt::format(": where there are several, each is written [[{}]]", table);
+    }
     const Place place = place_of(error.source(), ascii);
     fail(ExitCode::bad_input, "{}:{}:{}: {}", name, place.line, place.column, reason);
   } catch (const TomlAssertion&) {

@@ -57,6 +57,12 @@ TEST(Document, HostileTexts) {
   EXPECT_EQ(problem(repeat("µ", 1001, "a = \"")), "s:1:1006: too many characters that are not ASCII");
 }
 
+TEST(Document, TablesThatStandTwiceAreWrittenAsSeveral) {
+  EXPECT_EQ(problem("[solid]\nshape = \"plane\"\n[solid]\nshape = \"plane\"\n"),
+            "s:3:1: Error while parsing table header: cannot redefine existing table 'solid': where there are several, "
+            "each is written [[solid]]");
+}
+
 TEST(Document, SyntaxErrorsHaveTheirPlace) {
   EXPECT_TRUE(problem("[sheet]\nshape = disk\n").starts_with("s:2:9: ")) << problem("[sheet]\nshape = disk\n");
   EXPECT_TRUE(problem("a = 1\na = 2\n").starts_with("s:2:"));
