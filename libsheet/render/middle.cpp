@@ -221,17 +221,47 @@ double median_edge(std::span<const Vector3> x, const Mesh& mesh) {
   return *at;
 }
 
-// How often triangles are parted in four whose edges turn by that.
-int partings_of(const Middle& middle, const Mesh& mesh, double turn, const PartingLimits& until) {
+// How often triangles are parted in four, and how far the last parts lie where they belong: 0 on those of the parting
+// before, 1 all the way. Rises from 0 where a parting begins to be worth while, so that films do not jump there.
+struct Partings {
+  int count = 0;
+  double last = 1;
+};
+
+// Of triangles whose edges turn by that.
+Partings partings_of(const Middle& middle, const Mesh& mesh, double turn, const PartingLimits& until) {
+  constexpr double by_turn = 0.25, by_chord = 1, by_number = 0.2; // the widths in which it rises to 1
   const double edge = median_edge(middle.positions, mesh);
   if (!(turn > smooth_turn))
-    return 0;
-  int partings = std::min(most_partings, static_cast<int>(std::ceil(std::log2(turn / smooth_turn))));
+    return {};
+  const double wanted = std::log2(turn / smooth_turn);
+  int partings = std::min(most_partings, static_cast<int>(std::ceil(wanted)));
   const double chord = edge * turn / 8; // its height; a quarter of that in halves that turn by half as much
   while (partings > 0 && (middle.triangles.size() << (2 * partings) > until.most_triangles ||
                           std::ldexp(chord, -2 * (partings - 1)) < until.flat))
     --partings;
-  return partings;
+  if (partings == 0)
+    return {};
+  const double number = std::ldexp(static_cast<double>(middle.triangles.size()), 2 * partings);
+  const double last =
+      std::min({(wanted - (partings - 1)) / by_turn,
+                until.flat > 0 ? (std::ldexp(chord, -2 * (partings - 1)) / until.flat - 1) / by_chord : 1,
+                (static_cast<double>(until.most_triangles) / number - 1) / by_number});
+  return {partings, std::clamp(last, 0.0, 1.0)};
+}
+
+// Draws the last parting's points back as far as its fineness says. `coarse`: the middle before all partings, if that
+// was the only one.
+void draw_back(Middle& middle, const Middle* coarse) {
+  const double back = 1 - middle.fineness;
+  std::vector<Vector3>& x = middle.positions;
+  for (std::size_t v = 0; coarse != nullptr && v < coarse->positions.size(); ++v)
+    x[v] += back * (coarse->positions[v] - x[v]);
+  std::size_t point = x.size() - middle.of_edges.size();
+  for (const auto& [a, b] : middle.of_edges) {
+    x[point] += back * ((x[a] + x[b]) / 2 - x[point]);
+    ++point;
+  }
 }
 
 // Of the vertices of `coarse`, whose triangles are as large as their parts on `smooth`.
@@ -276,16 +306,22 @@ Middle middle_of(const formats::Frame& frame) {
 Middle smoothed(const Middle& middle, std::span<const double> volumes, const PartingLimits& until) {
   Mesh mesh = mesh_of(middle.positions.size(), middle.triangles);
   const std::vector<double> turns = turns_of_edges(middle, mesh);
-  const int partings = partings_of(middle, mesh, turn_of_most(mesh, turns), until);
-  if (partings == 0)
+  const Partings partings = partings_of(middle, mesh, turn_of_most(mesh, turns), until);
+  if (partings.count == 0)
     return middle;
   find_corners(middle.positions, mesh);
   Middle result = middle;
   result.positions = control_points(middle.positions, mesh, turns);
   std::vector<std::array<std::uint32_t, 2>> parents;
-  for (int i = 0; i < partings; ++i)
+  std::size_t before_last = 0; // parents
+  for (int i = 0; i < partings.count; ++i) {
+    before_last = parents.size();
     part(result, mesh, parents);
+  }
   result.positions = limits(result.positions, mesh);
+  result.of_edges.assign(parents.begin() + static_cast<std::ptrdiff_t>(before_last), parents.end());
+  result.fineness = partings.last;
+  draw_back(result, partings.count == 1 ? &middle : nullptr);
   result.thickness = thickness_on(result, middle, volumes);
   for (const auto& [a, b] : parents)
     result.thickness.push_back(0.5 * (result.thickness[a] + result.thickness[b]));

@@ -15,6 +15,9 @@ struct Middle {
   std::vector<double> thickness;              // of each vertex: all volume around it / all area around it [m]
   std::vector<Corners> triangles;             // with area
   std::vector<std::uint32_t> source_triangle; // of the frame
+  // The last vertices lie in the middles of edges of a coarser surface, with these ends,
+  std::vector<std::array<std::uint32_t, 2>> of_edges{};
+  double fineness = 1; // and are drawn back to them: 0 all the way, 1 not at all, normals likewise
 };
 
 // The frame's, flat between its vertices.
@@ -37,8 +40,8 @@ struct PartingLimits {
 // near to the vertices but follows the noise of single ones by half, and less near where folds are as tight as edges
 // are long; rims are cubic splines but for corners below 135 degrees [Biermann, Levin, Zorin 2000]. Edges of other than
 // two triangles stay as they are. Triangles are parted in four until 99 of 100 edges turn by less than 6 degrees, at
-// most three times, and no farther than `until`. The volume, area times thickness, is that of `volumes` [m³], of the
-// frame's triangles.
+// most three times, and no farther than `until`; the last parts rise from the coarser surface where they begin to
+// matter. The volume, area times thickness, is that of `volumes` [m³], of the frame's triangles.
 [[nodiscard]] Middle smoothed(const Middle& middle, std::span<const double> volumes, const PartingLimits& until);
 
 } // namespace sheet::render

@@ -27,6 +27,19 @@ std::vector<Vector3> vertex_normals(std::span<const Vector3> x, std::span<const 
   return sum;
 }
 
+// Those of the last parting's points between those of their edges' ends, as it is fine.
+std::vector<Vector3> normals_of(const Middle& middle) {
+  std::vector<Vector3> normals = vertex_normals(middle.positions, middle.triangles);
+  std::size_t point = normals.size() - middle.of_edges.size();
+  for (const auto& [a, b] : middle.of_edges) {
+    Vector3& own = normals[point++];
+    const Vector3 drawn_back = (1 - middle.fineness) * (normals[a] + normals[b]) / 2 + middle.fineness * own;
+    if (middle.fineness < 1 && drawn_back.norm() > 1e-3)
+      own = drawn_back.normalized();
+  }
+  return normals;
+}
+
 struct RimEdge {
   std::uint32_t from, to, triangle; // along the triangle
 };
@@ -97,7 +110,7 @@ void add_bead(std::span<const Vector3> x, std::span<const Corners> triangles, st
 } // namespace
 
 Surface make_surface(const Middle& middle, double thinnest) {
-  const auto& [x, h, triangles, source] = middle;
+  const auto& [x, h, triangles, source, of_edges, fineness] = middle;
   double area = 0, volume = 0;
   for (const Corners& t : triangles) {
     const double a = area_normal(x, t).norm();
@@ -107,7 +120,7 @@ Surface make_surface(const Middle& middle, double thinnest) {
   Surface s;
   s.closed = volume > thinnest * area;
   s.thickness.assign(h.begin(), h.end());
-  const std::vector<Vector3> normals = vertex_normals(x, triangles);
+  const std::vector<Vector3> normals = normals_of(middle);
   const auto count = static_cast<std::uint32_t>(x.size());
   for (const double side : {0.5, -0.5}) {
     if (!s.closed && side < 0)

@@ -112,6 +112,35 @@ double ripple(const Middle& middle, int row) {
   return top(row) - top(row + 1);
 }
 
+// As chords come to matter, parts rise from the coarser surface, and so do their normals.
+TEST(Middle, FinerPartsBeginOnTheCoarserSurface) {
+  const formats::Frame frame = coarse_ball();
+  const Middle flat = middle_of(frame);
+  for (std::size_t parts : {4, 16}) {
+    double kept = 1e-5, lost = 1; // limits with and without those parts
+    while (lost / kept > 1.0001) {
+      const double limit = std::sqrt(kept * lost);
+      (smoothed(flat, volumes(frame), {plenty, limit}).triangles.size() >= parts * flat.triangles.size() ? kept
+                                                                                                         : lost) =
+          limit;
+    }
+    const Middle fine = smoothed(flat, volumes(frame), {plenty, kept});
+    const Middle coarse = smoothed(flat, volumes(frame), {plenty, lost});
+    ASSERT_EQ(fine.triangles.size(), 4 * coarse.triangles.size());
+    const std::vector<Vec> normals = make_surface(fine, 1e-9).normals, before = make_surface(coarse, 1e-9).normals;
+    const std::size_t old = coarse.positions.size();
+    ASSERT_EQ(coarse.fineness, 1);
+    for (std::size_t v = 0; v < fine.positions.size(); ++v) {
+      const auto ends = v < old
+                            ? std::array<std::uint32_t, 2>{static_cast<std::uint32_t>(v), static_cast<std::uint32_t>(v)}
+                            : fine.of_edges[v - old];
+      const Vector3 where = (coarse.positions[ends[0]] + coarse.positions[ends[1]]) / 2;
+      EXPECT_LT((fine.positions[v] - where).norm(), 1e-5);
+      EXPECT_LT((normals[v] - (before[ends[0]] + before[ends[1]]).normalized()).norm(), 1e-3F);
+    }
+  }
+}
+
 TEST(Middle, TheRidgeOfATightFoldIsEven) {
   const Middle sharp = roof(9, 5),
                smooth = smoothed(sharp, std::vector<double>(sharp.triangles.size(), 1e-3), {plenty});
