@@ -144,8 +144,9 @@ constexpr std::array table{
          .counted = "",
          .noted = {.worst = 4, .share = 0, .times = 3},
          .serious = {.worst = 10, .share = 0, .times = 3},
-         .remedy = "what should fold does not, or has no room: [[sheet]] perturbation where all is symmetric about the "
-                   "sheet's plane (sheet-init --check), more room, or shorter edges"},
+         .remedy = "what should fold does not, or has no room: contact = \"flow\" on what it is poured on, [[sheet]] "
+                   "perturbation where all is symmetric about the sheet's plane (sheet-init --check), more room, or "
+                   "shorter edges"},
 };
 
 } // namespace

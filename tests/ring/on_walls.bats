@@ -10,12 +10,28 @@ setup() {
 }
 
 # usage: run_scene NAME UNTIL FPS [EMIT]: the ring that sheet-init --check proposes, from NAME.toml to NAME.csv
+# TOLERANCE=: of its steps.
 run_scene() {
   sheet-init "$1.toml" |
     sheet-loop -q --until "$2" --fps "$3" -o "$1.sheet" -- \
-      "sheet-remesh --smooth | ${4:-} sheet-step --tolerance 0.01 | sheet-collide"
+      "sheet-remesh --smooth | ${4:-} sheet-step --tolerance ${TOLERANCE:-0.01} | sheet-collide"
   sheet-check "$1.sheet"
   sheet-info --csv "$1.sheet" > "$1.csv"
+}
+
+# usage: greatest NAME COLUMN, least NAME COLUMN: of all frames
+greatest() {
+  awk -F, -v name="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i }
+    NR == 2 || NR > 2 && $c > most { most = $c } END { print most }' "$1.csv"
+}
+least() {
+  awk -F, -v name="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i }
+    NR == 2 || NR > 2 && $c < most { most = $c } END { print most }' "$1.csv"
+}
+
+# usage: median OF_THREE NUMBERS GIVEN: folds are chaos, one run says little
+median() {
+  printf '%s\n' "$@" | sort -g | sed -n 2p
 }
 
 # usage: last NAME COLUMN: of the last frame
@@ -53,7 +69,7 @@ size = ["40 mm", "20 mm"]
 edge_length = "4 mm"
 thickness = "2.5 mm"
 plane = "yz"
-perturbation = {amplitude = "0.25 um", seed = 1}
+perturbation = {amplitude = "25 um", seed = 1}
 center = [0, "50 mm", 0]
 velocity = [0, "-0.15 m/s", 0]
 [material]
@@ -72,10 +88,15 @@ contact = "flow"
 [contact]
 self = true
 END
-  run_scene curtain 1 50 'sheet-emit |'
-  echo "steps $(last curtain step), at most $(last curtain thickness_max) m thick"
-  (($(last curtain step) <= 1000))
-  awk -v h="$(last curtain thickness_max)" 'BEGIN { exit !(h < 0.012) }'
+  local seed deepest=()
+  for seed in 1 2 3; do
+    sed "s/seed = 1/seed = $seed/" curtain.toml > "curtain-$seed.toml"
+    run_scene "curtain-$seed" 1 50 'sheet-emit |'
+    deepest+=("$(last "curtain-$seed" thickness_max)")
+    echo "steps $(last "curtain-$seed" step), at most ${deepest[-1]} m thick"
+    (($(last "curtain-$seed" step) <= 1000))
+  done
+  awk -v h="$(median "${deepest[@]}")" 'BEGIN { exit !(h < 0.012) }'
 }
 
 @test "a drop thicker than its edges rests where it sticks, and is level and quiet where it flows" {
@@ -208,13 +229,14 @@ END
 # The scene of tests/everyday: the layer becomes twice as deep as what is let in, and runs away beside the inlet's ends.
 @test "beside the ends of a drowned inlet nothing folds" {
   cp "$BATS_TEST_DIRNAME/../everyday/lava-stairs.toml" .
-  run_scene lava-stairs 3 10 'sheet-emit |'
-  local thickest angle
-  thickest=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "thickness_max") c = i }
-    NR > 1 && $c > t { t = $c } END { print t }' lava-stairs.csv)
-  angle=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "angle_min_degrees") c = i }
-    NR == 2 || NR > 2 && $c < t { t = $c } END { print t }' lava-stairs.csv)
-  echo "steps $(last lava-stairs step), at most $thickest m thick, least angle $angle"
-  (($(last lava-stairs step) <= 200))
-  awk -v h="$thickest" -v angle="$angle" 'BEGIN { exit !(h < 0.5 && angle > 10) }'
+  local tolerance thickest=()
+  for tolerance in 0.0096 0.01 0.0104; do
+    TOLERANCE=$tolerance run_scene lava-stairs 3 10 'sheet-emit |'
+    thickest+=("$(greatest lava-stairs thickness_max)")
+    echo "steps $(last lava-stairs step), at most ${thickest[-1]} m thick," \
+      "least angle $(least lava-stairs angle_min_degrees)"
+    (($(last lava-stairs step) <= 200))
+    awk -v angle="$(least lava-stairs angle_min_degrees)" 'BEGIN { exit !(angle > 10) }'
+  done
+  awk -v h="$(median "${thickest[@]}")" 'BEGIN { exit !(h < 0.5) }'
 }
