@@ -8,6 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "libsheet/base/each.h"
 #include "libsheet/base/stopwatch.h"
 
 namespace sheet {
@@ -51,7 +52,8 @@ ElementGroup make_group(const Connectivity& mesh, const Term& term) {
 
 Assembly::Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms, bool angles)
     : mesh_(std::move(mesh)), angles_(angles) {
-  // Terms on triangles share one group, with the edges if any of them needs those; so do terms on vertices.
+  // Terms on triangles share one group, with the edges if any of them needs those; so do terms on vertices, and those
+  // on the same four vertices, as contacts have three.
   const auto with_edges =
       std::ranges::find_if(terms, [](const auto& t) { return t->stencil() == Stencil::triangle_edges; });
   int of_triangles = -1, of_vertices = -1;
@@ -59,9 +61,13 @@ Assembly::Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms,
     int own = -1;
     int& group = on_triangles(term->stencil()) ? of_triangles : term->stencil() == Stencil::vertex ? of_vertices : own;
     if (group < 0) {
-      group = static_cast<int>(groups_.size());
       const bool widen = on_triangles(term->stencil()) && with_edges != terms.end();
-      groups_.push_back(make_group(*mesh_, widen ? **with_edges : *term));
+      ElementGroup made = make_group(*mesh_, widen ? **with_edges : *term);
+      const auto same = std::ranges::find_if(
+          groups_, [&](const ElementGroup& g) { return g.stencil == made.stencil && g.nodes == made.nodes; });
+      group = static_cast<int>(same - groups_.begin());
+      if (same == groups_.end())
+        groups_.push_back(std::move(made));
     }
     group_of_term_.push_back(group);
   }
@@ -86,19 +92,33 @@ Assembly::Assembly(std::shared_ptr<const Connectivity> mesh, const Terms& terms,
 }
 
 std::vector<Edge> Assembly::vertex_graph() const {
-  std::vector<Edge> graph = mesh_->edges;
-  for (const ElementGroup& group : groups_) {
-    if (shared(group.stencil))
-      continue;
-    for (std::size_t i = 0; i < group.nodes.size(); i += 4)
-      for (int a = 0; a < 4; ++a)
-        for (int b = 0; b < a; ++b)
-          graph.push_back({std::min(group.nodes[i + a], group.nodes[i + b]), //
-                           std::max(group.nodes[i + a], group.nodes[i + b])});
-  }
-  if (!std::ranges::is_sorted(graph))
-    std::ranges::sort(graph);
-  graph.erase(std::unique(graph.begin(), graph.end()), graph.end());
+  const std::size_t vertices = mesh_->vertices;
+  const auto each_edge = [&](auto&& visit) {
+    for (const Edge& e : mesh_->edges)
+      visit(e[0], e[1]);
+    for (const ElementGroup& group : groups_)
+      if (!shared(group.stencil))
+        for (std::size_t i = 0; i < group.nodes.size(); i += 4)
+          for (std::size_t a = 0; a < 4; ++a)
+            for (std::size_t b = 0; b < a; ++b)
+              visit(group.nodes[i + a], group.nodes[i + b]);
+  };
+  std::vector<std::uint32_t> start(vertices + 1, 0), last(vertices);
+  each_edge([&](std::uint32_t a, std::uint32_t b) { ++start[std::min(a, b) + 1]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<std::uint32_t> higher(start.back());
+  std::copy_n(start.begin(), vertices, last.begin());
+  each_edge([&](std::uint32_t a, std::uint32_t b) { higher[last[std::min(a, b)]++] = std::max(a, b); });
+  each_in_parallel(vertices, [&](std::size_t v) {
+    const auto first = higher.begin() + start[v], end = higher.begin() + last[v];
+    std::sort(first, end);
+    last[v] = static_cast<std::uint32_t>(std::unique(first, end) - higher.begin());
+  });
+  std::vector<Edge> graph;
+  graph.reserve(higher.size());
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    for (std::uint32_t k = start[v]; k < last[v]; ++k)
+      graph.push_back({v, higher[k]});
   return graph;
 }
 

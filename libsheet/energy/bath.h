@@ -35,7 +35,7 @@ public:
     for (std::size_t t = 0; t < start_.size(); ++t) {
       const Corners& c = triangles[t];
       const TriangleArea area(x[c[0]], x[c[1]], x[c[2]]);
-      start_[t] = {.steep = steep * area.area, .overturned = up_.dot(area.normal) < 0};
+      start_[t] = {.steep = steepest * area.area, .overturned = up_.dot(area.normal) < 0};
       for (int a = 0; a < 3 && start_[t].overturned; ++a)
         start_[t].lift[a] = up_.dot(x[c[a]]) < level_ ? 4 * weight_ * stage.start->volumes[t] : 0; // ρ g V/3
     }
@@ -77,7 +77,7 @@ public:
   }
 
 private:
-  static constexpr double steep = 0.05; // of the area
+  static constexpr double steepest = 0.05; // projection over area
   struct Start {
     double steep = 0; // the projection below which it counts less [m²]
     bool overturned = false;

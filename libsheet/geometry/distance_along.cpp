@@ -21,7 +21,7 @@ double across(const Vector3& a, const Vector3& b, double of_a, double of_b, cons
   const double depth = std::sqrt(std::max(0.0, of_a * of_a - along * along));
   const double crossing = along + (along_p - along) * depth / (depth + height);
   if (crossing >= 0 && crossing <= length) // false where one is not known
-    return std::hypot(along_p - along, depth + height);
+    return std::sqrt((along_p - along) * (along_p - along) + (depth + height) * (depth + height));
   return std::min(of_a + to_p.norm(), of_b + (p - b).norm());
 }
 

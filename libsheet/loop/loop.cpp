@@ -140,6 +140,9 @@ public:
     progress.end(frame_.time, frame_.step, output_->frames(), "done");
     if (stop_)
       log::note("stopped at step {}, t = {} s, as --stop-when says: {}", frame_.step, frame_.time, *stop_);
+    else if (rounds == 0)
+      log::note("nothing was left to do: it starts at step {}, t = {} s; give a later --until, or more --steps",
+                frame_.step, frame_.time);
     tell_of_health();
     return 0;
   }

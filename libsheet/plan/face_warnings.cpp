@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -71,8 +72,10 @@ std::vector<std::string> face_warnings(const Scene& scene, const Frame& first, d
   const bool inertial = scene.model.inertia && ohnesorge < 1;
   if (!(moved > 0.1 || inertial) || !(scene.tear || has_free_rims(scene, first)))
     return {};
-  return {fmt::format("tension draws free rims together without end, and levels nothing ({}): faces = true in [model] "
-                      "makes rims and strands round",
+  const std::string_view rims = has_free_rims(scene, first) ? "free rims" : "the rims of what tears";
+  return {fmt::format("tension draws {} together without end, and levels nothing ({}): faces = true in [model] makes "
+                      "rims and strands round",
+                      rims,
                       inertial ? fmt::format("mu / sqrt(rho gamma h) = {}", brief(ohnesorge))
                                : fmt::format("gamma t / (mu h) = {} at {} s", brief(moved), brief(until)))};
 }

@@ -61,8 +61,8 @@ public:
     if (outside >= enough)
       return outside;
     const double field = field_.at(x);
-    if (std::abs(field) - slack_ >= enough)
-      return std::copysign(std::abs(field) - slack_, field);
+    if (field - slack_ >= enough) // the field takes closed hollows for solid
+      return field - slack_;
     return nearest(x).distance;
   }
 

@@ -27,6 +27,8 @@ steps_of() { sheet-print "$1" | sed -n 's/^step //p' | tr '\n' ' '; }
   sheet-loop -q -i start.sheet --steps 2 -- cat < /dev/null > two.sheet
   sheet-loop -q --steps 3 -- cat < two.sheet | sheet-print | grep -c '^frame$' > count
   [[ $(cat count) == 2 ]]
+  sheet-loop -i two.sheet --steps 1 -- cat 2> log > same.sheet
+  grep -q 'nothing was left to do: it starts at step 2, t = 0 s; give a later --until, or more --steps' log
 }
 
 @test "what cannot be is refused with a remedy" {

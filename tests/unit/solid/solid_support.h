@@ -26,6 +26,17 @@ inline SolidSurface box_surface(const Vector3& size) {
   return surface;
 }
 
+// A box with a closed hollow of half its size.
+inline SolidSurface hollow_box(const Vector3& size) {
+  SolidSurface surface = box_surface(size);
+  const SolidSurface wall = box_surface(0.5 * size);
+  const auto first = static_cast<std::uint32_t>(surface.points.size());
+  surface.points.insert(surface.points.end(), wall.points.begin(), wall.points.end());
+  for (const auto& [a, b, c] : wall.triangles)
+    surface.triangles.push_back({first + a, first + c, first + b});
+  return surface;
+}
+
 // Uniform in a cube around the origin.
 class RandomPoints {
 public:
@@ -58,6 +69,7 @@ inline std::vector<NamedShape> convex_shapes() {
 inline std::vector<NamedShape> all_shapes() {
   std::vector<NamedShape> shapes = convex_shapes();
   shapes.push_back({"box, a mesh", make_distance(box_surface({1, 0.6, 1.4}), 0.05)});
+  shapes.push_back({"hollow box, a mesh", make_distance(hollow_box({1, 0.8, 1.4}), 0.05)});
   shapes.push_back({"ball, a mesh", make_distance(surface_of(test::icosphere(2)), 0.05)});
   SolidSurface needle = test::needle(0.02, 0.9, 5);
   shapes.push_back({"needle, a mesh", make_distance(std::move(needle), 0.02)});
