@@ -24,6 +24,7 @@
 #include "libsheet/plan/modelled.h"
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
+#include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/scene/document.h"
 #include "libsheet/scene/example.h"
@@ -148,6 +149,7 @@ std::string explained(Source source, bool ring_alone) {
   }
   const std::string init = command_of(source);
   std::ranges::copy(sheet::contact_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
+  std::ranges::copy(sheet::warnings_of_solids_that_meet(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::hole_scales(scene, frame), std::back_inserter(explanation.scales));
   std::ranges::copy(sheet::hole_warnings(scene, frame), std::back_inserter(explanation.warnings));

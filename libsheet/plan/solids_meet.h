@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Solids whose motions take them into each other, judged before anything is run.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+// A sentence for each two solids of which one moves, that start apart, and that by `until` [s] are in each other by
+// more than a tenth of the first frame's thickness: what lies between them has nowhere to go. Found at some hundred
+// points of their surfaces and some hundred times, so what is told is true, and what is thin or quick may be missed.
+[[nodiscard]] std::vector<std::string> warnings_of_solids_that_meet(const Scene& scene, const formats::Frame& first,
+                                                                    double until);
+
+} // namespace sheet
