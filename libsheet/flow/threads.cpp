@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "libsheet/flow/strand_width.h"
@@ -20,9 +21,12 @@ namespace {
 
 constexpr double longest_side = 2, greatest_height = 0.5; // of the shortest edge
 constexpr double greatest_volume = 1e-3;                  // of the triangles' mean
+constexpr double greatest_section = 1;                    // of the height's square
+constexpr double round_section = 4 / std::numbers::pi;    // of a round thread's, π/4 of its thickness wide
 
-// Triangles as small as those of threads of such edges, and with less than `most` of the mean volume.
-std::vector<bool> small_ones(const Frame& frame, double shortest_edge, double most) {
+// Triangles as small as those of threads of such edges, with less than `most` of the mean volume, and with a section
+// below `section` times the square of the greatest height.
+std::vector<bool> small_ones(const Frame& frame, double shortest_edge, double most, double section) {
   const auto x = positions(frame);
   const auto volume = volumes(frame);
   const double mean =
@@ -35,7 +39,8 @@ std::vector<bool> small_ones(const Frame& frame, double shortest_edge, double mo
     const Corners& c = triangles(frame)[t];
     const double side = std::max({(x[c[1]] - x[c[0]]).norm(), (x[c[2]] - x[c[1]]).norm(), (x[c[0]] - x[c[2]]).norm()});
     const double area = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area, own = 2 * area / side;
-    small[t] = side < longest_side * shortest_edge && own < height && own * volume[t] < height * height * area;
+    small[t] =
+        side < longest_side * shortest_edge && own < height && own * volume[t] < section * height * height * area;
   }
   return small;
 }
@@ -44,7 +49,7 @@ std::vector<bool> small_ones(const Frame& frame, double shortest_edge, double mo
 std::vector<bool> snapping_ones(const Frame& frame, const Scene& scene) {
   if (!scene.tear || !scene.tear->snap)
     return std::vector<bool>(frame.triangles, false);
-  return small_ones(frame, *scene.tear->snap / greatest_height, std::numeric_limits<double>::infinity());
+  return small_ones(frame, *scene.tear->snap / greatest_height, std::numeric_limits<double>::infinity(), round_section);
 }
 
 // Of these, those that are, measured across the strand.
@@ -55,7 +60,7 @@ void leave_wide_ones(const Frame& frame, const Connectivity& mesh, double snap, 
     if (snapping[t]) {
       const Corners& c = mesh.triangles[t];
       const double thickness = volumes(frame)[t] / TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
-      snapping[t] = width[t] < snap && width[t] * thickness < snap * snap;
+      snapping[t] = width[t] < snap && width[t] * thickness < round_section * snap * snap;
     }
 }
 
@@ -116,7 +121,8 @@ void add_crumbs(const Connectivity& mesh, const std::vector<bool>& fixed, std::v
 } // namespace
 
 Shed cut_threads(Frame& frame, const Scene& scene, double shortest_edge) {
-  std::vector<bool> small = small_ones(frame, shortest_edge, greatest_volume), snapping = snapping_ones(frame, scene);
+  std::vector<bool> small = small_ones(frame, shortest_edge, greatest_volume, greatest_section),
+                    snapping = snapping_ones(frame, scene);
   const bool any_snapping = std::ranges::count(snapping, true) > 0;
   if (std::ranges::count(small, true) == 0 && !any_snapping)
     return {};

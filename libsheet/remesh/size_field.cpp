@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/remesh/buckling.h"
 #include "libsheet/remesh/flow_error.h"
@@ -31,6 +32,7 @@ constexpr double widths_an_edge = 2;      // of a strip: up to split_above times
 constexpr double widths_an_edge_of_threads = 1.5; // which are as wide as π/4 of their thickness
 constexpr double thicknesses_an_edge_of_threads = 0.5;
 constexpr double least_wedge_of_threads = pi / 9; // a thread ends in no wedge, but tension shortens it
+constexpr double widths_long = 6;                 // a thread, at least
 constexpr double finest_in_strips = 1.0 / 16;     // of edge_length
 
 void check_length(const char* option, double value) {
@@ -168,6 +170,36 @@ std::vector<double> thickness_at_vertices(const EditableSheet& sheet) {
                           [&](std::uint32_t t) { return sheet.shape(t).area; });
 }
 
+// Vertices of long strands that are as thick as they are wide, or thicker.
+std::vector<bool> round_threads(const EditableSheet& sheet, const std::vector<double>& width,
+                                const std::vector<double>& thickness) {
+  const Mesh& mesh = sheet.mesh();
+  std::vector<bool> round(width.size(), false);
+  for (std::uint32_t v = 0; v < width.size(); ++v)
+    round[v] = width[v] < thickness[v];
+  DisjointSets strands(width.size());
+  std::vector<double> widest(width.size(), 0), area(width.size(), 0);
+  const auto whole = [&](std::uint32_t t) {
+    return std::ranges::all_of(mesh.corners(t), [&](std::uint32_t v) { return round[v]; });
+  };
+  for (std::uint32_t t = 0; t < mesh.triangle_slots(); ++t)
+    if (mesh.has_triangle(t) && whole(t))
+      for (const std::uint32_t v : mesh.corners(t))
+        strands.join(mesh.corners(t)[0], v);
+  for (std::uint32_t t = 0; t < mesh.triangle_slots(); ++t)
+    if (mesh.has_triangle(t) && whole(t)) {
+      const auto strand = strands.find(mesh.corners(t)[0]);
+      area[strand] += sheet.shape(t).area;
+      for (const std::uint32_t v : mesh.corners(t))
+        widest[strand] = std::max(widest[strand], width[v]);
+    }
+  for (std::uint32_t v = 0; v < width.size(); ++v) {
+    const auto strand = strands.find(v);
+    round[v] = round[v] && area[strand] > widths_long * widest[strand] * widest[strand];
+  }
+  return round;
+}
+
 // size[v] <= size[w] + grading |x_v - x_w| along edges, by shortest paths [Dijkstra 1959].
 void grade(const EditableSheet& sheet, std::vector<double>& size) {
   using Entry = std::pair<double, std::uint32_t>;
@@ -238,12 +270,15 @@ void SizeField::fit_strips(const EditableSheet& sheet, const SizeOptions& option
   const std::vector<double> strip = strip_widths(sheet, round ? least_wedge_of_threads : 0),
                             neck = neck_widths(sheet, options.edge_length / widths_an_edge),
                             thickness = thickness_at_vertices(sheet);
+  const std::vector<bool> threads =
+      round && !options.chord_error ? round_threads(sheet, strip, thickness) : std::vector<bool>(strip.size(), false);
   std::vector<double> fitted(strip.size());
   bool any = false;
   for (std::uint32_t v = 0; v < fitted.size(); ++v) {
     const double width = std::min(strip[v], neck[v]);
-    fitted[v] = std::min(at(v), std::max({widths * width, thicknesses * thickness[v], floor}));
-    any = any || fitted[v] < at(v);
+    const double own = std::max({widths * width, thicknesses * thickness[v], floor});
+    fitted[v] = threads[v] ? own : std::min(at(v), own);
+    any = any || fitted[v] != at(v);
     if (round && !thick_.empty() && fitted[v] < at(v))
       thick_[v] *= thicknesses;
   }

@@ -36,8 +36,10 @@ struct SizeOptions {
 // A strip from rim to rim (strip_width.h) gets a row of good triangles of its own: edges of twice its width at most,
 // which need no angle below 19 degrees as long as they are not split, but not below h, nor below `min_edge`, absent: an
 // sixteenth of `edge_length`, growing as above. Where tension makes rims round ([model] faces) such strips are threads,
-// and get good triangles: edges of 1.5 times the width, down to h/2. Likewise a neck (necks.h), its width that of the
-// least of the edges round it.
+// and get good triangles: edges of 1.5 times the width, down to h/2. A strand of two rows that is as thick as it is
+// wide, and six times as long, gets such edges also where shorter ones are asked for, unless lengths are adaptive: of
+// one row it has no noise of its mesh, of two, between uneven triangles, it thins twice as fast as it should (V47).
+// Likewise a neck (necks.h), its width that of the least of the edges round it.
 //
 // Without `chord_error` no edge is split that is not too long for h, too, where nothing holds the sheet and no solid
 // carries it: a shell model says nothing about what is shorter.

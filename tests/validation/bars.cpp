@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libsheet/base/parallel.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
@@ -82,6 +83,11 @@ TEST(Validation, RimsAndSlopes) {
   const Result strip = of(1, 0.5, 100);
   EXPECT_LT(std::abs(strip.error), 0.02);
   EXPECT_NEAR(strip.more[0].second, 1, 0.02); // energy of the thread
+  for (const double edge : {0.5, 0.25, 0.12}) {
+    EXPECT_NEAR(of(1, edge, 100).more[0].second, 1, 0.03) << edge;
+    EXPECT_NEAR(of(2, edge, 100).more[0].second, 1, 0.05) << edge; // of a disk, the sphere's
+  }
+  EXPECT_LT(std::abs(of(1, 0.25, 100).error), 0.02);
   EXPECT_LT(std::abs(of(3, 1.0 / 12, 100, Pattern::equilateral).error), 0.015);
   EXPECT_LT(std::abs(of(4, 1.0 / 12, 100, Pattern::equilateral).error), 0.04);
   EXPECT_LT(std::abs(of(5, 1.0 / 12, 100, Pattern::equilateral).error), 0.03);
@@ -443,6 +449,34 @@ TEST(Validation, StrandsPart) {
     EXPECT_LT(std::abs(r.more[0].second), 1e-13) << edge;
   }
   EXPECT_LT(std::abs(run(find_case("V45"), settings("V45", 1, 400, 2)).error), 0.004);
+}
+
+// A waist goes to nothing as Papageorgiou has it, and parts where it is to, with the same bits on any threads.
+void expect_thinning(double edge, int steps, double bar) {
+  const Settings s = settings("V47", edge, steps);
+  const Result r = run(find_case("V47"), s);
+  EXPECT_LT(std::abs(r.error), bar) << edge;
+  ASSERT_EQ(r.more.size(), 5u);
+  EXPECT_NEAR(r.more[0].second, 1, bar) << edge;  // Papageorgiou's rate
+  EXPECT_NEAR(r.more[1].second, 1, 0.03) << edge; // parts there; a step thins it by 2 % at most
+  EXPECT_LT(std::abs(r.more[2].second), 1e-13) << edge;
+  EXPECT_LT(r.more[3].second, 1e-13) << edge;
+  EXPECT_GT(r.more[4].second, 10) << edge; // degrees
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    const Result again = run(find_case("V47"), s);
+    EXPECT_EQ(again.value, r.value);
+    EXPECT_EQ(again.more, r.more);
+  }
+}
+
+TEST(Validation, ThreadsThinAndPart) { expect_thinning(1, 250, 0.03); }
+
+// Edges shorter than it is wide, between which one row is made of two, leave it uneven: 1 to 10 % off.
+TEST(Validation, LongThreadsThinAndPart) {
+  expect_thinning(1, 1000, 0.03);
+  for (const double edge : {0.9, 0.8, 0.7, 0.6})
+    expect_thinning(edge, 500, 0.1);
 }
 
 TEST(Validation, RainIsTakenUp) {

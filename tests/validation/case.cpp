@@ -145,6 +145,8 @@ const std::vector<Case>& cases() {
       {"V45", "a strip is drawn out, remeshed, until it parts (set 1: at half its width; 2: at a third)",
        "its width then", "", 2, at(1, 400), false, false, v45},
       {"V46", "a disk that flies is rained on", "speed at the end", "", 1, at(0.1, 60), false, false, v46},
+      {"V47", "a thread thins by its tension, remeshed, until it parts", "rate at which its waist thins", "", 1,
+       at(1, 500), false, false, v47},
   };
   return list;
 }

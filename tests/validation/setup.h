@@ -71,6 +71,6 @@ Result v1(const Settings&), v2(const Settings&), v3(const Settings&), v4(const S
     v31(const Settings&), v32(const Settings&), v33(const Settings&), v34(const Settings&), v35(const Settings&),
     v36(const Settings&), v37(const Settings&), v38(const Settings&), v39(const Settings&), v40(const Settings&),
     v41(const Settings&), v42(const Settings&), v43(const Settings&), v44(const Settings&), v45(const Settings&),
-    v46(const Settings&);
+    v46(const Settings&), v47(const Settings&);
 
 } // namespace sheet::validation

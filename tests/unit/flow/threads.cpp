@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two pads that hang together by a thread.
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -81,6 +82,16 @@ TEST(Threads, SnapBelowAWidth) {
   EXPECT_GE(cut_threads(frame, scene("[tear]\nsnap = 0.0205\n"), fine).sum.triangles, 12U);
   EXPECT_EQ(pieces(frame), 2U);
   EXPECT_NEAR(volume_of(frame) + frame.find("tear.volume")->values<double>()[0], volume_of(before), 1e-14);
+}
+
+// A round thread is π/4 of its thickness wide, so its section is above the square of its width.
+TEST(Threads, SnapPartsRoundOnesToo) {
+  constexpr double fine = 1e-3, width = 0.02, round = 4 / std::numbers::pi * width;
+  Frame frame = dumbbell(width, round);
+  EXPECT_EQ(cut_threads(frame, scene("[tear]\nsnap = 0.0195\n"), fine).sum.triangles, 0U);
+  EXPECT_GE(cut_threads(frame, scene("[tear]\nsnap = 0.0205\n"), fine).sum.triangles, 12U);
+  Frame beyond = dumbbell(width, 1.1 * round);
+  EXPECT_EQ(cut_threads(beyond, scene("[tear]\nsnap = 0.0205\n"), fine).sum.triangles, 0U);
 }
 
 // Wide enough for triangles of its own, or with a section that counts, or of a mesh that is fine everywhere.

@@ -6,10 +6,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include "libsheet/geometry/connectivity.h"
 #include "libsheet/remesh/necks.h"
+#include "libsheet/scene/read.h"
 #include "libsheet/shape/shapes.h"
 #include "tests/support/remesh/flows.h"
 #include "tests/support/remesh/options.h"
@@ -130,6 +134,36 @@ TEST(StripWidth, ADrawnRibbonKeepsGoodTriangles) {
     EXPECT_GT(r.worst.smallest, 15) << flow.name;
     EXPECT_LT(r.volume_error, 1e-13) << flow.name;
   }
+}
+
+// Where tension rounds it: a strand of two rows, as thick as wide, becomes one of one row, whatever edges are asked
+// for; one that is thinner than wide does not, nor does a piece that is hardly longer than it is wide, nor without
+// faces.
+TEST(StripWidth, RoundThreadsGetOneRow) {
+  constexpr double width = 0.1, round = 4 / std::numbers::pi * width;
+  MeshOptions two_rows = edges(0.58 * width);
+  two_rows.pattern = Pattern::equilateral;
+  const auto inner = [&](double length, double thickness, bool faces) {
+    const Scene scene = parse_scene(
+        fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [1, 1]\nedge_length = 1\nthickness = 1\n[material]\n"
+                    "viscosity = 1\nsurface_tension = 1\n[model]\ninertia = false\nfaces = {}\n",
+                    faces),
+        "scene");
+    formats::Frame frame = test::frame_of(make_rectangle(length, width, two_rows), thickness);
+    for (int i = 0; i < 3; ++i)
+      static_cast<void>(remesh(frame, &scene, options(width / 2)));
+    EXPECT_GT(test::angles_of(frame, width).smallest, 15);
+    const Connectivity mesh = connect(frame.vertices, triangles(std::as_const(frame)));
+    std::set<std::uint32_t> on_rim;
+    for (std::uint32_t e = 0; e < mesh.edges.size(); ++e)
+      if (mesh.on_rim(e))
+        on_rim.insert(mesh.edges[e].begin(), mesh.edges[e].end());
+    return frame.vertices - on_rim.size();
+  };
+  EXPECT_LT(inner(20 * width, round, true), 4U); // at its ends
+  EXPECT_GT(inner(20 * width, 0.5 * width, true), 20U);
+  EXPECT_GT(inner(20 * width, round, false), 20U);
+  EXPECT_GT(inner(2 * width, round, true), 0U);
 }
 
 // Slivers that are there already: a ribbon a fifth as wide as its edges are long.
