@@ -17,15 +17,18 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/shell_words.h"
 #include "libsheet/plan/contact_warnings.h"
+#include "libsheet/plan/drawing_up.h"
 #include "libsheet/plan/face_warnings.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/hole_forecast.h"
+#include "libsheet/plan/inflow_warnings.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/modelled.h"
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/symmetry.h"
+#include "libsheet/plan/wetting.h"
 #include "libsheet/scene/document.h"
 #include "libsheet/scene/example.h"
 #include "libsheet/scene/explain.h"
@@ -143,13 +146,20 @@ std::string explained(Source source, bool ring_alone) {
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
   const double until = sheet::proposed_ring(scene, frame, wishes).until;
   if (const auto parting = sheet::must_part(scene, frame, until)) {
-    explanation.warnings.push_back(parting->why + ", but what touches a solid never comes off. [contact] adhesion lets "
-                                                  "it, as in the ring below");
-    source.sets.push_back(fmt::format("contact.adhesion=\"{:.2g} Pa\"", parting->adhesion));
+    const std::string adhesion = fmt::format("\"{:.2g} Pa\"", parting->adhesion);
+    explanation.warnings.push_back(fmt::format(
+        "{}, but what touches a solid never comes off. adhesion = {} in [contact] lets it, as in the ring below",
+        parting->why, adhesion));
+    source.sets.push_back("contact.adhesion=" + adhesion);
   }
   const std::string init = command_of(source);
   std::ranges::copy(sheet::contact_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::warnings_of_solids_that_meet(scene, frame, until), std::back_inserter(explanation.warnings));
+  std::ranges::copy(sheet::inflow_warnings(scene, frame), std::back_inserter(explanation.warnings));
+  for (const std::string& warning :
+       {sheet::drawing_up_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until)})
+    if (!warning.empty())
+      explanation.warnings.push_back(warning);
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::hole_scales(scene, frame), std::back_inserter(explanation.scales));
   std::ranges::copy(sheet::hole_warnings(scene, frame), std::back_inserter(explanation.warnings));

@@ -2,6 +2,7 @@
 #include "libsheet/flow/inlet_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -65,6 +66,27 @@ bool moves_along(const scene::InletVelocity& velocity, std::size_t axis) {
          std::abs(velocity.axis.direction[along]) != 1;
 }
 
+// Along an axis that it holds, at any time.
+bool moves(const scene::Hold& hold) {
+  const auto* translating = std::get_if<scene::Translating>(&hold.motion);
+  if (translating == nullptr)
+    return !std::holds_alternative<scene::Fixed>(hold.motion);
+  return std::ranges::any_of(translating->velocity.entries, [&](const auto& entry) {
+    return std::ranges::any_of(std::array{0, 1, 2}, [&](int axis) {
+      return has_axis(hold.axes, static_cast<std::size_t>(axis)) && entry.value[axis] != 0;
+    });
+  });
+}
+
+// What to give solids instead of that motion, in words.
+std::string opposite_of(const scene::Motion& motion) {
+  const auto* translating = std::get_if<scene::Translating>(&motion);
+  if (translating == nullptr || translating->velocity.entries.size() != 1)
+    return "[[solid]] velocity, or motion with kind = \"keyframed\"";
+  const Vector3d v = -translating->velocity.entries.front().value + Vector3d::Zero();
+  return fmt::format("[[solid]] velocity = [{:g}, {:g}, {:g}]", v.x(), v.y(), v.z());
+}
+
 } // namespace
 
 void check_inlet(const Frame& frame, const Scene& scene, const scene::Inflow& inflow,
@@ -82,6 +104,11 @@ void check_inlet(const Frame& frame, const Scene& scene, const scene::Inflow& in
     const scene::Hold& hold = scene.holds[i];
     if ((common >> i & 1) == 0)
       continue;
+    if (moves(hold))
+      fail(ExitCode::bad_input,
+           "[[hold]] number {} (from 0) moves the whole inlet, so what flows in would hang on it and go with it for "
+           "ever: an inlet stands. Let the solids move past it the other way ({}), which is the same as seen from it",
+           i, opposite_of(hold.motion));
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (has_axis(hold.axes, axis) && moves_along(velocity, axis))
         fail(ExitCode::bad_input,

@@ -220,8 +220,11 @@ template <int Count> Result Solver::Impl::solve(const Problem& problem) {
     factorize = std::min(change, rate) > fast_enough;
     before = change;
   }
-  fail(ExitCode::not_converged, "heat: temperatures do not converge in {} iterations; shorten the step",
-       most_iterations);
+  fail(ExitCode::not_converged, "heat: temperatures do not converge in {} iterations: {}", most_iterations,
+       problem.profile.modes() > 1 && problem.profile.follows
+           ? "the parabola across the thickness may not follow its faces; profile = 3 in [heat] gives it modes of its "
+             "own. Or take shorter steps: sheet-run --quality fine, sheet-step --tolerance"
+           : "take shorter steps: sheet-run --quality fine, sheet-step --tolerance");
 }
 
 Result Solver::Impl::stage(const Problem& problem) {

@@ -54,6 +54,23 @@ std::string scale_in_doubt(const Scene& scene, const solid::Solids& solids, std:
   return hint.empty() ? hint : " (" + hint + ")";
 }
 
+// Where gravity pulls towards a positive coordinate, as by a sign that was forgotten, and a plane looks against it;
+// else
+// "".
+std::string gravity_in_doubt(const Scene& scene, std::size_t i) {
+  const auto* plane = std::get_if<scene::HalfSpace>(&scene.solids[i].shape);
+  const auto up = scene::up(scene.environment);
+  Eigen::Index axis = 0;
+  if (plane == nullptr || !up || plane->normal.normalized().dot(*up) < 1 - place_rounding)
+    return "";
+  up->cwiseAbs().maxCoeff(&axis);
+  if ((*up)[axis] > 0)
+    return "";
+  return fmt::format(" (gravity pulls towards +{0}, and the plane's normal is against it, as by default: is gravity "
+                     "meant to pull towards -{0}?)",
+                     "xyz"[axis]);
+}
+
 // A triangle, all corners of which are outside, that reaches into a solid between them.
 void check_triangle_outside(const Scene& scene, const solid::Solids& solids, std::size_t i, const Frame& frame,
                             std::size_t t) {
@@ -90,8 +107,9 @@ void check_outside_solids(const Scene& scene, const Frame& frame) {
           distance < -place_rounding * x[v].norm())
         fail(ExitCode::bad_input,
              "the sheet starts inside {}: vertex {} at ({:g}, {:g}, {:g}) m lies {:.2g} m under its surface; move one "
-             "of them{}",
-             solids.name(i), v, x[v].x(), x[v].y(), x[v].z(), -distance, scale_in_doubt(scene, solids, i, frame));
+             "of them{}{}",
+             solids.name(i), v, x[v].x(), x[v].y(), x[v].z(), -distance, scale_in_doubt(scene, solids, i, frame),
+             gravity_in_doubt(scene, i));
     for (std::size_t t = 0; t < frame.triangles; ++t)
       if (std::ranges::all_of(triangles(frame)[t], is_free))
         check_triangle_outside(scene, solids, i, frame, t);

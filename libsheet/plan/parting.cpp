@@ -11,6 +11,7 @@
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
+#include "libsheet/plan/over_edge.h"
 #include "libsheet/scene/motion.h"
 #include "libsheet/solid/solids.h"
 
@@ -66,7 +67,8 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
   };
   std::vector<bool> seen(solids.size(), false);
   std::vector<double> ends(solids.size(), std::numeric_limits<double>::infinity()), densities(solids.size(), 0);
-  for (const Landing& landing : landings(scene, first)) {
+  const std::vector<Landing> all = landings(scene, first);
+  for (const Landing& landing : all) {
     const std::size_t number = landing.solid;
     const double t = first.time + std::sqrt(2 * std::max(0.0, landing.fall - thickness / 2) / gravity.norm());
     const double end = t + time_to_end(solids, number, landing.place, landing.there.normal, first.time);
@@ -83,7 +85,10 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
                      landing.liquid.density);
   }
   const auto earliest = std::ranges::min_element(ends);
-  if (earliest == ends.end() || *earliest >= until)
+  const double end = earliest == ends.end() ? until : std::min(until, *earliest);
+  if (const auto edge = goes_over_edge(scene, first, all, end))
+    return parting(edge->why, edge->density);
+  if (!(end < until))
     return std::nullopt;
   const auto number = static_cast<std::size_t>(earliest - ends.begin());
   return parting(

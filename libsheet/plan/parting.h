@@ -17,6 +17,7 @@ struct Parting {
 // The first of these that happens before the end of the run, `until` [s], to what lies on a solid or lands on it:
 //   - the solid throws it up: in free flight from some time on it would get farther than its thickness above the solid
 //   - a belt carries it past the solid's end, where the belt does not go on
+//   - it slides, runs or is drawn over an edge in the open (over_edge.h)
 // Nothing where the scene has an adhesion, or no gravity.
 [[nodiscard]] std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first, double until);
 

@@ -92,10 +92,10 @@ std::string word_of_blow_up(const Scene& scene) {
              : "";
 }
 
-// The nearest of 1, 2, 5, 10, ... below.
+// The nearest of 1, 2, 5, 10, ... that is not below.
 double round_number(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)));
-  return unit * (value >= 5 * unit ? 5 : value >= 2 * unit ? 2 : 1);
+  return unit * (value > 5 * unit ? 10 : value > 2 * unit ? 5 : value > unit ? 2 : 1);
 }
 
 constexpr double longest_passing = 10; // of solids that creep, in times of everything else
@@ -141,10 +141,11 @@ double until_of(const Scene& scene, const Frame& first) {
   return std::isfinite(until) && until > 0 ? rounded(until) : 1;
 }
 
-// That of films where the time suits one, else about 50 frames or a few more.
+// That of films where it gives 50 to 250 frames, else a round one that gives 50 to 125: so few that they do not rule
+// the steps, each of which an output time ends.
 double rate_of(double until) {
-  constexpr double film = 24, shortest = 1, longest = 60; // [1/s], [s]
-  return until >= shortest && until <= longest ? film : round_number(100 / until);
+  constexpr double film = 24, fewest = 50, most = 250; // [1/s], frames
+  return film * until >= fewest && film * until <= most ? film : round_number(fewest / until);
 }
 
 std::string word_of_edges(const ProposedRing& ring) {

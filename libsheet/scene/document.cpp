@@ -2,6 +2,7 @@
 #include "libsheet/scene/document.h"
 
 #include <algorithm>
+#include <array>
 
 #include "libsheet/base/error.h"
 #include "libsheet/scene/ascii.h"
@@ -56,6 +57,12 @@ Node convert(const toml::node& source, const AsciiToml& from) {
   return result;
 }
 
+bool may_be_several(std::string_view table) {
+  return std::ranges::count(
+             std::array<std::string_view, 6>{"sheet", "sheet.perturbation", "hold", "solid", "inflow", "outflow"},
+             table) > 0;
+}
+
 } // namespace
 
 Node parse_toml(std::string_view text, std::string_view name) {
@@ -70,7 +77,9 @@ Node parse_toml(std::string_view text, std::string_view name) {
     if (const std::size_t at = reason.find(twice); at != std::string::npos) {
       const std::size_t begin = at + twice.size();
       const std::string table = reason.substr(begin, reason.find('\'', begin) - begin);
-      reason += fmt::format(": where there are several, each is written [[{}]]", table);
+      reason += may_be_several(table)
+                    ? fmt::format(": where there are several, each is written [[{}]]", table)
+                    : fmt::format(": a scene has one [{}], with all its keys under one heading", table);
     }
     const Place place = place_of(error.source(), ascii);
     fail(ExitCode::bad_input, "{}:{}:{}: {}", name, place.line, place.column, reason);

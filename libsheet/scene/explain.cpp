@@ -218,19 +218,26 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
     warn(std::move(warning));
   if (const auto rest = warning_of_rest_rate(scene, scales))
     warn(*rest);
+  if (const auto biot = warning_of_biot(scene, scales))
+    warn(*biot);
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
   constexpr double large = 20; // [m]
   if (scales.length && *scales.length > large)
-    warn(fmt::format("the sheet is {} m long: {}", brief(*scales.length),
-                     std::holds_alternative<SheetMesh>(sheet.shape)
-                         ? "if its mesh is in millimetres, give [sheet] scale = 0.001"
-                         : "numbers without unit are metres; write \"50 mm\" if you mean that"));
+    warn(fmt::format(
+        "the sheet is {} m long: {}", brief(*scales.length),
+        std::holds_alternative<SheetMesh>(sheet.shape)
+            ? "if its mesh is in millimetres, give [sheet] scale = 0.001"
+            : fmt::format("write \"{} mm\" if you mean that; numbers without unit are metres", brief(*scales.length))));
   if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
     warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
   else if (scene.environment.gravity && !carried && !may_be_caught(scene))
     warn("nothing holds or catches the sheet: it falls for ever");
   return warnings;
+}
+
+bool tense(const Scene& scene) {
+  return std::ranges::any_of(liquids_of(scene), [](const Liquid& liquid) { return liquid.surface_tension > 0; });
 }
 
 constexpr double coldest_likely = 200; // that a liquid starts at [K]
@@ -250,6 +257,9 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
   for (std::size_t i = 0; i < scene.solids.size(); ++i)
     if (const auto jumps = warning_of_jumps(scene.solids[i].motion, fmt::format("solid {}", i)))
       warn(*jumps);
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (scene.solids[i].contact_angle && !tense(scene))
+      warn(fmt::format("contact_angle of solid {} does nothing: there is no surface_tension in [material]", i));
   if (std::ranges::all_of(scales, [](const Scales& s) { return s.speed == 0; }) && !scene.environment.pressure &&
       !scene.environment.gravity)
     warn("nothing drives the sheet: it stays as it is");

@@ -51,6 +51,10 @@ std::pair<double, double> temperatures_around(const Scene& scene) {
   return {least, most};
 }
 
+double biot_number(const Scene& scene, double thickness) {
+  return loss_slope(*scene.heat, start_temperature(scene)) / 2 * thickness / (2 * scene.heat->conductivity);
+}
+
 DimensionlessNumber viscosity_range(const Scene& scene) {
   const Liquid& liquid = scene.material;
   const double start = start_temperature(scene);
@@ -108,7 +112,7 @@ std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& 
   if (!scene.material.temperature_law.constant())
     list.push_back(viscosity_range(scene));
   if (k > 0 && scales.thickness) {
-    const double biot = loss_slope(*scene.heat, t) / 2 * *scales.thickness / (2 * k);
+    const double biot = biot_number(scene, *scales.thickness);
     list.push_back({"Biot", "H h / (2 k)", biot,
                     biot < 0.1 ? "It is as warm across its thickness as in the middle."
                     : biot < 1 ? "Its faces are colder than its middle; a parabola across the thickness takes that up."
@@ -131,6 +135,18 @@ std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& 
                                 : "What viscosity dissipates makes it flow more easily where it flows most."});
   }
   return list;
+}
+
+std::optional<std::string> warning_of_biot(const Scene& scene, const Scales& scales) {
+  if (!scene.heat || !(scene.heat->conductivity > 0) || scene.heat->profile || !scales.thickness)
+    return {};
+  const double biot = biot_number(scene, *scales.thickness);
+  if (!(biot > 1))
+    return {};
+  return fmt::format("the Biot number is {}: its faces cool long before its middle, which the parabola across the "
+                     "thickness does not follow, so all of it cools and stiffens too soon: profile = 3 in [heat] gives "
+                     "it modes of its own",
+                     brief(biot));
 }
 
 std::string heat_in_words(const Scene& scene) {

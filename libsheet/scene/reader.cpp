@@ -2,6 +2,7 @@
 #include "libsheet/scene/reader.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -11,6 +12,18 @@
 namespace sheet::scene {
 
 using Form = Key::Form;
+
+namespace {
+
+bool is_plain_number(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" +"), end = text.find_last_not_of(' ');
+  if (begin == std::string_view::npos)
+    return false;
+  double value = 0;
+  return std::from_chars(text.data() + begin, text.data() + end + 1, value).ptr == text.data() + end + 1;
+}
+
+} // namespace
 
 Place TableReader::place_of(std::string_view key) const {
   const Node* value = table_.find(key);
@@ -56,6 +69,12 @@ std::optional<double> TableReader::number(const Node& value, std::string_view ke
     const auto read = read_quantity(value.text, kind, problem);
     if (!read) {
       problems_.add(value.place, fmt::format("{}: {}", key, problem));
+      return {};
+    }
+    if (kind.unit != "1" && *read != 0 && is_plain_number(value.text)) {
+      problems_.add(value.place, fmt::format("{}: \"{}\" has no unit: write one, as in \"{}\", or the plain number, "
+                                             "which is in {}",
+                                             key, value.text.substr(0, 60), kind.example, kind.unit));
       return {};
     }
     number = *read;

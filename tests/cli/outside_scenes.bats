@@ -172,6 +172,11 @@ gravity = [0, 0, -9.81]'
   box_mesh 0.1 > box.obj
   refused 'voxels' $'[[solid]]\nshape = "mesh"\nfile = "box.obj"\ncenter = [0, 0, -1]\nvoxel_size = "1 um"'
   refused 'the sheet starts inside solid 0 (sphere)' $'[[solid]]\nshape = "sphere"\nradius = 0.5'
+  refused 'move one of them' $'[[solid]]\nshape = "plane"\ncenter = [0, 0, 1]'
+  [[ $output != *'is gravity'* ]]
+  fall=${fall/-9.81/9.81}
+  refused 'is gravity meant to pull towards -z?' $'[[solid]]\nshape = "plane"\ncenter = [0, 0, -1]'
+  fall=${fall/9.81/-9.81}
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n' > turned.obj
   sed 's/^shape.*/shape = "mesh"\nfile = "turned.obj"/; /^radius/d; /^edge_length/d' disk.toml > turned.toml
   for check in '' --check; do
@@ -316,6 +321,14 @@ END
   proposes 9.9 24 # what moves comes to rest
   proposes 5.7 24 --set solid.motion='{kind = "fixed"}' # four times the fall, and five times of the flow
   proposes 5200 0.01 --set solid.motion='{kind = "fixed"}' --set material.viscosity=1e7
+  # 50 to 250 frames, at the rate of films where that gives so many
+  proposes 0.05 1000 --until 0.05
+  proposes 1 50 --until 1
+  proposes 2.1 24 --until 2.1
+  proposes 10.4 24 --until 10.4
+  proposes 11 5 --until 11
+  proposes 30 2 --until 30
+  proposes 120 0.5 --until 120
 }
 
 @test "7: --check judges sheets by what they are and by what drives them" {

@@ -117,6 +117,11 @@ make_slow() {
   [[ $stderr == *'--material: milk is not one of chocolate, caramel, honey'* ]]
 }
 
+@test "a folder is no scene" {
+  run -6 --separate-stderr sheet-run .
+  [[ $stderr == *'.: this is a folder; give a scene file in it'* ]]
+}
+
 @test "a later --until makes the run longer, and the film" {
   sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 100 -o run
   sheet-run -q 'my scene.toml' --quality draft --until 0.1 --fps 100 -o run

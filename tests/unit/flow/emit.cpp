@@ -623,6 +623,16 @@ TEST(Emit, AHeldInletIsRefusedAHeldSideGoesOn) {
   EXPECT_THAT(error_of([&] { emit(frame, scene_of("[0, -1, 0]", hold)); }),
               HasSubstr("[[hold]] number 0 (from 0) holds the whole inlet along y"));
   EXPECT_EQ(error_of([&] { emit(frame, scene_of("[0, -1, 0]", hold + "axes = \"xz\"\n")); }), "");
+  // An inlet cannot move, along whatever axis; solids can.
+  const auto moved = [&](const std::string& velocity) {
+    return error_of([&] {
+      emit(frame, scene_of("[0, -1, 0]",
+                           hold + "axes = \"xz\"\nmotion = {kind = \"translating\", velocity = " + velocity + "}\n"));
+    });
+  };
+  EXPECT_THAT(moved("[0.1, 0, 0]"), HasSubstr("moves the whole inlet"));
+  EXPECT_THAT(moved("[0.1, 0, 0]"), HasSubstr("([[solid]] velocity = [-0.1, 0, 0])"));
+  EXPECT_EQ(moved("[0, 0.1, 0]"), ""); // not held along y
   const Scene late = scene_of("[0, -1, 0]", hold + "until = 1\n");
   frame.time = 1;
   EXPECT_EQ(error_of([&] { emit(frame, late); }), "");

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -283,6 +284,27 @@ TEST(Stage, RefusesWhatIsNotFinite) {
   problem.sources = {};
   problem.volumes = none;
   EXPECT_THROW((void)Solver(sheet.mesh).stage(problem), Error);
+}
+
+// Thick, and radiating differently from both faces.
+TEST(Stage, SaysWhatToDoWhereAParabolaDoesNotConverge) {
+  const test::Sheet sheet = test::one_triangle(1);
+  const std::vector<double> start = {2000}, modes = {0, 0};
+  Problem problem = test::problem_of(sheet, start);
+  problem.heat_capacity = 3e6;
+  problem.conductivity = 0.5;
+  problem.duration = 10;
+  problem.surroundings = {{{0, 0, 0.9, 293}, {0, 0, 0.9, 1420}}};
+  problem.profile = parabola();
+  try {
+    (void)Solver(sheet.mesh).stage(problem);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("profile = 3 in [heat]"), std::string::npos) << error.what();
+  }
+  problem.profile = all_modes(3);
+  problem.modes = modes;
+  EXPECT_NO_THROW((void)Solver(sheet.mesh).stage(problem));
 }
 
 TEST(Stage, WantsArraysOfTheRightSize) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/plan/parting.h"
 
+#include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
@@ -12,7 +14,8 @@ namespace sheet {
 namespace {
 
 // A sheet 4 mm thick that lies in the middle of a box, 0.3 m long along x.
-std::optional<Parting> parting_of(const std::string& box, const std::string& contact = "[contact]\n") {
+std::optional<Parting> parting_of(const std::string& box, const std::string& contact = "[contact]\n",
+                                  const std::string& gravity = "[0, -10, 0]") {
   const Scene scene = scene::parse_scene(R"([sheet]
 shape = "rectangle"
 size = [0.06, 0.06]
@@ -23,7 +26,7 @@ center = [0, 0.002, 0]
 viscosity = 100
 density = 1000
 [environment]
-gravity = [0, -10, 0]
+gravity = )" + gravity + R"(
 [[solid]]
 shape = "box"
 size = [0.3, 0.1, 0.3]
@@ -56,6 +59,48 @@ TEST(Parting, OfWhatABeltCarriesPastItsEnd) {
   ASSERT_TRUE(parting);
   EXPECT_EQ(parting->why, "solid 0 (box) carries what lies on it past its end, from about 0.6 s on");
   EXPECT_FALSE(parting_of("surface_velocity = [0.1, 0, 0]")); // later than the run ends
+}
+
+// The rim is 120 mm from the end of a slippery box in the air, down which gravity pulls with 4 m/s².
+TEST(Parting, OfWhatSlidesOverAnEdge) {
+  const auto slides = [](const std::string& contact, const std::string& more = "", double sideways = 4) {
+    return parting_of("contact = \"" + contact + "\"\n" + more, "[contact]\n", fmt::format("[{}, -9, 0]", sideways));
+  };
+  const auto parting = slides("slip");
+  ASSERT_TRUE(parting);
+  EXPECT_NEAR(parting->adhesion, 2 * std::hypot(4, 9), 1e-9);
+  EXPECT_EQ(parting->why, "what lies on solid 0 (box) slides down over its edge, from about 0.25 s on");
+  EXPECT_FALSE(slides("slip", "", 0.5)); // nearly level
+  EXPECT_FALSE(slides("stick"));
+  EXPECT_FALSE(slides("flow")); // at 1000 4 0.004²/(3 100) m/s it does not get there
+  // on the ground the side of the box leads down to it
+  EXPECT_FALSE(slides("slip", "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncenter = [0, -0.1, 0]\n"));
+  EXPECT_TRUE(slides("slip", "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncenter = [0, -0.2, 0]\n"));
+}
+
+TEST(Parting, OfWhatABoxThatTiltsLetsSlide) {
+  const auto tilts = [](double degrees) {
+    return parting_of(fmt::format("contact = \"slip\"\nmotion = {{kind = \"rotating\", axis = [0, 0, 1], rate = [[0, "
+                                  "\"{0} deg/s\"], [0.4, \"{0} deg/s\"], [0.401, 0]]}}\n",
+                                  degrees / 0.4));
+  };
+  ASSERT_TRUE(tilts(40));
+  EXPECT_EQ(tilts(40)->why, "what lies on solid 0 (box) slides down over its edge, from about 0.6 s on");
+  EXPECT_FALSE(tilts(4));
+  ASSERT_TRUE(tilts(150));
+  EXPECT_EQ(tilts(150)->why, "solid 0 (box) turns over with what lies on it");
+}
+
+TEST(Parting, OfWhatAHoldDrawsOverAnEdge) {
+  const auto pulled = [](const std::string& velocity) {
+    return parting_of(
+        "contact = \"slip\"\n[[hold]]\nregion = \"x_max\"\nmotion = {kind = \"translating\", velocity = " + velocity +
+        "}\n");
+  };
+  ASSERT_TRUE(pulled("[0.2, -0.05, 0]"));
+  EXPECT_EQ(pulled("[0.2, -0.05, 0]")->why, "hold 0 draws what lies on solid 0 (box) over its edge");
+  EXPECT_FALSE(pulled("[0.1, 0, 0]")); // it stays above the box
+  EXPECT_FALSE(pulled("[0, 0.2, 0]"));
 }
 
 // The adhesion is that of the liquid that is thrown up, not of [material].

@@ -61,6 +61,9 @@ TEST(Document, TablesThatStandTwiceAreWrittenAsSeveral) {
   EXPECT_EQ(problem("[solid]\nshape = \"plane\"\n[solid]\nshape = \"plane\"\n"),
             "s:3:1: Error while parsing table header: cannot redefine existing table 'solid': where there are several, "
             "each is written [[solid]]");
+  EXPECT_EQ(problem("[contact]\nself = true\n[contact]\nadhesion = 3\n"),
+            "s:3:1: Error while parsing table header: cannot redefine existing table 'contact': a scene has one "
+            "[contact], with all its keys under one heading");
 }
 
 TEST(Document, SyntaxErrorsHaveTheirPlace) {

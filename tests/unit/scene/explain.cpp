@@ -47,13 +47,24 @@ TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
   const auto sized = [](const std::string& radius) {
     return "[sheet]\nshape = \"disk\"\nedge_length = 1\nthickness = 0.1\nradius = " + radius + "\n" + liquid;
   };
-  EXPECT_TRUE(warned(of(sized("50")), "numbers without unit are metres"));
+  EXPECT_TRUE(warned(of(sized("50")),
+                     "the sheet is 50 m long: write \"50 mm\" if you mean that; numbers without unit are "
+                     "metres"));
   EXPECT_FALSE(warned(of(sized("5")), "numbers without unit are metres"));
   const Scene mesh = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"a.obj\"\nthickness = 0.1\n" + liquid, "s");
   EXPECT_TRUE(
       warned(explain(mesh, std::array{Measured{.length = 50, .thickness = 0.1, .curvature = {}}}), "scale = 0.001"));
   EXPECT_FALSE(
       warned(explain(mesh, std::array{Measured{.length = 5, .thickness = 0.1, .curvature = {}}}), "scale = 0.001"));
+}
+
+TEST(Explain, ContactAnglesNeedTension) {
+  const auto warnings = [](const std::string& more) {
+    return of(disk + liquid + more + "[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\ncontact_angle = 1\n").warnings;
+  };
+  const std::string word = "contact_angle of solid 0 does nothing: there is no surface_tension in [material]";
+  EXPECT_THAT(warnings(""), testing::Contains(word));
+  EXPECT_THAT(warnings("surface_tension = 0.03\n"), testing::Not(testing::Contains(word)));
 }
 
 TEST(Explain, WarnsOfEverySheetByItsName) {

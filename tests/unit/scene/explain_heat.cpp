@@ -75,6 +75,14 @@ TEST(ExplainHeat, TimesAndNumbersByTheirFormulas) {
   EXPECT_NEAR(number_of(heated, "Nahme").value, viscous, 1e-6 * viscous);
 }
 
+TEST(ExplainHeat, WarnsOfFacesThatAParabolaDoesNotFollow) {
+  const auto warned = [](const std::string& heat) { return explain(pane(heat)).warnings; };
+  const auto modes = HasSubstr("profile = 3 in [heat]");
+  EXPECT_THAT(warned("ambient = 300\ntransfer = 1000\n"), testing::Contains(modes)); // Biot 1000 0.004/(2 1.5) = 1.33
+  EXPECT_THAT(warned("ambient = 300\ntransfer = 1000\nprofile = 3\n"), Not(testing::Contains(modes)));
+  EXPECT_THAT(warned("ambient = 300\ntransfer = 700\n"), Not(testing::Contains(modes)));
+}
+
 TEST(ExplainHeat, SurroundingsThatVaryCountByTheirExtremes) {
   const Scene scene = pane("ambient = {along = \"x\", rows = [[0, 600], [1, 1300]]}\ntransfer = [[0, 5], [3, 20]]\n");
   EXPECT_NEAR(std::log(number_of(scene, "range of viscosity").value), 0.03 * 500, 1e-6);

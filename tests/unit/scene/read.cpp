@@ -147,6 +147,9 @@ TEST(Read, ProblemsOfTheSheet) {
            {"shape = \"disk\"", "s:1:1: missing key \"radius\" in [sheet], such as radius = \"2.5 mm\""},
            {"shape = \"disk\"\nradius = \"1 Pa\"",
             "s:3:10: radius: expected a length such as \"2.5 mm\", got a pressure (Pa)"},
+           {"shape = \"disk\"\nradius = \"30\"",
+            "s:3:10: radius: \"30\" has no unit: write one, as in \"2.5 mm\", or the "
+            "plain number, which is in m"},
            {"shape = \"disk\"\nradius = true",
             "s:3:10: radius: expected a length such as \"2.5 mm\", got true or false"},
            {"shape = \"disk\"\nradius = nan", "s:3:10: radius must be finite, got nan m"},

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/drawing_up.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/motion.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
+
+namespace sheet {
+
+namespace {
+
+// A vertex that lies on a solid.
+struct Lying {
+  Vector3 x;
+  std::size_t solid;
+};
+
+class Tools {
+public:
+  Tools(const Scene& scene, const formats::Frame& first, double until)
+      : solids_(scene), up_(*scene::up(scene.environment)), start_(first.time), until_(until),
+        thickness_(*measured(first).thickness) {
+    const auto x = positions(first);
+    const std::size_t stride = x.size() / looked_at + 1;
+    for (std::size_t v = 0; v < x.size(); v += stride)
+      if (const auto solid = under(x[v]))
+        lying_.push_back({x[v], *solid});
+  }
+
+  // The solid on which something lies that this one comes to, not from below, and rises from.
+  [[nodiscard]] std::optional<std::size_t> draws_from(std::size_t tool) const {
+    for (const Lying& what : lying_)
+      if (what.solid != tool && draws(tool, what))
+        return what.solid;
+    return std::nullopt;
+  }
+  [[nodiscard]] const std::string& name(std::size_t solid) const { return solids_.name(solid); }
+
+private:
+  [[nodiscard]] std::optional<std::size_t> under(const Vector3& x) const {
+    for (std::size_t i = 0; i < solids_.size(); ++i)
+      if (const solid::SolidPoint there = solids_.at(i, x, start_);
+          there.distance < near_enough * thickness_ && there.normal.dot(up_) > upright)
+        return i;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool draws(std::size_t tool, const Lying& what) const {
+    const auto moved = [&](std::size_t solid, double t0, double t1, const Vector3& x) {
+      return Vector3(scene::motion_between(solids_.scene(solid).motion, t0, t1) * x);
+    };
+    std::optional<double> touched;
+    Vector3 there = what.x; // where it touched
+    for (int i = 0; i <= times; ++i) {
+      const double t = start_ + (until_ - start_) * i / times;
+      const Vector3 x = moved(what.solid, start_, t, what.x);
+      if (!touched) {
+        const solid::SolidPoint point = solids_.at(tool, x, t);
+        if (point.distance < near_enough * thickness_ && point.normal.dot(up_) < upright) {
+          touched = t;
+          there = x;
+        }
+      } else if ((moved(tool, *touched, t, there) - x).dot(up_) > risen * thickness_ &&
+                 solids_.at(tool, x, t).distance > risen * thickness_) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  static constexpr std::size_t looked_at = 200; // vertices, about
+  static constexpr int times = 200;
+  static constexpr double near_enough = 0.75; // thicknesses: from a solid, of what touches it
+  static constexpr double risen = 2;          // thicknesses
+  static constexpr double upright = 0.5;      // cosine between a face that looks up, and up
+  solid::Solids solids_;
+  Vector3 up_;
+  double start_, until_, thickness_;
+  std::vector<Lying> lying_;
+};
+
+} // namespace
+
+std::string drawing_up_warning(const Scene& scene, const formats::Frame& first, double until) {
+  if (!scene::up(scene.environment) || scene.solids.size() < 2 || first.vertices == 0)
+    return {};
+  const Tools tools(scene, first, until);
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (!std::holds_alternative<scene::Fixed>(scene.solids[i].motion))
+      if (const auto from = tools.draws_from(i))
+        return fmt::format(
+            "{} comes to what lies on {} and rises from it, but draws nothing up, with [contact] adhesion "
+            "or without: a sheet stays with the solid that it touched first. What is to rise with a tool "
+            "lies on it from the start",
+            tools.name(i), tools.name(*from));
+  return {};
+}
+
+} // namespace sheet

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tools that come to what lies on another solid, and rise again: they draw nothing up, as a sheet stays with the solid
+// that it touched first (docs/flow-on-solids.md).
+#pragma once
+#include <string>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+// Of the first solid that touches, not from below, what lies on another one at the start, and is later, before `until`
+// [s], more than two thicknesses higher above it. "" if none does.
+[[nodiscard]] std::string drawing_up_warning(const Scene& scene, const formats::Frame& first, double until);
+
+} // namespace sheet

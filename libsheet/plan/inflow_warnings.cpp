@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/inflow_warnings.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "libsheet/flow/inlet.h"
+#include "libsheet/geometry/area.h"
+#include "libsheet/scene/inlet_velocity.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::Frame;
+
+// Of the inflow's velocity at the inlet, in the mean: its part across the sheet, and upward.
+struct Part {
+  double across = 0, upward = 0;
+};
+
+Part part_of(const Frame& first, const scene::InletVelocity& velocity, std::size_t number, const Vector3& up) {
+  const auto x = positions(first);
+  Part sum;
+  double count = 0;
+  for (const flow::InletChain& chain : flow::find_inlet(first, number))
+    for (std::size_t i = 0; i < chain.edges(); ++i, ++count) {
+      const Corners& c = triangles(first)[chain.behind[i]];
+      const Vector3 v =
+          velocity.at(first.time, (x[chain.border[i]] + x[chain.border[chain.after(i)]]) / 2).normalized();
+      sum.across += std::abs(v.dot(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).normal.normalized()));
+      sum.upward += v.dot(up);
+    }
+  return count > 0 ? Part{sum.across / count, sum.upward / count} : Part{};
+}
+
+} // namespace
+
+std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first) {
+  constexpr double most = 0.87; // sine of 60 degrees
+  std::vector<std::string> warnings;
+  const auto up = scene::up(scene.environment);
+  for (std::size_t i = 0; i < scene.inflows.size() && up; ++i) {
+    const scene::InletVelocity velocity = scene::inlet_velocity(scene, scene.inflows[i]);
+    const Part part = velocity.speed(first.time) > 0 ? part_of(first, velocity, i, *up) : Part{};
+    if (part.across > most && part.upward > most)
+      warnings.push_back(fmt::format("inflow {} goes up out of the sheet, across it, and comes down on it: what flows "
+                                     "in has its velocity along the "
+                                     "sheet, away from the border where it enters; radial_velocity is along a disk",
+                                     i));
+  }
+  return warnings;
+}
+
+} // namespace sheet

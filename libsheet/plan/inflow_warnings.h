@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Inflows that begin with a fold.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+// Of each inflow whose liquid moves across the sheet at the inlet (more than 60 degrees from its plane, in the mean),
+// and against gravity, so that it comes down on the sheet.
+[[nodiscard]] std::vector<std::string> inflow_warnings(const Scene& scene, const formats::Frame& first);
+
+} // namespace sheet

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/over_edge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/layer_scales.h"
+#include "libsheet/scene/motion.h"
+#include "libsheet/sheet/sheet.h"
+
+namespace sheet {
+
+namespace {
+
+bool has_edges(const scene::Solid& solid) {
+  return solid.contact != SolidContact::stick && solid.surface_velocity.isZero(0) &&
+         (std::holds_alternative<scene::SolidBox>(solid.shape) ||
+          std::holds_alternative<scene::Cylinder>(solid.shape) ||
+          std::holds_alternative<scene::SolidMesh>(solid.shape));
+}
+
+// A way along a solid that stands as at time t, half a thickness above it.
+class Way {
+public:
+  Way(const Scene& scene, const solid::Solids& solids, std::size_t number, double t, double thickness,
+      const Vector3& from)
+      : scene_(scene), solids_(solids), number_(number), t_(t), thickness_(thickness),
+        step_(std::max(thickness / 4, solids.shape(number).bounds().diagonal().norm() / steps_across)), x_(from) {
+    come_to(from);
+  }
+
+  [[nodiscard]] const Vector3& x() const { return x_; }
+  [[nodiscard]] const Vector3& normal() const { return normal_; }
+  [[nodiscard]] double step() const { return step_; }
+  [[nodiscard]] Vector3 along(const Vector3& direction) const { return direction - direction.dot(normal_) * normal_; }
+
+  // A step in that direction, along the solid; whether an edge has been passed then.
+  bool go(const Vector3& direction) {
+    const Vector3 ahead = along(direction).normalized();
+    directions_.push_back(ahead);
+    if (static_cast<double>(directions_.size()) > std::max(1.0, in_reach * thickness_ / step_))
+      directions_.pop_front();
+    come_to(x_ + step_ * ahead);
+    return normal_.dot(directions_.front()) > turned;
+  }
+
+  // Whether something else takes up what is there: another solid, a bath, an outflow.
+  [[nodiscard]] bool taken_up() const {
+    for (std::size_t i = 0; i < solids_.size(); ++i)
+      if (i != number_ && solids_.at(i, x_, t_).distance < in_reach * thickness_)
+        return true;
+    const auto up = scene::up(scene_.environment);
+    if (up && scene_.environment.bath && up->dot(x_) < scene_.environment.bath->level)
+      return true;
+    return std::ranges::any_of(scene_.outflows,
+                               [&](const scene::Outflow& o) { return o.normal.dot(x_ - o.point) > 0; });
+  }
+
+  static constexpr int most_steps = 1000;
+  static constexpr double in_reach = 2;      // thicknesses
+  static constexpr double least_slope = 0.1; // part of gravity along the solid, below which nothing runs
+
+private:
+  static constexpr double steps_across = 300;
+  static constexpr double turned = 0.7; // sine of the angle by which an edge turns at least
+
+  void come_to(const Vector3& x) {
+    const solid::SolidPoint there = solids_.at(number_, x, t_);
+    normal_ = there.normal;
+    x_ = x + (thickness_ / 2 - there.distance) * normal_;
+  }
+
+  const Scene& scene_;
+  const solid::Solids& solids_;
+  std::size_t number_;
+  double t_, thickness_, step_;
+  Vector3 x_, normal_;
+  std::deque<Vector3> directions_; // of the last steps, over as much as an edge may be long
+};
+
+// Whether nothing takes up what runs down from there until the way leads under the solid.
+bool is_in_the_open(Way way, const Vector3& gravity) {
+  constexpr double underside = 0.5; // cosine between a face that looks down and gravity
+  for (int i = 0; i < Way::most_steps && !way.taken_up(); ++i) {
+    if (way.normal().dot(gravity) > underside * gravity.norm())
+      return true;
+    if (way.along(gravity).norm() < Way::least_slope * gravity.norm())
+      return false;
+    way.go(gravity);
+  }
+  return false;
+}
+
+// When what starts there from rest comes down to an edge in the open [s].
+std::optional<double> time_down(Way way, const Scene& scene, const scene::Solid& solid, const Liquid& liquid,
+                                double h) {
+  constexpr double below = 0.8; // cosine between gravity and a face below something round
+  const Vector3 gravity = *scene.environment.gravity;
+  double time = 0, speed = 0;
+  for (int i = 0; i < Way::most_steps && !way.taken_up(); ++i) {
+    const double pull = way.along(gravity).norm();
+    if (pull < Way::least_slope * gravity.norm() || way.normal().dot(gravity) > below * gravity.norm())
+      return std::nullopt;
+    const double before = speed;
+    speed = solid.contact == SolidContact::slip
+                ? std::sqrt(before * before + 2 * pull * way.step())
+                : scene::speed_of_layer(liquid, liquid.density * h * pull, h, solid.slip_length);
+    if (!(speed > 0))
+      return std::nullopt;
+    time += way.step() / (solid.contact == SolidContact::slip ? (before + speed) / 2 : speed);
+    if (way.go(gravity))
+      return is_in_the_open(way, gravity) ? std::optional(time) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// Whether the way straight to that place passes an edge, beyond which no other solid is near.
+bool passes_edge(Way way, const Vector3& target) {
+  for (int i = 0; i < Way::most_steps && !way.taken_up(); ++i) {
+    const Vector3 direction = target - way.x();
+    if (way.along(direction).norm() < way.step())
+      return false;
+    if (way.go(direction))
+      return !way.taken_up();
+  }
+  return false;
+}
+
+// Whether that face looks down, and the layer on it is too thick for surface tension to carry, 2 sqrt(gamma/(rho g)).
+bool is_turned_over(const Vector3& normal, const Liquid& liquid, const Vector3& gravity, double h) {
+  constexpr double looks_down = 0.2; // cosine
+  return normal.dot(gravity) > looks_down * gravity.norm() &&
+         h > 2 * std::sqrt(liquid.surface_tension / (liquid.density * gravity.norm()));
+}
+
+// When the solid stands as it will; nothing if it still turns at the end, or for ever.
+std::optional<double> when_turned(const scene::Motion& motion, double start, double until) {
+  if (!scene::turns(motion))
+    return start;
+  const std::vector<double> events = scene::events(motion);
+  if (events.empty() || !(events.back() < until))
+    return std::nullopt;
+  const double end = std::max(start, events.back());
+  const bool turns_on = !scene::motion_between(motion, end, until).linear().isIdentity(1e-6);
+  return turns_on ? std::nullopt : std::optional(end);
+}
+
+struct OnSolid {
+  const Scene& scene;
+  const formats::Frame& first;
+  const solid::Solids& solids;
+  std::size_t number;
+  std::vector<Landing> landings; // on it
+  double thickness, until;
+
+  [[nodiscard]] const scene::Solid& solid() const { return solids.scene(number); }
+  [[nodiscard]] Vector3 carried(const Vector3& x, double t) const {
+    return scene::motion_between(solid().motion, first.time, t) * x;
+  }
+};
+
+std::optional<OverEdge> runs_over(const OnSolid& on) {
+  const auto turned_at = when_turned(on.solid().motion, on.first.time, on.until);
+  const bool held = std::ranges::any_of(on.scene.holds, [](const scene::Hold& hold) { return !hold.until; });
+  if (!turned_at || (held && on.solid().contact == SolidContact::slip))
+    return std::nullopt;
+  constexpr std::size_t most_ways = 30;
+  std::optional<OverEdge> earliest;
+  const double gravity = on.scene.environment.gravity->norm();
+  const std::size_t stride = on.landings.size() / most_ways + 1;
+  for (std::size_t i = 0; i < on.landings.size(); i += stride) {
+    const Landing& landing = on.landings[i];
+    const double fall = std::max(0.0, landing.fall - on.thickness / 2);
+    const double starts = std::max(*turned_at, on.first.time + std::sqrt(2 * fall / gravity));
+    const Way way(on.scene, on.solids, on.number, starts, on.thickness, on.carried(landing.place, starts));
+    const auto takes = time_down(way, on.scene, on.solid(), landing.liquid, on.thickness);
+    if (!way.taken_up() && is_turned_over(way.normal(), landing.liquid, *on.scene.environment.gravity, on.thickness))
+      return OverEdge{fmt::format("{} turns over with what lies on it", on.solids.name(on.number)), starts,
+                      landing.liquid.density};
+    const double time = takes ? starts + *takes : std::numeric_limits<double>::infinity();
+    if (time < (earliest ? earliest->time : on.until))
+      earliest = OverEdge{fmt::format("what lies on {} {} down over its edge, from about {:.2g} s on",
+                                      on.solids.name(on.number),
+                                      on.solid().contact == SolidContact::slip ? "slides" : "runs", time),
+                          time, landing.liquid.density};
+  }
+  return earliest;
+}
+
+// The middle of what a hold holds at the start.
+std::optional<Vector3> middle_of_hold(const formats::Frame& first, std::size_t hold) {
+  const auto masks = holds(first);
+  const auto x = positions(first);
+  Vector3 sum = Vector3::Zero();
+  double count = 0;
+  for (std::size_t v = 0; v < masks.size(); ++v)
+    if ((masks[v] >> hold & 1) != 0) {
+      sum += x[v];
+      ++count;
+    }
+  return count > 0 ? std::optional<Vector3>(sum / count) : std::nullopt;
+}
+
+std::optional<OverEdge> drawn_over(const OnSolid& on, std::size_t number) {
+  constexpr int poses = 20;
+  constexpr double lies = 2.5; // thicknesses
+  const scene::Hold& hold = on.scene.holds[number];
+  const auto middle = middle_of_hold(on.first, number);
+  if (hold.roll || !middle)
+    return std::nullopt;
+  const Landing* nearest = nullptr;
+  for (const Landing& landing : on.landings)
+    if (landing.fall < lies * on.thickness &&
+        (nearest == nullptr || (landing.place - *middle).norm() < (nearest->place - *middle).norm()))
+      nearest = &landing;
+  if (nearest == nullptr)
+    return std::nullopt;
+  const double start = on.first.time, end = std::min(on.until, hold.until.value_or(on.until));
+  for (int i = 1; i <= poses; ++i) {
+    const double t = start + (end - start) * i / poses;
+    const Vector3 place = on.carried(nearest->place, t),
+                  target = scene::motion_between(hold.motion, start, t) * *middle;
+    const bool away = (target - place).norm() > (*middle - nearest->place).norm() + on.thickness;
+    if (away && on.solids.at(on.number, target, t).distance > Way::in_reach * on.thickness &&
+        passes_edge(Way(on.scene, on.solids, on.number, t, on.thickness, place), target))
+      return OverEdge{fmt::format("hold {} draws what lies on {} over its edge", number, on.solids.name(on.number)), t,
+                      nearest->liquid.density};
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame& first, const std::vector<Landing>& all,
+                                       double until) {
+  const solid::Solids solids(scene);
+  const double thickness = *measured(first).thickness;
+  std::optional<OverEdge> earliest;
+  const auto consider = [&](const std::optional<OverEdge>& found) {
+    if (found && (!earliest || found->time < earliest->time))
+      earliest = found;
+  };
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (!has_edges(scene.solids[i]))
+      continue;
+    OnSolid on{scene, first, solids, i, {}, thickness, until};
+    std::ranges::copy_if(all, std::back_inserter(on.landings), [&](const Landing& l) { return l.solid == i; });
+    consider(runs_over(on));
+    for (std::size_t k = 0; k < scene.holds.size(); ++k)
+      consider(drawn_over(on, k));
+  }
+  return earliest;
+}
+
+} // namespace sheet

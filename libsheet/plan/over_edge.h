@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sheets that slide, run or are drawn over the edge of a solid, beyond which nothing takes them up.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/plan/landing.h"
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+struct OverEdge {
+  std::string why; // what goes over the edge of which solid
+  double time;     // from when on [s]
+  double density;  // of the liquid [kg/m³]
+};
+
+// Of what lies or lands on boxes, cylinders and meshes along which it slips or flows, the first that gets there before
+// `until` [s], on the way
+//   - down the slope, of the solid as it stands when it has turned: from rest without drag where it slips, with the
+//     speed of a layer where it flows (scene/layer_scales.h)
+//   - to where a hold goes
+// and, before any way, where the solid has turned over with a layer too thick to hang.
+// An edge turns by more than 45 degrees within two thicknesses. It is in the open where the way down from it leads
+// under the solid before it comes to another one, a bath or an outflow. all: of the sheet's vertices.
+[[nodiscard]] std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame& first,
+                                                     const std::vector<Landing>& all, double until);
+
+} // namespace sheet
