@@ -12,7 +12,9 @@ int main(int argc, char** argv) {
       "Writes the frames that are asked for, unchanged and in their order, as they come: memory is needed only "
       "for what counts from the end. Reading stops when no frame to come can be meant. Indices start at 0. "
       "Without --index, --time and --last all frames are meant; --every and --first then choose from what is "
-      "meant.");
+      "meant.\nOf a stream that was cut short, as by a run that failed, what --index, --time and --last mean of its "
+      "whole frames is written as a whole stream, with its end mark, and the exit code is 4 all the same. Without "
+      "them, what is written is cut short, too.");
   std::string input = "-", output = "-", indices, times;
   sheet::SelectOptions options;
   bool last = false;
@@ -48,19 +50,24 @@ int main(int argc, char** argv) {
       writer.write(frame);
     });
     sheet::formats::Frame frame;
+    const auto end = [&] {
+      out.start();
+      writer.end();
+      out.close();
+    };
     const auto next = [&] {
       try {
         return reader.read(frame);
       } catch (const sheet::formats::StreamError&) {
         selector.cut_short();
+        if (writer.frames() > 0 && (!options.indices.empty() || !options.times.empty()))
+          end();
         throw;
       }
     };
     while (next() && selector.add(std::move(frame)))
       continue;
     selector.end();
-    out.start();
-    writer.end();
-    out.close();
+    end();
   });
 }
