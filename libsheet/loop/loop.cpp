@@ -140,7 +140,7 @@ public:
     progress.end(frame_.time, frame_.step, output_->frames(), "done");
     if (stop_)
       log::note("stopped at step {}, t = {} s, as --stop-when says: {}", frame_.step, frame_.time, *stop_);
-    else if (rounds == 0)
+    else if (rounds == 0 && begins_beyond_end())
       log::note("nothing was left to do: it starts at step {}, t = {} s; give a later --until, or more --steps",
                 frame_.step, frame_.time);
     tell_of_health();
@@ -293,6 +293,11 @@ private:
   [[nodiscard]] bool done() const {
     return stop_ || (options_.until && frame_.time >= *options_.until) ||
            (options_.steps && frame_.step >= static_cast<std::uint64_t>(*options_.steps));
+  }
+
+  [[nodiscard]] bool begins_beyond_end() const {
+    return (options_.until && frame_.time > *options_.until) ||
+           (options_.steps && frame_.step > static_cast<std::uint64_t>(*options_.steps));
   }
 
   // One frame through all stages; false if the user interrupted. Sends from a thread of its own: a stage may answer
