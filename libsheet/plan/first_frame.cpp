@@ -54,9 +54,7 @@ std::string scale_in_doubt(const Scene& scene, const solid::Solids& solids, std:
   return hint.empty() ? hint : " (" + hint + ")";
 }
 
-// Where gravity pulls towards a positive coordinate, as by a sign that was forgotten, and a plane looks against it;
-// else
-// "".
+// Where gravity pulls towards a positive coordinate, as by a forgotten sign, and a plane looks against it; else "".
 std::string gravity_in_doubt(const Scene& scene, std::size_t i) {
   const auto* plane = std::get_if<scene::HalfSpace>(&scene.solids[i].shape);
   const auto up = scene::up(scene.environment);

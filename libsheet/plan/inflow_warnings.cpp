@@ -46,8 +46,8 @@ std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first)
     const Part part = velocity.speed(first.time) > 0 ? part_of(first, velocity, i, *up) : Part{};
     if (part.across > most && part.upward > most)
       warnings.push_back(fmt::format("inflow {} goes up out of the sheet, across it, and comes down on it: what flows "
-                                     "in has its velocity along the "
-                                     "sheet, away from the border where it enters; radial_velocity is along a disk",
+                                     "in has its velocity along the sheet, away from the border where it enters; "
+                                     "radial_velocity is along a disk",
                                      i));
   }
   return warnings;

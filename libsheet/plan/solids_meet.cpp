@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <variant>
 
 #include <fmt/format.h>
@@ -66,6 +68,23 @@ private:
   std::size_t a_, b_;
 };
 
+struct Meeting {
+  double begins, deepest; // [s], [m]
+};
+
+// Of two that start apart; nothing of those that start in each other, as parts of one thing do.
+std::optional<Meeting> meeting_of(const Pair& pair, double start, double until, double thickness) {
+  if (pair.depth(start) > resting * thickness)
+    return std::nullopt;
+  std::optional<Meeting> meeting;
+  for (int k = 1; k <= times; ++k) {
+    const double t = start + (until - start) * k / times, depth = pair.depth(t);
+    if (depth > (meeting ? meeting->deepest : deep * thickness))
+      meeting = {meeting ? meeting->begins : t, depth};
+  }
+  return meeting;
+}
+
 bool is_moved(const scene::Solid& solid) { return !std::holds_alternative<scene::Fixed>(solid.motion); }
 
 } // namespace
@@ -80,26 +99,16 @@ std::vector<std::string> warnings_of_solids_that_meet(const Scene& scene, const 
   std::vector<std::vector<Vector3>> points;
   for (std::size_t i = 0; i < solids.size(); ++i)
     points.push_back(surface_points(solids.shape(i)));
-  const auto time = [&](int k) { return first.time + (until - first.time) * k / times; };
   for (std::size_t a = 0; a < solids.size(); ++a)
     for (std::size_t b = a + 1; b < solids.size(); ++b) {
       if (!is_moved(scene.solids[a]) && !is_moved(scene.solids[b]))
         continue;
-      const Pair pair(solids, points, a, b);
-      if (pair.depth(first.time) > resting * *sheet.thickness)
-        continue; // parts of one thing
-      double begins = 0, deepest = deep * *sheet.thickness;
-      const double told = deepest;
-      for (int k = 1; k <= times; ++k)
-        if (const double depth = pair.depth(time(k)); depth > deepest) {
-          begins = deepest == told ? time(k) : begins;
-          deepest = depth;
-        }
-      if (deepest > told)
+      if (const auto meeting = meeting_of(Pair(solids, points, a, b), first.time, until, *sheet.thickness))
         warnings.push_back(fmt::format("{} and {} move into each other, from {:.2g} s on and by up to {} m: what lies "
                                        "between them has nowhere to go, and the run stalls there; their motions must "
                                        "leave it room",
-                                       solids.name(a), solids.name(b), begins, scene::brief(deepest)));
+                                       solids.name(a), solids.name(b), meeting->begins,
+                                       scene::brief(meeting->deepest)));
     }
   return warnings;
 }

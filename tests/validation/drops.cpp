@@ -20,25 +20,6 @@ namespace {
 
 using formats::Frame;
 
-double volume_of_all(const Frame& frame) {
-  double sum = volume_of_drops(frame);
-  for (const double volume : volumes(frame))
-    sum += volume;
-  return sum;
-}
-
-StepStageOptions equal_steps(const Settings& s, double duration) {
-  StepStageOptions options;
-  options.dt = duration / s.steps;
-  options.scheme = s.scheme;
-  options.failed = "";
-  return options;
-}
-
-double since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 Result result_of_frame(const Frame& frame, const Settings& s, double value) {
   Result r;
   r.value = value;

@@ -4,6 +4,8 @@
 #include <ctime>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/sheet/drops.h"
+#include "libsheet/sheet/sheet.h"
 
 namespace sheet::validation {
 
@@ -137,6 +139,25 @@ template <class F> double weighted_mean(const State& s, F&& f) {
 }
 
 } // namespace
+
+double volume_of_all(const formats::Frame& frame) {
+  double sum = volume_of_drops(frame);
+  for (const double volume : volumes(frame))
+    sum += volume;
+  return sum;
+}
+
+StepStageOptions equal_steps(const Settings& s, double duration) {
+  StepStageOptions options;
+  options.dt = duration / s.steps;
+  options.scheme = s.scheme;
+  options.failed = "";
+  return options;
+}
+
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 double mean_radius(const State& s) {
   return weighted_mean(s, [&](std::uint32_t v) { return s.positions[v].norm(); });

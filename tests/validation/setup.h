@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the cases share: meshes, holds, stepping with a clock, one-dimensional references.
 #pragma once
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/solve/step_stage.h"
 #include "tests/validation/case.h"
 
 namespace sheet::validation {
@@ -44,6 +47,10 @@ private:
   int steps_ = 0, iterations_ = 0, failed_ = 0;
   double seconds_ = 0;
 };
+
+[[nodiscard]] double volume_of_all(const formats::Frame& frame);                // of triangles and drops [m³]
+[[nodiscard]] StepStageOptions equal_steps(const Settings& s, double duration); // of s.steps steps
+[[nodiscard]] double since(std::chrono::steady_clock::time_point start);        // [s]
 
 [[nodiscard]] double mean_radius(const State& s);  // about the origin, weighted by mass
 [[nodiscard]] double radial_speed(const State& s); // mean of v·x/|x|, likewise

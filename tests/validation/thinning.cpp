@@ -87,13 +87,6 @@ void draw_in(Frame& frame) {
   }
 }
 
-double volume_of_all(const Frame& frame) {
-  double sum = volume_of_drops(frame);
-  for (const double volume : volumes(frame))
-    sum += volume;
-  return sum;
-}
-
 // Of a frame that has been stepped.
 struct Motion {
   explicit Motion(const Frame& frame) {
@@ -141,14 +134,6 @@ double waist_radius(const Frame& frame) {
   return std::sqrt(std::ranges::min(section) / pi);
 }
 
-StepStageOptions equal_steps(const Settings& s, double duration) {
-  StepStageOptions options;
-  options.dt = duration / s.steps;
-  options.scheme = s.scheme;
-  options.failed = "";
-  return options;
-}
-
 } // namespace
 
 // It is to part where it is 0.15 of what r0 is wide. Value: the time from 0.4 to 0.2 r0 by the slender thread over that
@@ -188,7 +173,7 @@ Result v47(const Settings& s) {
   Result r;
   r.value = exact / time;
   r.error = r.value - 1;
-  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  r.seconds = since(start);
   r.vertices = frame.vertices;
   r.edge = s.edge;
   r.steps = s.steps;
