@@ -144,7 +144,7 @@ std::string explained(Source source, bool ring_alone) {
   }
   std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
-  const double until = sheet::proposed_ring(scene, frame, wishes).until;
+  const double until = sheet::proposed_ring(with_heat, frame, wishes).until;
   if (const auto parting = sheet::must_part(scene, frame, until)) {
     const std::string adhesion = fmt::format("\"{:.2g} Pa\"", parting->adhesion);
     explanation.warnings.push_back(fmt::format(
@@ -163,9 +163,9 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::hole_scales(scene, frame), std::back_inserter(explanation.scales));
   std::ranges::copy(sheet::hole_warnings(scene, frame), std::back_inserter(explanation.warnings));
-  return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, wishes, init)
+  return sheet::formats::printable(ring_alone ? sheet::ring_lines(with_heat, frame, wishes, init)
                                               : sheet::scene::to_text(explanation) +
-                                                    sheet::ring_text(scene, frame, wishes, init));
+                                                    sheet::ring_text(with_heat, frame, wishes, init));
 }
 
 } // namespace

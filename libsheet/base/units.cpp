@@ -35,6 +35,11 @@ constexpr std::array units{
     NamedUnit{"h", {{0, 0, 1}, 2, 36}, false},
     NamedUnit{"d", {{0, 0, 1}, 0, 86400}, false},
     NamedUnit{"a", {{0, 0, 1}, 0, 31557600}, false}, // a year of 365.25 days
+    NamedUnit{"ka", {{0, 0, 1}, 3, 31557600}, false},
+    NamedUnit{"Ma", {{0, 0, 1}, 6, 31557600}, false},
+    NamedUnit{"yr", {{0, 0, 1}, 0, 31557600}, false},
+    NamedUnit{"kyr", {{0, 0, 1}, 3, 31557600}, false},
+    NamedUnit{"Myr", {{0, 0, 1}, 6, 31557600}, false},
     NamedUnit{"K", {{0, 0, 0, 1}}, true},
     NamedUnit{"mol", {{0, 0, 0, 0, 1}}, true},
     NamedUnit{"Hz", {{0, 0, -1}}, true},

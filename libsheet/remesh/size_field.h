@@ -41,8 +41,8 @@ struct SizeOptions {
 // one row it has no noise of its mesh, of two, between uneven triangles, it thins twice as fast as it should (V47).
 // Likewise a neck (necks.h), its width that of the least of the edges round it.
 //
-// Without `chord_error` no edge is split that is not too long for h, too, where nothing holds the sheet and no solid
-// carries it: a shell model says nothing about what is shorter.
+// Where some of the sheet is thicker than the longest wanted length, no edge is split that is not too long for h, too,
+// where nothing holds the sheet and no solid carries it: a shell model says nothing about what is shorter.
 class SizeField {
 public:
   SizeField(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
@@ -59,11 +59,11 @@ public:
 private:
   void adapt(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
   void fit_strips(const EditableSheet& sheet, const SizeOptions& options, bool round);
-  void note_thick(const EditableSheet& sheet);
+  void note_thick(const EditableSheet& sheet, double longest);
 
   double uniform_;
   std::vector<double> size_;  // empty: uniform_ everywhere
-  std::vector<double> thick_; // thickness where it counts, 0 elsewhere [m]; empty: nowhere above uniform_
+  std::vector<double> thick_; // thickness where it counts, 0 elsewhere [m]; empty: nowhere above the longest length
 };
 
 } // namespace sheet::remesh

@@ -90,6 +90,11 @@ TEST(Units, OtherFactors) {
   EXPECT_EQ(read("2 d", quantity::time), 172800);
   EXPECT_EQ(read("10 a", quantity::time), 315576000);
   EXPECT_EQ(read("31557.6 km/a", quantity::velocity), 1);
+  EXPECT_EQ(read("31557.6 km/yr", quantity::velocity), 1);
+  EXPECT_EQ(read("2 ka", quantity::time), 2e3 * 31557600);
+  EXPECT_EQ(read("2 kyr", quantity::time), 2e3 * 31557600);
+  EXPECT_EQ(read("3 Ma", quantity::time), 3e6 * 31557600);
+  EXPECT_EQ(read("3 Myr", quantity::time), 3e6 * 31557600);
   EXPECT_EQ(read("0.1 h", quantity::time), 360);
   EXPECT_EQ(read("180 deg", quantity::angle), std::numbers::pi);
   EXPECT_EQ(read("45°", quantity::angle), std::numbers::pi / 4);
