@@ -17,14 +17,15 @@ struct SizeOptions {
   double edge_length = 0;                   // [m], positive; with `chord_error` only the bounds' default
   std::optional<double> chord_error;        // adaptive: the distance that an edge may have from the curved sheet [m]
   std::optional<double> min_edge, max_edge; // bounds [m]; absent: edge_length; adaptive: a quarter, four times
+  std::vector<double> coarser;              // at vertices: factors on all these lengths; empty: 1
   // Error(usage) if a value is not positive and finite, or the upper bound is below twice the lower one while adaptive.
   void check() const;
   // The least edge that a strip gets [m].
   [[nodiscard]] double shortest_in_strips() const;
 };
 
-// Adaptive length at a vertex, the least of these, but not below h, within the bounds, growing by at most 0.4 of the
-// distance:
+// Lengths are `edge_length`, or adaptive ones, times `coarser`. Adaptive length at a vertex, the least of these, but
+// not below h, within the bounds, growing by at most 0.4 of the distance:
 // - sqrt(8 ε / |k|): chord error of the largest principal curvature k [Cohen-Steiner, Morvan 2003], at rims also of
 // theirs;
 // - proportional to g^-½, g how unevenly the sheet stretches and bends (flow_error.h), so that triangles, as many as
@@ -59,6 +60,7 @@ public:
 private:
   void adapt(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
   void fit_strips(const EditableSheet& sheet, const SizeOptions& options, bool round);
+  void make_coarser(const EditableSheet& sheet, const std::vector<double>& coarser);
   void note_thick(const EditableSheet& sheet, double longest);
 
   double uniform_;

@@ -340,6 +340,8 @@ Explanation explain(const Scene& with_heat, std::span<const Measured> measured, 
   std::ranges::copy(heat_scales(first_with_heat, scales.front()), std::back_inserter(result.scales));
   std::ranges::copy(heat_numbers(first_with_heat, scales.front()), std::back_inserter(result.numbers));
   result.warnings = warnings_of(scene, scales);
+  if (const auto thinning = warning_of_thinning(first_with_heat))
+    result.warnings.push_back(*thinning);
   result.left_out = left_out_of(scene, scales.front());
   return result;
 }

@@ -211,6 +211,21 @@ std::optional<std::string> warning_of_biot(const Scene& scene, const Scales& sca
                      brief(biot));
 }
 
+std::optional<std::string> warning_of_thinning(const Scene& scene) {
+  constexpr double of_water = 1e-3, viscous = 1; // [Pa s]
+  if (!scene.heat || scene.material.temperature_law.constant())
+    return {};
+  const ViscosityShift shift(scene.material.temperature_law);
+  const double start = start_temperature(scene), warm = temperatures_around(scene).second,
+               thinnest = scene.material.viscosity * shift.factor(warm);
+  if (!(thinnest < of_water) || scene.material.viscosity * shift.factor(start) < viscous)
+    return {};
+  return fmt::format(
+      "at {} K, the warmest around, the liquid would have {} Pa s, less than water: its viscosity_law goes "
+      "far beyond where it is known; viscosity_law = \"table\" stays what it is beyond its rows",
+      brief(warm), brief(thinnest));
+}
+
 std::string heat_in_words(const Scene& scene) {
   const Heat& heat = *scene.heat;
   std::string text = fmt::format("from {} K", brief(start_temperature(scene)));

@@ -30,6 +30,8 @@ struct Warming {
 [[nodiscard]] std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& scales);
 // Of faces that cool long before the middle, though the profile across the thickness is a parabola.
 [[nodiscard]] std::optional<std::string> warning_of_biot(const Scene& scene, const Scales& scales);
+// Of a law that makes a viscous liquid thinner than water at the warmest that is around.
+[[nodiscard]] std::optional<std::string> warning_of_thinning(const Scene& scene);
 
 // How the viscosity goes with temperature, and what the faces do: for the list of what is modelled.
 [[nodiscard]] std::string heat_in_words(const Scene& scene);
