@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -111,23 +112,27 @@ double round_number(double value) {
 
 constexpr double longest_passing = 10; // of solids that creep, in times of everything else
 
-// Some times of the flow, and until what lies on a slope has run down it, after `at_rest` [s].
-double flow_time(const Scene& scene, const Frame& first, double at_rest) {
+// Some times of the flow.
+double flow_time(const Scene& scene, const Frame& first) {
   constexpr double times = 5;
   double time = 0;
   for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
     if (scales.length && scales.speed > 0)
       time = std::max(time, times * *scales.length / scales.speed);
-  if (const auto down = runs_down(scene, first, at_rest))
-    time = std::max(time, at_rest + down->time);
   return time;
 }
 
-// The same; of what is warmed until it flows, from when it is warm.
-double flow_time_with_heat(const Scene& scene, const Frame& first, double at_rest) {
-  const double as_it_starts = flow_time(scene::as_it_starts(scene), first, at_rest);
+// Until what lies on a slope has run down it, after `at_rest` [s]; 0 where nothing does.
+double time_down(const Scene& scene, const Frame& first, double at_rest) {
+  const auto down = runs_down(scene, first, at_rest);
+  return down ? at_rest + down->time : 0;
+}
+
+// That of the scene as it starts; of what is warmed until it flows, counted from when it is warm.
+double with_heat(const Scene& scene, const Frame& first, const std::function<double(const Scene&)>& time_of) {
+  const double as_it_starts = time_of(scene::as_it_starts(scene));
   const auto warming = scene::warming_of(scene, measured(first).thickness.value_or(0));
-  return warming ? std::min(as_it_starts, warming->time + flow_time(warming->warm, first, at_rest)) : as_it_starts;
+  return warming ? std::min(as_it_starts, warming->time + time_of(warming->warm)) : as_it_starts;
 }
 
 // The longest of the sheets' lengths [m].
@@ -160,11 +165,12 @@ double until_of(const Scene& scene, const Frame& first) {
   for (const scene::Solid& solid : scene.solids)
     for (const double time : scene::events(solid.motion))
       at_rest = std::max(at_rest, time);
-  double until = flow_time_with_heat(scene, first, at_rest);
+  double until = with_heat(scene, first, [&](const Scene& of) { return flow_time(of, first); });
   if (until == 0)
     until = 1;
   if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > 0)
     until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / gravity);
+  until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_down(of, first, at_rest); }));
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
   for (const scene::Hold& hold : scene.holds)
     ends(hold.until.value_or(0));
