@@ -26,6 +26,7 @@
 #include "libsheet/plan/modelled.h"
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
+#include "libsheet/plan/running_down.h"
 #include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/plan/wetting.h"
@@ -160,6 +161,8 @@ std::string explained(Source source, bool ring_alone) {
        {sheet::drawing_up_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
+  if (const std::string late = sheet::late_running_warning(scene, frame, until); !source.until && !late.empty())
+    explanation.warnings.push_back(late);
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::hole_scales(scene, frame), std::back_inserter(explanation.scales));
   std::ranges::copy(sheet::hole_warnings(scene, frame), std::back_inserter(explanation.warnings));
