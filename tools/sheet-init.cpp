@@ -26,6 +26,7 @@
 #include "libsheet/plan/modelled.h"
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
+#include "libsheet/plan/running_down.h"
 #include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/plan/wetting.h"
@@ -144,7 +145,7 @@ std::string explained(Source source, bool ring_alone) {
   }
   std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
-  const double until = sheet::proposed_ring(scene, frame, wishes).until;
+  const double until = sheet::proposed_ring(with_heat, frame, wishes).until;
   if (const auto parting = sheet::must_part(scene, frame, until)) {
     const std::string adhesion = fmt::format("\"{:.2g} Pa\"", parting->adhesion);
     explanation.warnings.push_back(fmt::format(
@@ -160,12 +161,14 @@ std::string explained(Source source, bool ring_alone) {
        {sheet::drawing_up_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
+  if (const std::string late = sheet::late_running_warning(scene, frame, until); !source.until && !late.empty())
+    explanation.warnings.push_back(late);
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::hole_scales(scene, frame), std::back_inserter(explanation.scales));
   std::ranges::copy(sheet::hole_warnings(scene, frame), std::back_inserter(explanation.warnings));
-  return sheet::formats::printable(ring_alone ? sheet::ring_lines(scene, frame, wishes, init)
+  return sheet::formats::printable(ring_alone ? sheet::ring_lines(with_heat, frame, wishes, init)
                                               : sheet::scene::to_text(explanation) +
-                                                    sheet::ring_text(scene, frame, wishes, init));
+                                                    sheet::ring_text(with_heat, frame, wishes, init));
 }
 
 } // namespace

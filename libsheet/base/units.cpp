@@ -35,11 +35,17 @@ constexpr std::array units{
     NamedUnit{"h", {{0, 0, 1}, 2, 36}, false},
     NamedUnit{"d", {{0, 0, 1}, 0, 86400}, false},
     NamedUnit{"a", {{0, 0, 1}, 0, 31557600}, false}, // a year of 365.25 days
+    NamedUnit{"ka", {{0, 0, 1}, 3, 31557600}, false},
+    NamedUnit{"Ma", {{0, 0, 1}, 6, 31557600}, false},
+    NamedUnit{"yr", {{0, 0, 1}, 0, 31557600}, false},
+    NamedUnit{"kyr", {{0, 0, 1}, 3, 31557600}, false},
+    NamedUnit{"Myr", {{0, 0, 1}, 6, 31557600}, false},
     NamedUnit{"K", {{0, 0, 0, 1}}, true},
     NamedUnit{"mol", {{0, 0, 0, 0, 1}}, true},
     NamedUnit{"Hz", {{0, 0, -1}}, true},
     NamedUnit{"N", {{1, 1, -2}}, true},
     NamedUnit{"dyn", {{1, 1, -2}, -5}, false},
+    NamedUnit{"dyne", {{1, 1, -2}, -5}, false},
     NamedUnit{"Pa", {{1, -1, -2}}, true},
     NamedUnit{"bar", {{1, -1, -2}, 5}, true},
     NamedUnit{"J", {{1, 2, -2}}, true},
@@ -107,6 +113,7 @@ void multiply(Unit& a, const Unit& b, int power) {
 }
 
 constexpr int largest_power = 9;
+constexpr std::string_view unknown_unit = "unknown unit";
 
 // Recursive descent over a unit's text; the first problem ends it.
 class UnitParser {
@@ -174,7 +181,7 @@ private:
         else if (is_celsius(name))
           problem_ = fmt::format("\"{}\" counts from 273.15 K, so it stands behind a temperature alone: write K", name);
         else
-          problem_ = fmt::format("unknown unit \"{}\"", name);
+          problem_ = fmt::format("{} \"{}\"", unknown_unit, name);
         return base;
       }
       base = *found;
@@ -316,6 +323,20 @@ std::optional<double> read_decimal(std::string_view number, int ten) {
   return value;
 }
 
+// "; known: m, in, inch, prefixes as in mm": the names of units of that dimension; "" without one.
+std::string known_units(const Dimension& dimension) {
+  std::string list, with_prefix;
+  for (const NamedUnit& known : units)
+    if (known.unit.dimension == dimension) {
+      list += fmt::format("{}{}", list.empty() ? "; known: " : ", ", known.name);
+      if (known.prefixes && with_prefix.empty())
+        with_prefix = fmt::format(", prefixes as in m{}", known.name);
+    }
+  if (dimension == quantity::temperature.dimension)
+    list += ", degC";
+  return list + with_prefix;
+}
+
 // Quotable text: not endless, no control characters.
 std::string excerpt(std::string_view text, std::size_t longest = 60) {
   std::string result;
@@ -407,7 +428,9 @@ std::optional<double> read_quantity(std::string_view text, const Quantity& expec
   if (!rest.empty() && !celsius) {
     const auto parsed = UnitParser(rest, problem).parse();
     if (!parsed) {
-      problem = fmt::format("expected {} such as \"{}\": {}", expected.name, expected.example, excerpt(problem, 300));
+      const std::string known = problem.starts_with(unknown_unit) ? known_units(expected.dimension) : "";
+      problem = fmt::format("expected {} such as \"{}\": {}{}", expected.name, expected.example, excerpt(problem, 300),
+                            known);
       return {};
     }
     unit = *parsed;

@@ -185,20 +185,31 @@ void look_at_solids(const Frame& frame, const Surface& surface, const Scene& sce
   worst.add_to(seen, surface.area);
 }
 
-// The step that the control tries next: the one taken may have been cut short by an output time. Not judged where gas
-// drives the sheet: a frame's scene has its amount, and its pressure changes.
+// Root of the mean square over vertices [m/s].
+double mean_speed(const Frame& frame) {
+  if (frame.find("velocity") == nullptr)
+    return 0;
+  double squares = 0;
+  for (const Vector3& v : velocities(frame))
+    squares += v.squaredNorm();
+  return std::sqrt(squares / static_cast<double>(frame.vertices));
+}
+
+// The step that the control tries next: the one taken may have been cut short by an output time. What moves faster than
+// the scene's scales say, as stiff sheets do while they fall, is judged by its speed. Not judged where gas drives the
+// sheet: a frame's scene has its amount, and its pressure changes.
 void look_at_step(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
   const auto& pressure = scene.environment.pressure;
   if (pressure && std::holds_alternative<scene::GasPressure>(*pressure))
     return;
-  const double step = number(frame, "step_size", infinity);
+  const double step = number(frame, "step_size", infinity), speed = mean_speed(frame);
   const scene::Measured whole{
       .length = std::sqrt(surface.area), .thickness = surface.volume / surface.area, .curvature = {}};
   double part = 0; // of the time of the flow: of the sheet that has the shortest one
   for (const scene::SheetTable& sheet : scene.sheets) {
     const scene::Scales scales = scene::scales_of(scene, sheet, whole);
     if (scales.length)
-      part = std::max(part, step * scales.speed / *scales.length);
+      part = std::max(part, step * std::max(scales.speed, speed) / *scales.length);
   }
   if (part > 0 && part < kind_of(Trouble::short_steps).noted.worst)
     seen.push_back({.trouble = Trouble::short_steps, .value = part});

@@ -15,6 +15,7 @@
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/remesh/mesh.h"
+#include "libsheet/scene/level_planes.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/drops.h"
@@ -54,7 +55,8 @@ std::string scale_in_doubt(const Scene& scene, const solid::Solids& solids, std:
   return hint.empty() ? hint : " (" + hint + ")";
 }
 
-// Where gravity pulls towards a positive coordinate, as by a forgotten sign, and a plane looks against it; else "".
+// Where gravity pulls towards a positive coordinate, as by a forgotten sign, or is tilted, as for a slope, and a plane
+// looks against it; else "".
 std::string gravity_in_doubt(const Scene& scene, std::size_t i) {
   const auto* plane = std::get_if<scene::HalfSpace>(&scene.solids[i].shape);
   const auto up = scene::up(scene.environment);
@@ -62,8 +64,10 @@ std::string gravity_in_doubt(const Scene& scene, std::size_t i) {
   if (plane == nullptr || !up || plane->normal.normalized().dot(*up) < 1 - place_rounding)
     return "";
   up->cwiseAbs().maxCoeff(&axis);
-  if ((*up)[axis] > 0)
-    return "";
+  if ((*up)[axis] > 0) {
+    const auto level = scene::level_plane_in_doubt(scene, i);
+    return level ? fmt::format(" ({})", *level) : "";
+  }
   return fmt::format(" (gravity pulls towards +{0}, and the plane's normal is against it, as by default: is gravity "
                      "meant to pull towards -{0}?)",
                      "xyz"[axis]);

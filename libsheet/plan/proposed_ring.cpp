@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -16,6 +18,7 @@
 #include "libsheet/plan/passing.h"
 #include "libsheet/plan/piling.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
@@ -72,7 +75,8 @@ std::string pipeline_at(const Scene& scene, Quality quality, const std::optional
 // A number that one likes to type: its first two digits.
 double rounded(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit) * unit));
+  constexpr double as_good_as = 1 - 1e-9; // that it is already such a number, but for its last bits
+  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit * as_good_as) * unit));
 }
 
 // The same, not above the value.
@@ -83,8 +87,16 @@ double rounded_down(double value) {
 
 constexpr double before_blow_up = 0.9; // of the time to it
 
-std::string word_of_blow_up(const Scene& scene) {
-  const auto end = blow_up_time(scene);
+// Of what is warmed until it flows, counted from when it is warm.
+std::optional<double> blow_up_time_with_heat(const Scene& scene, const Frame& first) {
+  const auto as_it_starts = blow_up_time(scene::as_it_starts(scene));
+  const auto warming = scene::warming_of(scene, measured(first).thickness.value_or(0));
+  const auto warm = warming ? blow_up_time(warming->warm) : std::nullopt;
+  return as_it_starts && warm ? std::min(*as_it_starts, warming->time + *warm) : as_it_starts;
+}
+
+std::string word_of_blow_up(const Scene& scene, const Frame& first) {
+  const auto end = blow_up_time_with_heat(scene, first);
   return end ? fmt::format(
                    "  The pressure blows the sheet up, to any size, within about {:.2g} s: end before, at {:.2g} s or "
                    "so.\n",
@@ -100,40 +112,74 @@ double round_number(double value) {
 
 constexpr double longest_passing = 10; // of solids that creep, in times of everything else
 
+// Some times of the flow.
+double flow_time(const Scene& scene, const Frame& first) {
+  constexpr double times = 5;
+  double time = 0;
+  for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
+    if (scales.length && scales.speed > 0)
+      time = std::max(time, times * *scales.length / scales.speed);
+  return time;
+}
+
+// Until what lies on a slope has run down it, after `at_rest` [s]; 0 where nothing does.
+double time_down(const Scene& scene, const Frame& first, double at_rest) {
+  const auto down = runs_down(scene, first, at_rest);
+  return down ? at_rest + down->time : 0;
+}
+
+// That of the scene as it starts; of what is warmed until it flows, counted from when it is warm.
+double with_heat(const Scene& scene, const Frame& first, const std::function<double(const Scene&)>& time_of) {
+  const double as_it_starts = time_of(scene::as_it_starts(scene));
+  const auto warming = scene::warming_of(scene, measured(first).thickness.value_or(0));
+  return warming ? std::min(as_it_starts, warming->time + time_of(warming->warm)) : as_it_starts;
+}
+
+// The longest of the sheets' lengths [m].
+double length_of(const Scene& scene, const Frame& first) {
+  double length = 0;
+  for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
+    length = std::max(length, scales.length.value_or(0));
+  return length;
+}
+
+// The times of rows of all that moves and changes: holds, solids, heat, wind, what flows in [s].
+std::vector<double> events_of(const Scene& scene) {
+  std::vector<double> events = scene::heat_events(scene);
+  for (const scene::Hold& hold : scene.holds)
+    std::ranges::copy(scene::events(hold.motion), std::back_inserter(events));
+  for (const scene::Solid& solid : scene.solids)
+    std::ranges::copy(scene::events(solid.motion), std::back_inserter(events));
+  if (scene.environment.air)
+    for (const auto& entry : scene.environment.air->wind.entries)
+      events.push_back(entry.time);
+  for (const scene::Inflow& inflow : scene.inflows)
+    std::ranges::copy(scene::inlet_velocity(scene, inflow).times(), std::back_inserter(events));
+  return events;
+}
+
 // Some times of the flow, of the fall and of what comes in; until whatever ends by the clock has ended, and whatever
 // moves on for ever has come through.
 double until_of(const Scene& scene, const Frame& first) {
-  double until = 0, length = 0;
-  for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
-    if (scales.length && scales.speed > 0) {
-      until = std::max(until, 5 * *scales.length / scales.speed);
-      length = std::max(length, *scales.length);
-    }
+  double at_rest = first.time; // all solids
+  for (const scene::Solid& solid : scene.solids)
+    for (const double time : scene::events(solid.motion))
+      at_rest = std::max(at_rest, time);
+  double until = with_heat(scene, first, [&](const Scene& of) { return flow_time(of, first); });
   if (until == 0)
     until = 1;
   if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > 0)
     until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / gravity);
+  until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_down(of, first, at_rest); }));
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
-  const auto comes_to_rest = [&](const scene::Motion& motion) {
-    for (const double time : scene::events(motion))
-      until = std::max(until, 1.1 * time);
-  };
-  for (const scene::Hold& hold : scene.holds) {
+  for (const scene::Hold& hold : scene.holds)
     ends(hold.until.value_or(0));
-    comes_to_rest(hold.motion);
-  }
-  double at_rest = first.time; // all solids
-  for (const scene::Solid& solid : scene.solids) {
-    comes_to_rest(solid.motion);
-    for (const double time : scene::events(solid.motion))
-      at_rest = std::max(at_rest, time);
-  }
-  if (const auto down = runs_down(scene, first, at_rest))
-    until = std::max(until, at_rest + down->time);
+  for (const double time : events_of(scene))
+    until = std::max(until, 1.1 * time);
   for (const scene::Inflow& inflow : scene.inflows) {
     ends(inflow.until.value_or(0));
     if (const double speed = scene::inlet_velocity(scene, inflow).speed(first.time); speed > 0 && !inflow.until)
-      until = std::max(until, 5 * length / speed);
+      until = std::max(until, 5 * length_of(scene, first) / speed);
   }
   for (const scene::SheetTable& sheet : scene.sheets)
     ends(sheet.enters.value_or(0));
@@ -178,9 +224,10 @@ double landing_thickness(const Scene& scene, const Frame& first) {
   return least;
 }
 
-ProposedRing proposed_ring(const Scene& scene, const Frame& first, const RingWishes& wishes) {
-  double until = until_of(scene, first);
-  if (const auto end = blow_up_time(scene))
+ProposedRing proposed_ring(const Scene& with_heat, const Frame& first, const RingWishes& wishes) {
+  const Scene scene = scene::as_it_starts(with_heat);
+  double until = until_of(with_heat, first);
+  if (const auto end = blow_up_time_with_heat(with_heat, first))
     until = std::min(until, rounded_down(before_blow_up * *end));
   until = wishes.until.value_or(until);
   const auto folds = edges_in_folds(scene, first, wishes.quality);
@@ -190,18 +237,21 @@ ProposedRing proposed_ring(const Scene& scene, const Frame& first, const RingWis
           .stages = pipeline_at(scene, wishes.quality, folds)};
 }
 
-std::string ring_text(const Scene& scene, const Frame& first, const RingWishes& wishes, const std::string& init) {
-  const ProposedRing ring = proposed_ring(scene, first, wishes);
+std::string ring_text(const Scene& with_heat, const Frame& first, const RingWishes& wishes, const std::string& init) {
+  const ProposedRing ring = proposed_ring(with_heat, first, wishes);
+  const Scene scene = scene::as_it_starts(with_heat);
   return fmt::format(
              "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:.10g} "
              "--fps {:.10g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
              "is below {:g} of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
              init, ring.until, ring.fps, ring.stages, mean_edge(first), tolerance_at(wishes.quality)) +
-         forecast_text(scene, first, ring, tolerance_at(wishes.quality)) + word_of_blow_up(scene) + word_of_edges(ring);
+         forecast_text(scene, first, ring, tolerance_at(wishes.quality)) + word_of_blow_up(with_heat, first) +
+         word_of_edges(ring);
 }
 
-std::string ring_lines(const Scene& scene, const Frame& first, const RingWishes& wishes, const std::string& init) {
-  const ProposedRing ring = proposed_ring(scene, first, wishes);
+std::string ring_lines(const Scene& with_heat, const Frame& first, const RingWishes& wishes, const std::string& init) {
+  const ProposedRing ring = proposed_ring(with_heat, first, wishes);
+  const Scene scene = scene::as_it_starts(with_heat);
   return fmt::format("first {}\nuntil {:.10g}\nfps {:.10g}\nstages {}\n", init, ring.until, ring.fps, ring.stages) +
          forecast_lines(forecast(scene, first, ring, tolerance_at(wishes.quality)));
 }

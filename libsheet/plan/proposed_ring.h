@@ -35,14 +35,15 @@ struct RingWishes {
   std::optional<double> until, fps;
 };
 // `first`: the scene's first frame, at that quality. A run that would blow up ends at nine tenths of the time to it
-// (blow_up.h), unless the user wishes otherwise.
-[[nodiscard]] ProposedRing proposed_ring(const Scene& scene, const formats::Frame& first, const RingWishes& wishes);
+// (blow_up.h), unless the user wishes otherwise; one that is warmed until it flows goes on until it has flowed when
+// warm.
+[[nodiscard]] ProposedRing proposed_ring(const Scene& with_heat, const formats::Frame& first, const RingWishes& wishes);
 
 // The same as commands to paste, and what they compute with. `init` is the command that makes the first frame.
-[[nodiscard]] std::string ring_text(const Scene& scene, const formats::Frame& first, const RingWishes& wishes,
+[[nodiscard]] std::string ring_text(const Scene& with_heat, const formats::Frame& first, const RingWishes& wishes,
                                     const std::string& init);
 // The same for a program: lines "first INIT", "until SECONDS", "fps FPS", "stages PIPELINE", and forecast_lines.
-[[nodiscard]] std::string ring_lines(const Scene& scene, const formats::Frame& first, const RingWishes& wishes,
+[[nodiscard]] std::string ring_lines(const Scene& with_heat, const formats::Frame& first, const RingWishes& wishes,
                                      const std::string& init);
 
 } // namespace sheet

@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/landing.h"
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/sheet/sheet.h"
@@ -59,6 +64,38 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
   if (!(speed > 0) || !std::isfinite(speed))
     return std::nullopt;
   return RunningDown{speed, *sheet.length / speed};
+}
+
+std::string late_running_warning(const Scene& scene, const formats::Frame& first, double until) {
+  constexpr double late = 2; // times the run
+  const scene::Measured sheet = measured(first);
+  const std::vector<Landing> all = landings(scene, first);
+  if (all.empty() || scene.heat || !scene.holds.empty() || !scene.inflows.empty() || !sheet.length || !sheet.thickness)
+    return "";
+  const Vector3 gravity = *scene.environment.gravity;
+  std::size_t lands = 0, solid = 0;
+  double along = 0, slip = 0;
+  for (const Landing& landing : all) {
+    const scene::Solid& below = scene.solids[landing.solid];
+    if (below.contact != SolidContact::flow)
+      continue;
+    const Vector3& normal = landing.there.normal;
+    along += (gravity - gravity.dot(normal) * normal).norm();
+    slip += below.slip_length;
+    solid = lands++ == 0 ? landing.solid : std::min(solid, landing.solid);
+  }
+  const double n = static_cast<double>(lands), h = *sheet.thickness;
+  if (n < least_part * static_cast<double>(all.size()) || along < least_slope * gravity.norm() * n)
+    return "";
+  const Liquid& liquid = all.front().liquid;
+  const double speed = scene::speed_of_layer(liquid, liquid.density * h * along / n, h, slip / n);
+  const double time = std::sqrt(2 * longest_fall(all) / gravity.norm()) + *sheet.length / 2 / speed;
+  if (!std::isfinite(time) || time < late * until)
+    return "";
+  const double about = std::stod(fmt::format("{:.2g}", time));
+  return fmt::format("the run ends, at {} s, before what lands on {} has run down, which takes some {:.10g} s: --until "
+                     "{:.10g} shows that",
+                     until, solid::Solids(scene).name(solid), about, about);
 }
 
 } // namespace sheet

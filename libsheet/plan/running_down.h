@@ -3,6 +3,7 @@
 // see only after a time that their weight and viscosity say.
 #pragma once
 #include <optional>
+#include <string>
 
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/scene.h"
@@ -18,5 +19,9 @@ struct RunningDown {
 // At the time t [s], when the solids have turned and carried what lies on them. Nothing unless half of the sheet lies
 // on solids along which it flows and which are, in the mean, steeper than 6 degrees then.
 [[nodiscard]] std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t);
+
+// Of a free sheet without heat that lands on such solids, and would run down them by half its length long after the
+// run's end at `until` [s], of which what happens while it falls asks for short times; else "".
+[[nodiscard]] std::string late_running_warning(const Scene& scene, const formats::Frame& first, double until);
 
 } // namespace sheet

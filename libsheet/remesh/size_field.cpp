@@ -247,19 +247,28 @@ SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeO
     : uniform_(options.edge_length) {
   if (options.chord_error)
     adapt(sheet, scene, options);
-  else
-    note_thick(sheet);
+  make_coarser(sheet, options.coarser);
+  note_thick(sheet, options.chord_error ? bounds_of(options).high : uniform_);
   fit_strips(sheet, options, scene != nullptr && scene->model.faces);
 }
 
 double SizeOptions::shortest_in_strips() const { return min_edge.value_or(finest_in_strips * edge_length); }
 
-void SizeField::note_thick(const EditableSheet& sheet) {
+void SizeField::make_coarser(const EditableSheet& sheet, const std::vector<double>& coarser) {
+  if (coarser.empty())
+    return;
+  if (size_.empty())
+    size_.assign(sheet.mesh().vertex_slots(), uniform_);
+  for (std::size_t v = 0; v < coarser.size(); ++v)
+    size_[v] *= coarser[v];
+}
+
+void SizeField::note_thick(const EditableSheet& sheet, double longest) {
   std::vector<double> thick = thickness_at_vertices(sheet);
   for (std::uint32_t v = 0; v < thick.size(); ++v)
     if (!sheet.free(v))
       thick[v] = 0;
-  if (std::ranges::any_of(thick, [&](double h) { return h > uniform_; }))
+  if (std::ranges::any_of(thick, [&](double h) { return h > longest; }))
     thick_ = std::move(thick);
 }
 

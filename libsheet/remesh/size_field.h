@@ -17,14 +17,15 @@ struct SizeOptions {
   double edge_length = 0;                   // [m], positive; with `chord_error` only the bounds' default
   std::optional<double> chord_error;        // adaptive: the distance that an edge may have from the curved sheet [m]
   std::optional<double> min_edge, max_edge; // bounds [m]; absent: edge_length; adaptive: a quarter, four times
+  std::vector<double> coarser;              // at vertices: factors on all these lengths; empty: 1
   // Error(usage) if a value is not positive and finite, or the upper bound is below twice the lower one while adaptive.
   void check() const;
   // The least edge that a strip gets [m].
   [[nodiscard]] double shortest_in_strips() const;
 };
 
-// Adaptive length at a vertex, the least of these, but not below h, within the bounds, growing by at most 0.4 of the
-// distance:
+// Lengths are `edge_length`, or adaptive ones, times `coarser`. Adaptive length at a vertex, the least of these, but
+// not below h, within the bounds, growing by at most 0.4 of the distance:
 // - sqrt(8 ε / |k|): chord error of the largest principal curvature k [Cohen-Steiner, Morvan 2003], at rims also of
 // theirs;
 // - proportional to g^-½, g how unevenly the sheet stretches and bends (flow_error.h), so that triangles, as many as
@@ -41,8 +42,8 @@ struct SizeOptions {
 // one row it has no noise of its mesh, of two, between uneven triangles, it thins twice as fast as it should (V47).
 // Likewise a neck (necks.h), its width that of the least of the edges round it.
 //
-// Without `chord_error` no edge is split that is not too long for h, too, where nothing holds the sheet and no solid
-// carries it: a shell model says nothing about what is shorter.
+// Where some of the sheet is thicker than the longest wanted length, no edge is split that is not too long for h, too,
+// where nothing holds the sheet and no solid carries it: a shell model says nothing about what is shorter.
 class SizeField {
 public:
   SizeField(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
@@ -59,11 +60,12 @@ public:
 private:
   void adapt(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
   void fit_strips(const EditableSheet& sheet, const SizeOptions& options, bool round);
-  void note_thick(const EditableSheet& sheet);
+  void make_coarser(const EditableSheet& sheet, const std::vector<double>& coarser);
+  void note_thick(const EditableSheet& sheet, double longest);
 
   double uniform_;
   std::vector<double> size_;  // empty: uniform_ everywhere
-  std::vector<double> thick_; // thickness where it counts, 0 elsewhere [m]; empty: nowhere above uniform_
+  std::vector<double> thick_; // thickness where it counts, 0 elsewhere [m]; empty: nowhere above the longest length
 };
 
 } // namespace sheet::remesh

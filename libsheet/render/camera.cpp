@@ -56,8 +56,20 @@ bool Camera::sees(const Vector3& x) const {
 Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up) {
   Vector3 ahead, aside;
   level_axes(up, ahead, aside);
-  const double azimuth = options.azimuth * degree, elevation = options.elevation * degree;
+  const double azimuth = options.azimuth.value_or(usual_azimuth) * degree, elevation = options.elevation * degree;
   return std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside) + std::sin(elevation) * up;
+}
+
+double azimuth_before_planes(CameraOptions options, const Vector3& up, std::span<const Vector3> normals) {
+  constexpr double grazing = 0.1; // sine of the angle at which next to nothing is seen of a plane
+  constexpr std::array away{0, -30, 30, -60, 60, -90, 90, -120, 120, -150, 150, 180}; // from the usual one
+  const auto hidden = [&](double azimuth) {
+    options.azimuth = azimuth;
+    const Vector3 toward = direction_to_camera(options, up);
+    return std::ranges::count_if(normals, [&](const Vector3& n) { return n.dot(toward) < grazing; });
+  };
+  return usual_azimuth +
+         *std::ranges::min_element(away, {}, [&](int degrees) { return hidden(usual_azimuth + degrees); });
 }
 
 ViewFit::ViewFit(const CameraOptions& options, const Vector3& up, double aspect, const Margins& margins)

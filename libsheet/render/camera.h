@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "libsheet/geometry/box.h"
 #include "libsheet/render/sampler.h"
@@ -13,9 +14,10 @@
 namespace sheet::render {
 
 struct CameraOptions {
-  std::optional<Vector3> eye, target;  // [m]; absent: found so that everything is in the picture
-  double field_of_view = 28;           // from the picture's lower to its upper edge [degrees]
-  double azimuth = 30, elevation = 25; // [degrees] of the camera as seen from what it looks at, if it is found
+  std::optional<Vector3> eye, target; // [m]; absent: found so that everything is in the picture
+  double field_of_view = 28;          // from the picture's lower to its upper edge [degrees]
+  std::optional<double> azimuth;      // [degrees] of the camera as seen from what it looks at, if it is found;
+  double elevation = 25;              // likewise; without an azimuth usual_azimuth
 };
 
 struct Lens {
@@ -51,6 +53,12 @@ private:
 // The direction from what is looked at to the camera. Azimuth runs from the scene's z axis to its x axis if up is y; up
 // may be any unit vector.
 [[nodiscard]] Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up);
+
+inline constexpr double usual_azimuth = 30;
+
+// The azimuth [degrees] that is nearest to the usual one, of those every 30 degrees, from which planes are seen by
+// their front, as many of them as may be. `normals`: unit vectors out of them.
+[[nodiscard]] double azimuth_before_planes(CameraOptions options, const Vector3& up, std::span<const Vector3> normals);
 
 // Parts of the picture's width or height that stay free at each edge.
 struct Margins {

@@ -177,7 +177,8 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
                   "how long it is open, such as 20ms, half before the frame's time: blurs what moves. 0: not at all");
   tool.option("--fov", o.camera.field_of_view, "DEGREES", "field of view from the lower to the upper edge");
   tool.option("--azimuth", o.camera.azimuth, "DEGREES",
-              "where the camera stands if it finds its place itself: angle about the upward axis, from z towards x");
+              "where the camera stands if it finds its place itself: angle about the upward axis, from z towards x "
+              "(default 30, or the nearest to it from which planes are seen by their front)");
   tool.option("--elevation", o.camera.elevation, "DEGREES", "likewise: angle above level");
   tool.option(
       "--environment", o.environment, "FILE",

@@ -190,10 +190,20 @@ struct RenderStage::Impl {
     return widened(survey->scale(), *options.look.field);
   }
 
+  // Unless the user says from where.
+  void look_before_planes(double time) {
+    std::vector<Vector3> normals;
+    for (const Plane& plane : scene != nullptr && options.solids ? make_planes(*scene, time) : std::vector<Plane>{})
+      normals.push_back(plane.normal);
+    if (!options.camera.azimuth)
+      options.camera.azimuth = azimuth_before_planes(options.camera, up, normals);
+  }
+
   void look_at(const formats::Frame& frame) {
     read_scene_of(frame);
     if (!survey) {
       up = up_of(scene);
+      look_before_planes(frame.time);
       const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
       survey.emplace(ViewFit(options.camera, up, aspect, margins()));
     }

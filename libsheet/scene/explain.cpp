@@ -15,6 +15,7 @@
 #include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/explain_law.h"
 #include "libsheet/scene/layer_scales.h"
+#include "libsheet/scene/level_planes.h"
 #include "libsheet/scene/scales.h"
 
 namespace sheet::scene {
@@ -222,8 +223,9 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
     warn(*biot);
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
     warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
-  constexpr double large = 20; // [m]
-  if (scales.length && *scales.length > large)
+  constexpr double large = 20;    // [m]
+  constexpr double of_rock = 1e8; // ice and rock are that large [Pa s]
+  if (scales.length && *scales.length > large && scales.viscosity < of_rock)
     warn(fmt::format(
         "the sheet is {} m long: {}", brief(*scales.length),
         std::holds_alternative<SheetMesh>(sheet.shape)
@@ -257,6 +259,9 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
   for (std::size_t i = 0; i < scene.solids.size(); ++i)
     if (const auto jumps = warning_of_jumps(scene.solids[i].motion, fmt::format("solid {}", i)))
       warn(*jumps);
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (const auto level = level_plane_in_doubt(scene, i))
+      warn(fmt::format("solid {} (plane): {}", i, *level));
   for (std::size_t i = 0; i < scene.solids.size(); ++i)
     if (scene.solids[i].contact_angle && !tense(scene))
       warn(fmt::format("contact_angle of solid {} does nothing: there is no surface_tension in [material]", i));
@@ -300,8 +305,9 @@ std::vector<std::string> left_out_of(const Scene& scene, const Scales& scales) {
   else if (scene.contact && scene.contact->self)
     left_out.push_back("layers that touch never become one liquid ([merge])");
   if (const auto& bath = scene.environment.bath) {
-    left_out.push_back(bath->drag > 0 ? "the bath has no waves and stays at rest"
-                                      : "the bath has no waves and no viscosity");
+    const std::string_view tension = tense(scene) ? ", no surface tension of its own, which would pull on rims," : "";
+    left_out.push_back(
+        fmt::format("the bath has no waves{} and {}", tension, bath->drag > 0 ? "stays at rest" : "no viscosity"));
     if (!bath->spreads)
       left_out.push_back("what floats does not spread by its own weight (bath = {..., spreads = true})");
   }
@@ -334,6 +340,8 @@ Explanation explain(const Scene& with_heat, std::span<const Measured> measured, 
   std::ranges::copy(heat_scales(first_with_heat, scales.front()), std::back_inserter(result.scales));
   std::ranges::copy(heat_numbers(first_with_heat, scales.front()), std::back_inserter(result.numbers));
   result.warnings = warnings_of(scene, scales);
+  if (const auto thinning = warning_of_thinning(first_with_heat))
+    result.warnings.push_back(*thinning);
   result.left_out = left_out_of(scene, scales.front());
   return result;
 }

@@ -73,17 +73,79 @@ DimensionlessNumber viscosity_range(const Scene& scene) {
   return {"range of viscosity", "mu(coldest) / mu(start)", last / first, meaning};
 }
 
-} // namespace
-
-Scene as_it_starts(const Scene& scene) {
+// The scene with the liquids that its own are at that temperature [K].
+Scene as_at(const Scene& scene, double temperature) {
   Scene result = scene;
-  if (!scene.heat)
-    return result;
-  result.material = at_temperature(scene.material, start_temperature(scene));
+  result.material = at_temperature(scene.material, temperature);
   for (SheetTable& sheet : result.sheets)
     if (sheet.material)
-      sheet.material = at_temperature(*sheet.material, start_temperature(scene));
+      sheet.material = at_temperature(*sheet.material, temperature);
   return result;
+}
+
+// What may bring heat to the sheet.
+struct Source {
+  Varying temperature; // [K]
+  double transfer;     // at most [W/(m² K)]
+};
+
+std::vector<Source> sources_of_heat(const Scene& scene) {
+  std::vector<Source> sources;
+  const double slope = loss_slope(*scene.heat, start_temperature(scene));
+  for (const HeatedFace* face : {&scene.heat->upper, &scene.heat->lower}) {
+    if (face->transfers())
+      sources.push_back({face->ambient, slope});
+    if (face->emissivity > 0)
+      sources.push_back({face->radiant, slope});
+  }
+  for (const Solid& solid : scene.solids)
+    if (solid.temperature && solid.contact_conductance > 0)
+      sources.push_back({*solid.temperature, solid.contact_conductance});
+  return sources;
+}
+
+// The time from which on it is at its greatest [s].
+double time_of_greatest(const Varying& varying) {
+  const auto* timed = std::get_if<Timed<double>>(&varying.over);
+  return timed != nullptr ? std::ranges::max_element(timed->entries, {}, &Timed<double>::Entry::value)->time : 0;
+}
+
+} // namespace
+
+Scene as_it_starts(const Scene& scene) { return scene.heat ? as_at(scene, start_temperature(scene)) : scene; }
+
+std::optional<Warming> warming_of(const Scene& scene, double thickness) {
+  constexpr double near = 3; // times of warming: but for a twentieth
+  if (!scene.heat ||
+      std::ranges::all_of(liquids_of(scene), [](const Liquid& l) { return l.temperature_law.constant(); }))
+    return {};
+  const double start = start_temperature(scene), capacity = scene.material.density * scene.heat->specific_heat;
+  double warmest = start, time = 0;
+  for (const Source& source : sources_of_heat(scene)) {
+    const double warm = range_of(source.temperature).second;
+    if (!(warm > start))
+      continue;
+    warmest = std::max(warmest, warm);
+    time = std::max(time, time_of_greatest(source.temperature) + near * capacity * thickness / source.transfer);
+  }
+  return warmest > start ? std::optional(Warming{as_at(scene, warmest), time}) : std::nullopt;
+}
+
+std::vector<double> heat_events(const Scene& scene) {
+  std::vector<double> events;
+  const auto add = [&](const Varying& varying) {
+    if (const auto* timed = std::get_if<Timed<double>>(&varying.over))
+      for (const auto& entry : timed->entries)
+        events.push_back(entry.time);
+  };
+  if (scene.heat)
+    for (const HeatedFace* face : {&scene.heat->upper, &scene.heat->lower})
+      for (const Varying* varying : {&face->ambient, &face->transfer, &face->radiant})
+        add(*varying);
+  for (const Solid& solid : scene.solids)
+    if (solid.temperature)
+      add(*solid.temperature);
+  return events;
 }
 
 std::vector<Scale> heat_scales(const Scene& scene, const Scales& scales) {
@@ -147,6 +209,21 @@ std::optional<std::string> warning_of_biot(const Scene& scene, const Scales& sca
                      "thickness does not follow, so all of it cools and stiffens too soon: profile = 3 in [heat] gives "
                      "it modes of its own",
                      brief(biot));
+}
+
+std::optional<std::string> warning_of_thinning(const Scene& scene) {
+  constexpr double of_water = 1e-3, viscous = 1; // [Pa s]
+  if (!scene.heat || scene.material.temperature_law.constant())
+    return {};
+  const ViscosityShift shift(scene.material.temperature_law);
+  const double start = start_temperature(scene), warm = temperatures_around(scene).second,
+               thinnest = scene.material.viscosity * shift.factor(warm);
+  if (!(thinnest < of_water) || scene.material.viscosity * shift.factor(start) < viscous)
+    return {};
+  return fmt::format(
+      "at {} K, the warmest around, the liquid would have {} Pa s, less than water: its viscosity_law goes "
+      "far beyond where it is known; viscosity_law = \"table\" stays what it is beyond its rows",
+      brief(warm), brief(thinnest));
 }
 
 std::string heat_in_words(const Scene& scene) {

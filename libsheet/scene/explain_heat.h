@@ -13,11 +13,25 @@ namespace sheet::scene {
 // The scene with the liquid that it is at the start's temperature, by whose numbers it is judged; itself without heat.
 [[nodiscard]] Scene as_it_starts(const Scene& scene);
 
+// A sheet that becomes softer, as what is around is warmer than its start.
+struct Warming {
+  Scene warm;  // with the liquid that it is at the temperature of the warmest around
+  double time; // in which it comes near to that, counted from 0 [s]
+};
+// By 3 times the slowest of its times of warming (heat_scales), from when what is around is warmest; none where nothing
+// warms it, or viscosity does not depend on temperature. `thickness` [m].
+[[nodiscard]] std::optional<Warming> warming_of(const Scene& scene, double thickness);
+
+// The times of all rows of temperatures, and of what transfers heat [s].
+[[nodiscard]] std::vector<double> heat_events(const Scene& scene);
+
 // Of scenes with heat, else none. `scales`: those of the scene as it starts.
 [[nodiscard]] std::vector<Scale> heat_scales(const Scene& scene, const Scales& scales);
 [[nodiscard]] std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& scales);
 // Of faces that cool long before the middle, though the profile across the thickness is a parabola.
 [[nodiscard]] std::optional<std::string> warning_of_biot(const Scene& scene, const Scales& scales);
+// Of a law that makes a viscous liquid thinner than water at the warmest that is around.
+[[nodiscard]] std::optional<std::string> warning_of_thinning(const Scene& scene);
 
 // How the viscosity goes with temperature, and what the faces do: for the list of what is modelled.
 [[nodiscard]] std::string heat_in_words(const Scene& scene);

@@ -234,7 +234,7 @@ constexpr std::array solid_keys{
     list_key("size", quantity::length, "[3]", "of a box"),
     number_key("length", quantity::length, "of a capsule, between the centers of its ends"),
     number_key("height", quantity::length, "of a cylinder"),
-    list_key("normal", quantity::number, "[3]", "of a plane, out of the solid (default: upwards)"),
+    list_key("normal", quantity::number, "[3]", "of a plane, out of the solid (default: against gravity)"),
     file_key(solid_files, "mesh or distance field; names start in the folder of the scene"),
     number_key("scale", quantity::number, "metres per unit of the file (default 1)"),
     number_key("voxel_size", quantity::length, "of a mesh's distance field (default: the program chooses)"),

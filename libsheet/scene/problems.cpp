@@ -38,8 +38,9 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
   if (known.empty())
     return "";
   std::string list;
-  for (const auto name : known)
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (std::ranges::count(known.first(i), known[i]) == 0) // single tables and lists of them share names
+      list += fmt::format("{}{}", list.empty() ? "" : ", ", known[i]);
   return "; known: " + list;
 }
 

@@ -16,9 +16,9 @@ namespace {
 constexpr double safety = 0.9, least_factor = 0.2, greatest_factor = 4; // factors from one step to the next
 constexpr double much_shorter = 1e-3, helped = 0.3; // a step that much shorter shall have that part of the error
 
-// Steps chosen by their error are not shorter: the time in which the sheet crosses 1e-4 of an edge, or a thousandth of
-// what is left [s].
-double shortest_step(const State& state, double left) {
+// Steps chosen by their error are not shorter: the time in which the sheet crosses 1e-4 of an edge, at its speed and as
+// it falls, or a thousandth of what is left [s]. (By its speed alone what starts at rest would fall for that.)
+double shortest_step(const Model& model, const State& state, double left) {
   double squares = 0, lengths = 0;
   for (const Vector3& v : state.velocities)
     squares += v.squaredNorm();
@@ -26,7 +26,8 @@ double shortest_step(const State& state, double left) {
     lengths += (state.positions[e[1]] - state.positions[e[0]]).norm();
   const double speed = std::sqrt(squares / static_cast<double>(state.velocities.size()));
   const double edge = lengths / static_cast<double>(state.mesh->edges.size());
-  return std::min(1e-4 * edge / speed, 1e-3 * left);
+  const double way = 1e-4 * edge, fall = model.has_inertia() ? model.gravity.norm() : 0;
+  return std::min(2 * way / (speed + std::sqrt(speed * speed + 2 * fall * way)), 1e-3 * left);
 }
 
 } // namespace
@@ -39,7 +40,7 @@ public:
     wanted_ = std::min(wanted_, longest_step_on_walls(stepper.model_.walls, state));
     // No sliver of a step before the output time: two equal steps instead.
     first_ = wanted_ >= remaining ? remaining : wanted_ > 0.5 * remaining ? 0.5 * remaining : wanted_;
-    shortest_ = std::min(shortest_step(state, remaining), first_);
+    shortest_ = std::min(shortest_step(stepper.model_, state, remaining), first_);
   }
 
   void find() {

@@ -160,6 +160,25 @@ make_slow() {
   PATH=$PWD/mine:$PATH run -5 --separate-stderr sheet-run 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
   [[ $stderr == *'sheet-step'*'failed with exit code 5'*'the run ended too early; what there is of it is in run'* ]]
   sheet-check -q run/run.sheet
+  printf '#!/bin/sh\nexit 6\n' > mine/sheet-info # also where nothing can be made of what there is
+  chmod +x mine/sheet-info
+  PATH=$PWD/mine:$PATH run -5 sheet-run 'my scene.toml' --quality draft --until 0.05 --fps 40 -o other
+}
+
+@test "the same run beside itself is refused, and leaves the folder to the first one" {
+  options=(--quality draft --until 0.2 --fps 40 --film no -o run)
+  make_slow
+  PATH=$PWD/slow:$PATH sheet-run -q 'my scene.toml' "${options[@]}" 2> log &
+  whole=$!
+  for _ in {1..200}; do
+    [[ ! -e run/progress.json ]] || break
+    sleep 0.1
+  done
+  run -6 --separate-stderr sheet-run 'my scene.toml' "${options[@]}"
+  [[ $stderr == *'run.sheet is being written by process'*'the same command again goes on'* ]]
+  [[ ! -e run/run.csv && ! -e run/picture.png ]]
+  kill -TERM $whole
+  wait $whole || true
 }
 
 @test "five everyday scenes as drafts" {

@@ -90,6 +90,12 @@ TEST(Units, OtherFactors) {
   EXPECT_EQ(read("2 d", quantity::time), 172800);
   EXPECT_EQ(read("10 a", quantity::time), 315576000);
   EXPECT_EQ(read("31557.6 km/a", quantity::velocity), 1);
+  EXPECT_EQ(read("31557.6 km/yr", quantity::velocity), 1);
+  EXPECT_EQ(read("40 dyne/cm", quantity::surface_tension), 0.04);
+  EXPECT_EQ(read("2 ka", quantity::time), 2e3 * 31557600);
+  EXPECT_EQ(read("2 kyr", quantity::time), 2e3 * 31557600);
+  EXPECT_EQ(read("3 Ma", quantity::time), 3e6 * 31557600);
+  EXPECT_EQ(read("3 Myr", quantity::time), 3e6 * 31557600);
   EXPECT_EQ(read("0.1 h", quantity::time), 360);
   EXPECT_EQ(read("180 deg", quantity::angle), std::numbers::pi);
   EXPECT_EQ(read("45°", quantity::angle), std::numbers::pi / 4);
@@ -128,7 +134,15 @@ TEST(Units, ProblemsSayWhatWasExpected) {
   EXPECT_EQ(problem("3 N", quantity::pressure), "expected a pressure such as \"10 Pa\", got a force (N)");
   EXPECT_EQ(problem("3 deg", quantity::length), "expected a length such as \"2.5 mm\", got a plain number or angle");
   EXPECT_EQ(problem("3 kg^2 m", quantity::length), "expected a length such as \"2.5 mm\", got a quantity in kg^2*m");
-  EXPECT_EQ(problem("3 furlong", quantity::length), "expected a length such as \"2.5 mm\": unknown unit \"furlong\"");
+  EXPECT_EQ(problem("3 furlong", quantity::length),
+            "expected a length such as \"2.5 mm\": unknown unit \"furlong\"; known: m, in, inch, prefixes as in mm");
+  EXPECT_EQ(problem("3 hours", quantity::time),
+            "expected a time such as \"0.5 s\": unknown unit \"hours\"; known: s, min, h, d, a, ka, Ma, yr, kyr, Myr, "
+            "prefixes as in ms");
+  EXPECT_EQ(problem("60 degF", quantity::temperature),
+            "expected a temperature such as \"900 degC\": unknown unit \"degF\"; known: K, degC, prefixes as in mK");
+  EXPECT_EQ(problem("3 furlong/s", quantity::velocity),
+            "expected a velocity such as \"0.1 m/s\": unknown unit \"furlong\"");
   EXPECT_EQ(problem("mm", quantity::length),
             "expected a length such as \"2.5 mm\", got \"mm\", which does not begin with a number");
   EXPECT_EQ(problem("inf", quantity::length),

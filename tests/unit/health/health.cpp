@@ -189,6 +189,10 @@ TEST(Health, FindsStepsFarBelowTheScenesTime) {
   EXPECT_EQ(told(seen, 2), "");
   EXPECT_THAT(told(seen, 3), HasSubstr("short steps: steps are down to 0.000313 of the time in which the scene flows"));
   EXPECT_THAT(told({.trouble = Trouble::short_steps, .value = 1e-6}, 3), HasSubstr("serious: short steps"));
+  // steps of what falls faster than that are as long as they need be
+  Frame falling = frame;
+  std::ranges::fill(velocities(falling), Vector3(0, -31.3, 0));
+  EXPECT_TRUE(look(falling, &scene).empty());
   // gas may drive it a thousand times as fast as what else the scene says
   Scene blown = scene_with();
   blown.environment.pressure =

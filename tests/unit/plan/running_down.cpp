@@ -6,6 +6,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
@@ -39,6 +40,26 @@ TEST(RunningDown, NotWhereItIsLevelOrSticksOrFalls) {
   EXPECT_FALSE(honey_on(30, "stick"));
   EXPECT_FALSE(honey_on(30, "slip"));
   EXPECT_FALSE(honey_on(30, "flow", 0.01));
+}
+
+// Icing that falls on a ball, and on a box.
+TEST(RunningDown, WhatLandsRunsDownLater) {
+  const auto warning = [](const std::string& solid, const std::string& contact, double until) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"disk\"\nradius = 0.03\nedge_length = 0.005\nthickness = 0.004\ncenter = [0, 0.05, 0]\n"
+        "[material]\nviscosity = 20\ndensity = 1300\n[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\n" +
+            solid + "contact = \"" + contact + "\"\n",
+        "s");
+    return late_running_warning(scene, first_frame(scene), until);
+  };
+  const std::string ball = "shape = \"sphere\"\nradius = 0.04\n", box = "shape = \"box\"\nsize = [0.1, 0.05, 0.1]\n";
+  EXPECT_THAT(
+      warning(ball, "flow", 1),
+      testing::StartsWith("the run ends, at 1 s, before what lands on solid 0 (sphere) has run down, which takes "
+                          "some "));
+  EXPECT_EQ(warning(ball, "flow", 60), "");
+  EXPECT_EQ(warning(ball, "stick", 1), "");
+  EXPECT_EQ(warning(box, "flow", 1), "");
 }
 
 // On a board that turns until it is steep.

@@ -190,6 +190,21 @@ TEST(StripWidth, TrianglesAreNoFinerThanTheSheetIsThick) {
   }
 }
 
+// Beside a thin sheet with edges as short as its folds need, for which the longest edge is asked for.
+TEST(StripWidth, TrianglesOfAdaptiveLengthsAreNoFinerThanTheSheetIsThick) {
+  Options adaptive = options(strip_edge);
+  adaptive.size.chord_error = 0.1 * strip_edge;
+  adaptive.size.min_edge = 0.5 * strip_edge;
+  adaptive.size.max_edge = strip_edge;
+  formats::Frame frame = ribbon(20 * strip_edge, 8 * strip_edge, 2 * strip_edge, 2.5 * strip_edge);
+  const std::uint64_t before = frame.vertices;
+  static_cast<void>(remesh(frame, nullptr, adaptive));
+  EXPECT_LE(frame.vertices, before);
+  formats::Frame thin = ribbon(20 * strip_edge, 8 * strip_edge, 2 * strip_edge, 0.5 * strip_edge);
+  static_cast<void>(remesh(thin, nullptr, adaptive));
+  EXPECT_GT(thin.vertices, 2 * before);
+}
+
 // A tube of three edges around: a neck is where enough of it is on either side; none where it is wider than asked for,
 // or where its ends are near.
 TEST(StripWidth, ANeckIsAsWideAsTheEdgesRoundIt) {

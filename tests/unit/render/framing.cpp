@@ -41,6 +41,19 @@ TEST(Camera, TheBoxIsInThePictureAndFillsIt) {
         }
 }
 
+TEST(Camera, StandsBeforePlanes) {
+  const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
+  const auto azimuth = [&](std::vector<Vector3> normals) { return azimuth_before_planes({}, y, normals); };
+  EXPECT_EQ(azimuth({}), 30);
+  EXPECT_EQ(azimuth({y}), 30);
+  EXPECT_EQ(azimuth({y, x}), 30);
+  EXPECT_EQ(azimuth({y, -x}), -30);
+  EXPECT_EQ(azimuth({-z}), 120);
+  EXPECT_EQ(azimuth({-x, -z}), -120);
+  EXPECT_EQ(azimuth({x, -x}), 30); // one of them is hidden from wherever
+  EXPECT_EQ(azimuth({-y}), 30);
+}
+
 TEST(Camera, GrowsAboutTheMiddleAndLooksAtItsTarget) {
   CameraOptions o;
   ViewFit fit(o, {0, 1, 0}, 1, {});

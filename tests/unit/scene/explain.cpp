@@ -51,11 +51,42 @@ TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
                      "the sheet is 50 m long: write \"50 mm\" if you mean that; numbers without unit are "
                      "metres"));
   EXPECT_FALSE(warned(of(sized("5")), "numbers without unit are metres"));
+  EXPECT_FALSE(warned(of("[sheet]\nshape = \"disk\"\nedge_length = \"20 km\"\nthickness = \"8 km\"\nradius = \"600 "
+                         "km\"\n[material]\nviscosity = 1e21\ndensity = 3300\n"),
+                      "numbers without unit are metres"));
   const Scene mesh = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"a.obj\"\nthickness = 0.1\n" + liquid, "s");
   EXPECT_TRUE(
       warned(explain(mesh, std::array{Measured{.length = 50, .thickness = 0.1, .curvature = {}}}), "scale = 0.001"));
   EXPECT_FALSE(
       warned(explain(mesh, std::array{Measured{.length = 5, .thickness = 0.1, .curvature = {}}}), "scale = 0.001"));
+}
+
+TEST(Explain, PlanesAreLevelUnderTiltedGravity) {
+  const auto warnings = [](const std::string& gravity, const std::string& plane, const std::string& more = "") {
+    return of(disk + more + liquid + "[environment]\ngravity = " + gravity + "\n[[solid]]\nshape = \"plane\"\n" + plane)
+        .warnings;
+  };
+  const auto told = testing::Contains(
+      "solid 0 (plane): its normal is against gravity, as by default, so it is level, though gravity is along no axis: "
+      "for a slope normal = [0, 1, 0]");
+  EXPECT_THAT(warnings("[3.36, -9.22, 0]", "center = [0, -1, 0]\n"), told);
+  EXPECT_THAT(warnings("[3.36, -9.22, 0]", "center = [0, -1, 0]\nnormal = [0, 1, 0]\n"), testing::Not(told));
+  EXPECT_THAT(warnings("[0, -9.81, 0]", "center = [0, -1, 0]\n"), testing::Not(told));
+  EXPECT_THAT(
+      warnings("[3.36, -9.22, 0]", "center = [0, -1, 0]\n", "rotation = {axis = [0, 0, 1], angle = \"20 deg\"}\n"),
+      testing::Not(told));
+}
+
+TEST(Explain, ABathHasNoTensionOfItsOwn) {
+  const auto left_out = [](const std::string& more) {
+    return of(disk + liquid + more + "[environment]\ngravity = [0, -9.81, 0]\nbath = {density = 1000, level = 0}\n")
+        .left_out;
+  };
+  EXPECT_THAT(left_out(""), testing::Contains("the bath has no waves and no viscosity"));
+  EXPECT_THAT(
+      left_out("surface_tension = 0.03\n"),
+      testing::Contains("the bath has no waves, no surface tension of its own, which would pull on rims, and no "
+                        "viscosity"));
 }
 
 TEST(Explain, ContactAnglesNeedTension) {

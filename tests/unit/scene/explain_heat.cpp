@@ -97,6 +97,15 @@ TEST(ExplainHeat, ThickOnesWantModesAcross) {
               HasSubstr("its modes across the thickness follow"));
 }
 
+TEST(ExplainHeat, LiquidsAreNotThinnerThanWater) {
+  EXPECT_EQ(warning_of_thinning(pane("ambient = 1500\ntransfer = 5\n")), std::nullopt);
+  EXPECT_THAT(warning_of_thinning(pane("ambient = 1700\ntransfer = 5\n")).value_or(""),
+              HasSubstr("at 1.7e+03 K, the warmest around, the liquid would have 0.000152 Pa s, less than water"));
+  EXPECT_EQ(warning_of_thinning(pane("ambient = 1700\n")), std::nullopt); // it brings no heat
+  EXPECT_THAT(explain(pane("ambient = 1700\ntransfer = 5\n")).warnings,
+              testing::Contains(HasSubstr("less than water")));
+}
+
 // Numbers are those of the liquid as it starts.
 TEST(ExplainHeat, TheSceneIsJudgedAsItStarts) {
   Scene scene = pane("");

@@ -29,6 +29,7 @@ TEST(Problems, NearestWord) {
 TEST(Problems, Suggestions) {
   EXPECT_EQ(suggestion("untill", known), "; did you mean \"until\"?");
   EXPECT_EQ(suggestion("colour", known), "; known: viscosity, density, until, axes");
+  EXPECT_EQ(suggestion("colour", std::array<std::string_view, 3>{"sheet", "sheet", "solid"}), "; known: sheet, solid");
   EXPECT_EQ(suggestion("colour", {}), "");
 }
 

@@ -187,6 +187,15 @@ TEST(HardCases, FailureIsBoundedWhereStepsAreChosen) {
   EXPECT_EQ(s.positions, before.positions);
 }
 
+// However far away the next output time is, what starts at rest falls no farther in a step than its error allows.
+TEST(HardCases, WhatStartsToFallKeepsToTheTolerance) {
+  State s = square(0.02);
+  StepControl control{1e-2, 0};
+  const StepReport r = Stepper(sagging(s), {}).step_within(s, 100, control);
+  EXPECT_EQ(r.inaccurate, 0);
+  EXPECT_LE(r.error, control.tolerance);
+}
+
 // What was too long is not tried again at once, whichever side of the tolerance the shorter step came to.
 TEST(HardCases, RefusedStepsAreNotWantedNext) {
   for (const double tolerance : {1e-3, 2e-3, 3e-3, 5e-3, 8e-3}) {
