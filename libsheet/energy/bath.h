@@ -8,12 +8,15 @@
 // The normals must point upwards: below zero, where W would have no lower bound, A_z counts as nothing, and smoothly so
 // from a twentieth of the area on. What has its face down at the start of a step is overturned and under water wet on
 // both faces: it is lifted by the weight of as much of the bath as it is itself (Archimedes), ρ g V/3 at each corner
-// under the surface. ρ in kg/m³, g in m/s².
+// under the surface. Corners that another layer bears (Model::borne) feel neither: a triangle has the part of W that
+// its others are. ρ in kg/m³, g in m/s².
 #pragma once
 #include <algorithm>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "libsheet/energy/bath_surface.h"
 #include "libsheet/energy/element.h"
 #include "libsheet/geometry/area.h"
 
@@ -23,9 +26,10 @@ class Bath {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
-  // gravity [m/s²]; level: height of the rest plane along the upward direction [m]; clings: it pulls what is above it.
-  Bath(double density, const Vector3& gravity, double level, bool clings)
-      : weight_(density * gravity.norm() / 12), up_(-gravity.normalized()), level_(level), clings_(clings) {}
+  // gravity [m/s²]; level: height of the rest plane along the upward direction [m]; clings: it pulls what is above it;
+  // borne: whether another layer bears a vertex, empty: none.
+  Bath(double density, const Vector3& gravity, double level, bool clings, std::vector<char> borne = {})
+      : weight_(density * gravity.norm() / 12), surface_(gravity, level, std::move(borne)), clings_(clings) {}
   [[nodiscard]] const char* name() const { return "bath"; }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   void begin(const Stage& stage) {
@@ -35,9 +39,11 @@ public:
     for (std::size_t t = 0; t < start_.size(); ++t) {
       const Corners& c = triangles[t];
       const TriangleArea area(x[c[0]], x[c[1]], x[c[2]]);
-      start_[t] = {.steep = steepest * area.area, .overturned = up_.dot(area.normal) < 0};
+      start_[t] = {.steep = steepest * area.area, .overturned = surface_.up().dot(area.normal) < 0};
+      const int open = surface_.open(c[0]) + surface_.open(c[1]) + surface_.open(c[2]);
+      start_[t].weight = open == 3 ? weight_ : weight_ * open / 3;
       for (int a = 0; a < 3 && start_[t].overturned; ++a)
-        start_[t].lift[a] = up_.dot(x[c[a]]) < level_ ? 4 * weight_ * stage.start->volumes[t] : 0; // ρ g V/3
+        start_[t].lift[a] = surface_.bears(c[a], x[c[a]]) ? 4 * weight_ * stage.start->volumes[t] : 0; // ρ g V/3
     }
   }
 
@@ -45,41 +51,43 @@ public:
     if (start_[t].overturned)
       return lifted(t, u);
     const Parts p(*this, u);
-    return weight_ * Projection(p.area, start_[t].steep).value * p.depth.square;
+    return start_[t].weight * Projection(p.area, start_[t].steep).value * p.depth.square;
   }
 
   double derivatives(std::size_t t, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const {
     if (start_[t].overturned) {
       for (int a = 0; a < 3; ++a)
-        gradient.segment<3>(3 * a) = -start_[t].lift[a] * up_;
+        gradient.segment<3>(3 * a) = -start_[t].lift[a] * surface_.up();
       hessian.setZero();
       return lifted(t, u);
     }
     const Parts p(*this, u);
     const Projection area(p.area, start_[t].steep);
-    gradient = weight_ * (area.first * p.depth.square * p.by_area + area.value * p.by_square);
-    const Matrix3 upright = (weight_ * area.value) * (up_ * up_.transpose());
+    const double weight = start_[t].weight;
+    gradient = weight * (area.first * p.depth.square * p.by_area + area.value * p.by_square);
+    const Matrix3 upright = (weight * area.value) * (surface_.up() * surface_.up().transpose());
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
         hessian.block<3, 3>(3 * a, 3 * b) = p.depth.second(a, b) * upright;
     if (area.second > 0)
-      hessian += (weight_ * area.second * p.depth.square) * p.by_area * p.by_area.transpose();
+      hessian += (weight * area.second * p.depth.square) * p.by_area * p.by_area.transpose();
     if (!definite) {
-      const Matrix3 turn = (0.5 * weight_ * area.first * p.depth.square) * skew(up_);
+      const Matrix3 turn = (0.5 * weight * area.first * p.depth.square) * skew(surface_.up());
       for (int a = 0; a < 3; ++a) {
         hessian.block<3, 3>(3 * a, 3 * ((a + 2) % 3)) += turn;
         hessian.block<3, 3>(3 * a, 3 * ((a + 1) % 3)) -= turn;
       }
-      hessian += (weight_ * area.first) * (p.by_area * p.by_square.transpose() + p.by_square * p.by_area.transpose());
+      hessian += (weight * area.first) * (p.by_area * p.by_square.transpose() + p.by_square * p.by_area.transpose());
     }
-    return weight_ * area.value * p.depth.square;
+    return weight * area.value * p.depth.square;
   }
 
 private:
   static constexpr double steepest = 0.05; // projection over area
   struct Start {
-    double steep = 0; // the projection below which it counts less [m²]
+    double steep = 0;  // the projection below which it counts less [m²]
+    double weight = 0; // ρ g/12, in the part of its corners that the bath bears [N/m³]
     bool overturned = false;
     Vector3 lift = Vector3::Zero(); // at each corner [N]
   };
@@ -98,7 +106,8 @@ private:
   };
 
   [[nodiscard]] double lifted(std::size_t t, const VectorN<9>& u) const {
-    const Vector3 heights = Eigen::Map<const Matrix3>(u.data()).transpose() * up_ - Vector3::Constant(level_);
+    const Vector3 heights =
+        Eigen::Map<const Matrix3>(u.data()).transpose() * surface_.up() - Vector3::Constant(surface_.level());
     return -start_[t].lift.dot(heights);
   }
 
@@ -149,9 +158,10 @@ private:
     Depth depth;
     VectorN<9> by_area, by_square;
     Parts(const Bath& bath, const VectorN<9>& u)
-        : depth(Eigen::Map<const Matrix3>(u.data()).transpose() * bath.up_ - Vector3::Constant(bath.level_),
+        : depth(Eigen::Map<const Matrix3>(u.data()).transpose() * bath.surface_.up() -
+                    Vector3::Constant(bath.surface_.level()),
                 bath.clings_) {
-      const Vector3& k = bath.up_;
+      const Vector3& k = bath.surface_.up();
       const Vector3 x[3] = {u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)};
       area = 0.5 * k.dot((x[1] - x[0]).cross(x[2] - x[0]));
       for (int a = 0; a < 3; ++a) {
@@ -162,8 +172,7 @@ private:
   };
 
   double weight_; // ρ g/12 [N/m³]
-  Vector3 up_;
-  double level_;
+  BathSurface surface_;
   bool clings_;
   std::vector<Start> start_; // of each triangle
 };

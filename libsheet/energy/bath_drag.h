@@ -5,6 +5,10 @@
 // Â predicted for the end of the stage, P along the surface, x̄ the start of the step, in a second stage extrapolated
 // from the first. The bath itself rests.
 #pragma once
+#include <utility>
+#include <vector>
+
+#include "libsheet/energy/bath_surface.h"
 #include "libsheet/energy/element.h"
 
 namespace sheet {
@@ -12,9 +16,10 @@ namespace sheet {
 class BathDrag {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  // drag: k [Pa s/m]; level: of the surface, against gravity [m].
-  BathDrag(double drag, const Vector3& gravity, double level)
-      : drag_(drag), up_(-gravity.normalized()), level_(level) {}
+  // drag: k [Pa s/m]; level: of the surface, against gravity [m]; borne: whether another layer bears a vertex, empty:
+  // none.
+  BathDrag(double drag, const Vector3& gravity, double level, std::vector<char> borne = {})
+      : drag_(drag), surface_(gravity, level, std::move(borne)) {}
   [[nodiscard]] const char* name() const { return "drag of a bath"; }
   [[nodiscard]] std::size_t size() const { return stiffness_.size(); }
   void begin(const Stage& stage) {
@@ -39,7 +44,8 @@ public:
     hessian.setZero();
     for (int c = 0; c < 3; ++c) {
       gradient.segment<3>(3 * c) = stiffness(i, c) * slid(i, c, u);
-      hessian.block<3, 3>(3 * c, 3 * c) = stiffness(i, c) * (Matrix3::Identity() - up_ * up_.transpose());
+      hessian.block<3, 3>(3 * c, 3 * c) =
+          stiffness(i, c) * (Matrix3::Identity() - surface_.up() * surface_.up().transpose());
     }
     return value(i, u);
   }
@@ -48,21 +54,20 @@ private:
   [[nodiscard]] std::uint32_t vertex(std::size_t i, int c) const {
     return mesh_->triangles[i][static_cast<std::size_t>(c)];
   }
-  // 0 above the surface [N/m].
+  // 0 above the surface, and where another layer bears it [N/m].
   [[nodiscard]] double stiffness(std::size_t i, int c) const {
-    return up_.dot(start_[vertex(i, c)]) < level_ ? stiffness_[i] : 0;
+    return surface_.bears(vertex(i, c), start_[vertex(i, c)]) ? stiffness_[i] : 0;
   }
   // P (x - x̄) [m].
   [[nodiscard]] Vector3 slid(std::size_t i, int c, const VectorN<9>& u) const {
     Vector3 moved = u.segment<3>(3 * c) - start_[vertex(i, c)];
     if (!led_.empty())
       moved -= led_[vertex(i, c)];
-    return moved - up_.dot(moved) * up_;
+    return moved - surface_.up().dot(moved) * surface_.up();
   }
 
   double drag_; // [Pa s/m]
-  Vector3 up_;
-  double level_; // [m]
+  BathSurface surface_;
   std::shared_ptr<const Connectivity> mesh_;
   std::vector<Vector3> start_, led_; // of the vertices: where the step starts, x̄ less that; none in a first stage [m]
   std::vector<double> stiffness_;    // (Â/3) k/τ of each triangle [N/m]

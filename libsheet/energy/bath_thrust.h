@@ -6,10 +6,14 @@
 // -ρ² g h²/(2 ρ_b) of the depth to which it sinks, ρ_b the bath's density, so that the sum is that of a floating layer,
 // ρ (1 - ρ/ρ_b) g h²/2 [Pegler and Worster 2012]. Pressure acts level, however a triangle leans: by its true area the
 // thrust would buckle what is meshed by edges below 2.3 h. What stands on edge, or lies on its face, is as far from
-// floating as can be: W rises beyond all bounds on the way there.
+// floating as can be: W rises beyond all bounds on the way there. Corners that another layer bears (Model::borne) count
+// as above the surface: what presses on a layer from both sides is in contact_squeeze.h.
 #pragma once
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "libsheet/energy/bath_surface.h"
 #include "libsheet/energy/element.h"
 
 namespace sheet {
@@ -18,9 +22,10 @@ class BathThrust {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
-  // gravity [m/s²]; level: of the bath's surface, against gravity [m].
-  BathThrust(const Vector3& gravity, double level)
-      : gravity_(gravity.norm()), up_(-gravity.normalized()), level_(level) {}
+  // gravity [m/s²]; level: of the bath's surface, against gravity [m]; borne: whether another layer bears a vertex,
+  // empty: none.
+  BathThrust(const Vector3& gravity, double level, std::vector<char> borne = {})
+      : gravity_(gravity.norm()), surface_(gravity, level, std::move(borne)) {}
   [[nodiscard]] const char* name() const { return "bath thrust"; }
   [[nodiscard]] std::size_t size() const { return thrust_.size(); }
 
@@ -32,7 +37,7 @@ public:
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const double volume = stage.start->volumes[t];
       for (const auto v : triangles[t])
-        if (up_.dot(x[v]) < level_)
+        if (surface_.bears(v, x[v]))
           thrust_[t] += stage.liquid_of(t).liquid.density * gravity_ / 3 * volume * volume / 2;
       start_[t] = projection(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
       if (!(start_[t] > 0)) // it does not float
@@ -54,10 +59,11 @@ public:
     const double area = projection(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
     const double slope = thrust_[i] / (area * area); // -dW/dA_z
     for (int a = 0; a < 3; ++a)
-      gradient.segment<3>(3 * a) = 0.5 * up_.cross(u.segment<3>(3 * ((a + 2) % 3)) - u.segment<3>(3 * ((a + 1) % 3)));
+      gradient.segment<3>(3 * a) =
+          0.5 * surface_.up().cross(u.segment<3>(3 * ((a + 2) % 3)) - u.segment<3>(3 * ((a + 1) % 3)));
     hessian = 2 * slope / area * gradient * gradient.transpose();
     if (!definite) {
-      const Matrix3 turn = 0.5 * slope * skew(up_);
+      const Matrix3 turn = 0.5 * slope * skew(surface_.up());
       for (int a = 0; a < 3; ++a) {
         hessian.block<3, 3>(3 * a, 3 * ((a + 2) % 3)) -= turn;
         hessian.block<3, 3>(3 * a, 3 * ((a + 1) % 3)) += turn;
@@ -69,7 +75,7 @@ public:
 
 private:
   [[nodiscard]] double projection(const Vector3& a, const Vector3& b, const Vector3& c) const {
-    return 0.5 * up_.dot((b - a).cross(c - a));
+    return 0.5 * surface_.up().dot((b - a).cross(c - a));
   }
   // W less that at the start, which only keeps round-off small.
   [[nodiscard]] double since_start(std::size_t i, double area) const {
@@ -77,8 +83,7 @@ private:
   }
 
   double gravity_; // [m/s²]
-  Vector3 up_;
-  double level_;                       // [m]
+  BathSurface surface_;
   std::vector<double> thrust_, start_; // W A_z [J m²], A_z at the start [m²]
 };
 

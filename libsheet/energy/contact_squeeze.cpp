@@ -24,6 +24,10 @@ std::vector<double> presses(std::span<const ContactSpring> springs, const Stage&
 
 } // namespace
 
+bool ContactSqueeze::from_above_only(const Stage& stage, std::uint32_t v) const {
+  return site_at(stage, v) != nullptr || (bath_ && bath_->bears(v, stage.start->positions[v]));
+}
+
 void ContactSqueeze::begin(const Stage& stage) {
   const auto& triangles = stage.start->mesh->triangles;
   const auto& x = stage.start->positions;
@@ -33,7 +37,7 @@ void ContactSqueeze::begin(const Stage& stage) {
   start_area_.assign(triangles.size(), 1);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const auto v : triangles[t])
-      work_[t] += (site_at(stage, v) != nullptr ? 1 : 0.5) * force[v] / shares.area[v] / 3 * stage.start->volumes[t];
+      work_[t] += (from_above_only(stage, v) ? 1 : 0.5) * force[v] / shares.area[v] / 3 * stage.start->volumes[t];
     start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
   }
 }

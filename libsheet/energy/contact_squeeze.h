@@ -3,12 +3,17 @@
 // h has the thrust (P + p) h/2 [N/m]; on a wall, which bears its own weight, P = p + ρ g_n h, and wall_weight.h has the
 // rest [Huppert 1982, for the pressure of a layer at rest]. For each triangle
 //   W = -q V ln(A/A0),
-// q the mean over its corners of p on walls, of (P + p)/2 elsewhere [Pa]: from the forces of the contact springs at the
-// start of the step, in a second stage at the end of the first, by the vertices' areas. Springs that pull do not count:
-// layers that hang from each other would be unstable at wavelengths that no such equation bounds.
+// q the mean over its corners of p on walls and on a bath on which a sheet spreads (bath_thrust.h), of (P + p)/2
+// elsewhere [Pa]: from the forces of the contact springs at the start of the step, in a second stage at the end of the
+// first, by the vertices' areas. Springs that pull do not count: layers that hang from each other would be unstable at
+// wavelengths that no such equation bounds.
 #pragma once
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "libsheet/energy/bath_surface.h"
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/falls_with_area.h"
 #include "libsheet/geometry/area.h"
@@ -20,8 +25,9 @@ class ContactSqueeze {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
-  // springs: outlive the term.
-  explicit ContactSqueeze(std::span<const ContactSpring> springs) : springs_(springs) {}
+  // springs: outlive the term; bath: on which the sheet spreads, if it does.
+  explicit ContactSqueeze(std::span<const ContactSpring> springs, std::optional<BathSurface> bath = {})
+      : springs_(springs), bath_(std::move(bath)) {}
   [[nodiscard]] const char* name() const { return "squeezed layers"; }
   [[nodiscard]] std::size_t size() const { return work_.size(); }
   void begin(const Stage& stage);
@@ -45,11 +51,14 @@ public:
   }
 
 private:
+  // Whether the springs press on a vertex from above, as a wall or a bath bears it.
+  [[nodiscard]] bool from_above_only(const Stage& stage, std::uint32_t v) const;
   [[nodiscard]] double since_start(std::size_t i, double area) const {
     return -work_[i] * std::log(area / start_area_[i]);
   }
 
   std::span<const ContactSpring> springs_;
+  std::optional<BathSurface> bath_;
   std::vector<double> work_, start_area_; // q V [J], [m²]
 };
 

@@ -38,6 +38,7 @@ struct Model {
   Vector3 gravity = Vector3::Zero();  // [m/s²]
   std::vector<PressureLaw> pressures; // one an enclosure
   std::optional<BathLiquid> bath;     // needs gravity
+  std::vector<char> borne;            // of each vertex, whether another layer is between it and the bath; empty: none
   std::optional<AirFlow> air;
   bool inertia = true;
   std::optional<ModelFaces> faces; // needs tension; chosen for a step

@@ -13,6 +13,7 @@
 #include "libsheet/flow/heat_account.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/disjoint_sets.h"
+#include "libsheet/material/shifted_liquid.h"
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/contact_spring.h"
@@ -79,6 +80,18 @@ public:
   [[nodiscard]] const Corners& corners(std::uint32_t t) const { return corners_[t]; }
   [[nodiscard]] const Vector3& at(std::uint32_t v) const { return x_[v]; }
 
+  // Root mean square by volume; 0 where nothing moves yet.
+  [[nodiscard]] StrainRate mean_rate(std::span<const std::uint32_t> group) const {
+    double sum = 0, volume = 0;
+    for (const std::uint32_t t : group) {
+      const auto [a, b, c] = corners_[t];
+      if (!v_.empty())
+        sum += volume_[t] * strain_rate({x_[a], x_[b], x_[c]}, {v_[a], v_[b], v_[c]}).squared;
+      volume += volume_[t];
+    }
+    return {sum / volume};
+  }
+
   // The direction in which a group whose centre of mass is known is longest.
   [[nodiscard]] Vector3 axis(std::span<const std::uint32_t> group, const Vector3& center) const {
     Matrix3 spread = Matrix3::Zero();
@@ -115,10 +128,16 @@ Extent extent_of(const Bodies& bodies, std::span<const std::uint32_t> group, con
   return extent;
 }
 
-// How long the pieces are into which tension parts a thread of this section [m]; infinite without tension.
-double wave_on_thread(double radius, const Liquid& liquid) {
-  const double square = 2 * liquid.density * liquid.surface_tension * radius;
-  return 2 * std::numbers::sqrt2 * std::numbers::pi * radius * std::sqrt(1 + 3 * liquid.viscosity / std::sqrt(square));
+// How long the pieces are into which tension parts a thread of this section, drawn at such a rate [m]; infinite without
+// tension [Weber 1931]. Waves that begin to grow feel the viscosity of small changes of that rate.
+double wave_on_thread(double radius, const Liquid& liquid, StrainRate rate, double temperature) {
+  const bool warm = temperature > 0;
+  const FlowCurve curve(liquid);
+  const double shift = warm ? ViscosityShift(liquid.temperature_law).factor(temperature) : 1;
+  const double viscosity = ShiftedCurve{curve, shift}.tangent_viscosity(rate);
+  const double tension = warm ? liquid.surface_tension_at(temperature) : liquid.surface_tension;
+  const double square = 2 * liquid.density * tension * radius;
+  return 2 * std::numbers::sqrt2 * std::numbers::pi * radius * std::sqrt(1 + 3 * viscosity / std::sqrt(square));
 }
 
 // The drops of a group, in their order along it.
@@ -128,7 +147,8 @@ void add_drops(const Bodies& bodies, std::span<const std::uint32_t> group, const
   const Vector3 axis = bodies.axis(group, whole.position);
   const Extent extent = extent_of(bodies, group, whole.position, axis);
   const double radius = std::sqrt(whole.volume / (std::numbers::pi * extent.length()));
-  const double waves = extent.length() / wave_on_thread(radius, liquids.of(group.front()));
+  const double waves =
+      extent.length() / wave_on_thread(radius, liquids.of(group.front()), bodies.mean_rate(group), whole.temperature);
   const auto parts = waves >= 1.5 ? static_cast<std::size_t>(std::lround(waves)) : 1;
   std::vector<std::vector<std::uint32_t>> rows(std::min(parts, group.size()));
   for (const std::uint32_t t : group) {

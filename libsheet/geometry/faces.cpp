@@ -107,20 +107,23 @@ std::vector<SlopedEdge> sloped_edges(const Connectivity& mesh, std::span<const V
 }
 
 double extra_area(const Connectivity& mesh, std::span<const Vector3> positions, std::span<const double> volumes,
-                  const FreeFaces& faces) {
+                  const FreeFaces& faces, std::span<const double> factors) {
   const Thickness thickness(mesh, positions, volumes);
   const std::vector<char> on_rim = at_free_rims(mesh, faces);
+  const auto factor_of = [&](std::uint32_t t) { return factors.empty() ? 1 : factors[t]; };
   double area = 0;
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [one, two] = mesh.edge_triangles[e];
     if (mesh.on_rim(e)) {
-      const auto& sides = mesh.edge_triangles[e];
-      area += faces.rims[e] * thickness.rim_side(e, std::min(sides[0], sides[1]));
+      const std::uint32_t inside = std::min(one, two);
+      area += factor_of(inside) * faces.rims[e] * thickness.rim_side(e, inside);
       continue;
     }
     const auto [p, q] = thickness.slant_at(e);
     const SlopedEdge sloped = sloped_edge(mesh, e, faces, on_rim);
-    const double wall = sloped.on_wall, factor = 1 + sloped.of_thread * thread_slope * thickness.over_length(e);
-    area += factor * (2 * (1 - wall) * slant(p, q) + wall * slant(p, 2 * q));
+    const double wall = sloped.on_wall, of_thread = 1 + sloped.of_thread * thread_slope * thickness.over_length(e);
+    area +=
+        0.5 * (factor_of(one) + factor_of(two)) * of_thread * (2 * (1 - wall) * slant(p, q) + wall * slant(p, 2 * q));
   }
   return area;
 }

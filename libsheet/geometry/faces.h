@@ -77,8 +77,10 @@ struct SlopedEdge {
                                                    std::span<const double> volumes, const FreeFaces& faces,
                                                    double least);
 
-// The area that all of them have beyond twice that of the middle surface [m²].
+// The area that all of them have beyond twice that of the middle surface [m²]; of such factors of the triangles, their
+// sum over it, between two triangles with the mean of both.
 [[nodiscard]] double extra_area(const Connectivity& mesh, std::span<const Vector3> positions,
-                                std::span<const double> volumes, const FreeFaces& faces);
+                                std::span<const double> volumes, const FreeFaces& faces,
+                                std::span<const double> factors = {});
 
 } // namespace sheet

@@ -206,14 +206,6 @@ const Range& Measurements::range_of(std::string_view field) const {
 
 namespace {
 
-// What rims and slopes add to the middle surface's [m²].
-double area_of_faces(const formats::Frame& frame, const Scene& scene) {
-  if (!scene.model.faces)
-    return 0;
-  const Connectivity mesh = connect(frame.vertices, triangles(frame));
-  return extra_area(mesh, positions(frame), volumes(frame), scene::free_faces(scene, frame, mesh));
-}
-
 // Σ ρ c V T of triangles and drops [J]; NaN without temperatures. Precondition: the scene has heat.
 double heat_of(const formats::Frame& frame, const Scene& scene) {
   const auto temperature = temperatures(frame), volume = volumes(frame);
@@ -230,22 +222,36 @@ double heat_of(const formats::Frame& frame, const Scene& scene) {
   return scene.material.density * scene.heat->specific_heat * warmth.value();
 }
 
-// By area [N/m].
-double mean_tension(const formats::Frame& frame, const Scene& scene) {
+// Of each triangle [N/m]; empty if all have that of [material].
+std::vector<double> tensions(const formats::Frame& frame, const Scene& scene) {
   const auto temperature = temperatures(frame);
   const FrameLiquids liquids(scene, frame);
-  if (!liquids.several() && (temperature.empty() || scene.material.surface_tension_slope == 0))
-    return scene.material.surface_tension;
+  std::vector<double> of;
+  if (liquids.several() || !(temperature.empty() || scene.material.surface_tension_slope == 0))
+    for (std::size_t t = 0; t < frame.triangles; ++t)
+      of.push_back(temperature.empty() ? liquids.of(t).surface_tension
+                                       : liquids.of(t).surface_tension_at(temperature[t]));
+  return of;
+}
+
+// Of all faces: both sides of the middle surface, whose area is given, and what rims and slopes have beyond them [J].
+double surface_energy(const formats::Frame& frame, const Scene& scene, double area) {
+  const std::vector<double> tension = tensions(frame, scene);
   const auto x = positions(frame);
-  Sum area, sum;
-  for (std::size_t t = 0; t < frame.triangles; ++t) {
-    const Corners& c = triangles(frame)[t];
-    const double size = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
-    area.add(size);
-    const Liquid& liquid = liquids.of(t);
-    sum.add(size * (temperature.empty() ? liquid.surface_tension : liquid.surface_tension_at(temperature[t])));
+  const auto corners = triangles(frame);
+  double beyond = 0;
+  if (scene.model.faces) {
+    const Connectivity mesh = connect(frame.vertices, corners);
+    beyond = extra_area(mesh, x, volumes(frame), scene::free_faces(scene, frame, mesh), tension);
   }
-  return sum.value() / area.value();
+  if (tension.empty())
+    return scene.material.surface_tension * (2 * area + beyond);
+  Sum sum;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const Corners& c = corners[t];
+    sum.add(tension[t] * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm());
+  }
+  return sum.value() + beyond;
 }
 
 } // namespace
@@ -263,7 +269,7 @@ void measure_energies(const formats::Frame& frame, const Scene& scene, Measureme
   }
   const std::vector<Liquid> liquids = scene::liquids_of(scene);
   if (std::ranges::any_of(liquids, [](const Liquid& liquid) { return liquid.surface_tension > 0; }))
-    measured.surface_energy = mean_tension(frame, scene) * (2 * measured.area + area_of_faces(frame, scene));
+    measured.surface_energy = surface_energy(frame, scene, measured.area);
   if (scene.heat)
     measured.heat = heat_of(frame, scene);
 }

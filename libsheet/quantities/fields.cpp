@@ -128,9 +128,7 @@ std::vector<double> strain_rates(const Frame& frame) {
   if (!v.empty())
     for (std::size_t t = 0; t < corners.size(); ++t) {
       const auto [a, b, c] = corners[t];
-      const Vector3 change =
-          2 * Vector3((x[c] - x[b]).dot(v[c] - v[b]), (x[a] - x[c]).dot(v[a] - v[c]), (x[b] - x[a]).dot(v[b] - v[a]));
-      rates[t] = std::sqrt(strain_rate(RaisedMetric(squared_lengths(x[a], x[b], x[c])), change, 1).squared);
+      rates[t] = std::sqrt(strain_rate({x[a], x[b], x[c]}, {v[a], v[b], v[c]}).squared);
     }
   return rates;
 }

@@ -21,6 +21,7 @@
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solve/borne_layers.h"
 #include "libsheet/solve/held_rims.h"
 
 namespace sheet {
@@ -554,6 +555,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (scene.heat)
     model.heat = heat_of(scene, frame, solids);
   model.contacts = read_springs(frame); // as sheet-collide has set them up
+  if (model.bath && model.gravity.squaredNorm() > 0)
+    model.borne = borne_layers(positions(frame), triangles(frame), model.contacts, -model.gravity.normalized());
   if (model.air)
     model.air->sheltered = sheltered_from_air(scene, frame, model);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.

@@ -15,6 +15,7 @@
 namespace sheet::flow {
 namespace {
 
+using formats::Array;
 using formats::Frame;
 using test::volume_of;
 
@@ -123,6 +124,38 @@ TEST(Shed, AThreadPartsIntoSeveralDrops) {
   write_drops(drops, shed.drops);
   expect_same(sums_of(drops), before);
   EXPECT_GT(std::abs(shed.drops.front().velocity.x() - shed.drops.back().velocity.x()), 0.8 * length); // in a row
+}
+
+// As many as of the Newtonian liquid that waves feel in it: at the rate at which it is drawn, and at its temperature.
+TEST(Shed, AThreadPartsByItsViscosityAtItsRateAndTemperature) {
+  constexpr double cell = 0.1, deep = 0.02, drawn = 4; // [1/s]
+  Frame frame = test::grid(200, 1, cell, deep);
+  for (std::size_t v = 0; v < frame.vertices; ++v)
+    velocities(frame)[v] = {drawn * positions(frame)[v].x(), 0, 0};
+  const auto count = [&](const Scene& of) {
+    return what_becomes_of(frame, std::vector<bool>(frame.triangles, true), of).drops.size();
+  };
+  const auto newtonian = [&](double viscosity) {
+    Scene scene = shed_scene();
+    scene.material.viscosity = viscosity;
+    return count(scene);
+  };
+  Scene thins = shed_scene(), yields = shed_scene(), warm = shed_scene();
+  thins.material.viscosity = yields.material.viscosity = 20;
+  thins.material.law = {.kind = FlowLawKind::power, .flow_index = 0.5};
+  EXPECT_EQ(count(thins), newtonian(20 * 0.5 * std::pow(2 * drawn, -0.5))); // stretched along x only, it has 2 |du/dx|
+  EXPECT_GT(count(thins), newtonian(20));
+  yields.material.law = {.kind = FlowLawKind::bingham, .yield_stress = 1};
+  EXPECT_EQ(count(yields), newtonian(20));
+  warm.material.viscosity = 2.5;
+  warm.material.temperature_law = {
+      .kind = TemperatureLawKind::exponential, .reference_temperature = 300, .temperature_coefficient = 0.1};
+  Array array = formats::make_standard_array("temperature", frame.triangles);
+  for (double& temperature : array.values<double>())
+    temperature = 320;
+  frame.put(std::move(array));
+  EXPECT_EQ(count(warm), newtonian(2.5 * std::exp(-2)));
+  EXPECT_GT(count(warm), newtonian(2.5));
 }
 
 // What a threads' cut has given to an account becomes drops, and no account is opened.

@@ -2,6 +2,7 @@
 // What rims and slopes add to a sheet's area, against closed forms.
 #include "libsheet/geometry/faces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -109,6 +110,24 @@ TEST(Faces, EvenThicknessHasSlopesNearRimsOnly) {
   EXPECT_EQ(count(uneven, all_free(even.mesh)), inner);
   EXPECT_GT(count(even, all_free(even.mesh)), 0U);
   EXPECT_LT(count(even, all_free(even.mesh)), inner);
+}
+
+// With a factor for each triangle: linear in them, and of one that stands alone all of its own.
+TEST(Faces, ExtraAreaByFactorsOfTheTriangles) {
+  const Layer layer(4, {0.1, 0.05, 0});
+  const FreeFaces faces = all_free(layer.mesh);
+  const double plain = extra_area(layer.mesh, layer.x, layer.volumes, faces);
+  std::vector<double> factors(layer.volumes.size(), 3);
+  EXPECT_NEAR(extra_area(layer.mesh, layer.x, layer.volumes, faces, factors), 3 * plain, 1e-13 * plain);
+  double sum = 0;
+  for (std::size_t t = 0; t < factors.size(); ++t) {
+    std::ranges::fill(factors, 0);
+    factors[t] = 1;
+    const double own = extra_area(layer.mesh, layer.x, layer.volumes, faces, factors);
+    EXPECT_GT(own, 0);
+    sum += own;
+  }
+  EXPECT_NEAR(sum, plain, 1e-13 * plain);
 }
 
 } // namespace

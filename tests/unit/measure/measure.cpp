@@ -5,7 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "libsheet/scene/read.h"
 
 namespace sheet {
 namespace {
@@ -82,6 +85,34 @@ TEST(Measure, OfDegenerateTrianglesHasThePercentilesOfTheOthers) {
 TEST(Measure, WithoutDensityAndAtRest) {
   EXPECT_TRUE(std::isnan(measure(square(), {}).kinetic_energy));
   EXPECT_EQ(measure(square(), 1000).kinetic_energy, 0);
+}
+
+// Two squares of 1 m, one thick and one thin, of two liquids: each has the faces of its own tension.
+TEST(Measure, SurfaceEnergyOfTwoLiquidsIsTheSumOfEachOnes) {
+  const auto scene = [](double one, double other) {
+    const std::string sheet = "[[sheet]]\nshape = \"rectangle\"\nsize = [1, 1]\nedge_length = 1\nthickness = 0.1\n";
+    const auto material = [](double tension) {
+      return fmt::format("viscosity = 1\ndensity = 1\nsurface_tension = {}\n", tension);
+    };
+    return parse_scene("[material]\n" + material(one) + sheet + "name = \"a\"\n" + sheet +
+                           "name = \"b\"\n[sheet.material]\n" + material(other) + "[model]\nfaces = true\n",
+                       "scene");
+  };
+  const std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                   {5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}};
+  formats::Frame frame = make_frame(x, std::vector<Corners>{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}},
+                                    std::vector<double>{0.2, 0.2, 0.01, 0.01});
+  formats::Array liquid = formats::make_standard_array("liquid", frame.triangles);
+  std::ranges::copy(std::array<std::uint32_t, 4>{0, 0, 1, 1}, liquid.values<std::uint32_t>().begin());
+  frame.put(std::move(liquid));
+  const auto energy = [&](double one, double other) {
+    Measurements m = measure(frame, 1);
+    measure_energies(frame, scene(one, other), m);
+    return m.surface_energy;
+  };
+  const double thick = 2 + 4 * std::numbers::pi / 4 * 0.4, thin = 2 + 4 * std::numbers::pi / 4 * 0.02;
+  EXPECT_NEAR(energy(3, 7), 3 * thick + 7 * thin, 1e-12);
+  EXPECT_NEAR(energy(7, 3), 7 * thick + 3 * thin, 1e-12);
 }
 
 TEST(Measure, EmptyFrame) {
