@@ -100,9 +100,10 @@ private:
         forwards = -forwards;
       forwards.normalize();
       const double distance = -forwards.dot(x[v] - x[row]);
-      if (!(distance > 0 && distance < 0.5 * way.norm()))
+      if (!(std::abs(distance) < 0.5 * way.norm()))
         break;
-      moves.push_back({v, forwards, distance});
+      if (distance > 0)
+        moves.push_back({v, forwards, distance});
     }
     return moves;
   }

@@ -55,6 +55,8 @@ public:
   // Whether it is a solid that it touches, and nothing else.
   [[nodiscard]] bool held_by_touch(std::uint32_t v) const { return grips_[grip(v)].by_touch; }
   [[nodiscard]] bool free(std::uint32_t v) const { return grip(v) == 0; } // of all that
+  // The solid along which it flows, if that is the only one that it touches; else no_index.
+  [[nodiscard]] std::uint32_t wall(std::uint32_t v) const { return grips_[grip(v)].wall; }
   [[nodiscard]] bool held_alike(std::uint32_t u, std::uint32_t v) const { return grip(u) == grip(v); }
   // The coordinates in which a vertex is held.
   [[nodiscard]] Axes held_axes(std::uint32_t v) const { return grips_[grip(v)].axes; }
@@ -92,7 +94,8 @@ private:
   struct Grip {
     std::vector<std::byte> masks; // one after the other
     Axes axes = 0;
-    bool by_touch = false; // and by nothing else
+    std::uint32_t wall = no_index; // the one solid that it touches, if liquid flows along that
+    bool by_touch = false;         // and by nothing else
   };
   [[nodiscard]] std::uint32_t grip(std::uint32_t v) const { return grip_.empty() ? 0 : grip_[v]; }
   [[nodiscard]] std::uint32_t grip_of(std::uint32_t v);

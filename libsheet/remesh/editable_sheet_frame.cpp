@@ -61,16 +61,17 @@ void forget_released(const Scene& scene, double time, std::vector<Array>& vertex
         bits &= in_force;
 }
 
-// Whether the one solid that a row of `touch` names lets liquid flow.
-bool flows_on_one(const Scene* scene, const std::byte* row, std::size_t bytes) {
+// The one solid that a row of `touch` names, if it lets liquid flow along it; none: no_index.
+std::uint32_t wall_in(const Scene* scene, const std::byte* row, std::size_t bytes) {
   std::size_t solids = 0, last = 0;
   for (std::size_t bit = 0; bit < 8 * bytes; ++bit) // words are little-endian
     if ((row[bit / 8] >> (bit % 8) & std::byte{1}) != std::byte{0}) {
       ++solids;
       last = bit;
     }
-  return scene != nullptr && solids == 1 && last < scene->solids.size() &&
-         scene->solids[last].contact != SolidContact::stick;
+  const bool flows = scene != nullptr && solids == 1 && last < scene->solids.size() &&
+                     scene->solids[last].contact != SolidContact::stick;
+  return flows ? static_cast<std::uint32_t>(last) : no_index;
 }
 
 } // namespace
@@ -118,9 +119,12 @@ std::uint32_t EditableSheet::grip_of(std::uint32_t v) {
   };
   std::vector<std::byte> masks;
   bool by_touch = true;
+  std::uint32_t wall = no_index;
   for (Array& array : vertex_rows_)
     if (array.transfer == Transfer::common) {
       const std::span<const std::byte> mask{row_at(array, v), row_size(array)};
+      if (array.name == "touch")
+        wall = wall_in(scene_, mask.data(), mask.size());
       masks.insert(masks.end(), mask.begin(), mask.end());
       by_touch = by_touch && (array.name == "touch" || !any(mask));
     }
@@ -128,7 +132,7 @@ std::uint32_t EditableSheet::grip_of(std::uint32_t v) {
     return 0;
   auto it = std::find_if(grips_.begin(), grips_.end(), [&](const Grip& grip) { return grip.masks == masks; });
   if (it == grips_.end())
-    it = grips_.insert(grips_.end(), {masks, axes_of(v), by_touch});
+    it = grips_.insert(grips_.end(), {masks, axes_of(v), wall, by_touch});
   return static_cast<std::uint32_t>(it - grips_.begin());
 }
 
@@ -138,7 +142,7 @@ Axes EditableSheet::axes_of(std::uint32_t v) {
     if (array.transfer == Transfer::common && (scene_ == nullptr || array.name != "hold")) {
       const std::byte* row = row_at(array, v);
       if (std::any_of(row, row + row_size(array), [](std::byte b) { return b != std::byte{0}; }) &&
-          !(array.name == "touch" && flows_on_one(scene_, row, row_size(array))))
+          !(array.name == "touch" && wall_in(scene_, row, row_size(array)) != no_index))
         return all_axes;
     }
   for (Array& array : vertex_rows_)

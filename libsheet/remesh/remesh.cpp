@@ -20,6 +20,7 @@ const double cosine_2 = cosine_of_degrees(2), cosine_15 = cosine_of_degrees(15),
 constexpr double repair_thickness = 1.3; // see Limits::thickness
 constexpr double pocket_thickness = 4;   // likewise
 constexpr double steep_pocket = 2;       // its area over that of the triangle that closes it
+constexpr double narrow_notch = 0.17;    // the cosine of its angle
 constexpr double flat_enough = 0.1;      // of an edge: a flip may move the surface so far at any fold
 constexpr double least_gain = 0.01;      // of the cosine of the smallest angle: about one degree
 constexpr double most_triangles = 1e8;
@@ -38,6 +39,7 @@ public:
       const std::uint64_t before = report_.splits + report_.collapses;
       split_long();
       close_pockets();
+      fill_notches();
       collapse_short();
       flip_all();
       if (options_.smooth)
@@ -185,6 +187,20 @@ private:
       if (mesh_.has_vertex(v) && mesh_.side_at(v) != no_index && propose_removal(sheet_, v, edit_) && better_closed() &&
           sheet_.make(edit_, limits(cosine_2, -1, pocket_thickness)))
         ++report_.collapses;
+  }
+
+  // Where two parts of a rim that flow along a wall have come nearer than edges are long, from a vertex on, the liquid
+  // between them has met: what is left is no shape of the liquid, and would fold and be crushed.
+  void fill_notches() {
+    for (std::uint32_t v = 0; v < mesh_.vertex_slots() && within_budget(); ++v) {
+      if (!mesh_.has_vertex(v) || !propose_fill(sheet_, v, edit_))
+        continue;
+      const Corners& notch = edit_.added.back();
+      const Vector3 one = sheet_.at(notch[0]) - sheet_.at(v), other = sheet_.at(notch[2]) - sheet_.at(v);
+      if (one.dot(other) > narrow_notch * one.norm() * other.norm() && ratio(notch[0], notch[2]) < split_above &&
+          sheet_.make(edit_, limits(1, 0.5, repair_thickness)))
+        ++report_.filled;
+    }
   }
 
   bool absorb(std::uint32_t rim_side) {
@@ -392,6 +408,7 @@ Report& Report::operator+=(const Report& later) {
   collapses += later.collapses;
   flips += later.flips;
   smoothed += later.smoothed;
+  filled += later.filled;
   absorbed += later.absorbed;
   sharp = later.sharp;
   budget_reached = later.budget_reached;

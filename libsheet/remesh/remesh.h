@@ -13,10 +13,10 @@ struct Options {
 };
 
 struct Report {
-  std::uint64_t splits = 0, collapses = 0, flips = 0, smoothed = 0, absorbed = 0;
+  std::uint64_t splits = 0, collapses = 0, flips = 0, smoothed = 0, absorbed = 0, filled = 0;
   std::uint64_t sharp = 0;     // triangles left with an angle below 20 degrees
   bool budget_reached = false; // more edits were due than one call makes; the next call goes on
-  [[nodiscard]] std::uint64_t edits() const { return splits + collapses + flips + smoothed + absorbed; }
+  [[nodiscard]] std::uint64_t edits() const { return splits + collapses + flips + smoothed + absorbed + filled; }
   // With what was done after it: edits add up; what is left is what the later one left.
   Report& operator+=(const Report& later);
 };

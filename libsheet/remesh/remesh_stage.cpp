@@ -79,9 +79,10 @@ void RemeshStage::remesh(formats::Frame& frame) {
   if (scene != nullptr && !report.budget_reached) // what is only fine has been made coarser by then
     cut_threads(frame, *scene);
   const double seconds = watch.lap();
-  log::detail("step {}: {} splits, {} collapses, {} flips, {} moved, {} absorbed; {} to {} vertices, {:.1f} ms",
-              frame.step, report.splits, report.collapses, report.flips, report.smoothed, report.absorbed, vertices,
-              frame.vertices, 1e3 * seconds);
+  log::detail(
+      "step {}: {} splits, {} collapses, {} flips, {} moved, {} absorbed, {} filled; {} to {} vertices, {:.1f} ms",
+      frame.step, report.splits, report.collapses, report.flips, report.smoothed, report.absorbed, report.filled,
+      vertices, frame.vertices, 1e3 * seconds);
   if (report.budget_reached)
     teller_.tell(frame, {.trouble = health::Trouble::edits_due, .value = static_cast<double>(report.edits())},
                  fmt::format("step {}: more edits were due than one call makes ({} were made); the next call goes on",
@@ -109,8 +110,8 @@ void RemeshStage::report() const {
     log::detail("{} triangles of threads cut, {:.3g} m^3 ({})", threads_, thread_volume_,
                 thread_drops_ > 0 ? fmt::format("{} drops", thread_drops_) : "the frame's array tear.volume");
   if (frames_ > 0)
-    log::detail("{} frames: {} splits, {} collapses, {} flips, {} moved, {} absorbed", frames_, total_.splits,
-                total_.collapses, total_.flips, total_.smoothed, total_.absorbed);
+    log::detail("{} frames: {} splits, {} collapses, {} flips, {} moved, {} absorbed, {} filled", frames_,
+                total_.splits, total_.collapses, total_.flips, total_.smoothed, total_.absorbed, total_.filled);
 }
 
 } // namespace sheet::remesh

@@ -64,4 +64,33 @@ bool propose_trim(const EditableSheet& sheet, std::uint32_t triangle, Edit& edit
   return true;
 }
 
+bool propose_fill(const EditableSheet& sheet, std::uint32_t v, Edit& edit) {
+  const Mesh& mesh = sheet.mesh();
+  if (mesh.side_at(v) == no_index || !mesh.on_rim(v))
+    return false;
+  const auto [before, after] = rim_neighbours(mesh, v);
+  if (sheet.wall(v) == no_index || sheet.wall(before) != sheet.wall(v) || sheet.wall(after) != sheet.wall(v) ||
+      before == after || mesh.adjacent(before, after))
+    return false;
+  edit.clear();
+  edit.kind = Edit::Kind::flip;
+  mesh.for_fan(v, [&](std::uint32_t side) {
+    edit.removed.push_back(Mesh::triangle_of(side));
+    edit.added.push_back(mesh.corners(Mesh::triangle_of(side)));
+  });
+  const std::size_t around = edit.removed.size();
+  edit.added.push_back({after, v, before});
+  const double notch = TriangleShape(sheet.at(after), sheet.at(v), sheet.at(before)).area;
+  double area = 0;
+  for (const std::uint32_t t : edit.removed)
+    area += sheet.shape(t).area;
+  edit.overlap.assign((around + 1) * around, 0);
+  for (std::size_t i = 0; i < around; ++i) { // what comes counts as covering all in proportion
+    const double own = sheet.shape(edit.removed[i]).area;
+    edit.overlap[i * around + i] = own;
+    edit.overlap[around * around + i] = notch * own / area;
+  }
+  return true;
+}
+
 } // namespace sheet::remesh

@@ -240,3 +240,13 @@ END
   done
   awk -v h="$(median "${thickest[@]}")" 'BEGIN { exit !(h < 0.5) }'
 }
+
+# The rims beside the inlet's ends met, and pressed on each other: 456 steps, and none that helped from then on.
+@test "honey poured onto stairs does not fold beside its inlet" {
+  cp "$BATS_TEST_DIRNAME/../everyday/more/stairs.toml" .
+  run_scene stairs 3 24 'sheet-emit |'
+  echo "steps $(last stairs step), at most $(greatest stairs thickness_max) m thick, at least $(least stairs thickness_min)"
+  (($(last stairs step) <= 250))
+  awk -v h="$(greatest stairs thickness_max)" -v least="$(least stairs thickness_min)" \
+    'BEGIN { exit !(h < 0.025 && least > 0.0005) }'
+}

@@ -129,6 +129,14 @@ make_slow() {
   [[ $(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 run/film.mp4) == 11 ]]
 }
 
+@test "a first look goes on for longer with its own frames a second, though fewer would be proposed" {
+  sheet-run -q 'my scene.toml' --quality draft --until 0.05 --film no -o run
+  [[ $(sheet-init --ring --quality draft --until 0.1 'my scene.toml') != *'fps 1000'* ]]
+  run --separate-stderr sheet-run 'my scene.toml' --quality draft --until 0.1 --film no -o run
+  [[ $status == 0 && $stderr == *'run has a run with 1000 frames a second, and goes on with as many'* ]]
+  [[ $(wc -l < run/run.csv) == 102 ]]
+}
+
 @test "another scene, quality or rate is refused with what to do, and the folder stays as it is" {
   sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
   before=$(cd run && sha256sum ./*)

@@ -512,6 +512,20 @@ TEST(Emit, TheRimBesideADrownedInletStaysBeforeIt) {
   EXPECT_LT((held(0.3).second - Vector3(0.5, 0, 0)).norm(), 1e-12);
   for (const double untouched : {0.6, -0.2})
     EXPECT_LT((held(untouched).first - Vector3(outwards, untouched * width, 0)).norm(), 1e-12);
+  // What follows on the rim is held, too, where the rim first goes on before the row.
+  std::uint32_t onwards = rim;
+  for (std::uint32_t v = 0; v < frame.vertices; ++v)
+    if (beside(v) && v != rim && (onwards == rim || positions(frame)[v].y() > positions(frame)[onwards].y()))
+      onwards = v;
+  const auto following = [&](double before) {
+    Frame moved = frame;
+    positions(moved)[rim] = positions(moved)[row] + Vector3(outwards, -before * width, 0);
+    positions(moved)[onwards] = positions(moved)[row] + Vector3(2 * outwards, 0.3 * width, 0);
+    hold_banks(moved, scene, solids);
+    return positions(moved)[onwards].y() - positions(moved)[row].y();
+  };
+  EXPECT_NEAR(following(0.2), 0, 1e-12);
+  EXPECT_NEAR(following(0.6), 0.3 * width, 1e-12);
   // Where another part of the sheet stands in the way, nothing moves.
   const Vector3 way = positions(frame)[row] + Vector3(0.7 * outwards, -0.05 * width, 0);
   const auto standing = [&](Frame& bent) {

@@ -179,6 +179,48 @@ TEST(CornerCase, TrimsOfRims) {
   EXPECT_FALSE(propose_trim(EditableSheet(one), 0, edit)); // no neighbour takes its liquid
 }
 
+// A fan of five around 0, open by an angle between the first and the last vertex around it.
+formats::Frame open_fan(double degrees) {
+  std::vector<Vector3> x = {{0, 0, 0}};
+  std::vector<Corners> t;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const double angle = (degrees / 2 + i * (360 - degrees) / 5) * std::numbers::pi / 180;
+    x.emplace_back(std::cos(angle), std::sin(angle), 0);
+    if (i > 0)
+      t.push_back({0, i, i + 1});
+  }
+  formats::Frame frame = frame_of(x, t);
+  std::ranges::fill(put_masks(frame, "touch"), 1);
+  return frame;
+}
+
+// Where the liquid flows along a wall, what is left open is narrower than edges are long, and not a blunt corner.
+TEST(CornerCase, ANotchOfARimOnAWallIsFilled) {
+  Scene scene;
+  scene.solids.resize(1);
+  scene.solids[0].shape = scene::HalfSpace{{0, 0, 1}};
+  const auto triangles_of = [&](double degrees, double edge_length) {
+    formats::Frame frame = open_fan(degrees);
+    static_cast<void>(remesh(frame, &scene, options(edge_length)));
+    EXPECT_NEAR(test::account_of(frame).volume, 0.05, 1e-16);
+    test::expect_consistent(Mesh(frame.vertices, triangles(std::as_const(frame))));
+    return frame.triangles;
+  };
+  EXPECT_EQ(triangles_of(50, 1), 5U); // what sticks
+  scene.solids[0].contact = SolidContact::flow;
+  EXPECT_EQ(triangles_of(50, 1), 6U);
+  EXPECT_EQ(triangles_of(100, 1), 5U);
+  EditableSheet sheet(open_fan(50), &scene);
+  Edit edit;
+  ASSERT_TRUE(propose_fill(sheet, 0, edit));
+  ASSERT_TRUE(sheet.make(edit, {.thickness = 1.3, .sharpest = 1, .facing = 0.5}));
+  EXPECT_FALSE(sheet.mesh().on_rim(0));
+  EXPECT_FALSE(propose_fill(sheet, 0, edit));
+  const double area = (5 * std::sin(62 * std::numbers::pi / 180) + std::sin(50 * std::numbers::pi / 180)) / 2;
+  for (std::uint32_t t = 0; t < 6; ++t) // as thick everywhere, thinner than before
+    EXPECT_NEAR(sheet.volume(t) / sheet.shape(t).area, 0.05 / area, 1e-12);
+}
+
 TEST(CornerCase, StripOneTriangleWide) {
   std::vector<Vector3> x;
   std::vector<Corners> t;
