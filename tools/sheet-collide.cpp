@@ -8,8 +8,11 @@ int main(int argc, char** argv) {
       "sheet-collide", "keep a sheet from passing through solids and itself",
       "Stands behind sheet-step. Moves the end of each step to where the sheet has not passed through itself on its "
       "way, and sets up the springs that hold touching layers in the next step. Acts where the scene has "
-      "solids or [contact] self = true; else frames pass unchanged. Whatever touches a solid is held by it. Drops "
-      "stay on solids that they meet, and are taken up by the sheet, with their momentum.\n"
+      "solids, [contact] self = true or drops; else frames pass unchanged. What touches a solid is held by it, or "
+      "along "
+      "its normal alone where the solid's contact is \"flow\" or \"slip\", until the tension is above the scene's "
+      "[contact] "
+      "adhesion. Drops stay on solids and baths that they meet, and are taken up by the sheet, with their momentum.\n"
       "If no triangles intersect at the start of a step, none do at its end. Where a hold asks for something else, the "
       "held vertices stay behind, with a warning. -v tells how often each means was needed, and the time of each "
       "part.");

@@ -8,9 +8,11 @@ int main(int argc, char** argv) {
   sheet::Tool tool(
       "sheet-step", "one implicit time step of a viscous sheet",
       "Advances each frame by one time step of the model in its scene: viscous stretching and bending, surface "
-      "tension, inertia, gravity, pressure, bath, holds, and the motion of an inlet. What the scene does not mention "
-      "is not assembled; -v lists the terms and each one's share of the time. Drops fly on parabolas, or as air lets "
-      "them.\n"
+      "tension, inertia, gravity, pressure, bath, air, drag of solids, contact of layers, heat, holds, and the motion "
+      "of "
+      "an inlet. What the scene does not mention is not assembled; -v lists the terms and each one's share of the "
+      "time. "
+      "Drops fly on parabolas, or as air lets them.\n"
       "Steps end exactly at the output times that sheet-loop stamps, and where a prescribed motion has a kink. A "
       "step that does not converge is retried smaller; if nothing helps, the exit code is 5 and the frame is saved.");
   sheet::StepStageOptions o;

@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
       "If the scene says drops = true, such crumbs, and pieces by themselves that are about as long as wide and have "
       "fewer than 100 triangles, become drops instead: balls in the frame's arrays `drop_position`, `drop_velocity` "
       "[m/s], `drop_volume` [m^3]. sheet-step lets them fly, sheet-collide lets them land.\n"
-      "Without [tear] in the scene, frames pass unchanged.");
+      "Strands narrower than the scene's [tear] snap part in sheet-remesh. Without [tear] in the scene, frames pass "
+      "unchanged.");
   sheet::FilterOptions filter;
   sheet::declare_filter_options(tool, filter);
   tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-tear | sheet-step' > run.sheet",

@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
   sheet::Tool tool(
       "sheet-view", "make a page for a browser that shows streams",
       "Writes one HTML file that any browser with WebGL 2 opens by a double click, without a network: the sheet as a "
-      "slab of its true thickness with the scene's solids, to turn, play, colour by thickness, speed, curvature or "
-      "contact, cut by a plane, measure; a click on a triangle tells its thickness and how that changes with time. "
+      "slab of its true thickness with the scene's solids, to turn, play, colour by thickness, speed, temperature and "
+      "more, cut by a plane, measure; a click on a triangle tells its thickness and how that changes with time. "
       "Several streams are shown side by side with one clock. Press ? in the page for its keys.\n"
       "Positions are rounded by less than a thousandth of an edge, thickness by 0.005 %.");
   sheet::view::ViewOptions o;

@@ -113,8 +113,8 @@ constexpr std::array table{
          .noted = {.worst = 0.01, .share = 0, .times = 1},
          .serious = {.worst = 0.1, .share = 0, .times = 1},
          .remedy =
-             "take shorter edges, or leave drop_crumbs in [tear] out: crumbs are pieces of a triangle or two, threads "
-             "strands narrower than a thirty-second of an edge"},
+             "take shorter edges, let them fly on (drops = true in [tear]), or leave crumbs = \"drop\" out: crumbs "
+             "are pieces of a triangle or two, threads strands narrower than a thirty-second of an edge"},
     Kind{.trouble = Trouble::volume,
          .name = "volume",
          .least = false,

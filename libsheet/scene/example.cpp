@@ -219,7 +219,8 @@ static constexpr std::string_view things = R"toml(
 #motion = {kind = "translating", velocity = ["0.5 m/s", 0, 0]}
 
 # ------------------------------------------------------------------------ solids: any number of [[solid]]
-# Liquid that touches a solid sticks to it. `motion` as for holds (turning about the solid's own center).
+# Liquid that touches a solid sticks to it, for good unless [contact] has an adhesion; `contact` (below) lets it flow or slip.
+# `motion` as for holds (turning about the solid's own center).
 
 [[solid]]
 shape = "sphere"
