@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "libsheet/base/each.h"
 #include "libsheet/geometry/angles.h"
@@ -166,7 +167,7 @@ Stage first_stage(const State& state, std::span<const Liquid> liquids, double du
   return stage;
 }
 
-bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) {
+double second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) {
   const State& state = *stage.start;
   stage.previous = &first;
   stage.ratio = (1 - gamma) / gamma;
@@ -180,7 +181,7 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
     stage.inertial[v] = x0 + stage.ratio * moved + stage.duration * velocity;
     stage.predicted[v] = x0 + moved / gamma;
   });
-  std::atomic<bool> possible = true;
+  std::atomic<double> room = std::numeric_limits<double>::infinity();
   each_in_parallel(state.mesh->triangles.size(), [&](std::size_t t) {
     const Corners& c = state.mesh->triangles[t];
     const auto& x = state.positions;
@@ -189,10 +190,15 @@ bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt) 
         squared_lengths(stage.position(first, c[0]), stage.position(first, c[1]), stage.position(first, c[2]));
     stage.raised[t] = predicted_metric(start, (end - start) / gamma);
     stage.viscosity[t] = lagged_viscosity(stage, t, end - start);
-    if (!(Principal(RaisedMetric(start), stage.ratio * (end - start)).least >= least_ratio - 1))
-      possible.store(false, std::memory_order_relaxed);
+    const double least = Principal(RaisedMetric(start), stage.ratio * (end - start)).least;
+    const double own = least >= 0  ? std::numeric_limits<double>::infinity()
+                       : least < 0 ? (least_ratio - 1) / least
+                                   : 0; // not a number
+    for (double other = room.load(std::memory_order_relaxed);
+         own < other && !room.compare_exchange_weak(other, own, std::memory_order_relaxed);)
+      ;
   });
-  return possible;
+  return room;
 }
 
 void turn_with_normals(const Stage& stage, Unknowns& u) {

@@ -17,11 +17,11 @@ namespace sheet {
   return first_stage(state, std::span(&liquid, 1), duration, end_time, angles, profile);
 }
 
-// Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it). False if a
-// triangle shrank so much that its reference metric is none, or nearly none: a principal stretch, squared, below 1/4 of
-// the start's. Where it is negative SDIRK2's stability function is, too (z < -1/(1 - 2γ)), and triangles shrink to
-// points.
-[[nodiscard]] bool second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
+// Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it). Returns how many
+// times as much every triangle could have shrunk there until its reference metric is none, or nearly none: a principal
+// stretch, squared, below 1/4 of the start's. Below 1 there is no second stage. Where the reference is negative SDIRK2's
+// stability function is, too (z < -1/(1 - 2γ)), and triangles shrink to points.
+[[nodiscard]] double second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
 
 // How warm the triangles are taken to be at the stage's end, with the shift of their flow curves: the mean of a_T
 // across the thickness, by which they stretch. Crusts: the bending stiffness about the layer that is not strained, over

@@ -15,6 +15,7 @@
 #include "libsheet/flow/put_fans.h"
 #include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/vertex_shares.h"
+#include "libsheet/material/shifted_liquid.h"
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/carried_springs.h"
@@ -83,25 +84,31 @@ public:
     const std::vector<double> thickness = thickness_around(mesh_.vertices, mesh_.triangles, volumes(frame_), area_of);
     std::vector<ContactSpring> welds;
     const FrameLiquids liquids(scene, frame_);
+    const auto temperature = temperatures(frame_);
     for (std::uint32_t v = 0; v < mesh_.vertices; ++v)
       if (!lower_[v].empty() && !welded[v])
         if (ContactSpring s = nearest_spring(v, lower_[v], mesh_, x_); s.rest > 0) {
           s.since = ContactSpring::always;
-          s.stiffness.fill(stiffness(scene, liquids.of(lower_[v].front()), s.mean(thickness), s.area(area)));
+          const std::uint32_t t = lower_[v].front();
+          const double warm = temperature.empty() ? 0 : temperature[t];
+          s.stiffness.fill(stiffness(scene, liquids.of(t), warm, s.mean(thickness), s.area(area)));
           welds.push_back(s);
         }
     return welds;
   }
 
 private:
-  [[nodiscard]] double stiffness(const Scene& scene, const Liquid& liquid, double h, double area) const {
+  // temperature: 0: without one.
+  [[nodiscard]] double stiffness(const Scene& scene, const Liquid& liquid, double temperature, double h,
+                                 double area) const {
     const double step = frame_.time - number(frame_, "start_time", frame_.time);
     const double g = scene.environment.gravity ? scene.environment.gravity->norm() : 0;
     const double time = g > 0 ? 0.1 * std::sqrt(h / g) : step;
     if (!(time > 0))
       return 0;
     const double inertia = scene.model.inertia ? area * liquid.density * h / (time * time) : 0;
-    return 0.5 * liquid.viscosity * h / time + inertia;
+    const Liquid there = temperature > 0 ? at_temperature(liquid, temperature) : liquid;
+    return 0.5 * viscosity_of(there, {1 / (time * time)}) * h / time + inertia;
   }
 
   const Frame& frame_;

@@ -2,10 +2,13 @@
 #include "libsheet/flow/merge_patches.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "libsheet/flow/contact_dates.h"
 #include "libsheet/flow/whole_patches.h"
 #include "libsheet/geometry/disjoint_sets.h"
+#include "libsheet/material/driven_rate.h"
+#include "libsheet/material/shifted_liquid.h"
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -97,7 +100,7 @@ private:
 class Candidates {
 public:
   Candidates(const Frame& frame, const Connectivity& mesh, const Scene& scene)
-      : frame_(frame), mesh_(mesh), scene_(scene), liquids_(scene, frame), shifts_(shifts_of(liquids_)),
+      : frame_(frame), mesh_(mesh), scene_(scene), liquids_(scene, frame), laws_(laws_of(liquids_)),
         areas_(areas_of(frame, mesh)), thickness_(thickness_of(frame, areas_)),
         dates_(contact_dates(frame, mesh, areas_)), order_(frame, mesh, scene),
         layers_(mesh, positions(frame), areas_, thickness_, ripe_triangles()), on_(mesh.triangles.size()) {
@@ -111,11 +114,15 @@ public:
   [[nodiscard]] double ripe() const { return ripe_; } // volume of all that would go, enough or not [m³]
 
 private:
-  static std::vector<ViscosityShift> shifts_of(const FrameLiquids& liquids) {
-    std::vector<ViscosityShift> shifts;
+  struct Law {
+    FlowCurve curve;
+    ViscosityShift shift;
+  };
+  static std::vector<Law> laws_of(const FrameLiquids& liquids) {
+    std::vector<Law> laws;
     for (const Liquid& liquid : liquids.all())
-      shifts.emplace_back(liquid.temperature_law);
-    return shifts;
+      laws.push_back({FlowCurve(liquid), ViscosityShift(liquid.temperature_law)});
+    return laws;
   }
 
   static std::vector<TriangleArea> areas_of(const Frame& frame, const Connectivity& mesh) {
@@ -137,9 +144,19 @@ private:
     return thickness;
   }
 
+  // As it is strained, or as tension strains it, whichever is faster [1/s].
+  [[nodiscard]] StrainRate rate(std::uint32_t t, double shift) const {
+    const auto x = positions(frame_), v = velocities(frame_);
+    const auto [a, b, c] = mesh_.triangles[t];
+    const double drawn =
+        driven_rate(liquids_.of(t), laws_[liquids_.number(t)].curve, tension(t) / thickness_[t]) / shift;
+    return {std::max(drawn * drawn, v.empty() ? 0 : strain_rate({x[a], x[b], x[c]}, {v[a], v[b], v[c]}).squared)};
+  }
   [[nodiscard]] double viscosity(std::uint32_t t) const {
     const auto temperature = temperatures(frame_);
-    return liquids_.of(t).viscosity * (temperature.empty() ? 1 : shifts_[liquids_.number(t)].factor(temperature[t]));
+    const Law& law = laws_[liquids_.number(t)];
+    const double shift = temperature.empty() ? 1 : law.shift.factor(temperature[t]);
+    return ShiftedCurve{law.curve, shift}.viscosity(law.curve.newtonian() ? StrainRate{} : rate(t, shift));
   }
   [[nodiscard]] double tension(std::uint32_t t) const {
     const auto temperature = temperatures(frame_);
@@ -148,9 +165,11 @@ private:
   }
 
   [[nodiscard]] bool ripe(std::uint32_t t, std::size_t side) const {
-    const double after = scene_.merge->after.value_or(viscosity(t) * thickness_[t] / tension(t));
-    return std::ranges::all_of(mesh_.triangles[t],
-                               [&](std::uint32_t v) { return frame_.time - dates_[v][side] >= after; });
+    double since = -std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : mesh_.triangles[t])
+      since = std::max(since, dates_[v][side]);
+    return since <= frame_.time &&
+           frame_.time - since >= scene_.merge->after.value_or(viscosity(t) * thickness_[t] / tension(t));
   }
 
   [[nodiscard]] std::vector<std::uint8_t> ripe_triangles() const {
@@ -198,7 +217,7 @@ private:
   const Connectivity& mesh_;
   const Scene& scene_;
   FrameLiquids liquids_;
-  std::vector<ViscosityShift> shifts_; // of each liquid
+  std::vector<Law> laws_; // of each liquid
   std::vector<TriangleArea> areas_;
   std::vector<double> thickness_;
   std::vector<Dates> dates_;

@@ -4,16 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "libsheet/material/flow_curve.h"
-
 namespace sheet {
 
-double driven_rate(const Liquid& liquid, double stress) {
+double driven_rate(const Liquid& liquid, double stress) { return driven_rate(liquid, FlowCurve(liquid), stress); }
+
+double driven_rate(const Liquid& liquid, const FlowCurve& curve, double stress) {
   if (liquid.law.newtonian())
     return liquid.viscous() ? stress / liquid.viscosity : std::numeric_limits<double>::infinity();
   if (stress <= liquid.law.yield_stress)
     return 0;
-  const FlowCurve curve(liquid);
   double low = -100, high = 100; // ln γ̇: the stress rises with the rate, so bisection finds it
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/material/driven_rate.h"
+#include "libsheet/material/flow_curve.h"
 #include "libsheet/scene/brief.h"
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/sheet/sheet.h"
@@ -67,8 +69,8 @@ std::vector<std::string> face_warnings(const Scene& scene, const Frame& first, d
     return warning.empty() ? std::vector<std::string>{} : std::vector{warning};
   }
   const double h = mean_thickness(first);
-  const double moved = liquid.surface_tension * until / (liquid.viscosity * h);
-  const double ohnesorge = liquid.viscosity / std::sqrt(liquid.density * liquid.surface_tension * h);
+  const double rate = driven_rate(liquid, liquid.surface_tension / h), moved = rate * until;
+  const double ohnesorge = viscosity_of(liquid, {rate * rate}) / std::sqrt(liquid.density * liquid.surface_tension * h);
   const bool inertial = scene.model.inertia && ohnesorge < 1;
   if (!(moved > 0.1 || inertial) || !(scene.tear || has_free_rims(scene, first)))
     return {};

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "libsheet/material/driven_rate.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/scene/brief.h"
 #include "libsheet/scene/frame_liquids.h"
@@ -50,8 +51,7 @@ std::optional<std::size_t> under_a_rim(const Scene& scene, const Frame& first, c
 // Whether tension moves a layer of that liquid before the end.
 bool is_moved(const Liquid& liquid, double h, double until) {
   constexpr double least_moved = 0.1; // gamma t/(mu h)
-  const double pull = 2 * liquid.surface_tension / h;
-  return liquid.surface_tension * until > least_moved * liquid.viscosity * h && pull > liquid.law.yield_stress;
+  return until * driven_rate(liquid, 2 * liquid.surface_tension / h) > 2 * least_moved;
 }
 
 } // namespace

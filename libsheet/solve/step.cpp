@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include <tbb/parallel_invoke.h>
 
@@ -180,6 +181,7 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
                                   State& end, StepReport& report) {
   const bool two = scheme == Scheme::sdirk2;
   const double gamma = two ? sdirk_gamma : 1;
+  report.room = std::numeric_limits<double>::infinity();
   Beginning beginning;
   tbb::parallel_invoke([&] { prepare_cache(state, report); }, // in parts on one thread
                        [&] { beginning = begin_step(model_, state, gamma * dt); });
@@ -213,7 +215,8 @@ Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, 
       return Outcome::cools_too_fast;
     if (heat)
       heat->extrapolate(gamma, stage);
-    if (!second_stage(stage, first, gamma, dt))
+    report.room = second_stage(stage, first, gamma, dt);
+    if (report.room < 1)
       return Outcome::shrinks_to_nothing;
     set_wall_sites(model_.walls, stage);
     cache_->system.turn_slides(stage);

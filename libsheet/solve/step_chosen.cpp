@@ -2,6 +2,7 @@
 // A step chosen by its error, and what is done where none is accurate enough or none converges (docs/hard-cases.md).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "libsheet/base/error.h"
@@ -66,8 +67,8 @@ public:
         as_it_was ? 1 : std::clamp(safety * std::sqrt(tolerance_ / best_->error), least_factor, greatest_factor);
     // A step that was cut to land says nothing against the longer one that was wanted; one that was shortened does.
     const bool shortened = !as_it_was && best_->dt < first_;
-    return std::max(std::max(shortest_, best_->dt * factor),
-                    factor >= 1 && !shortened ? std::min(wanted_, greatest_factor * best_->dt) : 0.0);
+    const double as_wanted = factor >= 1 && !shortened ? std::min(wanted_, greatest_factor * best_->dt) : 0.0;
+    return std::max(shortest_, std::min(std::max(best_->dt * factor, as_wanted), best_->dt * safety * best_->room));
   }
 
   [[nodiscard]] bool lands() const { return best_->dt >= remaining_; }
@@ -80,6 +81,7 @@ private:
     std::size_t worst = 0;
     bool flat = false;
     std::vector<Vector3> reactions;
+    double room = std::numeric_limits<double>::infinity();
   };
 
   [[nodiscard]] bool leads_nowhere(double dt) const { return state_.time + dt == state_.time; }
@@ -98,7 +100,7 @@ private:
       if (stepper_.attempt_either(state_, trial.dt, trial.end, trial.flat, report_) != Outcome::done) {
         ++report_.failed;
         if (state_.overshoot.empty())
-          trial.dt *= least_factor;
+          trial.dt *= report_.room < 1 ? std::max(least_factor, safety * report_.room) : least_factor;
         else
           forget_overshoot(state_);
         continue;
@@ -159,6 +161,7 @@ private:
   // What the report says of the last attempt.
   void note(Trial& trial) const {
     trial.error = report_.error;
+    trial.room = report_.room;
     trial.worst = report_.worst;
     trial.reactions = report_.reactions;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What one time step took, or several.
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct StepReport {
   // (docs/model.md, stopping rule), greatest of the substeps.
   double error = 0;
   std::size_t worst = 0;          // the vertex that has it
+  // How many times as long the last attempt might have been until SDIRK2's second stage has no reference
+  // (energy/stage_setup.h); below 1: was refused for it.
+  double room = std::numeric_limits<double>::infinity();
   std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex [N]
   double seconds_analysis = 0;
   // Assembled terms, their element work summed over threads, and gathering; again for what was done without arcs.

@@ -72,3 +72,22 @@ END
     END { exit !(one > 0.48 && one < 0.54 && two > 0.45 && two < one) }' "$t/neck/neck-in/results.csv"
   [[ -s $t/neck/neck-in.png ]]
 }
+
+@test "draw resonance: theory is the closed equation's of a Newtonian film; a film that thins swings as theory says" {
+  # n = 1: (1 - z1) (Ei(z0) - Ei(z1)) = e^z1 - e^z0, z0 = λ/ln D, z1 = z0/D, from a = ds/dz, s = f + A z + B (z Ei(z) -
+  # e^z), of the equations in resonance.py with z = λ e^(-x ln D)/ln D.
+  PYTHONPATH=pipelines:pipelines/film-casting /usr/bin/python3 << 'END'
+import numpy as np, resonance
+draw, frequency = resonance.critical(1)
+assert abs(draw - 20.217988) < 1e-6 and abs(frequency - 14.011093) < 1e-6, (draw, frequency)
+slot = 1j * frequency / np.log(draw)
+roll = slot / draw
+place, weight = np.polynomial.legendre.leggauss(40)
+between = np.log(draw) / 2 * np.sum(weight * np.exp(roll * np.exp(np.log(draw) / 2 * (place + 1))))  # ∫ e^z/z dz
+assert abs((1 - roll) * between - np.exp(roll) + np.exp(slot)) < 1e-10
+END
+  OUT=$t/cast run -0 pipelines/film-casting/critical 0.8 0.04 1600
+  # With four times shorter edges within 1 % (docs/scenes/film-casting.md).
+  awk -F, 'END { exit !($2 / $4 > 0.96 && $2 / $4 < 1.04 && $3 / $5 > 0.98 && $3 / $5 < 1.02) }' "$t/cast/critical.csv"
+  [[ -s $t/cast/critical.png ]]
+}

@@ -24,11 +24,16 @@ using testing::Gt;
 
 constexpr double layer = 0.1, gap = 0.08; // [m]
 
+std::string of_material(const std::string& material) {
+  return "[sheet]\nshape = \"sphere\"\nradius = 10\nedge_length = 1\nthickness = 0.1\n[material]\nviscosity = "
+         "1\ndensity = 3\n" +
+         material;
+}
+
 Scene merging_scene(const std::string& more = "", const std::string& on = "all") {
-  return parse_scene("[sheet]\nshape = \"sphere\"\nradius = 10\nedge_length = 1\nthickness = 0.1\n[material]\n"
-                     "viscosity = 1\ndensity = 3\n[environment]\ngravity = [0, 0, -9.81]\n[contact]\nself = true\n"
-                     "[merge]\nafter = 0.5\non = \"" +
-                         on + "\"\n" + more,
+  return parse_scene(of_material("[environment]\ngravity = [0, 0, -9.81]\n[contact]\nself = true\n[merge]\n"
+                                 "after = 0.5\non = \"" +
+                                 on + "\"\n" + more),
                      "scene");
 }
 
@@ -172,6 +177,38 @@ TEST(Merge, NothingThatIsYoungOrAloneOrOff) {
   Frame nothing = held;
   (void)merge(nothing, merging_scene());
   EXPECT_EQ(nothing.arrays.size(), held.arrays.size());
+}
+
+// By default as soon as tension may have drawn both together, by its law, and faster where it is strained anyway.
+TEST(Merge, WhatThinsIsSoonDrawnTogether) {
+  const auto merges = [](const std::string& material, double since, bool moves = true) {
+    Frame frame = stack(8, Vector3(0.13, 0.21, gap), since);
+    if (!moves)
+      std::ranges::fill(velocities(frame), Vector3::Zero());
+    return merge(frame, parse_scene(of_material(material) + "[contact]\nself = true\n[merge]\non = \"all\"\n", "scene"))
+               .triangles > 0;
+  };
+  const std::string thins = "law = \"power\"\nflow_index = 0.5\n";
+  EXPECT_FALSE(merges("surface_tension = 0.5\n", 0.95));                 // mu h/gamma = 0.1 s
+  EXPECT_TRUE(merges(thins + "surface_tension = 0.5\n", 0.95));          // 0.1 Pa s at gamma/h: 0.01 s
+  EXPECT_TRUE(merges(thins + "surface_tension = 0.005\n", -19));         // about 0.2 Pa s as it flows
+  EXPECT_FALSE(merges(thins + "surface_tension = 0.005\n", -19, false)); // 10 Pa s at gamma/h: 100 s
+}
+
+TEST(Merge, WeldsAreAsStiffAsTheirLiquidAtTheRateOfTheirMotion) {
+  const auto stiffness = [](const std::string& material) {
+    Frame frame = stack(8, Vector3(0.75, 0.21, gap));
+    merge(frame,
+          parse_scene(of_material(material) + "[model]\ninertia = false\n[environment]\ngravity = [0, 0, -9.81]\n"
+                                              "[contact]\nself = true\n[merge]\nafter = 0.5\non = \"all\"\n",
+                      "scene"));
+    for (const ContactSpring& s : read_springs(frame))
+      if (s.welded())
+        return s.stiffness[0];
+    return 0.0;
+  };
+  const double newtonian = stiffness(""), time = newtonian / (50 * 9.81); // k = mu h/(2 T), T = 0.1 sqrt(h/g)
+  EXPECT_NEAR(stiffness("law = \"power\"\nflow_index = 0.5\n") / newtonian, std::sqrt(time), 1e-9);
 }
 
 // The upper sheet juts out over the lower one's edge: what lies on it goes, the rest stays, with its border welded.

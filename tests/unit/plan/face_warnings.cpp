@@ -29,7 +29,9 @@ const std::string tension = "surface_tension = 0.05\n", faces = tension + "[mode
 
 TEST(FaceWarnings, RecommendFacesWhereTensionMovesRims) {
   EXPECT_THAT(warnings("irregular", "", 1), IsEmpty());
-  EXPECT_THAT(warnings("irregular", tension, 1e-3), IsEmpty()); // gamma t/(mu h) = 0.05
+  EXPECT_THAT(warnings("irregular", tension, 1e-3), IsEmpty());              // gamma t/(mu h) = 0.05
+  const std::string thins = "law = \"power\"\nflow_index = 0.5\n" + tension; // 0.02 Pa s at 50 Pa
+  EXPECT_THAT(warnings("irregular", thins, 1e-3), ElementsAre(HasSubstr("sqrt(rho gamma h) = 0.089")));
   EXPECT_THAT(warnings("irregular", tension, 1), ElementsAre(HasSubstr("faces = true")));
   EXPECT_THAT(warnings("irregular", "surface_tension = 2\n", 1e-6), ElementsAre(HasSubstr("sqrt(rho gamma h) = 0.7")));
   EXPECT_THAT(warnings("irregular", tension + "[[hold]]\nregion = \"rim\"\n", 1), IsEmpty());

@@ -41,6 +41,10 @@ TEST(Wetting, OfAThinLayerWithFreeRims) {
   EXPECT_EQ(wetting(flows, "viscosity = 6\nsurface_tension = 0.06\n", "", 0.005), "");
   EXPECT_EQ(wetting(flows, "viscosity = 6e4\nsurface_tension = 0.06\n"), ""); // it hardly moves in 5 s
   EXPECT_EQ(wetting(flows, "law = \"bingham\"\nyield_stress = 100\nviscosity = 6\nsurface_tension = 0.06\n"), "");
+  // At 2 gamma/h = 60 Pa it has 670 Pa s.
+  EXPECT_NE(wetting(flows, "law = \"power\"\nflow_index = 0.5\nreference_rate = 1e-4\nviscosity = 2e4\n"
+                           "surface_tension = 0.06\n"),
+            "");
   EXPECT_EQ(wetting(flows, "viscosity = 6\nsurface_tension = 0.06\n", "[[hold]]\nregion = \"rim\"\n"), "");
 }
 

@@ -305,6 +305,23 @@ TEST(HardCases, FreeDiskInStepsOfFiveTimesItsOwnTime) {
   EXPECT_GT(area, 0.15 * std::numbers::pi); // exact: 0.23 (V8)
 }
 
+// The same disk in steps chosen by their error, of a tolerance that never matters: what the triangles shrink by in the
+// step that is refused says how long one is that is not, and then how long the next one is.
+TEST(HardCases, StepsAreAsLongAsTheSecondStageAllows) {
+  State s = test::at_rest(test::disk(1, 5, 0.2), 0.02);
+  Model m;
+  m.liquid.viscosity = 100;
+  m.inertia = false;
+  m.liquid.surface_tension = 1;
+  StepControl control{100, 5};
+  Stepper stepper(m, {});
+  const StepReport first = stepper.step_within(s, 20, control);
+  EXPECT_EQ(first.failed, 1);
+  EXPECT_GT(s.time, 0.5 * 5);
+  EXPECT_NEAR(control.dt, 0.9 * first.room * s.time, 1e-9);
+  EXPECT_EQ(stepper.step_within(s, 20, control).failed, 0);
+}
+
 // Volumes are never written: thickness follows area.
 TEST(Volume, KeepsEveryBit) {
   State s = square(0.02);

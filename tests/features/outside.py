@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a bath and pressure do in a step, from the frames at its start and end, whose mesh is one [J]. Potentials are those
+of docs/model.md, "Pressure and bath"; which vertices lie on another layer, so that the bath does not reach them, and which
+triangles are overturned is settled at the start.
+"""
+import numpy
+
+
+def si(value):
+    """A number of a scene, or a text of one and a unit."""
+    if not isinstance(value, str):
+        return value
+    number, unit = value.split()
+    return float(number) * {"mm": 1e-3, "kPa": 1e3}.get(unit, 1)
+
+
+def normals(frame):
+    """Twice each triangle's area, as a vector."""
+    a, b, c = (frame["position"][frame["triangle"][:, k]] for k in range(3))
+    return numpy.cross(b - a, c - a)
+
+
+def borne(frame, up):
+    """Which vertices lie on another layer that faces up or is borne itself."""
+    found = numpy.zeros(frame.vertices, bool)
+    if "contact_vertex" not in frame:
+        return found
+    seen = numpy.zeros(frame.vertices)
+    for k in range(3):
+        numpy.add.at(seen, frame["triangle"][:, k], normals(frame) @ up)
+    bears, weights = seen > 0, frame["contact_weight"]
+    on = (weights[:, 0] == 1) & (frame["contact_normal"] @ up > 0.5)
+    below, weights = frame["contact_vertex"][on], -weights[on, 1:]
+    while True:
+        more = below[(weights * bears[below[:, 1:]]).sum(axis=1) >= 0.5, 0]
+        if found[more].all():
+            return found
+        found[more] = bears[more] = True
+
+
+def depth_integral(heights, clings):
+    """Of the square of what of the heights is below 0, or of all, over each triangle; over a twelfth of its area."""
+    def whole(d):
+        return ((d ** 2).sum(axis=1) + d.sum(axis=1) ** 2) / 2
+    if clings:
+        return whole(heights)
+    under = (heights < 0).sum(axis=1)
+    result = numpy.where(under >= 2, whole(heights), 0)
+    for alone in (1, 2): # one corner on its side of the surface
+        for k in range(3):
+            d = numpy.roll(heights, -k, axis=1)
+            here = (under == alone) & ((d[:, 0] < 0) == (alone == 1))
+            x, b, c = d[here].T
+            corner = x ** 4 / ((x - b) * (x - c))
+            result[here] = corner if alone == 1 else result[here] - corner
+    result[under == 3] = whole(heights[under == 3])
+    return result
+
+
+def work_of_bath(said, start, end, of_liquids):
+    bath, gravity = said["environment"]["bath"], numpy.array([si(value) for value in said["environment"]["gravity"]])
+    level, weight = si(bath.get("level", 0)), si(bath["density"]) * numpy.linalg.norm(gravity)
+    g = numpy.linalg.norm(gravity)
+    up = -gravity / g
+    triangle, volume = start["triangle"], start["volume"].ravel()
+    is_open = ~borne(start, up)[triangle]
+    overturned = normals(start) @ up < 0
+    steep = 0.025 * numpy.linalg.norm(normals(start), axis=1) # a twentieth of the area
+    reached = is_open & ((start["position"] @ up)[triangle] < level)
+    liquid = start["liquid"].ravel() if "liquid" in start else numpy.zeros(len(triangle), int)
+    density, _ = of_liquids(said, liquid)
+    thrust = density * g * volume ** 2 / 2 * reached.mean(axis=1) * bath.get("spreads", False) * ~overturned
+
+    def potential(frame):
+        heights = (frame["position"] @ up)[triangle] - level
+        projected = normals(frame) @ up / 2
+        counts = numpy.where(projected < steep, numpy.maximum(projected + steep, 0) ** 2 / (4 * steep), projected)
+        floats = weight / 12 * is_open.mean(axis=1) * counts * depth_integral(heights, bath.get("clings", False))
+        dips = -weight * volume / 3 * (heights * reached).sum(axis=1)
+        spread = numpy.divide(thrust, projected, out=numpy.zeros(len(thrust)), where=thrust > 0)
+        return (numpy.where(overturned, dips, floats) + spread).sum()
+
+    return potential(start) - potential(end)
+
+
+def rim_of(corners):
+    """Edges of one triangle, in its sense."""
+    sides = numpy.concatenate([corners[:, [k, (k + 1) % 3]] for k in range(3)])
+    _, index, count = numpy.unique(numpy.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
+    return sides[index[count == 1]]
+
+
+def cones(x, corners):
+    """The volume between these triangles and the origin."""
+    return numpy.einsum("ij,ij->i", x[corners[:, 0]], numpy.cross(x[corners[:, 1]], x[corners[:, 2]])).sum() / 6
+
+
+def swept(start, end, corners):
+    """The volume that these triangles sweep on the side of their normals."""
+    origin = start["position"].mean(axis=0)
+    first, last = (frame["position"] - origin for frame in (start, end))
+    a, b = rim_of(corners).T # its cone from the origin is no part of the sheet
+    cone = (numpy.cross(first[a], first[b]) + numpy.cross(last[a], last[b])) / 2
+    return (cones(last, corners) - cones(first, corners) +
+            ((last[a] - first[a] + last[b] - first[b]) * cone).sum() / 6)
+
+
+def enclosed(frame, corners):
+    """By these triangles, whose rim, if there is one, is closed from its middle."""
+    x, rim = frame["position"], rim_of(corners)
+    return cones(x - x[rim if len(rim) else corners].mean(axis=(0, 1)), corners)
+
+
+def work_of_gas(pressure, start, end, corners, number):
+    """The integral of p over the volume, from that at the start to that and what is swept."""
+    ambient, n = si(pressure.get("ambient", 101325)), pressure.get("exponent", 1)
+    amounts = [frame["gas.amount"].ravel()[number] for frame in (start, end) if "gas.amount" in frame]
+    amount = numpy.mean(amounts)
+    first = enclosed(start, corners) + si(pressure.get("more_volume", 0))
+    last = first + swept(start, end, corners)
+    filled = numpy.log(last / first) if n == 1 else (last ** (1 - n) - first ** (1 - n)) / (1 - n)
+    return ambient * (amount ** n * filled - (last - first))
+
+
+def work_of_pressure(pressure, start, end):
+    """Constant pressure times the volume that is swept, or of the gas within; what only drains does none."""
+    if pressure["law"] == "draining":
+        return 0
+    triangle = start["triangle"]
+    inside = start["enclosure"].ravel() if "enclosure" in start else numpy.ones(len(triangle), int)
+    if pressure["law"] == "constant":
+        return si(pressure["value"]) * swept(start, end, triangle[inside > 0])
+    assert pressure["law"] == "gas", pressure
+    return sum(work_of_gas(pressure, start, end, triangle[inside == k + 1], k) for k in range(inside.max())
+               if (inside == k + 1).any())
