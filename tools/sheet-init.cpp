@@ -27,6 +27,7 @@
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/plan/slopes.h"
 #include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/plan/wetting.h"
@@ -136,7 +137,7 @@ void warn_of_symmetry(const sheet::Scene& scene, const sheet::formats::Frame& fr
 std::string explained(Source source, bool ring_alone) {
   const sheet::Scene with_heat = read(source), scene = sheet::scene::as_it_starts(with_heat);
   const sheet::formats::Frame frame = sheet::checked_first_frame(with_heat);
-  const std::vector<sheet::scene::Measured> measured = sheet::measured_sheets(scene, frame);
+  const std::vector<sheet::scene::Measured> measured = sheet::measured_on_solids(scene, frame);
   sheet::scene::Explanation explanation = sheet::scene::explain(with_heat, measured, sheet::modelled(with_heat));
   if (const auto sheets = sheet::sheets_in_their_planes(scene); !sheets.empty()) {
     explanation.warnings.emplace_back("all is symmetric about the sheet's plane: it would grow thicker where it should "

@@ -15,6 +15,7 @@
 #include "libsheet/collide/solid_sweep.h"
 #include "libsheet/collide/touch_distance.h"
 #include "libsheet/geometry/facing_walls.h"
+#include "libsheet/geometry/longest_edges.h"
 
 namespace sheet::collide {
 namespace {
@@ -54,19 +55,6 @@ double thinnest(const StepPath& path) {
   return result;
 }
 
-// Of the edges at each vertex, at the start [m].
-std::vector<double> longest_edges(const StepPath& path) {
-  std::vector<double> longest(path.start.size(), 0);
-  for (const Corners& t : path.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-      const double length = (path.start[a] - path.start[b]).norm();
-      longest[a] = std::max(longest[a], length);
-      longest[b] = std::max(longest[b], length);
-    }
-  return longest;
-}
-
 std::vector<SolidView> views_of(const solid::Solids& solids, const StepPath& path) {
   std::vector<SolidView> views;
   for (std::size_t i = 0; i < solids.size(); ++i)
@@ -84,7 +72,7 @@ public:
       thickness = std::max(thickness, least);
     if (std::ranges::any_of(views_, &SolidView::flows))
       path.facing = facings(path);
-    edges_ = longest_edges(path);
+    edges_ = longest_edges(path.start, path.triangles);
     path.stand_off = chord_allowances(path, views_, edges_);
     rides_.resize(path.start.size());
     for (std::size_t v = 0; v < rides_.size(); ++v)
@@ -218,8 +206,8 @@ private:
   }
 
   [[nodiscard]] bool is_squeezed(std::uint32_t v) const {
-    return rides_[v] != no_solid &&
-           solids_.facing(static_cast<std::size_t>(rides_[v]), path_.start[v], path_.start_time, path_.thickness[v]);
+    return rides_[v] != no_solid && solids_.facing(static_cast<std::size_t>(rides_[v]), path_.start[v],
+                                                   path_.start_time, path_.thickness[v], edges_[v]);
   }
 
   // Where a vertex goes that hits a solid and slides on: what is left of its path, along the surface.
@@ -280,7 +268,8 @@ private:
         const Vector3 there = other.own(other.pieces(), end);
         const double offset = &other == &view ? 0 : beside_distance(v, other);
         if (&other == &view || (slides(v) && faces(view, other, end)) ||
-            other.shape().distance(there, offset) >= offset * (1 - 1e-6))
+            other.shape().distance(there, offset) >= offset * (1 - 1e-6) ||
+            (slides(v) && passes_below(v, static_cast<std::size_t>(&other - views_.data()), end)))
           continue;
         end = other.world_at_end(settle(other.shape(), there, offset));
         moved = true;
@@ -299,6 +288,18 @@ private:
       return view.turned_at_end(view.shape().nearest(view.own(view.pieces(), end)).normal);
     };
     return -normal(own).dot(normal(other)) > least_facing;
+  }
+
+  // Whether an edge of another solid is above what is at a place at the end: there, too, sheet-step keeps it in the
+  // gap.
+  [[nodiscard]] bool passes_below(std::uint32_t v, std::size_t other, const Vector3& end) const {
+    constexpr double least = 0.05; // gap, of the thickness
+    const auto own = static_cast<std::size_t>(rides_[v]);
+    const auto of = [&](std::size_t s) {
+      return [this, s](const Vector3& x) { return solids_.at(s, x, path_.end_time); };
+    };
+    const double gap = gap_beside(end, of(own), of(other), edges_[v], least * path_.thickness[v]).gap;
+    return std::isfinite(gap) && solids_.at(own, end, path_.end_time).distance < gap;
   }
 
   // The distance that a vertex on one solid keeps from another one: that at which it would touch it, unless it starts

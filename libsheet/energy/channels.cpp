@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "libsheet/geometry/facing_walls.h"
+#include "libsheet/geometry/longest_edges.h"
 #include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
@@ -16,36 +17,40 @@ constexpr double touch = 1.05;     // gaps that a layer fills, in its thicknesse
 constexpr double relief = 10;      // of the rate at which walls move
 constexpr double least_gap = 0.05; // of the thickness: narrower gaps count as so wide
 
-double gap_of(const WallPoint& own, const WallPoint& other) {
-  return gap_between(own.distance, own.normal, other.distance, other.normal);
+// Of two walls at a point of time: straight across it or beside an edge of the second one, whichever is narrower.
+GapBeside gap_of(const Wall& wall, const Wall& facing, double t, const Vector3& x, double longest_edge, double least) {
+  const WallPoint own = wall.nearest(t, x), other = facing.nearest(t, x);
+  const GapBeside across{std::max(gap_between(own.distance, own.normal, other.distance, other.normal), least),
+                         other.normal - own.normal.dot(other.normal) * own.normal};
+  const auto at = [&](const Wall& of) { return [&, t](const Vector3& y) { return of.nearest(t, y); }; };
+  const GapBeside beside = gap_beside(x, at(wall), at(facing), longest_edge, least);
+  return beside.gap < across.gap ? beside : across;
 }
 
 // The wall that faces the site's own one, nearest of those within reach; place, gap and slope are set.
 std::optional<Channel> find_channel(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site,
-                                    double thickness) {
+                                    double thickness, double longest_edge) {
   const Vector3& x = stage.predicted[site.vertex];
-  const double t = stage.end_time;
+  const double t = stage.end_time, least = least_gap * thickness;
   std::optional<Channel> found;
   for (std::uint32_t w = 0; w < walls.size(); ++w) {
-    if (w == site.wall || (walls[w].beyond && walls[w].beyond(t, x, near_touch * thickness)))
+    if (w == site.wall || (walls[w].beyond && walls[w].beyond(t, x, near_touch * thickness + 2 * longest_edge)))
       continue;
-    const WallPoint own = walls[site.wall].nearest(t, x), other = walls[w].nearest(t, x);
-    const double gap = std::max(gap_of(own, other), least_gap * thickness);
+    const auto gap_at = [&](double time, const Vector3& place) {
+      return gap_of(walls[site.wall], walls[w], time, place, longest_edge, least);
+    };
+    const auto [gap, slope] = gap_at(t, x);
     if (!(gap < near_touch * thickness) || (found && found->gap <= gap))
       continue;
     found.emplace();
     found->vertex = site.vertex;
     found->facing = w;
     found->gap = gap;
-    const auto gap_at = [&](double time, const Vector3& place) {
-      const double at = gap_of(walls[site.wall].nearest(time, place), walls[w].nearest(time, place));
-      return std::max(at, least_gap * thickness);
-    };
-    found->gap_before = gap_at(stage.start->time, stage.start->positions[site.vertex]);
+    found->gap_before = gap_at(stage.start->time, stage.start->positions[site.vertex]).gap;
     if (stage.previous != nullptr)
-      found->gap_first = gap_at(stage.start->time + stage.duration, stage.position(*stage.previous, site.vertex));
+      found->gap_first = gap_at(stage.start->time + stage.duration, stage.position(*stage.previous, site.vertex)).gap;
     found->place = x;
-    found->slope = other.normal - own.normal.dot(other.normal) * own.normal;
+    found->slope = slope;
   }
   return found;
 }
@@ -81,8 +86,9 @@ double filled_part(double thickness, double gap) {
 void set_channels(const std::vector<Wall>& walls, std::span<const double> thickness,
                   const std::function<Vector3(const Wall&, std::uint32_t vertex)>& carried, Stage& stage) {
   stage.channel_area = stage.channel_rate = 0;
+  const std::vector<double> edges = longest_edges(stage.start->positions, stage.start->mesh->triangles);
   for (WallSite& site : stage.sites) {
-    std::optional<Channel> channel = find_channel(walls, stage, site, thickness[site.vertex]);
+    std::optional<Channel> channel = find_channel(walls, stage, site, thickness[site.vertex], edges[site.vertex]);
     if (!channel)
       continue;
     const Wall& facing = walls[channel->facing];

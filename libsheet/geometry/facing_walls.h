@@ -18,4 +18,36 @@ inline constexpr double least_facing = 0.5; // cosine of the angle up to which t
   return turned < 1 ? own + other / (cosine * (1 - turned * turned)) : std::numeric_limits<double>::infinity();
 }
 
+// The gap that another wall leaves a layer beside its edge: of a blade, a plate or a box above the own wall.
+struct GapBeside {
+  double gap = std::numeric_limits<double>::infinity(); // [m]
+  Vector3 slope = Vector3::Zero();                      // of it, along the own wall
+};
+
+// At the foot of x on its own wall. The middle of a layer that comes to such an edge must be below it in time, and its
+// triangles must not be higher than it where it cuts through them: with the gap g under the edge and the way s there
+// along the wall,
+//   gap = g (1 + 2 s/l)/(1 - (s/(2 l))²),
+// l the longest edge of the mesh there: as if the edge were rounded over so much. Infinite from s = 2 l on, where the
+// other wall does not face the own one across that place, as in a corner between them, and where g is less than `least`
+// [m]. own, other: give distance and normal of the walls at a place.
+template <class Own, class Other>
+[[nodiscard]] GapBeside gap_beside(const Vector3& x, const Own& own, const Other& other, double longest_edge,
+                                   double least) {
+  const auto foot_on = [](const auto& point, const Vector3& at) { return Vector3(at - point.distance * point.normal); };
+  const Vector3 foot = foot_on(own(x), x), edge = foot_on(other(foot), foot);
+  const auto below = own(edge);
+  const Vector3 beneath = foot_on(below, edge), way = foot - beneath;
+  const double reach = 2 * longest_edge, part = way.norm() / reach;
+  if (!(part < 1) || below.distance < least)
+    return {};
+  const auto above = other(beneath);
+  const double gap = gap_between(0, below.normal, above.distance, above.normal);
+  if (gap < least)
+    return {};
+  const double narrowing = 1 - part * part, widened = (1 + 4 * part) / narrowing;
+  const double slope = gap / reach * (4 + 2 * part * widened) / narrowing;
+  return {gap * widened, part > 0 ? Vector3(slope / (part * reach) * way) : Vector3::Zero()};
+}
+
 } // namespace sheet

@@ -75,6 +75,39 @@ std::string warning_of_stuck_slope(const Scene& scene, const solid::Solids& soli
                               way, until));
 }
 
+// Of what lies on a solid to which it sticks, where another one passes so low over it that it would push it ahead; else
+// "".
+std::string warning_of_stuck_spreading(const Scene& scene, const solid::Solids& solids, std::size_t number,
+                                       const std::vector<Landing>& all, double thickness, double start, double until) {
+  constexpr int times = 100;
+  if (scene.solids[number].contact != SolidContact::stick || !solids.may_squeeze())
+    return {};
+  const auto passes = [&](const Landing& landing, double t) -> std::optional<solid::Solids::Facing> {
+    const Vector3d place = scene::motion_between(scene.solids[number].motion, start, t) * landing.place;
+    const auto facing = solids.facing(number, place, t, thickness);
+    if (!facing)
+      return std::nullopt;
+    const solid::SolidPoint own = solids.at(number, place, t);
+    const auto goes_along = [&](const Vector3d& velocity) {
+      const Vector3d past = velocity - own.velocity;
+      return std::abs(past.dot(own.normal)) < past.cross(own.normal).norm();
+    };
+    const Vector3d middle = solids.pose(facing->solid, t).translation(); // of what rolls: that is what moves on
+    const bool along = goes_along(solids.surface_velocity(facing->solid, place, -own.normal, t)) ||
+                       goes_along(scene::velocity_at(scene.solids[facing->solid].motion, t, middle));
+    return along ? facing : std::nullopt;
+  };
+  for (int k = 0; k <= times; ++k)
+    for (const Landing& landing : all)
+      if (landing.solid == number && landing.fall < thickness)
+        if (const auto facing = passes(landing, start + (until - start) * k / times))
+          return question(solids.name(number),
+                          fmt::format("{} passes over it with {:.2g} m to spare, less than the sheet is thick, and "
+                                      "would push it ahead",
+                                      solids.name(facing->solid), facing->gap));
+  return {};
+}
+
 // The solid over which a free sheet falls or hangs, so that it falls far onto others.
 std::optional<std::size_t> draped(const Scene& scene, const std::vector<Landing>& all, double thickness) {
   if (all.empty() || !scene.holds.empty())
@@ -112,8 +145,11 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Frame& first
   for (std::size_t i = 0; i < scene.inflows.size(); ++i)
     warnings.push_back(warning_of_stuck_inflow(scene, solids, first, i, until));
   const bool asked = std::ranges::any_of(warnings, [](const std::string& warning) { return !warning.empty(); });
-  for (std::size_t i = 0; i < solids.size() && !asked; ++i)
+  for (std::size_t i = 0; i < solids.size() && !asked; ++i) {
     warnings.push_back(warning_of_stuck_slope(scene, solids, i, all, thickness, until));
+    if (warnings.back().empty())
+      warnings.push_back(warning_of_stuck_spreading(scene, solids, i, all, thickness, first.time, until));
+  }
   warnings.push_back(warning_of_passing_through(scene, solids, first, all, thickness));
   std::erase(warnings, "");
   return warnings;

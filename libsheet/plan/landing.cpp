@@ -17,29 +17,6 @@ namespace {
 using Eigen::Vector3d;
 using formats::Frame;
 
-// Of what is at x at time t and falls `down` (a unit vector); size: of the sheet [m].
-std::optional<Landing> landing_from(const solid::Solids& solids, const Vector3d& down, const Vector3d& x, double size,
-                                    double t) {
-  constexpr double farthest = 100, near = 1e-3; // times the size
-  double way = 0;
-  while (way < farthest * size) {
-    Landing nearest{.solid = 0,
-                    .fall = way,
-                    .place = x + way * down,
-                    .there = {std::numeric_limits<double>::infinity(), -down, {}},
-                    .liquid = {}};
-    for (std::size_t i = 0; i < solids.size(); ++i)
-      if (const solid::SolidPoint point = solids.at(i, nearest.place, t); point.distance < nearest.there.distance) {
-        nearest.solid = i;
-        nearest.there = point;
-      }
-    if (nearest.there.distance < near * size)
-      return nearest;
-    way += nearest.there.distance;
-  }
-  return {};
-}
-
 // The liquids of a frame's vertices.
 class VertexLiquids {
 public:
@@ -60,20 +37,51 @@ bool falls(const Scene& scene) {
 
 } // namespace
 
+std::optional<Landing> landing_below(const solid::Solids& solids, const Vector3d& down, const Vector3d& x, double size,
+                                     double t) {
+  constexpr double farthest = 100, near = 1e-3; // times the size
+  double way = 0;
+  while (way < farthest * size) {
+    Landing nearest{.solid = 0,
+                    .fall = way,
+                    .place = x + way * down,
+                    .there = {std::numeric_limits<double>::infinity(), -down, {}},
+                    .liquid = {},
+                    .vertex = 0};
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      if (const solid::SolidPoint point = solids.at(i, nearest.place, t); point.distance < nearest.there.distance) {
+        nearest.solid = i;
+        nearest.there = point;
+      }
+    if (nearest.there.distance < near * size)
+      return nearest;
+    way += nearest.there.distance;
+  }
+  return {};
+}
+
+std::vector<std::size_t> probes_of(const Frame& first) {
+  constexpr std::size_t about = 100;
+  const std::size_t apart = std::max<std::size_t>(1, first.vertices / about);
+  std::vector<std::size_t> probes;
+  for (std::size_t v = 0; v < first.vertices; v += apart)
+    probes.push_back(v);
+  return probes;
+}
+
 std::vector<Landing> landings(const Scene& scene, const Frame& first) {
   std::vector<Landing> all;
   if (!falls(scene))
     return all;
-  constexpr std::size_t probes = 100;
   const solid::Solids solids(scene);
   const auto x = positions(first);
   const Vector3d down = scene.environment.gravity->normalized();
   const double size = *measured(first).length;
   const VertexLiquids liquids(scene, first);
-  const std::size_t apart = std::max<std::size_t>(1, x.size() / probes);
-  for (std::size_t v = 0; v < x.size(); v += apart)
-    if (auto landing = landing_from(solids, down, x[v], size, first.time)) {
+  for (const std::size_t v : probes_of(first))
+    if (auto landing = landing_below(solids, down, x[v], size, first.time)) {
       landing->liquid = liquids.of(v);
+      landing->vertex = v;
       all.push_back(std::move(*landing));
     }
   return all;
@@ -96,7 +104,7 @@ std::optional<Landing> landing_of_inflow(const Scene& scene, const Frame& first,
   const auto inlets = masks(first, "inlet");
   for (std::size_t v = 0; v < inlets.size(); ++v)
     if (of_inlet(inlets[v], number) != 0)
-      if (const auto landing = landing_from(solids, down, positions(first)[v], size, first.time);
+      if (const auto landing = landing_below(solids, down, positions(first)[v], size, first.time);
           landing && (!shortest || landing->fall < shortest->fall))
         shortest = landing;
   if (shortest)

@@ -17,10 +17,18 @@ struct Landing {
   Vector3 place;           // at the way's end [m]
   solid::SolidPoint there; // of the solid, at the first frame's time
   Liquid liquid = {};      // of what falls
+  std::size_t vertex = 0;  // that falls
 };
 
-// Of about a hundred of the sheet's vertices, spread over it, those that are above a solid; none without gravity.
+// About a hundred of its vertices, spread over it.
+[[nodiscard]] std::vector<std::size_t> probes_of(const formats::Frame& first);
+
+// Of the probes those that are above a solid; none without gravity.
 [[nodiscard]] std::vector<Landing> landings(const Scene& scene, const formats::Frame& first);
+
+// Of what is at x at the time t [s] and falls down (a unit vector), over a sheet of that size [m].
+[[nodiscard]] std::optional<Landing> landing_below(const solid::Solids& solids, const Vector3& down, const Vector3& x,
+                                                   double size, double t);
 
 // The longest of their falls [m]; 0 if there is none.
 [[nodiscard]] double longest_fall(const std::vector<Landing>& landings);

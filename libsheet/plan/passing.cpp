@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <variant>
 
 #include "libsheet/plan/landing.h"
@@ -46,6 +47,24 @@ double leaves(const Box3& moving, const Vector3& velocity, const Box3& other) {
   return enters < leaves && leaves < std::numeric_limits<double>::infinity() ? leaves : 0;
 }
 
+// At which it moves on, and from when; nothing if it does not.
+struct Moving {
+  Vector3 velocity;
+  double start;
+};
+std::optional<Moving> moving(const scene::Motion& motion, double first) {
+  const auto* translating = std::get_if<scene::Translating>(&motion);
+  const auto* turning = std::get_if<scene::Rotating>(&motion);
+  const auto* timed = translating != nullptr ? &translating->velocity
+                      : turning != nullptr   ? &turning->velocity
+                                             : nullptr;
+  if (timed == nullptr || timed->entries.empty())
+    return std::nullopt;
+  const double start = std::max(first, timed->entries.back().time);
+  const Vector3 velocity = scene::value_at(*timed, start);
+  return velocity.isZero(0) ? std::nullopt : std::optional(Moving{velocity, start});
+}
+
 } // namespace
 
 double passing_time(const Scene& scene, const formats::Frame& first) {
@@ -57,10 +76,8 @@ double passing_time(const Scene& scene, const formats::Frame& first) {
   double passed = 0;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const Box3& bounds = solids.shape(i).bounds();
-    if (const auto* motion = std::get_if<scene::Translating>(&scene.solids[i].motion);
-        motion != nullptr && !motion->velocity.entries.empty() && bounds.sizes().allFinite()) {
-      const double start = std::max(first.time, motion->velocity.entries.back().time);
-      const Vector3 velocity = scene::value_at(motion->velocity, start);
+    if (const auto motion = moving(scene.solids[i].motion, first.time); motion && bounds.sizes().allFinite()) {
+      const auto& [velocity, start] = *motion;
       const double time = leaves(bounds.transformed(solids.pose(i, start)), velocity, way);
       if (time > 0)
         passed = std::max(passed, start + std::max(time, middle_size(way) / velocity.norm()));

@@ -18,6 +18,7 @@
 #include "libsheet/plan/passing.h"
 #include "libsheet/plan/piling.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/plan/tiers.h"
 #include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/ring.h"
@@ -158,8 +159,8 @@ std::vector<double> events_of(const Scene& scene) {
   return events;
 }
 
-// Some times of the flow, of the fall and of what comes in; until whatever ends by the clock has ended, and whatever
-// moves on for ever has come through.
+// Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
+// ends by the clock has ended, and whatever moves on for ever has come through.
 double until_of(const Scene& scene, const Frame& first) {
   double at_rest = first.time; // all solids
   for (const scene::Solid& solid : scene.solids)
@@ -176,10 +177,11 @@ double until_of(const Scene& scene, const Frame& first) {
     ends(hold.until.value_or(0));
   for (const double time : events_of(scene))
     until = std::max(until, 1.1 * time);
-  for (const scene::Inflow& inflow : scene.inflows) {
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    const scene::Inflow& inflow = scene.inflows[i];
     ends(inflow.until.value_or(0));
     if (const double speed = scene::inlet_velocity(scene, inflow).speed(first.time); speed > 0 && !inflow.until)
-      until = std::max(until, 5 * length_of(scene, first) / speed);
+      until = std::max({until, 5 * length_of(scene, first) / speed, time_over_tiers(scene, first, i)});
   }
   for (const scene::SheetTable& sheet : scene.sheets)
     ends(sheet.enters.value_or(0));

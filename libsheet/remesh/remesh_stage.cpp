@@ -2,13 +2,16 @@
 #include "libsheet/remesh/remesh_stage.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/flow/threads.h"
-#include "libsheet/scene/frame_liquids.h"
+#include "libsheet/scene/sheet_edges.h"
 
 namespace sheet::remesh {
 
@@ -40,26 +43,17 @@ double own_edge_length(formats::Frame& frame) {
   return mean;
 }
 
-// The shortest length of edges that a sheet of the liquid states, by its number, or any sheet of the scene: none
-// becomes coarser than it says.
-std::optional<double> shortest_stated(const Scene& scene, std::optional<std::size_t> liquid = {}) {
-  std::optional<double> shortest;
-  for (const auto& sheet : scene.sheets)
-    if (sheet.edge_length && (!liquid || liquid_of(scene, sheet) == *liquid))
-      shortest = std::min(*sheet.edge_length, shortest.value_or(*sheet.edge_length));
-  return shortest;
-}
-
-// How much longer than the scene's shortest edges those of each vertex's liquid are; empty: all alike.
-std::vector<double> coarser_at_vertices(const Scene& scene, const formats::Frame& frame, double shortest) {
-  const FrameLiquids liquids(scene, frame);
-  std::vector<double> of_liquids, coarser;
-  for (std::size_t i = 0; i < liquids.all().size(); ++i)
-    of_liquids.push_back(shortest_stated(scene, i).value_or(shortest) / shortest);
-  if (std::ranges::all_of(of_liquids, [](double factor) { return factor == 1; }))
+// How much longer than the scene's shortest edges those of each vertex's sheet are; empty: all alike.
+std::vector<double> coarser_at_vertices(const formats::Frame& frame, double shortest) {
+  const std::span<const double> edges = scene::sheet_edges(frame);
+  if (edges.empty())
     return {};
-  for (const std::uint32_t number : liquids.numbers_at_vertices(frame))
-    coarser.push_back(of_liquids[number]);
+  std::vector<double> coarser(frame.vertices, std::numeric_limits<double>::infinity());
+  for (std::size_t t = 0; t < edges.size(); ++t)
+    for (const std::uint32_t v : triangles(frame)[t])
+      coarser[v] = std::min(coarser[v], std::max(1.0, edges[t] / shortest));
+  for (double& factor : coarser)
+    factor = std::isfinite(factor) ? factor : 1;
   return coarser;
 }
 
@@ -69,9 +63,9 @@ void RemeshStage::remesh(formats::Frame& frame) {
   check_magnitudes(frame);
   const Scene* scene = frame.find("scene") == nullptr ? nullptr : &scenes_.of(frame);
   if (!options_.edge_length) {
-    const auto stated = scene != nullptr ? shortest_stated(*scene) : std::nullopt;
+    const auto stated = scene != nullptr ? scene::shortest_stated_edge(*scene) : std::nullopt;
     options_.remeshing.size.edge_length = stated ? *stated : own_edge_length(frame);
-    options_.remeshing.size.coarser = stated ? coarser_at_vertices(*scene, frame, *stated) : std::vector<double>{};
+    options_.remeshing.size.coarser = stated ? coarser_at_vertices(frame, *stated) : std::vector<double>{};
   }
   const std::uint64_t vertices = frame.vertices;
   Stopwatch watch;

@@ -239,8 +239,8 @@ center = [0, "-0.3 m", 0]
 #radius = "0.05 m"
 #length = "0.4 m"?
 #center = [0, -0.4, 0]
-# angular_velocity = [0, "10 rpm", 0] is for one that rotates about the center.
 #velocity = [0.4, 0, 0]?
+# angular_velocity = [0, "10 rpm", 0] is for one that rotates about the center; with `velocity`, about a center that moves.
 
 #[[solid]]
 #shape = "cylinder"

@@ -41,9 +41,11 @@ struct Explanation {
   std::vector<std::string> left_out; // what the model never has, where this scene might make one expect it
 };
 
-// What a mesh file says about a sheet and the scene cannot know.
+// What the first frame says about a sheet and the scene cannot know.
 struct Measured {
   std::optional<double> length, thickness, curvature; // [m], [m], [1/m]
+  // Of each solid, or of none: the part of gravity along it where the sheet is steepest on it [m/s²].
+  std::vector<std::optional<double>> along = {};
 };
 
 // measured: of each sheet, or of none. Warnings are of all sheets.

@@ -9,11 +9,14 @@
 namespace sheet::scene {
 namespace {
 
-// Part of gravity along the solid where it is steepest; all of it but along planes, which do not turn.
-double along(const Solid& solid, const Vector3d& gravity) {
+// Part of gravity along the solid where it is steepest, or where it is known to be steepest under the sheet; all of it
+// along what turns, and where neither is known.
+double along(const Solid& solid, const Vector3d& gravity, std::optional<double> under_sheet) {
   const auto* plane = std::get_if<HalfSpace>(&solid.shape);
-  if (plane == nullptr || turns(solid.motion))
+  if (turns(solid.motion) || (plane == nullptr && !under_sheet))
     return gravity.norm();
+  if (plane == nullptr)
+    return *under_sheet;
   const Vector3d normal = plane->normal.normalized();
   return (gravity - normal.dot(gravity) * normal).norm();
 }
@@ -32,9 +35,11 @@ std::optional<LayerScales> layer_scales_of(const Scene& scene, const Scales& sca
   const double L = *scales.length, h = *scales.thickness, g = scene.environment.gravity->norm();
   const Liquid& m = scene.material;
   LayerScales layer;
-  for (const Solid& solid : scene.solids)
-    if (solid.contact == SolidContact::flow) {
-      const double down = along(solid, *scene.environment.gravity), stress = m.density * h * (down + g * h / L);
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (const Solid& solid = scene.solids[i]; solid.contact == SolidContact::flow) {
+      const double down =
+          along(solid, *scene.environment.gravity, i < scales.along.size() ? scales.along[i] : std::nullopt);
+      const double stress = m.density * h * (down + g * h / L);
       layer.along = std::max(layer.along, down);
       layer.stress = std::max(layer.stress, stress);
       layer.speed = std::max(layer.speed, speed_of_layer(m, stress, h, solid.slip_length));

@@ -9,7 +9,7 @@
 namespace sheet::scene {
 
 struct LayerScales {
-  double along = 0;            // g_t: gravity along the solid [m/s²]
+  double along = 0;            // g_t: gravity along the solid, under the sheet where that is known [m/s²]
   double stress = 0;           // of its weight at the wall, rho h (g_t + g h/L) [Pa]
   double speed = 0;            // stress (h + 3 b)/(3 mu) [m/s]; in general that of wall_flow.h, 0 below a yield stress
   double viscosity = 0;        // at the rate U/h [Pa s]

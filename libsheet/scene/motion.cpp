@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "libsheet/base/overloaded.h"
 
@@ -76,6 +77,10 @@ template <class T> std::vector<double> times_of(const Timed<T>& timed) {
 
 const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 
+Eigen::Vector3d center_at(const Rotating& turning, double t) {
+  return turning.velocity.entries.empty() ? turning.center : turning.center + integral(turning.velocity, 0, t);
+}
+
 } // namespace
 
 double value_at(const Timed<double>& timed, double t) { return interpolate(timed, t, 0.0); }
@@ -95,7 +100,7 @@ Eigen::Isometry3d motion_between(const Motion& motion, double t0, double t1) {
                    const double angle = integral(turning.rate, t0, t1);
                    const Eigen::AngleAxisd turn(angle, turning.axis.stableNormalized());
                    result.linear() = turn.toRotationMatrix();
-                   result.translation() = turning.center - result.linear() * turning.center;
+                   result.translation() = center_at(turning, t1) - result.linear() * center_at(turning, t0);
                  },
                  [&](const Keyframed& keyed) { result = keyed.frames->pose(t1) * keyed.frames->pose(t0).inverse(); }},
       motion);
@@ -107,7 +112,8 @@ Eigen::Vector3d velocity_at(const Motion& motion, double t, const Eigen::Vector3
       Overloaded{[](const Fixed&) -> Eigen::Vector3d { return origin; },
                  [&](const Translating& moving) -> Eigen::Vector3d { return value_at(moving.velocity, t); },
                  [&](const Rotating& turning) -> Eigen::Vector3d {
-                   return value_at(turning.rate, t) * turning.axis.stableNormalized().cross(x - turning.center);
+                   const Eigen::Vector3d about = turning.axis.stableNormalized().cross(x - center_at(turning, t));
+                   return value_at(turning.velocity, t) + value_at(turning.rate, t) * about;
                  },
                  [&](const Keyframed& keyed) -> Eigen::Vector3d {
                    const auto [velocity, turning] = keyed.frames->rates(t);
@@ -123,7 +129,9 @@ MotionBounds bounds(const Motion& motion, double from, double to) {
                    return MotionBounds{origin, largest(m.velocity, from, to), steepest(m.velocity, from, to), 0, 0};
                  },
                  [&](const Rotating& m) {
-                   return MotionBounds{m.center, 0, 0, largest(m.rate, from, to), steepest(m.rate, from, to)};
+                   return MotionBounds{center_at(m, from), largest(m.velocity, from, to),
+                                       steepest(m.velocity, from, to), largest(m.rate, from, to),
+                                       steepest(m.rate, from, to)};
                  },
                  [&](const Keyframed& m) {
                    const auto [speed, acceleration, turning, change] = m.frames->bounds(from, to);
@@ -140,7 +148,14 @@ bool turns(const Motion& motion) {
 std::vector<double> events(const Motion& motion) {
   return std::visit(Overloaded{[](const Fixed&) { return std::vector<double>(); },
                                [](const Translating& m) { return times_of(m.velocity); },
-                               [](const Rotating& m) { return times_of(m.rate); },
+                               [](const Rotating& m) {
+                                 std::vector<double> times = times_of(m.rate);
+                                 std::ranges::copy(times_of(m.velocity), std::back_inserter(times));
+                                 std::ranges::sort(times);
+                                 const auto twice = std::ranges::unique(times);
+                                 times.erase(twice.begin(), twice.end());
+                                 return times;
+                               },
                                [](const Keyframed& m) {
                                  const auto& times = m.frames->times();
                                  return m.frames->interpolation() == Interpolation::smooth

@@ -34,8 +34,9 @@ struct Translating {
 
 struct Rotating {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  // any length but zero; right-handed
-  Eigen::Vector3d center = Eigen::Vector3d::Zero(); // a point of the axis [m]
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(); // a point of the axis at time 0 [m]
   Timed<double> rate;                               // [rad/s]
+  Timed<Eigen::Vector3d> velocity = {};             // of the axis, as of a wheel that rolls [m/s]
   bool operator==(const Rotating&) const = default;
 };
 

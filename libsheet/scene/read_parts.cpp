@@ -26,12 +26,13 @@ Motion read_motion(TableReader& parent, const Vector3d& center, const Files& fil
     if (table->absent("axis"))
       table->missing("axis", "[0, 1, 0]");
     motion = Rotating{table->direction_or("axis", Vector3d::UnitY()), table->vector("center").value_or(center),
-                      table->timed_number("rate").value_or(Timed<double>{})};
+                      table->timed_number("rate").value_or(Timed<double>{}),
+                      table->timed_velocity("velocity").value_or(Timed<Vector3d>{})};
   } else if (kind == 3) {
     if (auto frames = read_keyframes(*table, center, files))
       motion = Keyframed{std::move(frames)};
   }
-  constexpr std::array<std::string_view, 4> takes{"nothing else", "velocity", "axis, center, rate",
+  constexpr std::array<std::string_view, 4> takes{"nothing else", "velocity", "axis, center, rate, velocity",
                                                   "file, or times with places, rotations or both; interpolation"};
   const auto because = kind ? fmt::format("a {} motion takes {}", words::motions[*kind], takes[*kind])
                             : "the motion's kind is not known";
@@ -50,15 +51,12 @@ Motion read_motion_or_velocity(TableReader& parent, const Vector3d& center, cons
     parent.wrong("velocity", "it is short for a motion, which is there too: give one of them");
   if (led && !parent.absent("angular_velocity"))
     parent.wrong("angular_velocity", "it is short for a motion, which is there too: give one of them");
-  if (!led && moves && !parent.absent("angular_velocity"))
-    parent.wrong("angular_velocity", "what moves and turns at once is led through places and rotations: motion = {kind "
-                                     "= \"keyframed\", ...}; or give one of velocity and angular_velocity");
   if (led)
     return motion;
+  if (angular && !angular->isZero(0))
+    return Rotating{*angular, center, {{{0, angular->stableNorm()}}}, velocity.value_or(Timed<Vector3d>{})};
   if (velocity)
     return Translating{*velocity};
-  if (angular && !angular->isZero(0))
-    return Rotating{*angular, center, {{{0, angular->stableNorm()}}}};
   return Fixed{};
 }
 

@@ -19,7 +19,8 @@ struct Scales {
   double pressure = 0;             // |p|, where the scene states one [Pa]
   double speed = 0;                // V, the fastest that anything drives the sheet [m/s]
   std::string speed_source;
-  double viscosity = 0; // at the rate V/L; without length or speed that of the scene [Pa s]
+  std::vector<std::optional<double>> along; // gravity's part along each solid, or none, where the sheet lies [m/s²]
+  double viscosity = 0;                     // at the rate V/L; without length or speed that of the scene [Pa s]
 
   // Of the flow; nothing without length or speed [1/s].
   [[nodiscard]] std::optional<double> rate() const {

@@ -37,8 +37,8 @@ inline constexpr std::size_t most_keyframes = 16000;
 
 // Parts that several tables have.
 Motion read_motion(TableReader& parent, const Vector3d& center, const Files& files);
-// The same of a thing that may also say it shortly: `velocity`, constant or in rows, or a constant `angular_velocity`
-// about its center. Reports more than one of the three.
+// The same of a thing that may also say it shortly: `velocity`, constant or in rows, a constant `angular_velocity`
+// about its center, or both. Reports those beside a motion.
 Motion read_motion_or_velocity(TableReader& parent, const Vector3d& center, const Files& files);
 // The rows of a motion: `times` with `places`, `rotations` or both, or a CSV `file` of them. Null if they are wrong.
 std::shared_ptr<const Keyframes> read_keyframes(TableReader& motion, const Vector3d& center, const Files& files);

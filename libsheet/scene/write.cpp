@@ -89,17 +89,18 @@ std::string keyframes(const Keyframes& frames) {
 }
 
 void write_motion(Writer& out, const Motion& motion) {
-  std::visit(Overloaded{[](const Fixed&) {},
-                        [&](const Translating& m) {
-                          out.line("motion",
-                                   fmt::format("{{kind = \"translating\", velocity = {}}}", timed(m.velocity)));
-                        },
-                        [&](const Rotating& m) {
-                          out.line("motion", fmt::format("{{kind = \"rotating\", axis = {}, center = {}, rate = {}}}",
-                                                         list(m.axis), list(m.center), timed(m.rate)));
-                        },
-                        [&](const Keyframed& m) { out.line("motion", keyframes(*m.frames)); }},
-             motion);
+  std::visit(
+      Overloaded{[](const Fixed&) {},
+                 [&](const Translating& m) {
+                   out.line("motion", fmt::format("{{kind = \"translating\", velocity = {}}}", timed(m.velocity)));
+                 },
+                 [&](const Rotating& m) {
+                   const std::string moves = m.velocity.entries.empty() ? "" : ", velocity = " + timed(m.velocity);
+                   out.line("motion", fmt::format("{{kind = \"rotating\", axis = {}, center = {}, rate = {}{}}}",
+                                                  list(m.axis), list(m.center), timed(m.rate), moves));
+                 },
+                 [&](const Keyframed& m) { out.line("motion", keyframes(*m.frames)); }},
+      motion);
 }
 
 void write_perturbations(Writer& out, const SheetTable& sheet) {

@@ -8,6 +8,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/overloaded.h"
 #include "libsheet/scene/frame_liquids.h"
+#include "libsheet/scene/sheet_edges.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/enclosed.h"
 #include "libsheet/shape/mesh_file.h"
@@ -322,6 +323,7 @@ formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) 
     put_temperature(mesh, scene, table, frame);
   if (scene::liquids_of(scene).size() > 1)
     scene::put_liquid(scene::liquid_of(scene, table), frame);
+  scene::put_sheet_edge(scene, table, frame);
   return frame;
 }
 

@@ -45,13 +45,20 @@ SolidPoint Solids::at(std::size_t solid, const Vector3& x, double t) const {
   return {near.distance, normal, surface_velocity(solid, x, normal, t)};
 }
 
-std::optional<Solids::Facing> Solids::facing(std::size_t solid, const Vector3& x, double t, double room) const {
+std::optional<Solids::Facing> Solids::facing(std::size_t solid, const Vector3& x, double t, double room,
+                                             double longest_edge) const {
+  constexpr double least = 0.05; // of the room
+  const double reach = room + 2 * longest_edge;
   std::optional<Facing> nearest;
   for (std::size_t i = 0; i < solids_.size(); ++i) {
-    if (i == solid || !(solids_[i].shape->distance(pose(i, t).inverse() * x, room) < room))
+    if (i == solid || !(solids_[i].shape->distance(pose(i, t).inverse() * x, reach) < reach))
       continue;
     const SolidPoint own = at(solid, x, t), other = at(i, x, t);
-    const double gap = gap_between(own.distance, own.normal, other.distance, other.normal);
+    double gap = gap_between(own.distance, own.normal, other.distance, other.normal);
+    if (longest_edge > 0) {
+      const auto of = [&](std::size_t s) { return [this, s, t](const Vector3& y) { return at(s, y, t); }; };
+      gap = std::min(gap, gap_beside(x, of(solid), of(i), longest_edge, least * room).gap);
+    }
     if (gap < room && (!nearest || gap < nearest->gap))
       nearest = {i, gap};
   }

@@ -61,8 +61,9 @@ public:
     double gap; // [m]
   };
   // Of those that face `solid` at the point x [m] at time t [s] (facing_walls.h), the nearest, if it leaves less than
-  // `room` [m].
-  [[nodiscard]] std::optional<Facing> facing(std::size_t solid, const Vector3& x, double t, double room) const;
+  // `room` [m]: across the point, or beside an edge of the other one by the longest edge of the mesh there [m].
+  [[nodiscard]] std::optional<Facing> facing(std::size_t solid, const Vector3& x, double t, double room,
+                                             double longest_edge = 0) const;
 
 private:
   struct Entry {

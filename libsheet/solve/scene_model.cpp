@@ -10,6 +10,7 @@
 #include "libsheet/energy/overshoot.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/capped_volume.h"
+#include "libsheet/geometry/longest_edges.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/heat/surroundings.h"
 #include "libsheet/scene/frame_liquids.h"
@@ -224,8 +225,9 @@ std::vector<std::uint32_t> take_squeezed(const solid::Solids& solids, std::size_
   const std::vector<double> thickness = thickness_around(x.size(), corners, volumes(frame), [&](std::uint32_t t) {
     return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
   });
+  const std::vector<double> edges = longest_edges(x, corners);
   std::erase_if(vertices, [&](std::uint32_t v) {
-    const bool no_room = solids.facing(i, x[v], frame.time, thickness[v]).has_value();
+    const bool no_room = solids.facing(i, x[v], frame.time, thickness[v], edges[v]).has_value();
     if (no_room)
       squeezed.push_back(v);
     return no_room;

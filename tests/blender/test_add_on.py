@@ -182,6 +182,16 @@ class AddOn(unittest.TestCase):
         np.testing.assert_allclose(sorted(ball.dimensions), [0.4] * 3, rtol=1e-3)
         np.testing.assert_allclose(sorted(capsule.dimensions), [0.2, 0.2, 0.6], rtol=1e-2)
 
+    def test_a_wheel_rolls(self):
+        shell("cat scene.toml - > wheel.toml << 'END'\n[[solid]]\nshape = \"box\"\nsize = [0.2, 0.4, 0.3]\ncenter = [1, -1, 0]\n"
+              "velocity = [0.6, 0, 0]\nangular_velocity = [0, 0, -3]\nEND\nsheet-init wheel.toml -o wheel.sheet")
+        self.add_on.import_run("wheel.sheet")
+        box = bpy.data.objects["wheel box 1"]
+        bpy.context.scene.frame_set(1 + 2 * FPS)
+        place = box.parent.matrix_basis @ box.matrix_basis
+        np.testing.assert_allclose(place.translation, (2.2, -1, 0), atol=1e-5)
+        np.testing.assert_allclose(place.to_3x3() @ Vector((0, 1, 0)), (math.sin(6), math.cos(6), 0), atol=1e-5)
+
     def test_solids_follow_the_rows_of_their_motion(self):
         half = math.sqrt(0.5)
         shell("cat scene.toml - > led.toml << 'END'\n[[solid]]\nshape = \"box\"\nsize = [0.2, 0.1, 0.3]\ncenter = [0, -1, 0.5]\n"

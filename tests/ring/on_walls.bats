@@ -250,3 +250,46 @@ END
   awk -v h="$(greatest stairs thickness_max)" -v least="$(least stairs thickness_min)" \
     'BEGIN { exit !(h < 0.025 && least > 0.0005) }'
 }
+
+# usage: film FILE FROM TO: mean and greatest thickness [mm] along the middle of the last frame, between two x [mm]
+film() {
+  sheet-select --last "$1" | sheet-info --cut z=0 | awk -F, -v from="$2" -v to="$3" '
+    NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
+    { x = 1e3 * $column["x"]; h = 1e3 * $column["thickness"] }
+    x > from && x < to { sum += h; ++rows; if (h > most) most = h }
+    END { print rows ? sum / rows : 0, most + 0 }'
+}
+
+@test "a blade leaves a film below its gap, and pushes the rest ahead" {
+  cat > blade.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = ["60 mm", "16 mm"]
+edge_length = "4 mm"
+thickness = "3 mm"
+center = [0, "1.5 mm", 0]
+[material]
+viscosity = "5 Pa*s"
+density = 1100
+[environment]
+gravity = [0, -9.81, 0]
+[[solid]]
+shape = "plane"
+contact = "flow"
+[[solid]]
+shape = "box"
+size = ["12 mm", "30 mm", "100 mm"]
+center = ["-42 mm", "16 mm", 0]
+velocity = ["0.1 m/s", 0, 0]
+contact = "flow"
+END
+  sheet-init blade.toml -o start.sheet
+  sheet-loop -q -i start.sheet --until 0.4 --fps 25 -o run.sheet -- 'sheet-remesh --smooth | sheet-step | sheet-collide'
+  sheet-check run.sheet
+  # The blade is between -8 and 4 mm then. Behind it 0.63 mm, half to all of its gap of 1 mm; ahead up to 7.7 mm. Before,
+  # nothing went below it, and what it scraped together was 46 mm thick.
+  read -r behind most <<< "$(film run.sheet -100 -8)"
+  read -r _ ahead <<< "$(film run.sheet 4 100)"
+  echo "$behind $most $ahead"
+  awk -v b="$behind" -v m="$most" -v a="$ahead" 'BEGIN { exit !(b > 0.5 && b < 0.8 && m < 1 && a > 5 && a < 10) }'
+}

@@ -17,8 +17,8 @@ from .compat import fcurves_of
 
 def add_solids(described: dict[str, Any], parent: bpy.types.Object, scene: bpy.types.Scene) -> None:
     """Adds the scene's balls, boxes, cylinders, capsules, planes and meshes (OFF) in their places at time 0, as the
-    parent's children; motion at a constant velocity or by rows is keyed. Others are passed over, with a word on the
-    terminal."""
+    parent's children; motion at a constant velocity, about an axis at a constant rate, or by rows is keyed. Others are
+    passed over, with a word on the terminal."""
     solids = described.get("solid", [])
     for number, solid in enumerate(solids if isinstance(solids, list) else []):
         try:
@@ -37,12 +37,30 @@ def _add_solid(solid: dict[str, Any], number: int, parent: bpy.types.Object, sce
         thing.rotation_mode = "AXIS_ANGLE"
         thing.rotation_axis_angle = (turn["angle"], *turn["axis"])
     thing.location = solid.get("center", (0, 0, 0))
-    if solid.get("motion", {}).get("kind") == "keyframed":
-        _key_rows(thing, solid["motion"], parent.sheet, scene)
+    motion = solid.get("motion", {})
+    if motion.get("kind") == "keyframed":
+        _key_rows(thing, motion, parent.sheet, scene)
         return
-    velocity = solid.get("motion", {}).get("velocity", [0, 0, 0])
-    if np.shape(velocity) == (3,) and any(velocity):
-        _key_motion(thing, np.array(velocity, float), parent.sheet, scene)
+    turning = motion.get("kind") == "rotating" and np.ndim(motion["rate"]) == 0
+    moved = _put_on_axis(thing, motion, parent, scene) if turning else thing
+    velocity = motion.get("velocity", [0, 0, 0])
+    velocity = np.array(velocity if np.shape(velocity) == (3,) else (0, 0, 0), float)
+    if turning or velocity.any():
+        _key_motion(moved, velocity, motion["rate"] if turning else None, parent.sheet, scene)
+
+
+def _put_on_axis(thing: bpy.types.Object, motion: dict[str, Any], parent: bpy.types.Object,
+                 scene: bpy.types.Scene) -> bpy.types.Object:
+    """An empty on the axis about which it turns, whose child it becomes."""
+    axis = bpy.data.objects.new(f"{thing.name} axis", None)
+    scene.collection.objects.link(axis)
+    axis.parent, thing.parent = parent, axis
+    axis.location = motion["center"]
+    axis.empty_display_size = 0.001
+    thing.location -= axis.location
+    axis.rotation_mode = "AXIS_ANGLE"
+    axis.rotation_axis_angle = (0, *Vector(motion["axis"]).normalized())
+    return axis
 
 
 def _key_rows(thing: bpy.types.Object, motion: dict[str, Any], settings: Any, scene: bpy.types.Scene) -> None:
@@ -69,13 +87,17 @@ def _key_rows(thing: bpy.types.Object, motion: dict[str, Any], settings: Any, sc
             key.interpolation = "LINEAR"
 
 
-def _key_motion(thing: bpy.types.Object, velocity: Any, settings: Any, scene: bpy.types.Scene) -> None:
+def _key_motion(thing: bpy.types.Object, velocity: Any, turning: float | None, settings: Any,
+                scene: bpy.types.Scene) -> None:
     rate = scene.render.fps / scene.render.fps_base
     origin = np.array(thing.location)
     for frame in (settings.start, settings.start + 1000):
         time = settings.first_time + (frame - settings.start) / rate * settings.speed
         thing.location = origin + velocity * time
         thing.keyframe_insert("location", frame=frame)
+        if turning is not None:
+            thing.rotation_axis_angle[0] = turning * time
+            thing.keyframe_insert("rotation_axis_angle", frame=frame)
     for curve in fcurves_of(thing):
         curve.extrapolation = "LINEAR"
         for key in curve.keyframe_points:

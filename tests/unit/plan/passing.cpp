@@ -30,6 +30,8 @@ TEST(Passing, UntilABallHasLeftTheSheet) {
   EXPECT_EQ(passing("center = [-0.11, 0.02, 0]\nvelocity = [0.06, 0, 0]\n"), 0); // above it
   EXPECT_EQ(passing("center = [-0.11, 0.012, 0]\nvelocity = [-0.06, 0, 0]\n"), 0);
   EXPECT_EQ(passing("center = [0, 0.012, 0]\n"), 0);
+  EXPECT_EQ(passing("center = [-0.11, 0.012, 0]\nvelocity = [0.06, 0, 0]\nangular_velocity = [0, 0, -1]\n"),
+            passing("center = [-0.11, 0.012, 0]\nvelocity = [0.06, 0, 0]\n"));
 }
 
 // Lifted out, it goes as far as the sheet is wide, from when it has its speed.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/scene/motion.h"
 
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +55,36 @@ TEST(Motion, RotationIsRightHandedAboutItsCenter) {
   EXPECT_EQ(bounds(motion, -100, 100).turning, std::numbers::pi / 2);
   EXPECT_EQ(bounds(motion, 0, 1).turning_change, std::numbers::pi / 4);
   EXPECT_TRUE(turns(motion));
+}
+
+// A wheel of the radius 0.5 m whose axis is 0.5 m above the ground, y = 0.
+TEST(Motion, AWheelThatRollsRestsWhereItTouches) {
+  const Vector3d start(1, 0.5, 0);
+  const Motion wheel = Rotating{-Vector3d::UnitZ(), start, {{{0, 4}}}, {{{0, Vector3d(2, 0, 0)}}}};
+  for (const double t : {-1.0, 0.0, 0.3, 7.0}) {
+    const Vector3d axis = start + Vector3d(2 * t, 0, 0);
+    EXPECT_LT(velocity_at(wheel, t, axis - Vector3d(0, 0.5, 0)).norm(), 1e-14);
+    EXPECT_LT((velocity_at(wheel, t, axis + Vector3d(0, 0.5, 0)) - Vector3d(4, 0, 0)).norm(), 1e-14);
+    EXPECT_LT((motion_between(wheel, 0.3, t) * Vector3d(1.6, 0.5, 9) - axis - Vector3d(0, 0, 9)).norm(), 1e-14);
+  }
+  // The point of its rim that touched at 0.5 s is on a cycloid.
+  const double angle = 4 * 0.4;
+  const Vector3d cycloid(2 + 0.5 * (angle - std::sin(angle)), 0.5 * (1 - std::cos(angle)), 0);
+  EXPECT_LT((motion_between(wheel, 0.5, 0.9) * Vector3d(2, 0, 0) - cycloid).norm(), 1e-14);
+  EXPECT_TRUE(turns(wheel));
+}
+
+TEST(Motion, OfAnAxisThatSpeedsUp) {
+  const Timed<Vector3d> velocity{{{0, Vector3d(0, 0, 0)}, {2, Vector3d(0, 0, 4)}}};
+  const Motion motion = Rotating{Vector3d(0, 1, 0), Vector3d(1, 0, 0), {{{1, 0.0}, {2, 3.0}}}, velocity};
+  EXPECT_EQ(events(motion), (std::vector<double>{0, 1, 2}));
+  EXPECT_LT((velocity_at(motion, 2, Vector3d(2, 5, 4)) - Vector3d(0, 0, 4 - 3)).norm(), 1e-14);
+  const MotionBounds most = bounds(motion, 1, 2);
+  EXPECT_LT((most.center - Vector3d(1, 0, 1)).norm(), 1e-14);
+  EXPECT_EQ(most.speed, 4);
+  EXPECT_EQ(most.acceleration, 2);
+  EXPECT_EQ(most.turning, 3);
+  EXPECT_EQ(most.turning_change, 3);
 }
 
 TEST(Motion, StepsComposeToTheWhole) {

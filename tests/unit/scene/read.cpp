@@ -116,6 +116,9 @@ TEST(Read, ShortFormsOfASolidsMotion) {
   EXPECT_LT((velocity_at(turning, 0.3, x) - velocity_at(spoken, 0.3, x)).norm(), 1e-13);
   EXPECT_GT(velocity_at(turning, 0.3, x).norm(), 1);
   EXPECT_EQ(motion("angular_velocity = [0, 0, 0]"), Motion(Fixed{}));
+  EXPECT_EQ(motion("velocity = [0.4, 0, 0]\nangular_velocity = [0, 0, 0]"), motion("velocity = [0.4, 0, 0]"));
+  EXPECT_EQ(motion("velocity = [0.4, 0, 0]\nangular_velocity = [0, 0, -5]"),
+            motion("motion = {kind = \"rotating\", axis = [0, 0, -5], rate = 5, velocity = [0.4, 0, 0]}"));
 }
 
 TEST(Read, OneFormOfASolidsMotion) {
@@ -128,8 +131,6 @@ TEST(Read, OneFormOfASolidsMotion) {
                                 "give one of them"));
   EXPECT_THAT(wrong(led + "angular_velocity = [1, 0, 0]"),
               testing::EndsWith("angular_velocity: it is short for a motion, which is there too: give one of them"));
-  EXPECT_THAT(wrong("velocity = [1, 0, 0]\nangular_velocity = [1, 0, 0]"),
-              testing::HasSubstr("motion = {kind = \"keyframed\", ...}; or give one of velocity and angular_velocity"));
   EXPECT_THAT(wrong("angular_velocity = [1, 0, \"1 m/s\"]"), testing::HasSubstr("expected a turning rate"));
 }
 

@@ -312,7 +312,7 @@ private:
       return Fixed{};
     if (below(2) == 0)
       return Keyframed{keyframes()};
-    Rotating r{direction(), vector(), {}};
+    Rotating r{direction(), vector(), {}, below(2) ? velocity() : Timed<Vector3d>{}};
     for (double& t : times())
       r.rate.entries.push_back({t, number()});
     return r;

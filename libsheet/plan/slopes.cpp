@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/slopes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/landing.h"
+#include "libsheet/shape/build.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
+
+namespace sheet {
+
+namespace {
+
+using formats::Frame;
+
+// Of the solid's surface where the vertex lies on it or would land; nothing if it does neither.
+std::optional<Vector3> normal_below(const solid::Solids& solids, std::size_t solid, const Frame& sheet,
+                                    double thickness, std::size_t vertex, const Landing* landing) {
+  const solid::SolidPoint point = solids.at(solid, positions(sheet)[vertex], sheet.time);
+  constexpr double near = 0.75; // of the thickness
+  if (std::abs(point.distance) < near * thickness)
+    return point.normal;
+  return landing != nullptr && landing->solid == solid ? std::optional(landing->there.normal) : std::nullopt;
+}
+
+std::optional<double> along(const solid::Solids& solids, std::size_t solid, const Frame& sheet, double thickness,
+                            const Vector3& gravity, const std::vector<Landing>& landings) {
+  double most = 0;
+  auto landing = landings.begin();
+  for (const std::size_t v : probes_of(sheet)) {
+    const bool lands = landing != landings.end() && landing->vertex == v;
+    const auto normal = normal_below(solids, solid, sheet, thickness, v, lands ? &*landing : nullptr);
+    if (!normal)
+      return std::nullopt;
+    most = std::max(most, (gravity - gravity.dot(*normal) * *normal).norm());
+    landing += lands ? 1 : 0;
+  }
+  return most;
+}
+
+} // namespace
+
+std::vector<scene::Measured> measured_on_solids(const Scene& scene, const Frame& first) {
+  std::vector<scene::Measured> all = measured_sheets(scene, first);
+  if (!scene::flows_on_solids(scene) || !scene.environment.gravity)
+    return all;
+  const solid::Solids solids(scene);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string& name = scene.sheets[i].name;
+    if (std::ranges::any_of(scene.inflows,
+                            [&](const auto& inflow) { return inflow.sheet.empty() || inflow.sheet == name; }))
+      continue;
+    const Frame sheet = scene.sheets.size() == 1 ? first : build_sheet(scene, i, Notes::silent);
+    const std::vector<Landing> lands = landings(scene, sheet);
+    for (std::size_t s = 0; s < solids.size(); ++s)
+      all[i].along.push_back(scene.solids[s].contact == SolidContact::flow
+                                 ? along(solids, s, sheet, *all[i].thickness, *scene.environment.gravity, lands)
+                                 : std::nullopt);
+  }
+  return all;
+}
+
+} // namespace sheet

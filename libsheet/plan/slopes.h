@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How steep solids are where sheets lie on them, or land.
+#pragma once
+#include <vector>
+
+#include "formats/cpp/stream_frame.h"
+#include "libsheet/scene/explain.h"
+
+namespace sheet {
+
+// Those of each of the scene's sheets (first_frame.h), with the part of gravity along each solid where the sheet is
+// steepest on it (`along`), if all of the sheet lies or lands there and liquid flows along it. Not known where liquid
+// flows in, which may run anywhere.
+[[nodiscard]] std::vector<scene::Measured> measured_on_solids(const Scene& scene, const formats::Frame& first);
+
+} // namespace sheet
