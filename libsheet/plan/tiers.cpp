@@ -80,7 +80,8 @@ double time_over_tiers(const Scene& scene, const Frame& first, std::size_t inflo
   Vector3 direction = all_around ? Vector3::Zero() : Vector3(level.normalized());
   const solid::Solids solids(scene);
   double time = 0;
-  for (std::size_t tiers = 0; landing && tiers < solids.size(); ++tiers) {
+  std::size_t tiers = 0;
+  for (; landing && tiers < solids.size(); ++tiers) {
     const solid::Box3 box = solids.shape(landing->solid).bounds().transformed(solids.pose(landing->solid, first.time));
     if (scene.solids[landing->solid].contact != SolidContact::flow || !box.sizes().allFinite())
       break;
@@ -91,13 +92,13 @@ double time_over_tiers(const Scene& scene, const Frame& first, std::size_t inflo
     const double pull = (gravity - gravity.dot(normal) * normal).norm();
     const double filled = 0.8 * std::pow(12 * viscosity * q * way / (liquid.density * g), 0.25);
     const double running = std::cbrt(3 * viscosity * q / (liquid.density * pull));
-    const double area = width * way + (all_around ? std::numbers::pi * way * way / 2 : 0);
+    const double area = width * way + (all_around ? std::numbers::pi * way * way : 0);
     time += std::sqrt(2 * landing->fall / g) + std::min(filled, running) * area / flux;
-    width += all_around ? std::numbers::pi * way : 0;
+    width += all_around ? 2 * std::numbers::pi * way : 0;
     const Vector3 over = landing->place + (way + thickness) * direction;
     landing = landing_below(solids, down, over, *measured(first).length, first.time);
   }
-  return time;
+  return tiers > 1 ? time : 0;
 }
 
 } // namespace sheet

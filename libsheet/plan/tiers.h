@@ -8,8 +8,9 @@
 
 namespace sheet {
 
-// When that inflow has come over the edge of the last tier [s]; 0 if it lands on none along which it flows. A level
-// tier is filled by a layer whose flux q [m²/s] is that over its edge, L away from where it lands [Huppert 1982]:
+// When that inflow has come over the edge of the last tier [s]; 0 if it flows along less than two, one below the other.
+// A level tier is filled by a layer whose flux q [m²/s] is that over its edge, L away from where it lands [Huppert
+// 1982]:
 //   h⁴ = 12 μ q x/(ρ g), x from the edge, in the mean 4/5 of h(L); on a slope h³ = 3 μ q/(ρ g_t) if that is less.
 // It goes where the inflow does, as wide as the inlet; if that goes straight down, to the nearest side and all around.
 [[nodiscard]] double time_over_tiers(const Scene& scene, const formats::Frame& first, std::size_t inflow);
