@@ -29,17 +29,20 @@ struct GapBeside {
 // along the wall,
 //   gap = g (1 + 2 s/l)/(1 - (s/(2 l))²),
 // l the longest edge of the mesh there: as if the edge were rounded over so much. Infinite from s = 2 l on, where the
-// other wall does not face the own one across that place, as in a corner between them, and where g is less than `least`
-// [m]. own, other: give distance and normal of the walls at a place.
+// other wall does not face the own one across that place, as in a corner between them, where the own wall turns away on
+// the way there, as on top of a rod over a floor, and where g is less than `least` [m]. own, other: give distance and
+// normal of the walls at a place.
 template <class Own, class Other>
 [[nodiscard]] GapBeside gap_beside(const Vector3& x, const Own& own, const Other& other, double longest_edge,
                                    double least) {
   const auto foot_on = [](const auto& point, const Vector3& at) { return Vector3(at - point.distance * point.normal); };
-  const Vector3 foot = foot_on(own(x), x), edge = foot_on(other(foot), foot);
+  const auto at = own(x);
+  const Vector3 foot = foot_on(at, x), edge = foot_on(other(foot), foot);
   const auto below = own(edge);
   const Vector3 beneath = foot_on(below, edge), way = foot - beneath;
   const double reach = 2 * longest_edge, part = way.norm() / reach;
-  if (!(part < 1) || below.distance < least)
+  const bool turns_away = at.normal.dot(edge - foot) < least || at.normal.dot(below.normal) < least_facing;
+  if (!(part < 1) || turns_away || below.distance < least)
     return {};
   const auto above = other(beneath);
   const double gap = gap_between(0, below.normal, above.distance, above.normal);

@@ -54,6 +54,18 @@ TEST(GapBeside, HasTheSlopeOfThat) {
   EXPECT_EQ(beside_blade(1e-2).slope, Vector3(0, 0, 0));
 }
 
+// A rod of 1.5 mm radius lies 0.5 mm over the board: what is on top of it or beside it is not between the two.
+TEST(GapBeside, IsNotOnTheFarSideOfAWall) {
+  const Vector3 axis(0, 2e-3, 0);
+  const auto rod = [&](const Vector3& x) {
+    const Vector3 way(x.x() - axis.x(), x.y() - axis.y(), 0);
+    return Point{way.norm() - 1.5e-3, way.normalized()};
+  };
+  for (const Vector3& x : {Vector3(0, 5e-3, 0), Vector3(1e-3, 5e-3, 0), Vector3(3e-3, 2e-3, 0)})
+    EXPECT_EQ(gap_beside(x, rod, board, 3e-3, 1.5e-4).gap, std::numeric_limits<double>::infinity());
+  EXPECT_LT(gap_beside(Vector3(3e-3, 1e-3, 0), board, rod, 3e-3, 1.5e-4).gap, 4e-3); // what lies beside it on the board
+}
+
 // The other wall comes down to the own one there: no liquid goes below it.
 TEST(GapBeside, IsNotInCorners) {
   for (const double degrees : {61.0, 80.0, 90.0, 120.0, 170.0}) {
