@@ -212,10 +212,11 @@ private:
   }
 
   // A sliver at the rim that nothing else has cured: a lip folded over onto the sheet, or, where tension draws it in
-  // before an edge could tell, a corner narrower than an edge; without tension a pointed end may be somebody's shape.
+  // before an edge could tell, a corner narrower than an edge; without tension a pointed end may be somebody's shape,
+  // unless it flows along a wall.
   bool trim(std::uint32_t t) {
-    if (sheet_.shape(t).sharpest < cosine_15 || !(tension_ || in_crease(t)) || !propose_trim(sheet_, t, edit_) ||
-        !sheet_.make(edit_, limits(1, -1, pocket_thickness)))
+    if (sheet_.shape(t).sharpest < cosine_15 || !(tension_ || on_wall(t) || in_crease(t)) ||
+        !propose_trim(sheet_, t, edit_) || !sheet_.make(edit_, limits(1, -1, pocket_thickness)))
       return false;
     ++report_.absorbed;
     return true;
@@ -337,6 +338,10 @@ private:
     for (const std::uint32_t v : corners)
       moved = smooth(v, repair_thickness) || moved;
     return moved || collapse_to_an_end(t) || trim(t);
+  }
+
+  [[nodiscard]] bool on_wall(std::uint32_t t) const {
+    return std::ranges::all_of(mesh_.corners(t), [&](std::uint32_t v) { return sheet_.wall(v) != no_index; });
   }
 
   // Whether the sheet turns by more than 60 degrees at one of its sides.

@@ -221,6 +221,26 @@ TEST(CornerCase, ANotchOfARimOnAWallIsFilled) {
     EXPECT_NEAR(sheet.volume(t) / sheet.shape(t).area, 0.05 / area, 1e-12);
 }
 
+// A flat ear whose tip touches another solid, without surface tension: of what sticks it may be somebody's shape, of
+// what flows along walls it is not.
+TEST(CornerCase, AnEarOnAWallIsTrimmed) {
+  Scene scene;
+  scene.solids.resize(2);
+  const auto triangles_of = [&](SolidContact contact) {
+    for (scene::Solid& solid : scene.solids)
+      solid.contact = contact;
+    formats::Frame frame =
+        frame_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1.1, -0.15, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}});
+    const std::span<std::uint64_t> touch = put_masks(frame, "touch");
+    std::ranges::fill(touch, 1);
+    touch[4] = 2;
+    static_cast<void>(remesh(frame, &scene, options(1.1)));
+    return frame.triangles;
+  };
+  EXPECT_EQ(triangles_of(SolidContact::stick), 3U);
+  EXPECT_EQ(triangles_of(SolidContact::flow), 2U);
+}
+
 TEST(CornerCase, StripOneTriangleWide) {
   std::vector<Vector3> x;
   std::vector<Corners> t;
