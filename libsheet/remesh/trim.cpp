@@ -70,7 +70,8 @@ bool propose_fill(const EditableSheet& sheet, std::uint32_t v, Edit& edit) {
     return false;
   const auto [before, after] = rim_neighbours(mesh, v);
   if (sheet.wall(v) == no_index || sheet.wall(before) != sheet.wall(v) || sheet.wall(after) != sheet.wall(v) ||
-      before == after || mesh.adjacent(before, after))
+      before == after || mesh.adjacent(before, after) ||
+      !(sheet.at_inlet(v) || sheet.at_inlet(before) || sheet.at_inlet(after)))
     return false;
   edit.clear();
   edit.kind = Edit::Kind::flip;

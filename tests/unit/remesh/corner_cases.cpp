@@ -191,11 +191,12 @@ formats::Frame open_fan(double degrees) {
   }
   formats::Frame frame = frame_of(x, t);
   std::ranges::fill(put_masks(frame, "touch"), 1);
+  put_masks(frame, "inlet")[1] = 1;
   return frame;
 }
 
-// Where the liquid flows along a wall, what is left open is narrower than edges are long, and not a blunt corner.
-TEST(CornerCase, ANotchOfARimOnAWallIsFilled) {
+// Beside an inlet where the liquid flows along a wall, if it is narrower than edges are long, and no blunt corner.
+TEST(CornerCase, ANotchOfARimBesideAnInletIsFilled) {
   Scene scene;
   scene.solids.resize(1);
   scene.solids[0].shape = scene::HalfSpace{{0, 0, 1}};
@@ -210,8 +211,11 @@ TEST(CornerCase, ANotchOfARimOnAWallIsFilled) {
   scene.solids[0].contact = SolidContact::flow;
   EXPECT_EQ(triangles_of(50, 1), 6U);
   EXPECT_EQ(triangles_of(100, 1), 5U);
-  EditableSheet sheet(open_fan(50), &scene);
   Edit edit;
+  formats::Frame away = open_fan(50);
+  put_masks(away, "inlet")[1] = 0;
+  EXPECT_FALSE(propose_fill(EditableSheet(away, &scene), 0, edit));
+  EditableSheet sheet(open_fan(50), &scene);
   ASSERT_TRUE(propose_fill(sheet, 0, edit));
   ASSERT_TRUE(sheet.make(edit, {.thickness = 1.3, .sharpest = 1, .facing = 0.5}));
   EXPECT_FALSE(sheet.mesh().on_rim(0));
