@@ -168,14 +168,12 @@ private:
 
   // Where what flows down one solid meets another one that carries at least as much of its weight, at an angle: from
   // then on it lies on that, and is free to flow on, away from the first one. Held by that still, it would be crushed
-  // in the corner by all that follows. It meets it at the latest as near as it is to the first one, where sheet-step
-  // lets it come no nearer (energy/walls.cpp).
+  // in the corner by all that follows.
   [[nodiscard]] std::optional<VertexHit> floor_below(std::uint32_t v) const {
     if (views_.size() < 2 || !slides(v) || between_[v] != 0)
       return std::nullopt;
     double deepest = 0;
-    const double kept = own_view(v).shape().nearest(own_view(v).own(0, path_.start[v])).distance;
-    const auto hit = first_hit(path_, views_, v, deepest, rides_[v], kept);
+    const auto hit = first_hit(path_, views_, v, deepest, rides_[v]);
     if (!hit)
       return std::nullopt;
     const auto normal_of = [&](std::size_t solid) {
@@ -236,9 +234,10 @@ private:
   // The distance at which a vertex is held that is caught; one that starts nearer and flows is not lifted.
   [[nodiscard]] double caught_distance(std::uint32_t v, const VertexHit& hit) const {
     const SolidView& view = views_[hit.solid];
-    const double start = view.shape().nearest(view.own(0, path_.start[v])).distance;
-    return view.flows() ? std::clamp(start, std::min(path_.half_thickness(v) / 2, hit.distance), hit.distance)
-                        : hit.distance;
+    const Vector3 start = view.own(0, path_.start[v]);
+    const double half = path_.half_thickness(v), way = (path_.end[v] - path_.start[v]).norm();
+    const double full = catching_distance(path_, view, v, start, half + way);
+    return view.flows() ? std::clamp(view.shape().nearest(start).distance, std::min(half / 2, full), full) : full;
   }
 
   // The distance at which a vertex that touches ends from its solid. What flows keeps the one that sheet-step gave it

@@ -56,12 +56,13 @@ std::optional<double> first_contact(const solid::SolidDistance& shape, const Vec
 }
 
 std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidView> views, std::uint32_t vertex,
-                                   double& deepest, std::int32_t rides, double least) {
+                                   double& deepest, std::int32_t rides) {
   std::optional<VertexHit> first;
+  const double half = path.half_thickness(vertex);
   const Vector3 &start = path.start[vertex], &end = path.end[vertex];
   solid::Box3 box(start);
   box.extend(end);
-  const double reach = std::max(path.half_thickness(vertex), least) * (1 + vertex_slack), way = (end - start).norm();
+  const double reach = half * (1 + vertex_slack), way = (end - start).norm();
   box.min().array() -= reach;
   box.max().array() += reach;
   for (std::uint32_t i = 0; i < views.size(); ++i) {
@@ -69,14 +70,14 @@ std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidVi
     if (static_cast<std::int32_t>(i) == rides || !view.swept().intersects(box))
       continue;
     Vector3 a = view.own(0, start);
-    const double offset = std::max(catching_distance(path, view, vertex, a, reach + way), least);
+    const double offset = catching_distance(path, view, vertex, a, reach + way);
     deepest = std::min(deepest, view.shape().distance(a, offset));
     for (std::size_t k = 0; k < view.pieces(); ++k) {
       const Vector3 b = view.on_path(k + 1, start, end, false);
       if (const auto s = first_contact(view.shape(), a, b, offset_for(view.shape(), a, b, offset))) {
         const double whole = (static_cast<double>(k) + *s) / static_cast<double>(view.pieces());
         if (!first || whole < first->s)
-          first = VertexHit{i, whole, (1 - *s) * a + *s * b, offset};
+          first = VertexHit{i, whole, (1 - *s) * a + *s * b};
         break;
       }
       a = b;

@@ -26,15 +26,13 @@ inline constexpr double vertex_slack = 1e-6;   // a vertex this much beyond half
 struct VertexHit {
   std::uint32_t solid;
   double s;
-  Vector3 place;   // in the solid's frame
-  double distance; // at which it touches [m]
+  Vector3 place; // in the solid's frame
 };
 
-// The first solid that the vertex comes to touch (touch_distance.h, but not nearer than `least` [m]), of all but
-// `rides`. `deepest` becomes the least signed distance where it starts, if that is less than what it was.
+// The first solid that the vertex comes to touch (touch_distance.h), of all but `rides`. `deepest` becomes the least
+// signed distance where it starts, if that is less than what it was.
 [[nodiscard]] std::optional<VertexHit> first_hit(const StepPath& path, std::span<const SolidView> views,
-                                                 std::uint32_t vertex, double& deepest, std::int32_t rides = no_solid,
-                                                 double least = 0);
+                                                 std::uint32_t vertex, double& deepest, std::int32_t rides = no_solid);
 
 // A triangle that comes too close to a solid.
 struct FoundHit {

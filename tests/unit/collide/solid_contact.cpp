@@ -77,24 +77,6 @@ TEST(SolidContact, WhatComesDownAWallLiesOnTheFloor) {
   EXPECT_EQ(touched_after({-6.93, -6.94, 0}), 11U); // a groove
 }
 
-// sheet-step keeps what flows along one solid as far from another one as from its own: there it goes over to it, though
-// a rim that comes edge-on is caught nearer.
-TEST(SolidContact, WhatIsHeldOffTheFloorLiesOnIt) {
-  const double kept = thickness_of_sheet / 2;
-  const auto touch_floor = [&](double distance) {
-    FallingSheet sheet = falling(0, kept); // at rest along y = 0, its rim at x = -0.05
-    scene::Solid wall = solid(scene::HalfSpace{{0, 1, 0}});
-    scene::Solid floor = solid(scene::HalfSpace{{1, 0, 0}}, {-0.05 - distance, 0, 0});
-    wall.contact = floor.contact = SolidContact::flow;
-    std::ranges::fill(sheet.path.touch, 0);
-    sheet.path.gravity = {-9.81, 0, 0};
-    resolve_solids(sheet.path, solids_of({wall, floor}));
-    return std::ranges::count(sheet.path.touch, 1);
-  };
-  EXPECT_EQ(touch_floor(kept), 11); // the rim
-  EXPECT_EQ(touch_floor(1.01 * kept), 0);
-}
-
 // Between two plates a sheet of 2 mm touches the lower one. Where the upper one leaves it less room than that it
 // slides, though it sticks to solids; where it leaves less than half, that is counted.
 TEST(SolidContact, WhatIsSqueezedBetweenSolidsSlidesAndIsCounted) {
