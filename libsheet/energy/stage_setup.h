@@ -19,8 +19,8 @@ namespace sheet {
 
 // Turns a first stage into the second of SDIRK2, given the first one's result (which must outlive it). Returns how many
 // times as much every triangle could have shrunk there until its reference metric is none, or nearly none: a principal
-// stretch, squared, below 1/4 of the start's. Below 1 there is no second stage. Where the reference is negative SDIRK2's
-// stability function is, too (z < -1/(1 - 2γ)), and triangles shrink to points.
+// stretch, squared, below 1/4 of the start's. Below 1 there is no second stage. Where the reference is negative
+// SDIRK2's stability function is, too (z < -1/(1 - 2γ)), and triangles shrink to points.
 [[nodiscard]] double second_stage(Stage& stage, const Unknowns& first, double gamma, double dt);
 
 // How warm the triangles are taken to be at the stage's end, with the shift of their flow curves: the mean of a_T

@@ -27,7 +27,7 @@ struct StepReport {
   // Filtered difference to the first-order result, in edge lengths, less where next to nothing is carried
   // (docs/model.md, stopping rule), greatest of the substeps.
   double error = 0;
-  std::size_t worst = 0;          // the vertex that has it
+  std::size_t worst = 0; // the vertex that has it
   // How many times as long the last attempt might have been until SDIRK2's second stage has no reference
   // (energy/stage_setup.h); below 1: was refused for it.
   double room = std::numeric_limits<double>::infinity();
