@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace sheet::render {
 namespace {
@@ -56,20 +57,29 @@ bool Camera::sees(const Vector3& x) const {
 Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up) {
   Vector3 ahead, aside;
   level_axes(up, ahead, aside);
-  const double azimuth = options.azimuth.value_or(usual_azimuth) * degree, elevation = options.elevation * degree;
+  const double azimuth = options.azimuth.value_or(usual_view.azimuth) * degree,
+               elevation = options.elevation.value_or(usual_view.elevation) * degree;
   return std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside) + std::sin(elevation) * up;
 }
 
-double azimuth_before_planes(CameraOptions options, const Vector3& up, std::span<const Vector3> normals) {
+ViewAngles view_before_planes(CameraOptions options, const Vector3& up, std::span<const Vector3> normals) {
   constexpr double grazing = 0.1; // sine of the angle at which next to nothing is seen of a plane
-  constexpr std::array away{0, -30, 30, -60, 60, -90, 90, -120, 120, -150, 150, 180}; // from the usual one
-  const auto hidden = [&](double azimuth) {
-    options.azimuth = azimuth;
+  constexpr std::array aside{0, -30, 30, -60, 60, -90, 90, -120, 120, -150, 150, 180}; // from the usual azimuth
+  const CameraOptions asked = options;
+  const auto cost = [&](const ViewAngles& view) {
+    options.azimuth = view.azimuth;
+    options.elevation = view.elevation;
     const Vector3 toward = direction_to_camera(options, up);
-    return std::ranges::count_if(normals, [&](const Vector3& n) { return n.dot(toward) < grazing; });
+    const auto below = [&](double sine) {
+      return std::ranges::count_if(normals, [&](const Vector3& n) { return n.dot(toward) < sine; });
+    };
+    return std::pair(below(-1e-9), below(grazing)); // those that hide what is before them; those not seen
   };
-  return usual_azimuth +
-         *std::ranges::min_element(away, {}, [&](int degrees) { return hidden(usual_azimuth + degrees); });
+  std::vector<ViewAngles> views;
+  for (const double elevation : {usual_view.elevation, -usual_view.elevation, 0.0})
+    for (const int degrees : aside)
+      views.push_back({asked.azimuth.value_or(usual_view.azimuth + degrees), asked.elevation.value_or(elevation)});
+  return *std::ranges::min_element(views, {}, cost);
 }
 
 ViewFit::ViewFit(const CameraOptions& options, const Vector3& up, double aspect, const Margins& margins)

@@ -16,8 +16,8 @@ namespace sheet::render {
 struct CameraOptions {
   std::optional<Vector3> eye, target; // [m]; absent: found so that everything is in the picture
   double field_of_view = 28;          // from the picture's lower to its upper edge [degrees]
-  std::optional<double> azimuth;      // [degrees] of the camera as seen from what it looks at, if it is found;
-  double elevation = 25;              // likewise; without an azimuth usual_azimuth
+  std::optional<double> azimuth;      // [degrees] of the camera as seen from what it looks at, if it is found; absent:
+  std::optional<double> elevation;    // that of usual_view; likewise
 };
 
 struct Lens {
@@ -54,11 +54,15 @@ private:
 // may be any unit vector.
 [[nodiscard]] Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up);
 
-inline constexpr double usual_azimuth = 30;
+struct ViewAngles {
+  double azimuth, elevation; // [degrees]
+};
+inline constexpr ViewAngles usual_view{30, 25};
 
-// The azimuth [degrees] that is nearest to the usual one, of those every 30 degrees, from which planes are seen by
-// their front, as many of them as may be. `normals`: unit vectors out of them.
-[[nodiscard]] double azimuth_before_planes(CameraOptions options, const Vector3& up, std::span<const Vector3> normals);
+// The angles from which fewest planes hide what is before them and, of those, most are seen by their front, nearest to
+// the usual ones: azimuths every 30 degrees; from above, else from below, else level. Those that `options` has stay.
+// `normals`: unit vectors out of the planes.
+[[nodiscard]] ViewAngles view_before_planes(CameraOptions options, const Vector3& up, std::span<const Vector3> normals);
 
 // Parts of the picture's width or height that stay free at each edge.
 struct Margins {

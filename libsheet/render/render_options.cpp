@@ -179,7 +179,8 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.option("--azimuth", o.camera.azimuth, "DEGREES",
               "where the camera stands if it finds its place itself: angle about the upward axis, from z towards x "
               "(default 30, or the nearest to it from which planes are seen by their front)");
-  tool.option("--elevation", o.camera.elevation, "DEGREES", "likewise: angle above level");
+  tool.option("--elevation", o.camera.elevation, "DEGREES",
+              "likewise: angle above level (default 25, or -25 or 0 where planes would hide everything)");
   tool.option(
       "--environment", o.environment, "FILE",
       "image of the surroundings to light the scene with instead of the studio, .hdr, .exr or .png, longitude across");

@@ -44,8 +44,8 @@ void check(const RenderOptions& o) {
     fail(ExitCode::usage, "-o {}: the name must end in .png or .exr", o.output);
   if (!(c.field_of_view >= 1 && c.field_of_view <= 160))
     fail(ExitCode::usage, "--fov: {} is not between 1 and 160 degrees", c.field_of_view);
-  if (!(std::abs(c.elevation) <= 90))
-    fail(ExitCode::usage, "--elevation: {} is not between -90 and 90 degrees", c.elevation);
+  if (c.elevation && !(std::abs(*c.elevation) <= 90))
+    fail(ExitCode::usage, "--elevation: {} is not between -90 and 90 degrees", *c.elevation);
   if (c.eye && c.target && !((*c.eye - *c.target).norm() > 0))
     fail(ExitCode::usage, "--eye and --target are the same point: the camera has no direction");
   if (!(o.frames_per_second > 0 && o.frames_per_second <= 1000))
@@ -195,8 +195,9 @@ struct RenderStage::Impl {
     std::vector<Vector3> normals;
     for (const Plane& plane : scene != nullptr && options.solids ? make_planes(*scene, time) : std::vector<Plane>{})
       normals.push_back(plane.normal);
-    if (!options.camera.azimuth)
-      options.camera.azimuth = azimuth_before_planes(options.camera, up, normals);
+    const ViewAngles view = view_before_planes(options.camera, up, normals);
+    options.camera.azimuth = view.azimuth;
+    options.camera.elevation = view.elevation;
   }
 
   void look_at(const formats::Frame& frame) {

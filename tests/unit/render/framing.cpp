@@ -43,15 +43,24 @@ TEST(Camera, TheBoxIsInThePictureAndFillsIt) {
 
 TEST(Camera, StandsBeforePlanes) {
   const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
-  const auto azimuth = [&](std::vector<Vector3> normals) { return azimuth_before_planes({}, y, normals); };
+  const auto azimuth = [&](std::vector<Vector3> normals) { return view_before_planes({}, y, normals).azimuth; };
+  const auto elevation = [&](std::vector<Vector3> normals) { return view_before_planes({}, y, normals).elevation; };
   EXPECT_EQ(azimuth({}), 30);
   EXPECT_EQ(azimuth({y}), 30);
   EXPECT_EQ(azimuth({y, x}), 30);
   EXPECT_EQ(azimuth({y, -x}), -30);
   EXPECT_EQ(azimuth({-z}), 120);
   EXPECT_EQ(azimuth({-x, -z}), -120);
-  EXPECT_EQ(azimuth({x, -x}), 30); // one of them is hidden from wherever
+  EXPECT_EQ(azimuth({x, -x}), 0); // along both of them
   EXPECT_EQ(azimuth({-y}), 30);
+  EXPECT_EQ(elevation({}), 25);
+  EXPECT_EQ(elevation({y, -x}), 25);
+  EXPECT_EQ(elevation({-y}), -25); // a ceiling is looked at from below
+  EXPECT_EQ(elevation({-y, x}), -25);
+  EXPECT_EQ(elevation({y, -y}), 0); // level, between both
+  CameraOptions asked;
+  asked.elevation = 40;
+  EXPECT_EQ(view_before_planes(asked, y, std::vector<Vector3>{-y}).elevation, 40);
 }
 
 TEST(Camera, GrowsAboutTheMiddleAndLooksAtItsTarget) {
