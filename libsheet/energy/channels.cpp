@@ -63,7 +63,8 @@ Vector3 velocity_at(const Wall& wall, const Stage& stage, std::uint32_t vertex) 
 double rate_at(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site, const Channel& channel) {
   const Vector3 own = velocity_at(walls[site.wall], stage, site.vertex);
   const Vector3 past = velocity_at(walls[channel.facing], stage, site.vertex) - own;
-  return std::abs(past.dot(site.normal)) / channel.gap + past.norm() / std::sqrt(stage.channel_area);
+  const Vector3 normal = walls[site.wall].nearest(stage.end_time, channel.place).normal;
+  return std::abs(past.dot(normal)) / channel.gap + past.norm() / std::sqrt(stage.channel_area);
 }
 
 } // namespace

@@ -55,6 +55,17 @@ bool holds(const WallSite& site, const WallPoint& other, double kept) {
   return !site.force || other.distance < kept / in_reach || site.force->dot(other.normal) > 0;
 }
 
+// The distance from its own wall that a site keeps, at which it starts: in a gap between two walls one that is not too
+// far from it. What is, where a gap has just been found, comes there at the rate at which what is too thick gives way
+// (channels.h): put there at once it would be thrown, by as much however short the step.
+double kept_distance(const Stage& stage, const WallSite& site, double own) {
+  const Channel* channel = channel_of(stage, site);
+  if (channel == nullptr)
+    return own;
+  const double nearer = own / (1 + stage.channel_rate * (stage.end_time - stage.start->time));
+  return std::min(own, std::max(farthest_in_gap * channel->gap, nearer));
+}
+
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
 // moves it across, but one that faces its own and would come too near.
 void keep_distances(const std::vector<Wall>& walls, const Stage& stage, WallSite& site) {
@@ -63,7 +74,7 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, WallSite
   const WallPoint point = walls[site.wall].nearest(stage.end_time, x);
   const Channel* channel = channel_of(stage, site);
   site.normal = point.normal;
-  add_plane_of(site, point, x, channel != nullptr ? std::min(own, farthest_in_gap * channel->gap) : own);
+  add_plane_of(site, point, x, kept_distance(stage, site, own));
   for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w)
     if (w != site.wall && !walls[w].vertices.empty() && (channel == nullptr || w != channel->facing))
       if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
