@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "libsheet/scene/scales.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet {
 
@@ -71,11 +73,37 @@ bool only_falls(const Scene& scene, const std::vector<Landing>& all) {
              all, [&](const Landing& landing) { return scene.solids[landing.solid].surface_velocity.norm() > 0; });
 }
 
+// The greatest speed at which liquid flows in, if all of it does so as a layer on solids along which it flows [m/s].
+std::optional<double> speed_along_solids(const Scene& scene, const Frame& first) {
+  constexpr double near_enough = 0.75; // of the thickness: from the solid, of what lies on it
+  if (scene.inflows.empty() || !scene::flows_on_solids(scene))
+    return std::nullopt;
+  const solid::Solids solids(scene);
+  const auto lies = [&](const Vector3& x, double thickness) {
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      if (scene.solids[i].contact == SolidContact::flow &&
+          solids.at(i, x, first.time).distance < near_enough * thickness)
+        return true;
+    return false;
+  };
+  const auto inlets = masks(first, "inlet");
+  double speed = 0;
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    for (std::size_t v = 0; v < inlets.size(); ++v)
+      if ((of_inlet(inlets[v], i) & at_inlet_border) != 0 && !lies(positions(first)[v], scene.inflows[i].thickness))
+        return std::nullopt;
+    speed = std::max(speed, scene::inlet_velocity(scene, scene.inflows[i]).speed(first.time));
+  }
+  return speed;
+}
+
 // Steps besides those that end at output times.
 double steps_of_motion(const Scene& scene, const Frame& first, double until, double edge, double tolerance) {
   constexpr double falls = 2.25;
   if (const auto down = runs_down(scene, first, first.time); down && scene.inflows.empty() && scene.holds.empty())
     return until * down->speed / (edge / 2); // energy/walls.h: longest_step_on_walls
+  if (const auto along = speed_along_solids(scene, first); along && scene.holds.empty())
+    return until * *along / (edge / 2); // a layer creeps, however it is driven
   const std::vector<Landing> all = landings(scene, first);
   const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm();
   const double falling = all.empty() ? 0 : falls * std::sqrt(2 * longest_fall(all) / gravity);

@@ -24,5 +24,26 @@ TEST(Forecast, ALawTakesMoreTimeForTheSameSteps) {
   EXPECT_DOUBLE_EQ(hardly_thins.seconds, 3 * newtonian.seconds);
 }
 
+// What flows in as a layer on a solid creeps along it: half an edge a step. From above the solid it falls, and folds.
+TEST(Forecast, WhatFlowsInOnASolidTakesStepsOfHalfAnEdge) {
+  const auto foretold = [](const std::string& height, const std::string& contact) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.04, 0.06]\nedge_length = 0.004\nthickness = 0.004\n"
+        "center = [0, " +
+            height +
+            ", 0]\n[material]\ndensity = 1400\nviscosity = 5\n[environment]\n"
+            "gravity = [0, -9.81, 0]\n[contact]\nself = true\n[inflow]\nregion = \"x_min\"\nvelocity = [0.05, 0, 0]\n"
+            "[[solid]]\nshape = \"plane\"\ncontact = \"" +
+            contact + "\"\n",
+        "s");
+    const formats::Frame first = first_frame(scene);
+    const Forecast run = forecast(scene, first, {.until = 1, .fps = 24, .stages = ""}, 0.01);
+    return (run.steps - 24) * mean_edge(first);
+  };
+  EXPECT_NEAR(foretold("0.002", "flow"), 0.05 / 0.5, 1e-9);
+  EXPECT_GT(foretold("0.1", "flow"), 1);
+  EXPECT_GT(foretold("0.002", "stick"), 1);
+}
+
 } // namespace
 } // namespace sheet
