@@ -30,6 +30,7 @@
 #include "libsheet/plan/slopes.h"
 #include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/symmetry.h"
+#include "libsheet/plan/thick_streams.h"
 #include "libsheet/plan/wetting.h"
 #include "libsheet/scene/document.h"
 #include "libsheet/scene/example.h"
@@ -159,7 +160,8 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::warnings_of_solids_that_meet(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::inflow_warnings(scene, frame), std::back_inserter(explanation.warnings));
   for (const std::string& warning :
-       {sheet::drawing_up_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until)})
+       {sheet::drawing_up_warning(scene, frame, until), sheet::thick_stream_warning(scene, frame, until),
+        sheet::wetting_warning(scene, frame, until)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   if (const std::string late = sheet::late_running_warning(scene, frame, until); !source.until && !late.empty())

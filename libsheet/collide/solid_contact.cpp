@@ -244,14 +244,15 @@ private:
   // (wall_distance.h), what sticks that at which it starts: from a quarter of the thickness to nine tenths of it. Set
   // to half each time, it would sink as the sheet thins until a triangle beside it is too near and pushes it out, and
   // come back at once, at every few steps; and where a sheet stands on its rim the row that touches would rise as it
-  // grows thicker, and grow thicker as it rises.
+  // grows thicker, and grow thicker as it rises. Nor is it brought in when chords beside it become shallower, by up
+  // to a half: it would jump whenever a triangle beside it is pushed.
   [[nodiscard]] double kept_distance(std::uint32_t v, const Vector3& own) const {
     const double half = path_.half_thickness(v), thickness = path_.thickness[v];
     const double least = half - thickness / 4;
     if (slides(v))
       return std::max(own_view(v).shape().nearest(own).distance, least);
     const double start = own_view(v).shape().nearest(own_view(v).own(0, path_.start[v])).distance;
-    return std::clamp(start, least, half + 0.4 * thickness);
+    return std::clamp(start, least, half + 0.4 * thickness + path_.stand_off[v]);
   }
 
   // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, at this distance from

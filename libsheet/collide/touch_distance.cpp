@@ -20,9 +20,11 @@ Vector3 vector_area(const Corners& c, std::span<const Vector3> x) {
   return 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
 }
 
-// The nearest point of the solid's surface, in its frame, and its normal there; none has a normal of zero.
+// The nearest point of the solid's surface, in its frame, and its normal there; none has a normal of zero. And how much
+// it counts: all where the vertex may touch, nothing twice as far off.
 struct Foot {
   Vector3 place = Vector3::Zero(), normal = Vector3::Zero();
+  double part = 0;
 };
 
 // Of the vertices whose triangles may reach the solid, at the end.
@@ -31,14 +33,15 @@ std::vector<Foot> feet_on(const StepPath& path, const SolidView& view, std::span
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, feet.size(), 256), [&](const auto& range) {
     for (std::size_t v = range.begin(); v < range.end(); ++v) {
       const double chord = over_chord * deepest_chord * longest_edges[v];
-      const double reach = path.thickness[v] / 2 + chord;
+      const double reach = path.thickness[v] / 2 + 2 * chord;
       if (chord <= leaves_room * path.thickness[v] || view.swept().squaredExteriorDistance(path.end[v]) > reach * reach)
         continue;
       const Vector3 own = view.own(view.pieces(), path.end[v]);
       if (view.shape().distance(own, reach) >= reach)
         continue;
       const solid::Near near = view.shape().nearest(own);
-      feet[v] = {own - near.distance * near.normal, near.normal};
+      feet[v] = {own - near.distance * near.normal, near.normal,
+                 std::clamp(2 - (near.distance - path.thickness[v] / 2) / chord, 0.0, 1.0)};
     }
   });
   return feet;
@@ -70,9 +73,12 @@ std::vector<double> chord_allowances(const StepPath& path, std::span<const Solid
         }
     });
     for (std::size_t t = 0; t < depth.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k)
-        for (const std::uint32_t v : {path.triangles[t][k], path.triangles[t][(k + 1) % 3]})
-          allowance[v] = std::max(allowance[v], over_chord * depth[t][k] - leaves_room * path.thickness[v]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = path.triangles[t][k], b = path.triangles[t][(k + 1) % 3];
+        const double both = over_chord * depth[t][k] * std::min(feet[a].part, feet[b].part);
+        for (const std::uint32_t v : {a, b})
+          allowance[v] = std::max(allowance[v], both - leaves_room * path.thickness[v]);
+      }
   }
   return allowance;
 }

@@ -13,7 +13,8 @@
 namespace sheet::collide {
 
 // Of each vertex, by how much farther than half its thickness it keeps from solids [m]: 0 unless the chord of an edge
-// there, at the end of the path, is deeper than a quarter of the thickness.
+// there, at the end of the path, is deeper than a quarter of the thickness. It grows from 0 as the edge's other end
+// comes down to the solid, so that what touches does not jump then.
 [[nodiscard]] std::vector<double> chord_allowances(const StepPath& path, std::span<const SolidView> views,
                                                    std::span<const double> longest_edges);
 

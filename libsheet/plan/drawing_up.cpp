@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -69,17 +70,39 @@ private:
           there = x;
         }
       } else if ((moved(tool, *touched, t, there) - x).dot(up_) > risen * thickness_ &&
-                 solids_.at(tool, x, t).distance > risen * thickness_) {
+                 solids_.at(tool, x, t).distance > risen * thickness_ && !passes(tool, there, *touched, t)) {
         return true;
       }
     }
     return false;
   }
 
+  // Whether it has gone on sideways, as a rolling pin, as low as it was above the place where it touched, though what
+  // touched there has turned up and away.
+  [[nodiscard]] bool passes(std::size_t tool, const Vector3& there, double touched, double t) const {
+    const Vector3 way = solids_.pose(tool, t).translation() - solids_.pose(tool, touched).translation();
+    const Vector3 sideways = way - way.dot(up_) * up_;
+    return room_above(tool, there + sideways, t) < room_above(tool, there, touched) + risen * thickness_;
+  }
+
+  // From x up to the solid [m]; without end where it is not above x.
+  [[nodiscard]] double room_above(std::size_t solid, const Vector3& x, double t) const {
+    double room = 0;
+    for (int i = 0; i < marched; ++i) {
+      const double distance = solids_.at(solid, x + room * up_, t).distance;
+      if (distance < near_solid * thickness_)
+        return room;
+      room += distance;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
   static constexpr std::size_t looked_at = 200; // vertices, about
   static constexpr int times = 200;
   static constexpr double near_enough = 0.75; // thicknesses: from a solid, of what touches it
   static constexpr double risen = 2;          // thicknesses
+  static constexpr int marched = 100;         // steps of sphere tracing
+  static constexpr double near_solid = 1e-3;  // thicknesses
   static constexpr double upright = 0.5;      // cosine between a face that looks up, and up
   solid::Solids solids_;
   Vector3 up_;

@@ -39,6 +39,7 @@ double area_of(const Frame& frame) {
 }
 
 constexpr double place_rounding = 1e-9; // of its norm
+constexpr double shortest_step = 1e-9;  // [s]
 
 // A wrong scale that would explain why the sheet and that solid are in each other's way; "" if none would.
 std::string scale_in_doubt(const Scene& scene, const solid::Solids& solids, std::size_t i, const Frame& frame) {
@@ -181,11 +182,11 @@ Frame checked_first_frame(const Scene& scene) {
   if (!scene.solids.empty())
     check_outside_solids(scene, frame);
   if (!scene.solids.empty() || (scene.contact && scene.contact->self)) {
-    Frame copy = frame; // as if a step in which nothing moved had made it
+    Frame copy = frame; // as if a step so short that no solid moves had made it
     formats::Array start = formats::make_standard_array("start_position", frame.vertices);
     std::ranges::copy(positions(std::as_const(frame)), start.values<Eigen::Vector3d>().begin());
     copy.put(std::move(start));
-    put_number(copy, "start_time", frame.time - 1);
+    put_number(copy, "start_time", frame.time - shortest_step);
     collide::CollideStage().step(copy);
   }
   return frame;

@@ -38,13 +38,16 @@ bool is_upright(const Scene& scene, const Frame& first) {
 
 } // namespace
 
+bool inflow_piles_up(const Scene& scene, const Frame& first, std::size_t number, const Landing& landing) {
+  const scene::Inflow& inflow = scene.inflows[number];
+  const double v0 = scene::inlet_velocity(scene, inflow).speed(first.time);
+  return piles_up(landing, speed_after_fall(scene, v0, landing), inflow.thickness);
+}
+
 std::optional<Piling> what_piles_up(const Scene& scene, const Frame& first, const std::vector<Landing>& all) {
-  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
-    const double v0 = scene::inlet_velocity(scene, scene.inflows[i]).speed(first.time);
-    if (const auto landing = landing_of_inflow(scene, first, i);
-        landing && piles_up(*landing, speed_after_fall(scene, v0, *landing), scene.inflows[i].thickness))
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i)
+    if (const auto landing = landing_of_inflow(scene, first, i); landing && inflow_piles_up(scene, first, i, *landing))
       return Piling{"what flows in", landing->solid};
-  }
   if (all.empty() || !scene.holds.empty() || !scene.inflows.empty() || !is_upright(scene, first))
     return std::nullopt;
   const auto landing = std::ranges::max_element(all, {}, &Landing::fall);

@@ -22,4 +22,8 @@ struct Piling {
 [[nodiscard]] std::optional<Piling> what_piles_up(const Scene& scene, const formats::Frame& first,
                                                   const std::vector<Landing>& all);
 
+// Whether that inflow does so, where it lands.
+[[nodiscard]] bool inflow_piles_up(const Scene& scene, const formats::Frame& first, std::size_t number,
+                                   const Landing& landing);
+
 } // namespace sheet

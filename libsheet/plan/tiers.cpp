@@ -7,12 +7,11 @@
 #include <numbers>
 #include <optional>
 
-#include "libsheet/geometry/connectivity.h"
 #include "libsheet/material/flow_curve.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/inlet_width.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/scene/inlet_velocity.h"
-#include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
 
 namespace sheet {
@@ -45,20 +44,6 @@ Vector3 nearest_side(const solid::Box3& box, const Vector3& x, const Vector3& do
       }
     }
   return nearest;
-}
-
-// Of the inlet's border [m].
-double width_of_inlet(const Frame& first, std::size_t inflow) {
-  const auto x = positions(first);
-  const auto inlets = masks(first, "inlet");
-  double width = 0;
-  const Connectivity mesh = connect(first.vertices, triangles(first));
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const auto [a, b] = mesh.edges[e];
-    if (mesh.on_rim(e) && (of_inlet(inlets[a] & inlets[b], inflow) & at_inlet_border) != 0)
-      width += (x[a] - x[b]).norm();
-  }
-  return width;
 }
 
 } // namespace

@@ -12,7 +12,8 @@
 // Steps chosen by their error are shortened instead of halved. When the iterations are spent, the most accurate step
 // that converged is taken, though its error is above the tolerance; if none did, an unfinished one as above. Where a
 // step of a thousandth is hardly more accurate, as something jumps, the long one is taken, and said to be inaccurate.
-// No step is shorter than the sheet takes to cross 1e-4 of an edge (and a thousandth of what is left).
+// No step is shorter than the sheet takes to cross 1e-4 of an edge, as it moves or as it did in one that was too long
+// (and a thousandth of what is left).
 #pragma once
 #include <memory>
 

@@ -17,18 +17,33 @@ namespace {
 constexpr double safety = 0.9, least_factor = 0.2, greatest_factor = 4; // factors from one step to the next
 constexpr double much_shorter = 1e-3, helped = 0.3; // a step that much shorter shall have that part of the error
 
-// Steps chosen by their error are not shorter: the time in which the sheet crosses 1e-4 of an edge, at its speed and as
-// it falls, or a thousandth of what is left [s]. (By its speed alone what starts at rest would fall for that.)
-double shortest_step(const Model& model, const State& state, double left) {
-  double squares = 0, lengths = 0;
-  for (const Vector3& v : state.velocities)
-    squares += v.squaredNorm();
+constexpr double crossed = 1e-4; // of an edge: steps in which the sheet goes less are not tried
+
+double mean_edge(const State& state) {
+  double lengths = 0;
   for (const Edge& e : state.mesh->edges)
     lengths += (state.positions[e[1]] - state.positions[e[0]]).norm();
+  return lengths / static_cast<double>(state.mesh->edges.size());
+}
+
+// Steps chosen by their error are not shorter: the time in which the sheet crosses 1e-4 of an edge, at its speed and as
+// it falls, or a thousandth of what is left [s]. (By its speed alone what starts at rest would fall for that.)
+double shortest_step(const Model& model, const State& state, double edge, double left) {
+  double squares = 0;
+  for (const Vector3& v : state.velocities)
+    squares += v.squaredNorm();
   const double speed = std::sqrt(squares / static_cast<double>(state.velocities.size()));
-  const double edge = lengths / static_cast<double>(state.mesh->edges.size());
-  const double way = 1e-4 * edge, fall = model.has_inertia() ? model.gravity.norm() : 0;
+  const double way = crossed * edge, fall = model.has_inertia() ? model.gravity.norm() : 0;
   return std::min(2 * way / (speed + std::sqrt(speed * speed + 2 * fall * way)), 1e-3 * left);
+}
+
+// The same at the mean speed of a step that was too long: other forces than weight throw what starts at rest, too [s].
+double shortest_step(const State& start, const State& end, double edge, double dt) {
+  double squares = 0;
+  for (std::size_t v = 0; v < start.positions.size(); ++v)
+    squares += (end.positions[v] - start.positions[v]).squaredNorm();
+  const double way = std::sqrt(squares / static_cast<double>(start.positions.size()));
+  return way > 0 ? dt * crossed * edge / way : dt;
 }
 
 } // namespace
@@ -37,11 +52,11 @@ class Stepper::ChosenStep {
 public:
   ChosenStep(Stepper& stepper, State& state, double remaining, const StepControl& control, StepReport& report)
       : stepper_(stepper), state_(state), remaining_(remaining), tolerance_(control.tolerance),
-        wanted_(control.dt > 0 ? control.dt : remaining), report_(report) {
+        wanted_(control.dt > 0 ? control.dt : remaining), edge_(mean_edge(state)), report_(report) {
     wanted_ = std::min(wanted_, longest_step_on_walls(stepper.model_.walls, state));
     // No sliver of a step before the output time: two equal steps instead.
     first_ = wanted_ >= remaining ? remaining : wanted_ > 0.5 * remaining ? 0.5 * remaining : wanted_;
-    shortest_ = std::min(shortest_step(stepper.model_, state, remaining), first_);
+    shortest_ = std::min(shortest_step(stepper.model_, state, edge_, remaining), first_);
   }
 
   void find() {
@@ -106,7 +121,10 @@ private:
         continue;
       }
       note(trial);
-      report_.rejected += trial.error > tolerance_;
+      if (trial.error > tolerance_) {
+        ++report_.rejected;
+        shortest_ = std::min(shortest_, shortest_step(state_, trial.end, edge_, trial.dt));
+      }
       // What was overshot is the same in a shorter step: where it is more than the sheet can take, it is given up.
       if (best_ && !state_.overshoot.empty() && trial.error > tolerance_ &&
           trial.error / trial.dt > best_->error / best_->dt) {
@@ -178,7 +196,7 @@ private:
 
   Stepper& stepper_;
   State& state_;
-  double remaining_, tolerance_, wanted_;
+  double remaining_, tolerance_, wanted_, edge_;
   StepReport& report_;
   double first_ = 0, shortest_ = 0; // to be tried
   std::optional<Trial> best_;       // of those that converged

@@ -7,6 +7,8 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/parallel.h"
+#include "libsheet/collide/touch_distance.h"
+#include "libsheet/geometry/longest_edges.h"
 #include "tests/unit/solid/solid_support.h"
 
 namespace sheet::collide {
@@ -335,6 +337,38 @@ TEST(SolidContact, FilmsTouchByTheirVertices) {
     if (sheet.path.touch[v] != no_solid) {
       EXPECT_LT((sheet.start[v] + Vector3(0, radius, 0)).norm(), radius + 2e-3);
     }
+}
+
+// What touches makes room for chords bit by bit as the sheet beside it comes down, and is not brought in again when
+// chords become shallower.
+TEST(SolidContact, ChordsMakeNothingJump) {
+  constexpr double radius = 0.05, film = 2e-5, down = 5e-5;
+  const solid::Solids ball = solids_of({solid(scene::Sphere{radius}, {0, -radius, 0})});
+  const std::size_t top = 60; // the sheet's middle
+  const auto allowance_at = [&](double height) {
+    FallingSheet sheet(0.1, 10, film, height, {0, 0, 0}, 1e-3);
+    const std::vector<SolidView> views{SolidView(ball, 0, sheet.path, 0.01 * film)};
+    return chord_allowances(sheet.path, views, longest_edges(sheet.path.start, sheet.path.triangles))[top];
+  };
+  double last = allowance_at(1e-4), greatest = 0, least = last;
+  for (double height = 1e-4 + down; height < 0.015; height += down) {
+    const double allowance = allowance_at(height);
+    EXPECT_LT(std::abs(allowance - last), down) << height;
+    last = allowance;
+    greatest = std::max(greatest, allowance);
+    least = std::min(least, allowance);
+  }
+  EXPECT_GT(greatest, 2e-4); // an edge of 10 mm is 0.25 mm deep
+  EXPECT_EQ(least, 0);
+  const double height = 1e-3, above = 1.5 * allowance_at(height);
+  FallingSheet stuck(0.1, 10, film, height, {0, 0, 0}, 1e-3);
+  stuck.path.touch.assign(stuck.start.size(), no_solid);
+  stuck.path.touch[top] = 0;
+  stuck.start[top].y() = stuck.path.end[top].y() = above;
+  stuck.path.start = stuck.start;
+  resolve_solids(stuck.path, ball);
+  EXPECT_NEAR(stuck.path.end[top].y(), above, 1e-9);
+  EXPECT_EQ(stuck.path.touch[top], 0);
 }
 
 // Within limits it stays where it stands, or it would go up and down at the edge of what the triangles beside it allow.

@@ -196,6 +196,20 @@ TEST(HardCases, WhatStartsToFallKeepsToTheTolerance) {
   EXPECT_LE(r.error, control.tolerance);
 }
 
+// So does what starts at rest under a pressure that throws it, and needs steps below a thousandth of what is left.
+TEST(HardCases, WhatIsBlownFromRestKeepsToTheTolerance) {
+  State s = test::at_rest(test::icosphere(2), 3e-3);
+  Model m;
+  m.liquid.viscosity = 30;
+  m.liquid.density = 1000;
+  m.pressures = {PressureLaw{.value = 3.8e5}};
+  StepControl control{1e-2, 0};
+  const StepReport r = Stepper(m, {}).step_within(s, 1, control);
+  EXPECT_EQ(r.inaccurate + r.unfinished, 0);
+  EXPECT_LE(r.error, control.tolerance);
+  EXPECT_LT(s.time, 1e-3);
+}
+
 // What was too long is not tried again at once, whichever side of the tolerance the shorter step came to.
 TEST(HardCases, RefusedStepsAreNotWantedNext) {
   for (const double tolerance : {1e-3, 2e-3, 3e-3, 5e-3, 8e-3}) {
