@@ -51,7 +51,9 @@ struct Model {
   Reactions reactions = Reactions::none;
   std::vector<ContactSpring> contacts;
   bool contacts_adhere = false;
-  bool contacts_flow = false; // they let layers flow along each other, and press them flat
+  bool contacts_flow = false;           // they let layers flow along each other, and press them flat
+  std::vector<double> inner_faces = {}; // of each vertex: how many of its faces, 0 to 2, tension does not see, as they
+                                        // lie on other layers; empty: none
 
   // By their numbers.
   [[nodiscard]] std::vector<Liquid> liquids() const {

@@ -101,9 +101,9 @@ void SlopeTension::begin(const Stage& stage) {
         filled += stage.channels[site->channel].filled / 4;
     const auto [one, two] = mesh.edge_triangles[edges_[i].edge];
     const double mean = 0.5 * (stage.surface_tension(one) + stage.surface_tension(two));
-    const double gamma = (1 - filled) * mean, wall = edges_[i].on_wall;
+    const double gamma = (1 - filled) * mean;
     loads_[i] = {{stage.start->volumes[one], stage.start->volumes[two]},
-                 {2 * (1 - wall) * gamma, wall * gamma},
+                 {2 * edges_[i].two_faces * gamma, edges_[i].one_face * gamma},
                  edges_[i].of_thread * thread_slope};
   }
 }

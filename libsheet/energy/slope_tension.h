@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surface tension of faces that slope, where the thickness differs between two triangles (geometry/faces.h):
-//   W = 2 (1 - c) γ (√(P² + Q²) - P) + c γ (√(P² + 4 Q²) - P),   P = 2 (A1 + A2)/3,   Q = l (h1 - h2)/2,
-// h = V/A, l the length of the common edge, c the part of the four vertices that touches a wall, times 1 + ε (h1 +
-// h2)/(2 l) where the edge is one of a thread. What lies between two walls has no free face there. An element is an
-// inner edge: its two vertices, then those opposite it.
+//   W = 2 b γ (√(P² + Q²) - P) + c γ (√(P² + 4 Q²) - P),   P = 2 (A1 + A2)/3,   Q = l (h1 - h2)/2,
+// h = V/A, l the length of the common edge, b and c the parts of the four vertices with two free faces and with one, as
+// on walls and other layers, times 1 + ε (h1 + h2)/(2 l) where the edge is one of a thread. What lies between two walls
+// has no free face there. An element is an inner edge: its two vertices, then those opposite it.
 #pragma once
 #include "libsheet/energy/element.h"
 #include "libsheet/geometry/faces.h"

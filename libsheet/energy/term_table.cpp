@@ -96,7 +96,7 @@ constexpr std::array table = {
         "surface tension", [](const Model& m) { return m.greatest_tension() > 0; },
         [](const Model& m) { return fmt::format("{:.3g} N/m on each of the two surfaces", m.greatest_tension()); },
         [](const Model&) -> std::string { return "no surface_tension in [material]"; },
-        [](const Model&, TermMaker& maker) { maker.add_load(&AreaLoads::tension, SurfaceTension()); }},
+        [](const Model& m, TermMaker& maker) { maker.add_load(&AreaLoads::tension, SurfaceTension(m.inner_faces)); }},
     TermEntry{"rim tension", has_faces, [](const Model&) -> std::string { return "rims are round"; }, no_faces,
               [](const Model& m, TermMaker& maker) {
                 if (std::ranges::any_of(m.faces->rims, [](double part) { return part > 0; }))

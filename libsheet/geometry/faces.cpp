@@ -59,10 +59,18 @@ SlopedEdge sloped_edge(const Connectivity& mesh, std::uint32_t edge, const FreeF
                        const std::vector<char>& on_rim) {
   const auto [one, two] = mesh.edge_triangles[edge];
   const auto [a, b] = mesh.edges[edge];
-  SlopedEdge sloped{edge, {a, b, opposite(mesh, one, edge), opposite(mesh, two, edge)}, 0, 0};
-  sloped.on_wall = faces.part_on_wall(sloped.vertices);
+  SlopedEdge sloped{edge, {a, b, opposite(mesh, one, edge), opposite(mesh, two, edge)}};
+  if (!faces.closed.empty()) {
+    double none = 0;
+    sloped.two_faces = 0;
+    for (const std::uint32_t v : sloped.vertices) {
+      sloped.two_faces += std::max(0.0, 1 - faces.closed[v]) / 4;
+      none += std::max(0.0, faces.closed[v] - 1) / 4;
+    }
+    sloped.one_face = 1 - sloped.two_faces - none;
+  }
   if (on_rim[a] != 0 && on_rim[b] != 0)
-    sloped.of_thread = 1 - sloped.on_wall;
+    sloped.of_thread = sloped.two_faces;
   return sloped;
 }
 
@@ -75,13 +83,6 @@ std::vector<char> at_free_rims(const Connectivity& mesh, const FreeFaces& faces)
 }
 
 } // namespace
-
-double FreeFaces::part_on_wall(std::span<const std::uint32_t> vertices) const {
-  if (on_wall.empty())
-    return 0;
-  const auto count = std::ranges::count_if(vertices, [&](std::uint32_t v) { return on_wall[v] != 0; });
-  return static_cast<double>(count) / static_cast<double>(vertices.size());
-}
 
 FreeFaces all_free(const Connectivity& mesh) {
   FreeFaces faces;
@@ -121,9 +122,9 @@ double extra_area(const Connectivity& mesh, std::span<const Vector3> positions, 
     }
     const auto [p, q] = thickness.slant_at(e);
     const SlopedEdge sloped = sloped_edge(mesh, e, faces, on_rim);
-    const double wall = sloped.on_wall, of_thread = 1 + sloped.of_thread * thread_slope * thickness.over_length(e);
-    area +=
-        0.5 * (factor_of(one) + factor_of(two)) * of_thread * (2 * (1 - wall) * slant(p, q) + wall * slant(p, 2 * q));
+    const double of_thread = 1 + sloped.of_thread * thread_slope * thickness.over_length(e);
+    area += 0.5 * (factor_of(one) + factor_of(two)) * of_thread *
+            (2 * sloped.two_faces * slant(p, q) + sloped.one_face * slant(p, 2 * q));
   }
   return area;
 }

@@ -19,8 +19,8 @@
 // varying thickness, c h √(1 + β (dh/dx)²) along each, β = 1/4 - (π/8)², written with the jumps of h from triangle to
 // triangle: of one row of near to equilateral ones ε = 2 π β/√3. A strip is then at rest with the section and the
 // energy of the round thread (one row of triangles at w = π h/4, exactly; any number within 0.5 %, where c = π/4 alone
-// would be 5 % low in 20), and a layer's faces level. On a wall one face carries the whole slope, √(P² + 4 Q²) - P, and
-// what the rim costs is the contact angle's.
+// would be 5 % low in 20), and a layer's faces level. On a wall, or on another layer, one face carries the whole slope,
+// √(P² + 4 Q²) - P, between layers none; what the rim costs on a wall is the contact angle's.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -54,22 +54,19 @@ inline constexpr double thread_slope =
 
 // Which faces a sheet has.
 struct FreeFaces {
-  std::vector<double> rims;  // of each edge: the part of it that is a free rim; 0 within the sheet
-  std::vector<char> on_wall; // of each vertex: whether it touches a wall; empty: none does
-
-  // Of the vertices.
-  [[nodiscard]] double part_on_wall(std::span<const std::uint32_t> vertices) const;
+  std::vector<double> rims;   // of each edge: the part of it that is a free rim; 0 within the sheet
+  std::vector<double> closed; // of each vertex: how many of its two faces lie on something, 0 to 2; empty: none does
 };
 
-// All rims free, no wall.
+// All rims free, no face on anything.
 [[nodiscard]] FreeFaces all_free(const Connectivity& mesh);
 
-// An inner edge, its vertices, those opposite it (of edge_triangles, in that order), which part of it is on a wall, and
-// to which part it leads from one free rim to another.
+// An inner edge, its vertices, those opposite it (of edge_triangles, in that order), in which parts it has two free
+// faces and one, and to which part it leads from one free rim to another.
 struct SlopedEdge {
   std::uint32_t edge = 0;
   std::array<std::uint32_t, 4> vertices{};
-  double on_wall = 0, of_thread = 0;
+  double two_faces = 1, one_face = 0, of_thread = 0;
 };
 
 // Inner edges at which the thickness is not even, the slope being above `least`, and those that end on a free rim.

@@ -14,6 +14,7 @@
 #include "libsheet/scene/drop_densities.h"
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/free_faces.h"
+#include "libsheet/scene/inner_faces.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -234,9 +235,10 @@ std::vector<double> tensions(const formats::Frame& frame, const Scene& scene) {
   return of;
 }
 
-// Of all faces: both sides of the middle surface, whose area is given, and what rims and slopes have beyond them [J].
+// Of all faces: both sides of the middle surface, whose area is given, but for those that lie on other layers, and what
+// rims and slopes have beyond them [J].
 double surface_energy(const formats::Frame& frame, const Scene& scene, double area) {
-  const std::vector<double> tension = tensions(frame, scene);
+  const std::vector<double> tension = tensions(frame, scene), inner = inner_faces(scene, frame);
   const auto x = positions(frame);
   const auto corners = triangles(frame);
   double beyond = 0;
@@ -244,14 +246,15 @@ double surface_energy(const formats::Frame& frame, const Scene& scene, double ar
     const Connectivity mesh = connect(frame.vertices, corners);
     beyond = extra_area(mesh, x, volumes(frame), scene::free_faces(scene, frame, mesh), tension);
   }
-  if (tension.empty())
+  if (tension.empty() && inner.empty())
     return scene.material.surface_tension * (2 * area + beyond);
   Sum sum;
   for (std::size_t t = 0; t < corners.size(); ++t) {
     const Corners& c = corners[t];
-    sum.add(tension[t] * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm());
+    const double faces = inner.empty() ? 2 : 2 - (inner[c[0]] + inner[c[1]] + inner[c[2]]) / 3;
+    sum.add((tension.empty() ? 1 : tension[t]) * faces / 2 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm());
   }
-  return sum.value() + beyond;
+  return tension.empty() ? scene.material.surface_tension * (sum.value() + beyond) : sum.value() + beyond;
 }
 
 } // namespace

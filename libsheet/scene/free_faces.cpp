@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/scene/inner_faces.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/contact_spring.h"
 #include "libsheet/sheet/sheet.h"
@@ -72,11 +73,17 @@ FreeFaces free_faces(const Scene& scene, const Frame& frame, const Connectivity&
   const std::vector<Vector3> free = free_axes(scene, frame);
   const std::vector<char> join = joined(scene, frame);
   std::vector<char> angled(frame.vertices, 0); // vertices on solids that have a contact angle
-  if (!scene.solids.empty())
-    for (const std::int32_t solid : touched_solids(frame, scene.solids.size())) {
-      angled[faces.on_wall.size()] = solid != no_solid && scene.solids[static_cast<std::size_t>(solid)].contact_angle;
-      faces.on_wall.push_back(solid != no_solid);
-    }
+  faces.closed = inner_faces(scene, frame);
+  if (!scene.solids.empty()) {
+    const auto touched = touched_solids(frame, scene.solids.size());
+    faces.closed.resize(frame.vertices, 0);
+    for (std::size_t v = 0; v < frame.vertices; ++v)
+      if (const std::int32_t solid = touched[v]; solid != no_solid) {
+        angled[v] = scene.solids[static_cast<std::size_t>(solid)].contact_angle.has_value();
+        faces.closed[v] = std::min(2.0, faces.closed[v] + 1);
+      }
+  }
+  const auto buried = [&](std::uint32_t v) { return faces.closed.empty() ? 0 : std::max(0.0, faces.closed[v] - 1); };
   for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
     if (faces.rims[e] == 0)
       continue;
@@ -87,7 +94,7 @@ FreeFaces free_faces(const Scene& scene, const Frame& frame, const Connectivity&
         flows_out(scene, x[ends[0]], x[ends[1]]))
       faces.rims[e] = 0;
     else
-      faces.rims[e] = 1 - 0.5 * (angled[ends[0]] + angled[ends[1]]);
+      faces.rims[e] = (1 - 0.5 * (angled[ends[0]] + angled[ends[1]])) * (1 - 0.5 * (buried(ends[0]) + buried(ends[1])));
   }
   return faces;
 }

@@ -11,7 +11,8 @@ namespace sheet::scene {
 // No free rim is where the sheet goes on beyond its mesh, or something else says what happens there: inlets, rims that
 // holds keep from moving outward (pinned ones, planes of symmetry, guides), welds, the planes of outflows. On solids
 // with a contact angle, in the part of its two ends that touch, a rim is that angle's; on those without one the wetted
-// face pulls as a free one, and the rim is free.
+// face pulls as a free one, and the rim is free. What has layers or solids on both faces has neither rims nor slopes,
+// what has one on one face has one that slopes (inner_faces.h).
 [[nodiscard]] FreeFaces free_faces(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh);
 
 } // namespace sheet::scene

@@ -16,6 +16,7 @@
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/inlet_depth.h"
+#include "libsheet/scene/inner_faces.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/account.h"
@@ -557,6 +558,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (scene.heat)
     model.heat = heat_of(scene, frame, solids);
   model.contacts = read_springs(frame); // as sheet-collide has set them up
+  if (model.greatest_tension() > 0)
+    model.inner_faces = inner_faces(scene, frame);
   if (model.bath && model.gravity.squaredNorm() > 0)
     model.borne = borne_layers(positions(frame), triangles(frame), model.contacts, -model.gravity.normalized());
   if (model.air)

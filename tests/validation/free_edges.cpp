@@ -198,7 +198,7 @@ Result wave_on_wall(const Settings& s) {
   wave.model.walls.push_back(std::move(wall));
   std::erase_if(wave.model.holds, [](const Hold& hold) { return hold.axes == axis_bit(2); });
   FreeFaces faces{std::vector<double>(wave.state.mesh->edges.size(), 0),
-                  std::vector<char>(wave.state.positions.size(), 1)};
+                  std::vector<double>(wave.state.positions.size(), 1)};
   put_faces(wave.state, faces, wave.model);
   wave.displace(a, 0);
   const double rate = gamma * h * h * h * std::pow(wave.k, 4) / (3 * mu), until = 1 / rate;

@@ -371,9 +371,9 @@ TEST(Derivatives, RimTension) {
 TEST(Derivatives, SlopeTension) {
   const State sphere = test::at_rest(test::icosphere(1), 0.3);
   const Connectivity& mesh = *sphere.mesh;
-  FreeFaces faces{std::vector<double>(mesh.edges.size(), 0), std::vector<char>(mesh.vertices, 0)};
+  FreeFaces faces{std::vector<double>(mesh.edges.size(), 0), std::vector<double>(mesh.vertices, 0)};
   for (std::size_t v = 0; v < mesh.vertices; v += 2)
-    faces.on_wall[v] = 1;
+    faces.closed[v] = 0.3 * static_cast<double>(v % 7);
   Random random;
   const State s = steep(random);
   const std::vector<SlopedEdge> edges = sloped_edges(mesh, s.positions, s.volumes, faces, 0);

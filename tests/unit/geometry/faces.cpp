@@ -48,8 +48,10 @@ TEST(Faces, EvenSlopesCostTheAreaOfBothFaces) {
     FreeFaces faces{std::vector<double>(layer.mesh.edges.size(), 0), {}};
     const double both = slope.squaredNorm() / 4 * layer.area;
     EXPECT_NEAR(extra_area(layer.mesh, layer.x, layer.volumes, faces) / both, 1, 2.0 / n); // without the border's edges
-    faces.on_wall.assign(layer.x.size(), 1); // one face rises by all of it
+    faces.closed.assign(layer.x.size(), 1); // one face rises by all of it
     EXPECT_NEAR(extra_area(layer.mesh, layer.x, layer.volumes, faces) / (2 * both), 1, 2.0 / n);
+    faces.closed.assign(layer.x.size(), 2); // between layers
+    EXPECT_EQ(extra_area(layer.mesh, layer.x, layer.volumes, faces), 0);
   }
 }
 

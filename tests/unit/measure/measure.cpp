@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/scene/read.h"
+#include "libsheet/sheet/contact_spring.h"
 
 namespace sheet {
 namespace {
@@ -113,6 +114,27 @@ TEST(Measure, SurfaceEnergyOfTwoLiquidsIsTheSumOfEachOnes) {
   const double thick = 2 + 4 * std::numbers::pi / 4 * 0.4, thin = 2 + 4 * std::numbers::pi / 4 * 0.02;
   EXPECT_NEAR(energy(3, 7), 3 * thick + 7 * thin, 1e-12);
   EXPECT_NEAR(energy(7, 3), 7 * thick + 3 * thin, 1e-12);
+}
+
+TEST(Measure, LayersHaveNoTensionBetweenThem) {
+  Scene scene;
+  scene.material.surface_tension = 0.25;
+  scene.solids.emplace_back().contact = SolidContact::flow;
+  const std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  formats::Frame frame = make_frame(x, std::vector<Corners>{{0, 1, 2}, {3, 4, 5}}, std::vector<double>{0.5, 0.5});
+  const auto energy = [&] {
+    Measurements m = measure(frame, 1);
+    measure_energies(frame, scene, m);
+    return m.surface_energy;
+  };
+  EXPECT_DOUBLE_EQ(energy(), 0.25 * 4 * 0.5);
+  std::vector<ContactSpring> springs(3);
+  for (std::uint32_t v = 0; v < 3; ++v) {
+    springs[v].vertices = {v, 3 + v, 3 + (v + 1) % 3, 3 + (v + 2) % 3};
+    springs[v].weights = {1, -1, 0, 0};
+  }
+  write_springs(frame, springs);
+  EXPECT_DOUBLE_EQ(energy(), 0.25 * 2 * 0.5); // as one body's
 }
 
 TEST(Measure, EmptyFrame) {

@@ -1,0 +1,98 @@
+#!/usr/bin/env bats
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Layers that lie on each other have no faces between them: tension sees one body.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || exit
+}
+
+# usage: disk HEIGHT THICKNESS: [[sheet]] of 20 mm radius, in mm
+disk() {
+  cat << END
+[[sheet]]
+name = "at $1 mm"
+shape = "disk"
+radius = "20 mm"
+edge_length = "2 mm"
+thickness = "$2 mm"
+center = [0, "$1 mm", 0]
+END
+}
+
+# usage: last FILE COLUMN: of the last frame
+last() {
+  sheet-select --last "$1" | sheet-info --csv | awk -F, -v name="$2" '
+    NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i } END { print $c }'
+}
+
+# A free disk of viscous liquid shrinks as A0/(1 + 2 γ t/(3 μ h0)); N layers that each had a tension of their own would
+# do so N times as fast.
+@test "layers contract as one body" {
+  cat > liquid.toml << 'END'
+[material]
+viscosity = "10 Pa*s"
+density = "1000 kg/m^3"
+surface_tension = "0.06 N/m"
+[[solid]]
+shape = "plane"
+contact = "slip"
+[contact]
+self = true
+END
+  { disk 0.5 1; disk 1.5 1; disk 2.5 1; cat liquid.toml; } > layers.toml
+  { disk 1.5 3; cat liquid.toml; } > body.toml
+  for scene in layers body; do
+    sheet-init "$scene.toml" | sheet-loop -q --until 0.2 --fps 100 -o $scene.sheet -- 'sheet-step | sheet-collide'
+    sheet-check $scene.sheet
+  done
+  awk -v layers="$(last layers.sheet area)" -v body="$(last body.sheet area)" 'BEGIN {
+    law = 3.14159265 * 0.02 ^ 2 / (1 + 2 * 0.06 * 0.2 / (3 * 10 * 0.003))
+    print "layers over the law", layers / 3 / law, "one body over it", body / law
+    exit !(layers / 3 / law > 0.97 && layers / 3 / law < 1.03 && body / law > 0.99 && body / law < 1.01) }'
+}
+
+# 28 mm high, 17 mm wide, ten legs of 3 mm: 2 γ is 1 % of the thrust ρ g H²/2 of its weight, and 20 γ would be 14 %.
+@test "a heap of folds slumps as if it had no tension" {
+  awk 'BEGIN {
+    pi = 3.14159265358979; legs = 10; leg = 14; thick = 3; edge = 2; wide = 40; n = 0
+    for (k = 0; k < legs; ++k) {
+      side = k % 2 ? -1 : 1
+      for (i = 0; i <= 7; ++i) { x[n] = side * leg * (i / 7 - 0.5); y[n++] = thick * (k + 0.5) }
+      if (k < legs - 1) { x[n] = side * (leg + thick) / 2; y[n++] = thick * (k + 1) } # round the bend
+    }
+    rows = wide / edge
+    for (i = 0; i < n; ++i) for (j = 0; j <= rows; ++j) print "v", x[i] / 1e3, y[i] / 1e3, (j * edge - wide / 2) / 1e3
+    for (i = 0; i < n - 1; ++i) for (j = 0; j < rows; ++j) {
+      a = i * (rows + 1) + j + 1; c = a + rows + 1
+      if ((i + j) % 2) print "f", a, c, a + 1 "\nf", a + 1, c, c + 1
+      else print "f", a, c, c + 1 "\nf", a, c + 1, a + 1
+    }
+  }' > folds.obj
+  cat > folds.toml << 'END'
+[sheet]
+shape = "mesh"
+file = "folds.obj"
+thickness = "3 mm"
+[material]
+viscosity = "6 Pa*s"
+density = "1400 kg/m^3"
+surface_tension = "0.06 N/m"
+[environment]
+gravity = [0, "-9.81 m/s^2", 0]
+[[solid]]
+shape = "plane"
+contact = "flow"
+[contact]
+self = true
+END
+  for tension in 0.06 0; do
+    sheet-init folds.toml --set material.surface_tension=$tension |
+      sheet-loop -q --until 0.4 --fps 25 -o $tension.sheet -- 'sheet-remesh --smooth | sheet-step | sheet-collide'
+    sheet-check $tension.sheet
+  done
+  # 13 mm high and 12 without tension; with one on every face 16.
+  awk -v with="$(last 0.06.sheet y_max)" -v without="$(last 0.sheet y_max)" 'BEGIN {
+    print with, without; exit !(with < 1.1 * without && with > 0.95 * without && without < 0.014) }'
+}
