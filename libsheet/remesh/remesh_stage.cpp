@@ -11,6 +11,7 @@
 #include "libsheet/base/magnitudes.h"
 #include "libsheet/base/stopwatch.h"
 #include "libsheet/flow/threads.h"
+#include "libsheet/scene/inner_faces.h"
 #include "libsheet/scene/sheet_edges.h"
 
 namespace sheet::remesh {
@@ -67,6 +68,8 @@ void RemeshStage::remesh(formats::Frame& frame) {
     options_.remeshing.size.edge_length = stated ? *stated : own_edge_length(frame);
     options_.remeshing.size.coarser = stated ? coarser_at_vertices(frame, *stated) : std::vector<double>{};
   }
+  if (scene != nullptr && options_.remeshing.size.chord_error)
+    options_.remeshing.size.inner_faces = inner_faces(*scene, frame);
   const std::uint64_t vertices = frame.vertices;
   Stopwatch watch;
   const Report report = remesh::remesh(frame, scene, options_.remeshing);

@@ -313,6 +313,9 @@ void SizeField::adapt(const EditableSheet& sheet, const Scene* scene, const Size
   for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t)
     for (const std::uint32_t v : sheet.mesh().corners(t))
       size_[v] = std::max(size_[v], std::min(thicknesses_an_edge * rates[t].thickness, bounds.high));
+  for (std::size_t v = 0; v < options.inner_faces.size(); ++v)
+    if (const double buried = options.inner_faces[v] - 1; buried > 0)
+      size_[v] += buried * std::max(0.0, options.edge_length - size_[v]);
   for (double& size : size_)
     size = std::clamp(size, bounds.low, bounds.high);
   grade(sheet, size_);

@@ -18,6 +18,8 @@ struct SizeOptions {
   std::optional<double> chord_error;        // adaptive: the distance that an edge may have from the curved sheet [m]
   std::optional<double> min_edge, max_edge; // bounds [m]; absent: edge_length; adaptive: a quarter, four times
   std::vector<double> coarser;              // at vertices: factors on all these lengths; empty: 1
+  std::vector<double> inner_faces;          // at vertices: how many of their faces, 0 to 2, lie on layers that flow
+                                            // with them (scene/inner_faces.h); empty: none
   // Error(usage) if a value is not positive and finite, or the upper bound is below twice the lower one while adaptive.
   void check() const;
   // The least edge that a strip gets [m].
@@ -33,6 +35,7 @@ struct SizeOptions {
 //   `edge_length`;
 // - l τ h / |Δh|: the jump of the thickness;
 // - an eighth of a wave about to buckle (buckling.h), which also gets its share beforehand.
+// What has layers that flow with it on both faces needs no edges below `edge_length`: it moves as a part of the pile.
 //
 // A strip from rim to rim (strip_width.h) gets a row of good triangles of its own: edges of twice its width at most,
 // which need no angle below 19 degrees as long as they are not split, but not below h, nor below `min_edge`, absent: an
