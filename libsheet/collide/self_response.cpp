@@ -269,9 +269,12 @@ private:
       if (path_.end[v] != asked[v])
         path_.velocity[v] =
             with_fixed(prescribed_[v], before[v], before[v] + (path_.end[v] - asked[v]) / path_.length());
+    std::vector<Vector3> prescribed(before.size());
+    for (std::size_t v = 0; v < prescribed.size(); ++v)
+      prescribed[v] = with_fixed(prescribed_[v], before[v], Vector3::Zero());
     for (const auto& island : islands_.all()) {
       restore_momentum(island, asked, before);
-      take_gained_energy(island, asked, before);
+      take_gained_energy(island, asked, before, prescribed);
     }
   }
 
@@ -297,25 +300,26 @@ private:
   }
 
   // How the vertices of an island move whose velocity is prescribed, as one rigid body, where that led them; at rest
-  // without any.
+  // without any, and along axes along which none is.
   [[nodiscard]] RigidVelocity velocity_of_fixed(const std::vector<std::uint32_t>& island,
                                                 const std::vector<Vector3>& asked,
-                                                const std::vector<Vector3>& before) const {
+                                                const std::vector<Vector3>& prescribed) const {
     std::vector<std::uint32_t> fixed;
     std::ranges::copy_if(island, std::back_inserter(fixed), [&](std::uint32_t v) { return prescribed_[v] != 0; });
     if (fixed.empty())
       return {};
     const Vector3& center = asked[fixed.front()];
-    return rigid_velocity(fixed, path_.mass, asked, momentum(fixed, path_.mass, asked, before, center), center);
+    return rigid_velocity(fixed, path_.mass, asked, momentum(fixed, path_.mass, asked, prescribed, center), center);
   }
 
   // Contacts take energy: where features are brought apart that were too near, in a short step at a high speed, or
   // moved by much to get round each other, the way is not a velocity. Of all changes in an island that part is kept
   // that gives it no more energy than it had, seen by an observer who moves with what is prescribed in it (impulses of
-  // what rests do no work), and than it may have from what moves against him.
+  // what rests do no work), and than it may have from what is prescribed against him. `prescribed`: the part of
+  // `before` along prescribed axes; how something slides along a solid drives nothing.
   void take_gained_energy(const std::vector<std::uint32_t>& island, const std::vector<Vector3>& asked,
-                          const std::vector<Vector3>& before) {
-    const RigidVelocity frame = velocity_of_fixed(island, asked, before);
+                          const std::vector<Vector3>& before, const std::vector<Vector3>& prescribed) {
+    const RigidVelocity frame = velocity_of_fixed(island, asked, prescribed);
     double mass = 0, along = 0, square = 0, fastest = 0;
     for (const std::uint32_t v : island) {
       const Vector3 change = path_.velocity[v] - before[v], seen = before[v] - frame(path_.end[v]);
@@ -323,7 +327,8 @@ private:
       along += path_.mass[v] * change.dot(seen);
       square += path_.mass[v] * change.squaredNorm() / 2;
       if (prescribed_[v] != 0)
-        fastest = std::max(fastest, (before[v] - frame(asked[v])).norm());
+        fastest =
+            std::max(fastest, with_fixed(prescribed_[v], prescribed[v] - frame(asked[v]), Vector3::Zero()).norm());
     }
     const double allowed = mass * fastest * fastest / 2;
     report_.taken -= std::min(along + square, allowed);

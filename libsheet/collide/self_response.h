@@ -32,7 +32,8 @@
 // gives its momentum and angular momentum back (of nearly collinear islands the part about their line is left out),
 // others the momentum along the axes along which none is fixed.
 // Last, an island's changes are made less until they give it no kinetic energy, as seen by an observer who moves with
-// what is prescribed in it, as far as that moves as one rigid body: impulses of what rests do no work.
+// what is prescribed in it, along the axes along which it is, as far as that moves as one rigid body: impulses of what
+// rests do no work.
 #pragma once
 #include <optional>
 #include <span>
