@@ -202,29 +202,41 @@ private:
 
   // The solid that an island goes with where it cannot go its own way: the one that vertices of it touch, if there is
   // only one and nothing else is prescribed to any.
-  [[nodiscard]] std::int32_t solid_of(const std::vector<std::uint32_t>& island,
-                                      const std::vector<std::uint8_t>& stays) const {
+  [[nodiscard]] std::int32_t solid_of(const std::vector<std::uint32_t>& island) const {
     std::int32_t solid = no_solid;
     for (const std::uint32_t v : island) {
       const std::int32_t touch = path_.touch[v];
-      if (stays[v] != 0 || (touch == no_solid && path_.fixed[v] != 0) ||
-          (touch != no_solid && solid != no_solid && touch != solid))
+      if ((touch == no_solid && path_.fixed[v] != 0) || (touch != no_solid && solid != no_solid && touch != solid))
         return no_solid;
       solid = touch != no_solid ? touch : solid;
     }
     return solid;
   }
 
-  // Where vertices end that have nothing left of their way: where they started, or where their island's solid takes
-  // that. As one rigid motion takes a whole island, it keeps apart what is apart.
-  [[nodiscard]] std::vector<Vector3> ends_without_way(const std::vector<std::uint8_t>& stays) const {
+  // Where vertices end that have nothing left of their way: where their island's solid takes that, and all of it as far
+  // along the axes along which nothing of it is fixed as `wanted` takes it in the mean of its masses; where they
+  // started if round-off is too much for that. As one rigid motion takes a whole island, it keeps apart what is apart.
+  [[nodiscard]] std::vector<Vector3> ends_without_way(const std::vector<Vector3>& wanted,
+                                                      const std::vector<std::uint8_t>& stays) const {
     std::vector<Vector3> ends(path_.start.begin(), path_.start.end());
-    if (solids_.empty())
-      return ends;
-    for (const auto& island : islands_.all())
-      if (const std::int32_t solid = solid_of(island, stays); solid != no_solid)
+    for (const auto& island : islands_.all()) {
+      if (std::ranges::any_of(island, [&](std::uint32_t v) { return stays[v] != 0; }))
+        continue;
+      if (const std::int32_t solid = solids_.empty() ? no_solid : solid_of(island); solid != no_solid)
         for (const std::uint32_t v : island)
           ends[v] = solids_[static_cast<std::size_t>(solid)](path_.start[v]);
+      Axes fixed = 0;
+      double mass = 0;
+      Vector3 moment = Vector3::Zero();
+      for (const std::uint32_t v : island) {
+        fixed |= path_.fixed[v];
+        mass += path_.mass[v];
+        moment += path_.mass[v] * (wanted[v] - ends[v]);
+      }
+      if (fixed != all_axes)
+        for (const std::uint32_t v : island)
+          ends[v] += free_part(fixed).cwiseProduct(moment) / mass;
+    }
     return ends;
   }
 
@@ -235,7 +247,7 @@ private:
       driven[v] = with_fixed(path_.fixed[v], wanted[v], path_.start[v]) != path_.start[v];
     constexpr std::uint8_t last = parts_of_way.size() - 1;
     while (!hits.empty()) {
-      const std::vector<Vector3> without = ends_without_way(stays);
+      const std::vector<Vector3> without = ends_without_way(wanted, stays);
       std::vector<std::uint8_t> next = level;
       for (const Hit& hit : hits) {
         const auto& v = hit.pair.vertices;

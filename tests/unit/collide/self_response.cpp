@@ -131,6 +131,23 @@ TEST(SelfResponse, WhatSlidesAndStaysBehindGainsNoEnergy) {
   EXPECT_LE(c.energy(), before * (1 + 1e-12));
 }
 
+// Layers between which there is no room for what their floor asks for go on along it as one.
+TEST(SelfResponse, WhatHasNoRoomGoesOnAlongItsFloor) {
+  const Vector3 along(0.1, -0.04, 0);
+  Case c(2, 4, 0.05);
+  for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+    c.displace(v, along + Vector3(0, 0, v < c.start.size() / 2 ? 0.2 : 0));
+    c.path.fixed[v] = axis_bit(2);
+  }
+  const std::vector<Vector3> velocity = c.path.velocity;
+  EXPECT_GT(c.resolve().held_back, 0u);
+  c.expect_safe();
+  for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+    EXPECT_LT((c.path.end[v] - c.start[v] - along).head<2>().norm(), 1e-12);
+    EXPECT_LT((c.path.velocity[v] - velocity[v]).norm(), 1e-12);
+  }
+}
+
 // Two sheets change places: each ends on its own side, and their momenta level out.
 TEST(SelfResponse, TwoSheetsThroughEachOther) {
   Case c(2, 6, 0.1);
