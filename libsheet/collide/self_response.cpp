@@ -202,29 +202,41 @@ private:
 
   // The solid that an island goes with where it cannot go its own way: the one that vertices of it touch, if there is
   // only one and nothing else is prescribed to any.
-  [[nodiscard]] std::int32_t solid_of(const std::vector<std::uint32_t>& island,
-                                      const std::vector<std::uint8_t>& stays) const {
+  [[nodiscard]] std::int32_t solid_of(const std::vector<std::uint32_t>& island) const {
     std::int32_t solid = no_solid;
     for (const std::uint32_t v : island) {
       const std::int32_t touch = path_.touch[v];
-      if (stays[v] != 0 || (touch == no_solid && path_.fixed[v] != 0) ||
-          (touch != no_solid && solid != no_solid && touch != solid))
+      if ((touch == no_solid && path_.fixed[v] != 0) || (touch != no_solid && solid != no_solid && touch != solid))
         return no_solid;
       solid = touch != no_solid ? touch : solid;
     }
     return solid;
   }
 
-  // Where vertices end that have nothing left of their way: where they started, or where their island's solid takes
-  // that. As one rigid motion takes a whole island, it keeps apart what is apart.
-  [[nodiscard]] std::vector<Vector3> ends_without_way(const std::vector<std::uint8_t>& stays) const {
+  // Where vertices end that have nothing left of their way: where their island's solid takes that, and all of it as far
+  // along the axes along which nothing of it is fixed as `wanted` takes it in the mean of its masses; where they
+  // started if round-off is too much for that. As one rigid motion takes a whole island, it keeps apart what is apart.
+  [[nodiscard]] std::vector<Vector3> ends_without_way(const std::vector<Vector3>& wanted,
+                                                      const std::vector<std::uint8_t>& stays) const {
     std::vector<Vector3> ends(path_.start.begin(), path_.start.end());
-    if (solids_.empty())
-      return ends;
-    for (const auto& island : islands_.all())
-      if (const std::int32_t solid = solid_of(island, stays); solid != no_solid)
+    for (const auto& island : islands_.all()) {
+      if (std::ranges::any_of(island, [&](std::uint32_t v) { return stays[v] != 0; }))
+        continue;
+      if (const std::int32_t solid = solids_.empty() ? no_solid : solid_of(island); solid != no_solid)
         for (const std::uint32_t v : island)
           ends[v] = solids_[static_cast<std::size_t>(solid)](path_.start[v]);
+      Axes fixed = 0;
+      double mass = 0;
+      Vector3 moment = Vector3::Zero();
+      for (const std::uint32_t v : island) {
+        fixed |= path_.fixed[v];
+        mass += path_.mass[v];
+        moment += path_.mass[v] * (wanted[v] - ends[v]);
+      }
+      if (fixed != all_axes)
+        for (const std::uint32_t v : island)
+          ends[v] += free_part(fixed).cwiseProduct(moment) / mass;
+    }
     return ends;
   }
 
@@ -235,7 +247,7 @@ private:
       driven[v] = with_fixed(path_.fixed[v], wanted[v], path_.start[v]) != path_.start[v];
     constexpr std::uint8_t last = parts_of_way.size() - 1;
     while (!hits.empty()) {
-      const std::vector<Vector3> without = ends_without_way(stays);
+      const std::vector<Vector3> without = ends_without_way(wanted, stays);
       std::vector<std::uint8_t> next = level;
       for (const Hit& hit : hits) {
         const auto& v = hit.pair.vertices;
@@ -269,9 +281,12 @@ private:
       if (path_.end[v] != asked[v])
         path_.velocity[v] =
             with_fixed(prescribed_[v], before[v], before[v] + (path_.end[v] - asked[v]) / path_.length());
+    std::vector<Vector3> prescribed(before.size());
+    for (std::size_t v = 0; v < prescribed.size(); ++v)
+      prescribed[v] = with_fixed(prescribed_[v], before[v], Vector3::Zero());
     for (const auto& island : islands_.all()) {
       restore_momentum(island, asked, before);
-      take_gained_energy(island, asked, before);
+      take_gained_energy(island, asked, before, prescribed);
     }
   }
 
@@ -297,25 +312,26 @@ private:
   }
 
   // How the vertices of an island move whose velocity is prescribed, as one rigid body, where that led them; at rest
-  // without any.
+  // without any, and along axes along which none is.
   [[nodiscard]] RigidVelocity velocity_of_fixed(const std::vector<std::uint32_t>& island,
                                                 const std::vector<Vector3>& asked,
-                                                const std::vector<Vector3>& before) const {
+                                                const std::vector<Vector3>& prescribed) const {
     std::vector<std::uint32_t> fixed;
     std::ranges::copy_if(island, std::back_inserter(fixed), [&](std::uint32_t v) { return prescribed_[v] != 0; });
     if (fixed.empty())
       return {};
     const Vector3& center = asked[fixed.front()];
-    return rigid_velocity(fixed, path_.mass, asked, momentum(fixed, path_.mass, asked, before, center), center);
+    return rigid_velocity(fixed, path_.mass, asked, momentum(fixed, path_.mass, asked, prescribed, center), center);
   }
 
   // Contacts take energy: where features are brought apart that were too near, in a short step at a high speed, or
   // moved by much to get round each other, the way is not a velocity. Of all changes in an island that part is kept
   // that gives it no more energy than it had, seen by an observer who moves with what is prescribed in it (impulses of
-  // what rests do no work), and than it may have from what moves against him.
+  // what rests do no work), and than it may have from what is prescribed against him. `prescribed`: the part of
+  // `before` along prescribed axes; how something slides along a solid drives nothing.
   void take_gained_energy(const std::vector<std::uint32_t>& island, const std::vector<Vector3>& asked,
-                          const std::vector<Vector3>& before) {
-    const RigidVelocity frame = velocity_of_fixed(island, asked, before);
+                          const std::vector<Vector3>& before, const std::vector<Vector3>& prescribed) {
+    const RigidVelocity frame = velocity_of_fixed(island, asked, prescribed);
     double mass = 0, along = 0, square = 0, fastest = 0;
     for (const std::uint32_t v : island) {
       const Vector3 change = path_.velocity[v] - before[v], seen = before[v] - frame(path_.end[v]);
@@ -323,7 +339,8 @@ private:
       along += path_.mass[v] * change.dot(seen);
       square += path_.mass[v] * change.squaredNorm() / 2;
       if (prescribed_[v] != 0)
-        fastest = std::max(fastest, (before[v] - frame(asked[v])).norm());
+        fastest =
+            std::max(fastest, with_fixed(prescribed_[v], prescribed[v] - frame(asked[v]), Vector3::Zero()).norm());
     }
     const double allowed = mass * fastest * fastest / 2;
     report_.taken -= std::min(along + square, allowed);

@@ -16,7 +16,8 @@
 // 3. Pull-back. What still hits ends at 1/2, 1/4, then none of its way; free vertices and those at rest first, then,
 //    because nothing else is left, those whose motion is prescribed. Where an island (vertices joined by hits) touches
 //    one solid and nothing else is prescribed to it, this is its way in the solid's frame: without any it goes on with
-//    the solid, which else would go through what stays behind.
+//    the solid, which else would go through what stays behind. Along axes along which nothing in an island is fixed, as
+//    along a level floor on which it flows, it is the way against the island's mean: without any it goes on as one.
 //
 // It ends: the first two have a number of rounds; each round of the third shortens the way of at least one vertex of
 // each hit, three times at most, and four vertices without any way do not hit: one rigid motion takes them all, or
@@ -32,7 +33,8 @@
 // gives its momentum and angular momentum back (of nearly collinear islands the part about their line is left out),
 // others the momentum along the axes along which none is fixed.
 // Last, an island's changes are made less until they give it no kinetic energy, as seen by an observer who moves with
-// what is prescribed in it, as far as that moves as one rigid body: impulses of what rests do no work.
+// what is prescribed in it, along the axes along which it is, as far as that moves as one rigid body: impulses of what
+// rests do no work.
 #pragma once
 #include <optional>
 #include <span>

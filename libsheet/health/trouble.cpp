@@ -61,7 +61,7 @@ constexpr std::array table{
          .name = "intersections waited for",
          .least = false,
          .told = Told::plainly,
-         .what = "up to {} vertices on solids or held stood still in a step, or the sheet would pass through itself",
+         .what = "up to {} vertices on solids or held stayed behind in a step, or the sheet would pass through itself",
          .counted = "vertices",
          .noted = {.worst = 1, .share = 0, .times = 1},
          .serious = {.worst = 1, .share = 0, .times = 20, .of_steps = 0.1},

@@ -55,6 +55,20 @@ double biot_number(const Scene& scene, double thickness) {
   return loss_slope(*scene.heat, start_temperature(scene)) / 2 * thickness / (2 * scene.heat->conductivity);
 }
 
+// By which solids heat or cool what touches them, at most [W/(m² K)]; 0: none does.
+double contact_slope(const Scene& scene) {
+  double most = 0;
+  for (const Solid& solid : scene.solids)
+    if (solid.temperature)
+      most = std::max(most, solid.contact_conductance);
+  return most;
+}
+
+// A solid heats one face alone, so the other one is all of the thickness away.
+double biot_number_on_solids(const Scene& scene, double thickness) {
+  return contact_slope(scene) * thickness / scene.heat->conductivity;
+}
+
 DimensionlessNumber viscosity_range(const Scene& scene) {
   const Liquid& liquid = scene.material;
   const double start = start_temperature(scene);
@@ -157,12 +171,9 @@ std::vector<Scale> heat_scales(const Scene& scene, const Scales& scales) {
   if (slope > 0)
     list.push_back({"t_h", "time of cooling", c * *scales.thickness / slope, "s",
                     "rho c h / (H + 4 emissivity sigma T^3) of both faces"});
-  for (const Solid& solid : scene.solids)
-    if (solid.temperature) {
-      list.push_back({"t_s", "time of cooling on a solid", c * *scales.thickness / solid.contact_conductance, "s",
-                      "rho c h / contact_conductance"});
-      break;
-    }
+  if (const double contact = contact_slope(scene); contact > 0)
+    list.push_back({"t_s", "time in which solids cool or heat it", c * *scales.thickness / contact, "s",
+                    "rho c h / contact_conductance"});
   return list;
 }
 
@@ -182,6 +193,14 @@ std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& 
                         ? "Its faces cool long before its middle, which its modes across the thickness follow."
                         : "Its faces cool long before its middle, which a parabola does not follow: profile = 3 in "
                           "[heat] gives it modes across the thickness."});
+    if (const double on_solids = biot_number_on_solids(scene, *scales.thickness); on_solids > 0)
+      list.push_back({"Biot on solids", "contact_conductance h / k", on_solids,
+                      on_solids < 0.2 ? "It is as warm at a solid as at the face that does not touch."
+                      : on_solids < 1 ? "What touches is nearer to the solid's temperature; a parabola takes that up."
+                      : scene.heat->profile
+                          ? "What touches has the solid's temperature long before the rest, which its modes follow."
+                          : "What touches has the solid's temperature long before the rest, which a parabola does not "
+                            "follow: profile = 3 in [heat] gives it modes across the thickness."});
   }
   if (k > 0 && scales.length && scales.speed > 0) {
     const double peclet = scene.material.density * scene.heat->specific_heat * scales.speed * *scales.length / k;
@@ -202,13 +221,17 @@ std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& 
 std::optional<std::string> warning_of_biot(const Scene& scene, const Scales& scales) {
   if (!scene.heat || !(scene.heat->conductivity > 0) || scene.heat->profile || !scales.thickness)
     return {};
-  const double biot = biot_number(scene, *scales.thickness);
-  if (!(biot > 1))
-    return {};
-  return fmt::format("the Biot number is {}: its faces cool long before its middle, which the parabola across the "
-                     "thickness does not follow, so all of it cools and stiffens too soon: profile = 3 in [heat] gives "
-                     "it modes of its own",
-                     brief(biot));
+  if (const double biot = biot_number(scene, *scales.thickness); biot > 1)
+    return fmt::format("the Biot number is {}: its faces cool long before its middle, which the parabola across the "
+                       "thickness does not follow, so all of it cools and stiffens too soon: profile = 3 in [heat] "
+                       "gives it modes of its own",
+                       brief(biot));
+  if (const double biot = biot_number_on_solids(scene, *scales.thickness); biot > 1)
+    return fmt::format("the Biot number on solids is {}: what touches them has their temperature long before the rest, "
+                       "which the parabola across the thickness does not follow, so all of it flows by their "
+                       "temperature too soon: profile = 3 in [heat] gives it modes of its own",
+                       brief(biot));
+  return {};
 }
 
 std::optional<std::string> warning_of_thinning(const Scene& scene) {

@@ -28,7 +28,8 @@ struct Warming {
 // Of scenes with heat, else none. `scales`: those of the scene as it starts.
 [[nodiscard]] std::vector<Scale> heat_scales(const Scene& scene, const Scales& scales);
 [[nodiscard]] std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& scales);
-// Of faces that cool long before the middle, though the profile across the thickness is a parabola.
+// Of faces that cool, or are cooled or heated by solids, long before the middle, though the profile across the
+// thickness is a parabola.
 [[nodiscard]] std::optional<std::string> warning_of_biot(const Scene& scene, const Scales& scales);
 // Of a law that makes a viscous liquid thinner than water at the warmest that is around.
 [[nodiscard]] std::optional<std::string> warning_of_thinning(const Scene& scene);

@@ -57,6 +57,13 @@ struct Case {
     return resolve_self(path, search, reach, std::nullopt, solids);
   }
 
+  [[nodiscard]] double energy() const {
+    double sum = 0;
+    for (std::uint32_t v = 0; v < start.size(); ++v)
+      sum += path.mass[v] * path.velocity[v].squaredNorm() / 2;
+    return sum;
+  }
+
   [[nodiscard]] std::uint64_t intersections(double time) const {
     std::vector<Vector3> x;
     for (std::size_t v = 0; v < start.size(); ++v)
@@ -100,16 +107,45 @@ TEST(SelfResponse, WhatIsBroughtApartGainsNoEnergy) {
     c.displace(v, {0, 0, v < c.start.size() / 2 ? 0.3 : -0.2});
     c.path.velocity[v] *= 1e-3;
   }
-  const auto energy = [&] {
-    double sum = 0;
-    for (std::uint32_t v = 0; v < c.start.size(); ++v)
-      sum += c.path.mass[v] * c.path.velocity[v].squaredNorm() / 2;
-    return sum;
-  };
-  const double before = energy();
+  const double before = c.energy();
   EXPECT_GT(c.resolve().hits, 0u);
   c.expect_safe();
-  EXPECT_LE(energy(), before * (1 + 1e-12));
+  EXPECT_LE(c.energy(), before * (1 + 1e-12));
+}
+
+// Layers that slide on a floor have no room and stay where they are: their speed along the floor, which the step has
+// left the other way than it led them, drives nothing.
+TEST(SelfResponse, WhatSlidesAndStaysBehindGainsNoEnergy) {
+  Case c(2, 4, 0.05);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-0.1, 0.1);
+  for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+    const Vector3 along(uniform(random), uniform(random), 0);
+    c.displace(v, along + Vector3(0, 0, v < c.start.size() / 2 ? 0.2 : 0));
+    c.path.fixed[v] = axis_bit(2);
+    c.path.velocity[v] = -along / c.path.length();
+  }
+  const double before = c.energy();
+  EXPECT_GT(c.resolve().held_back, 0u);
+  c.expect_safe();
+  EXPECT_LE(c.energy(), before * (1 + 1e-12));
+}
+
+// Layers between which there is no room for what their floor asks for go on along it as one.
+TEST(SelfResponse, WhatHasNoRoomGoesOnAlongItsFloor) {
+  const Vector3 along(0.1, -0.04, 0);
+  Case c(2, 4, 0.05);
+  for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+    c.displace(v, along + Vector3(0, 0, v < c.start.size() / 2 ? 0.2 : 0));
+    c.path.fixed[v] = axis_bit(2);
+  }
+  const std::vector<Vector3> velocity = c.path.velocity;
+  EXPECT_GT(c.resolve().held_back, 0u);
+  c.expect_safe();
+  for (std::uint32_t v = 0; v < c.start.size(); ++v) {
+    EXPECT_LT((c.path.end[v] - c.start[v] - along).head<2>().norm(), 1e-12);
+    EXPECT_LT((c.path.velocity[v] - velocity[v]).norm(), 1e-12);
+  }
 }
 
 // Two sheets change places: each ends on its own side, and their momenta level out.

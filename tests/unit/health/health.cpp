@@ -240,7 +240,7 @@ TEST(Health, OfStagesIsToldOnceAndCounted) {
   EXPECT_THAT(said, HasSubstr("step 7: two vertices stay behind (told once, then counted)"));
   EXPECT_EQ(said.find("step 7"), said.rfind("step 7"));
   EXPECT_THAT(said, HasSubstr("intersections waited for: 3 times in all"));
-  EXPECT_THAT(report(frame), HasSubstr("up to 2 vertices on solids or held stood still in a step"));
+  EXPECT_THAT(report(frame), HasSubstr("up to 2 vertices on solids or held stayed behind in a step"));
   EXPECT_THAT(report(frame), HasSubstr("at (1, 2, 3) m, t = 0.5 s"));
   EXPECT_THAT(report(frame), HasSubstr("seen 3 times from t = 0.5 to 0.5 s, 6 vertices in all"));
 }

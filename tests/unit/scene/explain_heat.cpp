@@ -83,6 +83,20 @@ TEST(ExplainHeat, WarnsOfFacesThatAParabolaDoesNotFollow) {
   EXPECT_THAT(warned("ambient = 300\ntransfer = 700\n"), Not(testing::Contains(modes)));
 }
 
+TEST(ExplainHeat, SolidsCountWithAllOfTheThickness) {
+  const auto plate = [](const std::string& heat, const std::string& solid) {
+    return pane(heat + "[[solid]]\nshape = \"plane\"\n" + solid);
+  };
+  const std::string warm = "temperature = 1300\ncontact_conductance = 400\n";
+  EXPECT_NEAR(number_of(plate("", warm), "Biot on solids").value, 400 * 0.004 / 1.5, 1e-9);
+  EXPECT_TRUE(std::isnan(number_of(plate("", ""), "Biot on solids").value));
+  const auto modes = HasSubstr("the Biot number on solids is 1.07: what touches them");
+  EXPECT_THAT(explain(plate("", warm)).warnings, testing::Contains(modes));
+  EXPECT_THAT(explain(plate("profile = 3\n", warm)).warnings, Not(testing::Contains(modes)));
+  EXPECT_THAT(explain(plate("", "temperature = 1300\ncontact_conductance = 300\n")).warnings,
+              Not(testing::Contains(HasSubstr("Biot"))));
+}
+
 TEST(ExplainHeat, SurroundingsThatVaryCountByTheirExtremes) {
   const Scene scene = pane("ambient = {along = \"x\", rows = [[0, 600], [1, 1300]]}\ntransfer = [[0, 5], [3, 20]]\n");
   EXPECT_NEAR(std::log(number_of(scene, "range of viscosity").value), 0.03 * 500, 1e-6);
