@@ -53,8 +53,8 @@ END
     exit !(layers / 3 / law > 0.97 && layers / 3 / law < 1.03 && body / law > 0.99 && body / law < 1.01) }'
 }
 
-# 28 mm high, 17 mm wide, ten legs of 3 mm: 2 γ is 1 % of the thrust ρ g H²/2 of its weight, and 20 γ would be 14 %.
-@test "a heap of folds slumps as if it had no tension" {
+# Leaves folds.toml: honey, 28 mm high, 17 mm wide, in ten legs of 3 mm.
+folds() {
   awk 'BEGIN {
     pi = 3.14159265358979; legs = 10; leg = 14; thick = 3; edge = 2; wide = 40; n = 0
     for (k = 0; k < legs; ++k) {
@@ -87,6 +87,11 @@ contact = "flow"
 [contact]
 self = true
 END
+}
+
+# 2 γ is 1 % of the thrust ρ g H²/2 of its weight, and 20 γ would be 14 %.
+@test "a heap of folds slumps as if it had no tension" {
+  folds
   for tension in 0.06 0; do
     sheet-init folds.toml --set material.surface_tension=$tension |
       sheet-loop -q --until 0.4 --fps 25 -o $tension.sheet -- 'sheet-remesh --smooth | sheet-step | sheet-collide'
@@ -95,4 +100,20 @@ END
   # 13 mm high and 12 without tension; with one on every face 16.
   awk -v with="$(last 0.06.sheet y_max)" -v without="$(last 0.sheet y_max)" 'BEGIN {
     print with, without; exit !(with < 1.1 * without && with > 0.95 * without && without < 0.014) }'
+}
+
+@test "adaptive edges within a heap: the same bits on 1 and 2 threads, and resumed = straight" {
+  folds
+  sheet-init folds.toml -o start.sheet
+  # usage: go THREADS OPTION...: from there, or on
+  go() {
+    sheet-loop -q --fps 50 "${@:2}" -- \
+      "sheet-remesh --smooth --adaptive 1e-4 | sheet-step --threads $1 | sheet-collide --threads $1"
+  }
+  go 1 -i start.sheet --until 0.12 -o straight.sheet
+  go 1 -i start.sheet --until 0.06 -o resumed.sheet
+  go 1 --resume resumed.sheet --until 0.12
+  go 2 -i start.sheet --until 0.12 -o two.sheet
+  sheet-diff straight.sheet resumed.sheet
+  sheet-diff --ignore provenance straight.sheet two.sheet
 }
