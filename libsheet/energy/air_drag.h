@@ -46,25 +46,35 @@ public:
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     double sum = 0;
     each_corner(i, u, [&](int, const Vector3& across, const Vector3& along) {
-      sum += triangles_[i].weight * (air_.drag * cube(across.norm()) + air_.friction * cube(along.norm()));
+      sum += potential(triangles_[i].weight, across.norm(), along.norm());
+    });
+    return sum;
+  }
+
+  double gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
+    double sum = 0;
+    gradient.setZero();
+    each_corner(i, u, [&](int c, const Vector3& across, const Vector3& along) {
+      sum += add_corner(triangles_[i].weight, across, along, gradient.segment<3>(3 * c));
     });
     return sum;
   }
 
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian, bool) const {
+    double sum = 0;
     gradient.setZero();
     hessian.setZero();
     const Vector3& normal = triangles_[i].normal;
     const Matrix3 nn = normal * normal.transpose();
     each_corner(i, u, [&](int c, const Vector3& across, const Vector3& along) {
-      const double drag = 3 * triangles_[i].weight * air_.drag * across.norm(), slid = along.norm();
-      const double friction = 3 * triangles_[i].weight * air_.friction;
-      gradient.segment<3>(3 * c) = drag * across + friction * slid * along;
-      hessian.block<3, 3>(3 * c, 3 * c) = 2 * drag * nn + friction * slid * (Matrix3::Identity() - nn);
+      const double weight = 3 * triangles_[i].weight, slid = along.norm();
+      sum += add_corner(triangles_[i].weight, across, along, gradient.segment<3>(3 * c));
+      auto block = hessian.block<3, 3>(3 * c, 3 * c);
+      block = 2 * weight * air_.drag * across.norm() * nn + weight * air_.friction * slid * (Matrix3::Identity() - nn);
       if (slid > 0)
-        hessian.block<3, 3>(3 * c, 3 * c) += friction / slid * along * along.transpose();
+        block += weight * air_.friction / slid * along * along.transpose();
     });
-    return value(i, u);
+    return sum;
   }
 
 private:
@@ -74,6 +84,15 @@ private:
   };
 
   static double cube(double x) { return x * x * x; }
+  [[nodiscard]] double potential(double weight, double across, double along) const {
+    return weight * (air_.drag * cube(across) + air_.friction * cube(along));
+  }
+  // Adds a corner's to the gradient and returns its potential.
+  double add_corner(double weight, const Vector3& across, const Vector3& along, Eigen::Ref<Vector3> gradient) const {
+    const double a = across.norm(), l = along.norm();
+    gradient += 3 * weight * (air_.drag * a * across + air_.friction * l * along);
+    return potential(weight, a, l);
+  }
   // Of each corner that air reaches what it has moved against the air, across the triangle and along it [m].
   template <class Visit> void each_corner(std::size_t i, const VectorN<9>& u, Visit&& visit) const {
     const Vector3& normal = triangles_[i].normal;
