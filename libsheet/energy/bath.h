@@ -6,10 +6,10 @@
 // of which one vertex a is under the surface q is d_a² s r with s = d_a/(d_a - d_b), r = d_a/(d_a - d_c), and the same
 // of the one vertex above it is what a triangle lacks of which two are under it.
 // The normals must point upwards: below zero, where W would have no lower bound, A_z counts as nothing, and smoothly so
-// from a twentieth of the area on. What has its face down at the start of a step is overturned and under water wet on
-// both faces: it is lifted by the weight of as much of the bath as it is itself (Archimedes), ρ g V/3 at each corner
-// under the surface. Corners that another layer bears (Model::borne) feel neither: a triangle has the part of W that
-// its others are. ρ in kg/m³, g in m/s².
+// from a twentieth of the area on. What is wet on both faces (BathReach::around, and under the surface what has its
+// face down at the start of a step) is lifted by the weight of as much of the bath as it is itself (Archimedes), ρ g
+// V/3 at each corner under the surface. Corners that another layer bears feel neither. A triangle has the part of W
+// that its corners are which the bath reaches from below alone. ρ in kg/m³, g in m/s².
 #pragma once
 #include <algorithm>
 #include <tuple>
@@ -27,45 +27,49 @@ public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
   // gravity [m/s²]; level: height of the rest plane along the upward direction [m]; clings: it pulls what is above it;
-  // borne: whether another layer bears a vertex, empty: none.
-  Bath(double density, const Vector3& gravity, double level, bool clings, std::vector<char> borne = {})
-      : weight_(density * gravity.norm() / 12), surface_(gravity, level, std::move(borne)), clings_(clings) {}
+  // reach: as in BathSurface.
+  Bath(double density, const Vector3& gravity, double level, bool clings, std::vector<BathReach> reach = {})
+      : weight_(density * gravity.norm() / 12), surface_(gravity, level, std::move(reach)), clings_(clings) {}
   [[nodiscard]] const char* name() const { return "bath"; }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   void begin(const Stage& stage) {
     const auto& triangles = stage.start->mesh->triangles;
     const auto& x = stage.start->positions;
-    start_.resize(triangles.size());
+    start_.assign(triangles.size(), {});
     for (std::size_t t = 0; t < start_.size(); ++t) {
       const Corners& c = triangles[t];
       const TriangleArea area(x[c[0]], x[c[1]], x[c[2]]);
-      start_[t] = {.steep = steepest * area.area, .overturned = surface_.up().dot(area.normal) < 0};
-      const int open = surface_.open(c[0]) + surface_.open(c[1]) + surface_.open(c[2]);
-      start_[t].weight = open == 3 ? weight_ : weight_ * open / 3;
-      for (int a = 0; a < 3 && start_[t].overturned; ++a)
-        start_[t].lift[a] = surface_.bears(c[a], x[c[a]]) ? 4 * weight_ * stage.start->volumes[t] : 0; // ρ g V/3
+      const bool overturned = surface_.up().dot(area.normal) < 0;
+      int from_below = 0;
+      for (int a = 0; a < 3; ++a) {
+        const std::uint32_t v = c[static_cast<std::size_t>(a)];
+        from_below += !overturned && surface_.reach(v) == BathReach::below;
+        if ((overturned || surface_.reach(v) == BathReach::around) && surface_.wets(v, x[v]))
+          start_[t].lift[a] = 4 * weight_ * stage.start->volumes[t]; // ρ g V/3
+      }
+      start_[t].steep = steepest * area.area;
+      start_[t].weight = from_below == 3 ? weight_ : weight_ * from_below / 3;
     }
   }
 
   [[nodiscard]] double value(std::size_t t, const VectorN<9>& u) const {
-    if (start_[t].overturned)
+    if (start_[t].weight == 0)
       return lifted(t, u);
     const Parts p(*this, u);
-    return start_[t].weight * Projection(p.area, start_[t].steep).value * p.depth.square;
+    return start_[t].weight * Projection(p.area, start_[t].steep).value * p.depth.square + lifted(t, u);
   }
 
   double derivatives(std::size_t t, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const {
-    if (start_[t].overturned) {
-      for (int a = 0; a < 3; ++a)
-        gradient.segment<3>(3 * a) = -start_[t].lift[a] * surface_.up();
-      hessian.setZero();
+    for (int a = 0; a < 3; ++a)
+      gradient.segment<3>(3 * a) = -start_[t].lift[a] * surface_.up();
+    hessian.setZero();
+    const double weight = start_[t].weight;
+    if (weight == 0)
       return lifted(t, u);
-    }
     const Parts p(*this, u);
     const Projection area(p.area, start_[t].steep);
-    const double weight = start_[t].weight;
-    gradient = weight * (area.first * p.depth.square * p.by_area + area.value * p.by_square);
+    gradient += weight * (area.first * p.depth.square * p.by_area + area.value * p.by_square);
     const Matrix3 upright = (weight * area.value) * (surface_.up() * surface_.up().transpose());
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
@@ -80,15 +84,14 @@ public:
       }
       hessian += (weight * area.first) * (p.by_area * p.by_square.transpose() + p.by_square * p.by_area.transpose());
     }
-    return weight * area.value * p.depth.square;
+    return weight * area.value * p.depth.square + lifted(t, u);
   }
 
 private:
   static constexpr double steepest = 0.05; // projection over area
   struct Start {
-    double steep = 0;  // the projection below which it counts less [m²]
-    double weight = 0; // ρ g/12, in the part of its corners that the bath bears [N/m³]
-    bool overturned = false;
+    double steep = 0;               // the projection below which it counts less [m²]
+    double weight = 0;              // ρ g/12, in the part of its corners that the bath reaches from below [N/m³]
     Vector3 lift = Vector3::Zero(); // at each corner [N]
   };
 

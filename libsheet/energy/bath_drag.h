@@ -16,10 +16,9 @@ namespace sheet {
 class BathDrag {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  // drag: k [Pa s/m]; level: of the surface, against gravity [m]; borne: whether another layer bears a vertex, empty:
-  // none.
-  BathDrag(double drag, const Vector3& gravity, double level, std::vector<char> borne = {})
-      : drag_(drag), surface_(gravity, level, std::move(borne)) {}
+  // drag: k [Pa s/m]; level, reach: as in BathSurface.
+  BathDrag(double drag, const Vector3& gravity, double level, std::vector<BathReach> reach = {})
+      : drag_(drag), surface_(gravity, level, std::move(reach)) {}
   [[nodiscard]] const char* name() const { return "drag of a bath"; }
   [[nodiscard]] std::size_t size() const { return stiffness_.size(); }
   void begin(const Stage& stage) {
@@ -56,7 +55,7 @@ private:
   }
   // 0 above the surface, and where another layer bears it [N/m].
   [[nodiscard]] double stiffness(std::size_t i, int c) const {
-    return surface_.bears(vertex(i, c), start_[vertex(i, c)]) ? stiffness_[i] : 0;
+    return surface_.wets(vertex(i, c), start_[vertex(i, c)]) ? stiffness_[i] : 0;
   }
   // P (x - x̄) [m].
   [[nodiscard]] Vector3 slid(std::size_t i, int c, const VectorN<9>& u) const {

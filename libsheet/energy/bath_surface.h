@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of a sheet a bath bears: what is under its surface, unless another layer is in between.
+// How a bath reaches a sheet: what is under its surface.
 #pragma once
 #include <cstdint>
 #include <utility>
@@ -9,22 +9,34 @@
 
 namespace sheet {
 
+// By which faces it reaches a vertex that is under its surface.
+enum class BathReach : std::uint8_t {
+  below,  // the lower one: what floats
+  around, // both: the bath has come over a rim
+  none    // neither: another layer is in between
+};
+
 class BathSurface {
 public:
-  // level: of the surface, against gravity [m]; borne: whether another layer bears a vertex; empty: none.
-  BathSurface(const Vector3& gravity, double level, std::vector<char> borne)
-      : up_(-gravity.normalized()), level_(level), borne_(std::move(borne)) {}
+  // level: of the surface, against gravity [m]; reach: one a vertex; empty: below for all.
+  BathSurface(const Vector3& gravity, double level, std::vector<BathReach> reach)
+      : up_(-gravity.normalized()), level_(level), reach_(std::move(reach)) {}
   [[nodiscard]] const Vector3& up() const { return up_; }
   [[nodiscard]] double level() const { return level_; }
   [[nodiscard]] double height(const Vector3& x) const { return up_.dot(x) - level_; } // above the surface [m]
-  // Whether only the bath can bear a vertex.
-  [[nodiscard]] bool open(std::uint32_t v) const { return borne_.empty() || borne_[v] == 0; }
-  [[nodiscard]] bool bears(std::uint32_t v, const Vector3& x) const { return height(x) < 0 && open(v); }
+  [[nodiscard]] BathReach reach(std::uint32_t v) const { return reach_.empty() ? BathReach::below : reach_[v]; }
+  // Whether a vertex at x floats on the bath; whether the bath is there at all.
+  [[nodiscard]] bool bears(std::uint32_t v, const Vector3& x) const {
+    return height(x) < 0 && reach(v) == BathReach::below;
+  }
+  [[nodiscard]] bool wets(std::uint32_t v, const Vector3& x) const {
+    return height(x) < 0 && reach(v) != BathReach::none;
+  }
 
 private:
   Vector3 up_;
   double level_;
-  std::vector<char> borne_;
+  std::vector<BathReach> reach_;
 };
 
 } // namespace sheet

@@ -6,8 +6,8 @@
 // -ρ² g h²/(2 ρ_b) of the depth to which it sinks, ρ_b the bath's density, so that the sum is that of a floating layer,
 // ρ (1 - ρ/ρ_b) g h²/2 [Pegler and Worster 2012]. Pressure acts level, however a triangle leans: by its true area the
 // thrust would buckle what is meshed by edges below 2.3 h. What stands on edge, or lies on its face, is as far from
-// floating as can be: W rises beyond all bounds on the way there. Corners that another layer bears (Model::borne) count
-// as above the surface: what presses on a layer from both sides is in contact_squeeze.h.
+// floating as can be: W rises beyond all bounds on the way there. Corners that another layer bears count as above the
+// surface, as what presses on a layer from both sides is in contact_squeeze.h, and so do those that the bath is around.
 #pragma once
 #include <limits>
 #include <utility>
@@ -22,10 +22,9 @@ class BathThrust {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
-  // gravity [m/s²]; level: of the bath's surface, against gravity [m]; borne: whether another layer bears a vertex,
-  // empty: none.
-  BathThrust(const Vector3& gravity, double level, std::vector<char> borne = {})
-      : gravity_(gravity.norm()), surface_(gravity, level, std::move(borne)) {}
+  // gravity [m/s²]; level, reach: as in BathSurface.
+  BathThrust(const Vector3& gravity, double level, std::vector<BathReach> reach = {})
+      : gravity_(gravity.norm()), surface_(gravity, level, std::move(reach)) {}
   [[nodiscard]] const char* name() const { return "bath thrust"; }
   [[nodiscard]] std::size_t size() const { return thrust_.size(); }
 

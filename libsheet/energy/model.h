@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libsheet/energy/air_drag.h"
+#include "libsheet/energy/bath_surface.h"
 #include "libsheet/energy/contact.h"
 #include "libsheet/energy/heat_model.h"
 #include "libsheet/energy/holds.h"
@@ -38,7 +39,7 @@ struct Model {
   Vector3 gravity = Vector3::Zero();  // [m/s²]
   std::vector<PressureLaw> pressures; // one an enclosure
   std::optional<BathLiquid> bath;     // needs gravity
-  std::vector<char> borne;            // of each vertex, whether another layer is between it and the bath; empty: none
+  std::vector<BathReach> bath_reach;  // of each vertex; empty: from below
   std::optional<AirFlow> air;
   bool inertia = true;
   std::optional<ModelFaces> faces; // needs tension; chosen for a step

@@ -151,19 +151,20 @@ constexpr std::array table = {
               },
               [](const Model&) -> std::string { return "no bath in [environment]"; },
               [](const Model& m, TermMaker& maker) {
-                maker.add(Bath(m.bath->density, m.gravity, m.bath->level, m.bath->clings, m.borne));
+                maker.add(Bath(m.bath->density, m.gravity, m.bath->level, m.bath->clings, m.bath_reach));
               }},
     TermEntry{"bath thrust", [](const Model& m) { return spreads(m) && m.has_weight(); },
               [](const Model&) -> std::string { return "what floats spreads by its own weight"; },
               [](const Model& m) -> std::string {
                 return m.bath ? "no spreads = true in the bath" : "no bath in [environment]";
               },
-              [](const Model& m, TermMaker& maker) { maker.add(BathThrust(m.gravity, m.bath->level, m.borne)); }},
-    TermEntry{
-        "drag of a bath", [](const Model& m) { return has_bath(m) && m.bath->drag > 0; },
-        [](const Model& m) { return fmt::format("{:.3g} Pa s/m on what slides", m.bath->drag); },
-        [](const Model& m) -> std::string { return m.bath ? "no drag in the bath" : "no bath in [environment]"; },
-        [](const Model& m, TermMaker& maker) { maker.add(BathDrag(m.bath->drag, m.gravity, m.bath->level, m.borne)); }},
+              [](const Model& m, TermMaker& maker) { maker.add(BathThrust(m.gravity, m.bath->level, m.bath_reach)); }},
+    TermEntry{"drag of a bath", [](const Model& m) { return has_bath(m) && m.bath->drag > 0; },
+              [](const Model& m) { return fmt::format("{:.3g} Pa s/m on what slides", m.bath->drag); },
+              [](const Model& m) -> std::string { return m.bath ? "no drag in the bath" : "no bath in [environment]"; },
+              [](const Model& m, TermMaker& maker) {
+                maker.add(BathDrag(m.bath->drag, m.gravity, m.bath->level, m.bath_reach));
+              }},
     TermEntry{
         "drag of air", [](const Model& m) { return m.air.has_value(); },
         [](const Model& m) { return fmt::format("air of {:.3g} kg/m³ holds back what moves in it", m.air->density); },
@@ -182,7 +183,7 @@ constexpr std::array table = {
               [](const Model& m, TermMaker& maker) {
                 std::optional<BathSurface> bath;
                 if (spreads(m) && m.has_weight())
-                  bath.emplace(m.gravity, m.bath->level, m.borne);
+                  bath.emplace(m.gravity, m.bath->level, m.bath_reach);
                 maker.add_load(&AreaLoads::squeeze, ContactSqueeze(m.contacts, std::move(bath)));
               }},
     TermEntry{"shear of layers", [](const Model& m) { return layers_flow(m) && m.liquid.viscous(); },

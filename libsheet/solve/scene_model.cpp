@@ -23,7 +23,7 @@
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
-#include "libsheet/solve/borne_layers.h"
+#include "libsheet/solve/bath_reach.h"
 #include "libsheet/solve/held_rims.h"
 
 namespace sheet {
@@ -412,6 +412,16 @@ std::vector<char> sheltered_from_air(const Scene& scene, const Frame& frame, con
   return sheltered;
 }
 
+// Nothing comes over a rim that is held, or that liquid enters by, nor over what the bath clings to.
+std::vector<BathReach> reach_of_bath(const Frame& frame, const Connectivity& mesh, const Model& model) {
+  std::vector<char> shut(frame.vertices, model.bath->clings ? 1 : 0);
+  for (const Hold& hold : model.holds)
+    for (const std::uint32_t v : hold.vertices)
+      shut[v] = 1;
+  return bath_reach({mesh, positions(frame), volumes(frame), model.contacts, std::move(shut)},
+                    -model.gravity.normalized(), model.bath->level);
+}
+
 // What a model has of a scene in any frame.
 Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   Model model;
@@ -561,7 +571,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (model.greatest_tension() > 0)
     model.inner_faces = inner_faces(scene, frame);
   if (model.bath && model.gravity.squaredNorm() > 0)
-    model.borne = borne_layers(positions(frame), triangles(frame), model.contacts, -model.gravity.normalized());
+    model.bath_reach = reach_of_bath(frame, mesh, model);
   if (model.air)
     model.air->sheltered = sheltered_from_air(scene, frame, model);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a bath and pressure do in a step, from the frames at its start and end, whose mesh is one [J]. Potentials are those
-of docs/model.md, "Pressure and bath"; which vertices lie on another layer, so that the bath does not reach them, and which
-triangles are overturned is settled at the start.
+of docs/model.md, "Pressure and bath"; which vertices lie on another layer, so that the bath does not reach them, which
+are flooded and which triangles are overturned is settled at the start.
 """
 import numpy
 
@@ -20,19 +20,71 @@ def normals(frame):
     return numpy.cross(b - a, c - a)
 
 
-def borne(frame, up):
+def piled(frame, up, sign):
+    """The vertices that lie on a triangle (1) or under one (-1), the triangle's, and its weights."""
+    if "contact_vertex" not in frame:
+        return numpy.zeros(0, int), numpy.zeros((0, 3), int), numpy.zeros((0, 3))
+    weights = frame["contact_weight"]
+    on = (weights[:, 0] == 1) & (sign * (frame["contact_normal"] @ up) > 0.5)
+    vertices = frame["contact_vertex"].astype(int)[on]
+    return vertices[:, 0], vertices[:, 1:], -weights[on, 1:]
+
+
+def around_vertices(frame, of_triangles):
+    """The sum over the triangles around each vertex."""
+    total = numpy.zeros(frame.vertices)
+    for k in range(3):
+        numpy.add.at(total, frame["triangle"][:, k], of_triangles)
+    return total
+
+
+def deep(frame, up, level):
+    """Which vertices the bath would stand above, and above all that lies on them."""
+    areas = numpy.linalg.norm(normals(frame), axis=1) / 2
+    top = frame["position"] @ up - level + around_vertices(frame, frame["volume"].ravel()) / around_vertices(frame, areas)
+    (on, below, _), (under, above, _) = piled(frame, up, 1), piled(frame, up, -1)
+    while True:
+        before = top.copy()
+        for k in range(3):
+            numpy.maximum.at(top, below[:, k], before[on])
+            numpy.maximum.at(top, under, before[above[:, k]])
+        if (top == before).all():
+            return top < 0
+
+
+def flooded(frame, up, level, clings):
+    """Which vertices are reached from an open rim over vertices that are as deep."""
+    found, is_deep = numpy.zeros(frame.vertices, bool), deep(frame, up, level)
+    on, below, weights = piled(frame, up, 1)
+    if clings or not is_deep.any():
+        return found
+    is_open = numpy.zeros(frame.vertices, bool)
+    is_open[rim_of(frame["triangle"])] = True
+    for name in ("hold", "inlet"):
+        if name in frame:
+            is_open &= frame[name].ravel() == 0
+    lies = numpy.zeros(frame.vertices, bool)
+    lies[on] = True
+    found = is_deep & is_open & ~lies
+    sides = numpy.concatenate([frame["triangle"][:, [k, (k + 1) % 3]] for k in range(3)])
+    sides = sides[is_deep[sides].all(axis=1)]
+    while True:
+        before = found.copy()
+        found[sides[found[sides].any(axis=1)]] = True
+        wet = on[(weights * found[below]).sum(axis=1) >= 0.5]
+        found[wet[(is_deep & is_open)[wet]]] = True
+        if (found == before).all():
+            return found
+
+
+def borne(frame, up, is_flooded):
     """Which vertices lie on another layer that faces up or is borne itself."""
     found = numpy.zeros(frame.vertices, bool)
-    if "contact_vertex" not in frame:
-        return found
-    seen = numpy.zeros(frame.vertices)
-    for k in range(3):
-        numpy.add.at(seen, frame["triangle"][:, k], normals(frame) @ up)
-    bears, weights = seen > 0, frame["contact_weight"]
-    on = (weights[:, 0] == 1) & (frame["contact_normal"] @ up > 0.5)
-    below, weights = frame["contact_vertex"][on], -weights[on, 1:]
+    bears = (around_vertices(frame, normals(frame) @ up) > 0) & ~is_flooded
+    on, below, weights = piled(frame, up, 1)
     while True:
-        more = below[(weights * bears[below[:, 1:]]).sum(axis=1) >= 0.5, 0]
+        more = on[(weights * bears[below]).sum(axis=1) >= 0.5]
+        more = more[~is_flooded[more]]
         if found[more].all():
             return found
         found[more] = bears[more] = True
@@ -63,22 +115,26 @@ def work_of_bath(said, start, end, of_liquids):
     g = numpy.linalg.norm(gravity)
     up = -gravity / g
     triangle, volume = start["triangle"], start["volume"].ravel()
-    is_open = ~borne(start, up)[triangle]
-    overturned = normals(start) @ up < 0
+    clings = bath.get("clings", False)
+    around = flooded(start, up, level, clings)
+    is_open = ~borne(start, up, around)[triangle]
+    overturned = (normals(start) @ up < 0)[:, numpy.newaxis]
     steep = 0.025 * numpy.linalg.norm(normals(start), axis=1) # a twentieth of the area
     reached = is_open & ((start["position"] @ up)[triangle] < level)
+    from_below = is_open & ~around[triangle] & ~overturned
+    all_round = reached & (overturned | around[triangle])
     liquid = start["liquid"].ravel() if "liquid" in start else numpy.zeros(len(triangle), int)
     density, _ = of_liquids(said, liquid)
-    thrust = density * g * volume ** 2 / 2 * reached.mean(axis=1) * bath.get("spreads", False) * ~overturned
+    thrust = density * g * volume ** 2 / 2 * (reached & from_below).mean(axis=1) * bath.get("spreads", False)
 
     def potential(frame):
         heights = (frame["position"] @ up)[triangle] - level
         projected = normals(frame) @ up / 2
         counts = numpy.where(projected < steep, numpy.maximum(projected + steep, 0) ** 2 / (4 * steep), projected)
-        floats = weight / 12 * is_open.mean(axis=1) * counts * depth_integral(heights, bath.get("clings", False))
-        dips = -weight * volume / 3 * (heights * reached).sum(axis=1)
+        floats = weight / 12 * from_below.mean(axis=1) * counts * depth_integral(heights, clings)
+        dips = -weight * volume / 3 * (heights * all_round).sum(axis=1)
         spread = numpy.divide(thrust, projected, out=numpy.zeros(len(thrust)), where=thrust > 0)
-        return (numpy.where(overturned, dips, floats) + spread).sum()
+        return (floats + dips + spread).sum()
 
     return potential(start) - potential(end)
 

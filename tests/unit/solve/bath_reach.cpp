@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layers that lie on each other on a bath: only the lowest one that faces up touches it.
+// What a bath reaches: of layers that lie on each other the lowest one that faces up; all that has gone under.
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "libsheet/solve/borne_layers.h"
+#include "libsheet/solve/bath_reach.h"
 #include "libsheet/solve/step.h"
 #include "tests/support/meshes.h"
 
@@ -32,8 +32,15 @@ struct FloatingStack {
     state = test::at_rest(all, layer_depth);
   }
 
-  [[nodiscard]] std::vector<char> borne() const {
-    return borne_layers(state.positions, state.mesh->triangles, springs, Vector3::UnitZ());
+  // shut: whether nothing comes over their rims.
+  [[nodiscard]] std::vector<BathReach> reach(bool shut = false) const {
+    return bath_reach(
+        {*state.mesh, state.positions, state.volumes, springs, std::vector<char>(state.positions.size(), shut ? 1 : 0)},
+        Vector3::UnitZ(), 0);
+  }
+  void sink(double depth) {
+    for (Vector3& x : state.positions)
+      x.z() -= depth;
   }
   [[nodiscard]] double mean(std::size_t layer, int axis) const {
     double sum = 0;
@@ -72,28 +79,89 @@ private:
   }
 };
 
-std::vector<char> of_each_layer(const std::vector<char>& borne, std::size_t size) {
-  std::vector<char> of;
-  for (std::size_t v = 0; v < borne.size(); v += size) {
-    EXPECT_EQ(std::count(borne.begin() + static_cast<std::ptrdiff_t>(v),
-                         borne.begin() + static_cast<std::ptrdiff_t>(v + size), borne[v]),
+// None where they are all below.
+std::vector<BathReach> of_each_layer(const std::vector<BathReach>& reach, std::size_t size) {
+  std::vector<BathReach> of;
+  for (std::size_t v = 0; v < reach.size(); v += size) {
+    EXPECT_EQ(std::count(reach.begin() + static_cast<std::ptrdiff_t>(v),
+                         reach.begin() + static_cast<std::ptrdiff_t>(v + size), reach[v]),
               static_cast<std::ptrdiff_t>(size));
-    of.push_back(borne[v]);
+    of.push_back(reach[v]);
   }
   return of;
 }
 
-TEST(BorneLayers, WhatIsAboveTheLowestLayerThatFacesUp) {
+using OfLayers = std::vector<BathReach>;
+
+TEST(BathReach, WhatIsAboveTheLowestLayerThatFacesUp) {
+  using enum BathReach;
   const auto of = [](const std::vector<bool>& face_up) {
     const FloatingStack stack(face_up);
-    return of_each_layer(stack.borne(), stack.size);
+    return of_each_layer(stack.reach(), stack.size);
   };
-  EXPECT_EQ(of({true}), std::vector<char>{});
-  EXPECT_EQ(of({true, true}), (std::vector<char>{0, 1}));
-  EXPECT_EQ(of({true, false, true}), (std::vector<char>{0, 1, 1})); // a fold
-  EXPECT_EQ(of({false, true, true}), (std::vector<char>{0, 0, 1})); // the lowest is wet on both faces
-  EXPECT_EQ(of({false, false}), (std::vector<char>{0, 0}));
-  EXPECT_TRUE(FloatingStack({true, true}, Vector3(0.9, 0, 0.4).normalized()).borne().empty()); // one beside the other
+  EXPECT_EQ(of({true}), OfLayers{});
+  EXPECT_EQ(of({true, true}), (OfLayers{below, none}));
+  EXPECT_EQ(of({true, false, true}), (OfLayers{below, none, none}));  // a fold
+  EXPECT_EQ(of({false, true, true}), (OfLayers{below, below, none})); // the lowest is wet on both faces
+  EXPECT_EQ(of({false, false}), OfLayers{});
+  EXPECT_TRUE(FloatingStack({true, true}, Vector3(0.9, 0, 0.4).normalized()).reach().empty()); // one beside the other
+}
+
+// The bath comes over rims that are deeper than all that lies there is thick.
+TEST(BathReach, WhatHasGoneUnderIsWetOnBothFaces) {
+  using enum BathReach;
+  const auto of = [](const std::vector<bool>& face_up, double depths, bool shut = false) {
+    FloatingStack stack(face_up);
+    stack.sink(depths * layer_depth);
+    return of_each_layer(stack.reach(shut), stack.size);
+  };
+  EXPECT_EQ(of({true}, 0.9), OfLayers{});
+  EXPECT_EQ(of({true}, 1.1), OfLayers{around});
+  EXPECT_EQ(of({true}, 1.1, true), OfLayers{});
+  EXPECT_EQ(of({true, true}, 1.9), (OfLayers{below, none}));
+  EXPECT_EQ(of({true, true, true}, 3.1), (OfLayers{around, around, around}));
+  EXPECT_EQ(of({true, false, true}, 3.1), (OfLayers{around, around, around}));
+}
+
+TEST(BathReach, BoatsAreDryUntilTheirRimsGoUnder) {
+  using enum BathReach;
+  const auto boat = [](double depth) {
+    FloatingStack stack({true});
+    for (Vector3& x : stack.state.positions)
+      x.z() = std::hypot(x.x() - 1, 2 * (x.y() - 0.5)) > 0.8 ? 0.5 : 0;
+    stack.sink(depth);
+    return stack;
+  };
+  EXPECT_TRUE(boat(0.3).reach().empty());
+  const FloatingStack sunk = boat(0.6);
+  EXPECT_EQ(of_each_layer(sunk.reach(), sunk.size), OfLayers{around});
+}
+
+// A patch whose rims lie on the bottom of a boat lets nothing in; under water it is wet as the boat is.
+TEST(BathReach, WhatLiesOnALayerIsNoWayIn) {
+  using enum BathReach;
+  FloatingStack stack({true, true});
+  const auto of_first_layer = [&](std::size_t v) { return v < stack.size; };
+  for (std::size_t v = 0; v < stack.state.positions.size(); ++v)
+    stack.state.positions[v].z() -= 4 * layer_depth;
+  std::vector<char> shut(stack.state.positions.size(), 0);
+  for (std::size_t v = 0; v < shut.size(); ++v)
+    shut[v] = of_first_layer(v) ? 1 : 0;
+  const auto reach = bath_reach({*stack.state.mesh, stack.state.positions, stack.state.volumes, stack.springs, shut},
+                                Vector3::UnitZ(), 0);
+  EXPECT_EQ(of_each_layer(reach, stack.size), (OfLayers{below, none}));
+}
+
+// Of a sheet that comes down on edge what is deeper than it is thick.
+TEST(BathReach, WhatHangsIntoTheBath) {
+  using enum BathReach;
+  FloatingStack stack({true});
+  for (Vector3& x : stack.state.positions)
+    x = {0, x.y(), x.x() - 1};
+  const std::vector<BathReach> reach = stack.reach();
+  ASSERT_FALSE(reach.empty());
+  for (std::size_t v = 0; v < reach.size(); ++v)
+    EXPECT_EQ(reach[v], stack.state.positions[v].z() < -layer_depth ? around : below) << v;
 }
 
 Model on_bath(const FloatingStack& stack, double lower, double upper) {
@@ -104,13 +172,13 @@ Model on_bath(const FloatingStack& stack, double lower, double upper) {
   m.gravity = {0, 0, -weight_of_kg};
   m.bath = BathLiquid{.density = bath_density};
   m.contacts = stack.springs;
-  m.borne = stack.borne();
+  m.bath_reach = stack.reach();
   m.inertia = false;
   return m;
 }
 
 // As layer_depth as both displace of the bath, the springs between them pressed by the weight of the upper one.
-TEST(BorneLayers, TwoLayersFloatAsDeepAsBothWeigh) {
+TEST(BathReach, TwoLayersFloatAsDeepAsBothWeigh) {
   for (const auto& [lower, upper] : {std::pair{900.0, 900.0}, std::pair{900.0, 600.0}}) {
     FloatingStack stack({true, true});
     if (upper != lower) {
@@ -134,8 +202,23 @@ TEST(BorneLayers, TwoLayersFloatAsDeepAsBothWeigh) {
   }
 }
 
+// What is heavier than the bath sinks by the weight that the bath does not take off, however it lies.
+TEST(BathReach, WhatIsHeavierSinks) {
+  constexpr double density = 1350, step = 0.01;
+  for (const bool on_edge : {false, true}) {
+    FloatingStack stack({true});
+    for (Vector3& x : stack.state.positions)
+      x = on_edge ? Vector3(0, x.y(), x.x() - 5) : Vector3(x.x(), x.y(), -3 * layer_depth);
+    Model m = on_bath(stack, density, density);
+    m.inertia = true;
+    Stepper(m, {}).step(stack.state, step);
+    for (const Vector3& v : stack.state.velocities)
+      EXPECT_NEAR((v + Vector3(0, 0, (1 - bath_density / density) * weight_of_kg * step)).norm(), 0, 1e-9);
+  }
+}
+
 // On a bath twice as dense each layer's thrust is half its own weight's: both go on as one of twice the thickness.
-TEST(BorneLayers, TwoLayersSpreadAsOneOfTwiceTheThickness) {
+TEST(BathReach, TwoLayersSpreadAsOneOfTwiceTheThickness) {
   FloatingStack stack({true, true});
   constexpr double density = bath_density / 2, press = density * layer_depth * weight_of_kg; // [Pa]
   for (std::size_t v = 0; v < stack.state.positions.size(); ++v)
