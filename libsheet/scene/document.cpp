@@ -63,6 +63,41 @@ bool may_be_several(std::string_view table) {
              table) > 0;
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r";
+  const std::size_t begin = std::min(text.find_first_not_of(blank), text.size());
+  return text.substr(begin, text.find_last_not_of(blank) + 1 - begin);
+}
+
+std::string_view line_of(std::string_view text, std::size_t number) { // from 1
+  for (; number > 1 && text.find('\n') != text.npos; --number)
+    text.remove_prefix(text.find('\n') + 1);
+  return text.substr(0, text.find('\n'));
+}
+
+// The value, or the item of a list or table, in which a column (from 1) of the line is.
+std::string_view value_at(std::string_view line, std::size_t column) {
+  const std::size_t at = std::min(column - 1, line.size());
+  const std::size_t before = line.substr(0, at).find_last_of("=[{,"), begin = before == line.npos ? 0 : before + 1;
+  return trimmed(line.substr(begin, std::min(line.find_first_of(",]}", at), line.size()) - begin));
+}
+
+// What to write instead, where a text has no quotes, as 4 mm, or a number has a comma; "" where it is neither.
+std::string remedy_of(std::string_view reason, std::string_view line, std::size_t column) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  const std::string_view value = value_at(line, column);
+  const std::size_t letter = value.find_first_of(letters);
+  if (value.empty() || value.find_first_of("\"'") != value.npos)
+    return "";
+  if (letter == 0 && reason.ends_with("could not determine value type")) // else a key, or a heading
+    return fmt::format(": a text is written in quotes, \"{}\"", value);
+  if (value.find_first_of("+-.0123456789") != 0)
+    return "";
+  if (letter != value.npos)
+    return fmt::format(": a number with a unit is written in quotes, \"{}\"", value);
+  return column <= line.size() && line[column - 1] == ',' ? ": write a decimal point, not a comma" : "";
+}
+
 } // namespace
 
 Node parse_toml(std::string_view text, std::string_view name) {
@@ -81,6 +116,9 @@ Node parse_toml(std::string_view text, std::string_view name) {
                     ? fmt::format(": where there are several, each is written [[{}]]", table)
                     : fmt::format(": a scene has one [{}], with all its keys under one heading", table);
     }
+    const toml::source_position at = error.source().begin;
+    if (at.line > 0 && at.column > 0)
+      reason += remedy_of(reason, line_of(ascii.text, at.line), at.column);
     const Place place = place_of(error.source(), ascii);
     fail(ExitCode::bad_input, "{}:{}:{}: {}", name, place.line, place.column, reason);
   } catch (const TomlAssertion&) {

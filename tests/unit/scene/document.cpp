@@ -66,6 +66,33 @@ TEST(Document, TablesThatStandTwiceAreWrittenAsSeveral) {
             "[contact], with all its keys under one heading");
 }
 
+TEST(Document, TellsHowATextWithoutQuotesIsWritten) {
+  const auto ending = [](const std::string& text) {
+    const std::string reason = problem(text);
+    const std::size_t at = reason.rfind(": ");
+    return at == reason.npos ? reason : reason.substr(at + 2);
+  };
+  const auto in_quotes = [](std::string_view text) {
+    return fmt::format("a number with a unit is written in quotes, \"{}\"", text);
+  };
+  EXPECT_EQ(problem("[sheet]\nthickness = 4 mm # thick\n"),
+            "s:2:15: Error while parsing key-value pair: expected a comment or whitespace, saw 'm': " +
+                in_quotes("4 mm"));
+  EXPECT_EQ(ending("a = 4mm"), in_quotes("4mm"));
+  EXPECT_EQ(ending("a = .5 mm"), in_quotes(".5 mm"));
+  EXPECT_EQ(ending("a = -9.81 m/s^2\nb = 1\n"), in_quotes("-9.81 m/s^2"));
+  EXPECT_EQ(ending("a = 1e5 Pa*s"), in_quotes("1e5 Pa*s"));
+  EXPECT_EQ(ending("a = [\"1 mm\", 2 mm]"), in_quotes("2 mm"));
+  EXPECT_EQ(ending("a = [\"1 µm\",\n2 mm, 3]"), in_quotes("2 mm"));
+  EXPECT_EQ(ending("a = {angle = 30 deg, axis = [1, 0, 0]}"), in_quotes("30 deg"));
+  EXPECT_EQ(ending("a = disk"), "a text is written in quotes, \"disk\"");
+  EXPECT_EQ(ending("a = 0,5"), "write a decimal point, not a comma");
+  EXPECT_EQ(ending("a = 1/2"), "expected digit, saw '/'"); // neither
+  EXPECT_EQ(ending("[sheet\n").find("quotes"), std::string::npos);
+  EXPECT_EQ(ending("shape disk").find("quotes"), std::string::npos);
+  EXPECT_TRUE(ending("a = 4 'mm'").starts_with("expected a comment or whitespace"));
+}
+
 TEST(Document, SyntaxErrorsHaveTheirPlace) {
   EXPECT_TRUE(problem("[sheet]\nshape = disk\n").starts_with("s:2:9: ")) << problem("[sheet]\nshape = disk\n");
   EXPECT_TRUE(problem("a = 1\na = 2\n").starts_with("s:2:"));
