@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
@@ -271,6 +275,34 @@ void add_holds(const TriangleMesh& mesh, const Scene& scene, const scene::SheetT
   }
 }
 
+// How far it is from a part of space [m]; nothing of other regions.
+std::optional<double> distance_to(const scene::Region& region, const Vector3d& x) {
+  if (const auto* box = std::get_if<scene::BoxRegion>(&region))
+    return (x - x.cwiseMax(box->low).cwiseMin(box->high)).norm();
+  if (const auto* sphere = std::get_if<scene::SphereRegion>(&region))
+    return std::max(0.0, (x - sphere->center).norm() - sphere->radius);
+  return {};
+}
+
+// What is said of a hold that holds nothing: where the nearest vertex is of the sheets that it may hold.
+std::string nearest_to(const Scene& scene, const scene::Hold& hold) {
+  double nearest = std::numeric_limits<double>::infinity();
+  Vector3d place = Vector3d::Zero();
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i) {
+    if (!hold.sheet.empty() && hold.sheet != scene.sheets[i].name)
+      continue;
+    const formats::Frame sheet = build_sheet(scene, i, Notes::silent);
+    for (const Vector3d& x : positions(sheet))
+      if (const auto distance = distance_to(hold.region, x); distance && *distance < nearest) {
+        nearest = *distance;
+        place = x;
+      }
+  }
+  return std::isfinite(nearest) ? fmt::format(": the nearest one, at ({:.4g}, {:.4g}, {:.4g}) m, is {:.2g} m outside",
+                                              place[0], place[1], place[2], nearest)
+                                : "";
+}
+
 // None where the sheet rests.
 void put_velocities(const TriangleMesh& mesh, const scene::SheetTable& table, formats::Frame& frame) {
   const bool turns = table.angular_velocity != Vector3d::Zero(), opens = table.radial_velocity != 0;
@@ -356,7 +388,8 @@ formats::Frame build_frame(const Scene& scene) {
   }
   for (std::size_t i = 0; i < scene.holds.size(); ++i)
     if ((held >> i & 1) == 0 && !scene.holds[i].roll)
-      fail(ExitCode::bad_input, "[[hold]] number {} (from 0): no vertex lies in its region", i);
+      fail(ExitCode::bad_input, "[[hold]] number {} (from 0): no vertex lies in its region{}", i,
+           nearest_to(scene, scene.holds[i]));
   frame.put_text("scene", to_toml(scene));
   return frame;
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "libsheet/base/error.h"
+#include "libsheet/base/log.h"
 
 namespace sheet {
 
@@ -19,11 +21,18 @@ void check_edge_length(const char* shape, double edge_length, double largest, do
   if (edge_length > largest * (1.0 + 1e-9))
     fail(ExitCode::bad_input, "{}: edge_length = {:g} m is too large for the shape; at most {:g} m", shape, edge_length,
          largest);
-  const double smallest_area = 0.25 * std::numbers::sqrt3 * edge_length * edge_length;
-  if (!(area / smallest_area <= static_cast<double>(most_triangles)))
-    fail(ExitCode::bad_input, "{}: edge_length = {:g} m would make {:.3g} triangles, more than {}; use at least {:g} m",
-         shape, edge_length, area / smallest_area, most_triangles,
-         std::sqrt(area / static_cast<double>(most_triangles) / (0.25 * std::numbers::sqrt3)));
+  constexpr double many = 3e5; // a ring takes many seconds a step
+  const double smallest_area = 0.25 * std::numbers::sqrt3 * edge_length * edge_length, count = area / smallest_area;
+  const std::string_view in_doubt = "numbers without unit are metres, if a length has lost its own";
+  if (!(count <= static_cast<double>(most_triangles)))
+    fail(ExitCode::bad_input,
+         "{}: edge_length = {:g} m would make {:.3g} triangles, more than {}; use at least {:g} m ({})", shape,
+         edge_length, count, most_triangles,
+         std::sqrt(area / static_cast<double>(most_triangles) / (0.25 * std::numbers::sqrt3)), in_doubt);
+  if (count > many)
+    log::warning("{}: edge_length = {:g} m makes {:.2g} triangles of {:.3g} m², which takes long here, and longer in "
+                 "a ring ({})",
+                 shape, edge_length, count, area, in_doubt);
 }
 
 std::optional<std::array<std::uint32_t, 2>> explicit_segments(const char* shape, const MeshOptions& options,

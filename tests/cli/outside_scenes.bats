@@ -166,7 +166,7 @@ gravity = [0, 0, -9.81]'
     run -3 timeout 60 sheet-init --check scene.toml
     [[ $output == *"$1"* ]]
   }
-  refused 'no vertex lies in its region' $'[[hold]]\nregion = {sphere = {center = [9, 9, 9], radius = 1}}'
+  refused 'no vertex lies in its region: the nearest one, at (' $'[[hold]]\nregion = {sphere = {center = [9, 9, 9], radius = 1}}'
   box_mesh 0.1 | sed '$d' > open.obj
   refused 'solid 0 (open.obj)' $'[[solid]]\nshape = "mesh"\nfile = "open.obj"\ncenter = [0, 0, -1]'
   box_mesh 0.1 > box.obj
@@ -544,4 +544,19 @@ END
   printf '[material]\nviscosity = 5\ndensity = 1200\n' >> two.toml
   run --separate-stderr -0 sheet-init --check two.toml
   [ "$(grep -c 'that no face uses' <<< "$stderr")" = 2 ]
+}
+
+@test "8: a size without its unit is doubted before its mesh is made" {
+  sed 's/radius = 1/radius = 4/; s/0.4/"10 mm"/' disk.toml > large.toml
+  sheet-init large.toml -o large.sheet > /dev/null 2> log &
+  for _ in $(seq 100); do
+    [[ ! -s log ]] || break
+    sleep 0.1
+  done
+  kill $!
+  grep -F 'disk: edge_length = 0.01 m makes 1.2e+06 triangles of 50.3 m²' log
+  grep -F 'numbers without unit are metres, if a length has lost its own' log
+  sed -i 's/radius = 4/radius = 40/' large.toml
+  run -3 sheet-init large.toml
+  [[ $output == *'numbers without unit are metres, if a length has lost its own'* ]]
 }
