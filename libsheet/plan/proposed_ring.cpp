@@ -14,6 +14,7 @@
 #include "libsheet/plan/blow_up.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/forecast.h"
+#include "libsheet/plan/hanging.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/passing.h"
 #include "libsheet/plan/piling.h"
@@ -105,6 +106,18 @@ std::string word_of_blow_up(const Scene& scene, const Frame& first) {
              : "";
 }
 
+// Of what creeps so long that its fall, from then on, is short.
+std::string word_of_runaway(const Scene& scene, const Frame& first) {
+  const auto end = runaway_time(scene, first);
+  const double fall = std::sqrt(*measured(first).length / scene.environment.gravity.value_or(Vector3::Zero()).norm());
+  return end && *end > fall
+             ? fmt::format(
+                   "  Its weight draws the sheet out, to any length, within about {:.2g} s; from then on it falls, in "
+                   "steps of the fall.\n  [tear] below parts it, a solid below catches it.\n",
+                   *end)
+             : "";
+}
+
 // The nearest of 1, 2, 5, 10, ... that is not below.
 double round_number(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)));
@@ -113,13 +126,17 @@ double round_number(double value) {
 
 constexpr double longest_passing = 10; // of solids that creep, in times of everything else
 
-// Some times of the flow.
+// Some times of the flow; of what its weight draws out some times of the fall after that.
 double flow_time(const Scene& scene, const Frame& first) {
   constexpr double times = 5;
+  const auto runaway = runaway_time(scene, first);
   double time = 0;
   for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
-    if (scales.length && scales.speed > 0)
-      time = std::max(time, times * *scales.length / scales.speed);
+    if (scales.length && scales.speed > 0) {
+      const double of_flow = times * *scales.length / scales.speed, fall = std::sqrt(*scales.length / scales.gravity);
+      time =
+          std::max(time, runaway ? std::min(of_flow, rounded_down(before_blow_up * *runaway + times * fall)) : of_flow);
+    }
   return time;
 }
 
@@ -248,7 +265,7 @@ std::string ring_text(const Scene& with_heat, const Frame& first, const RingWish
              "is below {:g} of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
              init, ring.until, ring.fps, ring.stages, mean_edge(first), tolerance_at(wishes.quality)) +
          forecast_text(scene, first, ring, tolerance_at(wishes.quality)) + word_of_blow_up(with_heat, first) +
-         word_of_edges(ring);
+         word_of_runaway(with_heat, first) + word_of_edges(ring);
 }
 
 std::string ring_lines(const Scene& with_heat, const Frame& first, const RingWishes& wishes, const std::string& init) {

@@ -35,7 +35,8 @@ struct RingWishes {
   std::optional<double> until, fps;
 };
 // `first`: the scene's first frame, at that quality. A run that would blow up ends at nine tenths of the time to it
-// (blow_up.h), unless the user wishes otherwise; one that is warmed until it flows goes on until it has flowed when
+// (blow_up.h), one that hangs some times of free fall after it has run away (hanging.h), unless the user wishes
+// otherwise; one that is warmed until it flows goes on until it has flowed when
 // warm.
 [[nodiscard]] ProposedRing proposed_ring(const Scene& with_heat, const formats::Frame& first, const RingWishes& wishes);
 
