@@ -19,6 +19,7 @@
 #include "libsheet/plan/contact_warnings.h"
 #include "libsheet/plan/drawing_up.h"
 #include "libsheet/plan/face_warnings.h"
+#include "libsheet/plan/falling_past.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/hole_forecast.h"
 #include "libsheet/plan/inflow_warnings.h"
@@ -160,8 +161,8 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::warnings_of_solids_that_meet(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::inflow_warnings(scene, frame), std::back_inserter(explanation.warnings));
   for (const std::string& warning :
-       {sheet::drawing_up_warning(scene, frame, until), sheet::thick_stream_warning(scene, frame, until),
-        sheet::wetting_warning(scene, frame, until)})
+       {sheet::falling_past_warning(scene, frame), sheet::drawing_up_warning(scene, frame, until),
+        sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   if (const std::string late = sheet::late_running_warning(scene, frame, until); !source.until && !late.empty())

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/falling_past.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/read.h"
+
+namespace sheet {
+namespace {
+
+// Of a disk 50 mm above a box, drawn with y up.
+std::string warning(const std::string& gravity, const std::string& of_sheet = "", const std::string& tables = "") {
+  const Scene scene = scene::parse_scene(
+      "[sheet]\nshape = \"disk\"\nradius = 0.04\nplane = \"xz\"\nedge_length = 0.01\nthickness = 0.004\n"
+      "center = [0, 0.05, 0]\n" +
+          of_sheet + "[material]\nviscosity = 10\ndensity = 1000\n[environment]\ngravity = " + gravity +
+          "\n[[solid]]\nshape = \"box\"\nsize = [0.2, 0.01, 0.2]\n" + tables,
+      "s");
+  return falling_past_warning(scene, first_frame(scene));
+}
+
+TEST(FallingPast, WhereGravityPointsAlongAnotherAxisOrUp) {
+  EXPECT_EQ(warning("[0, -9.81, 0]"), "");
+  EXPECT_EQ(warning("[0, 9.81, 0]"),
+            "the sheet falls for ever, past every solid: none is below it, where gravity = [0, 9.81, 0] pulls");
+  EXPECT_THAT(warning("[0, 0, -9.81]"), testing::HasSubstr("gravity = [0, 0, -9.81]"));
+}
+
+TEST(FallingPast, NotOfWhatMayComeToASolidOtherwise) {
+  const std::string up = "[0, 9.81, 0]";
+  EXPECT_EQ(warning(up, "velocity = [1, 0, 0]\n"), "");
+  EXPECT_NE(warning(up, "velocity = [0, -1, 0]\n"), "");
+  EXPECT_EQ(warning(up, "angular_velocity = [0, 1, 0]\n"), "");
+  EXPECT_EQ(warning(up, "", "velocity = [0, 1, 0]\n"), ""); // of the box
+  EXPECT_EQ(warning(up, "", "[[hold]]\nregion = \"rim\"\n"), "");
+  EXPECT_EQ(warning(up, "", "[[inflow]]\nregion = \"rim\"\nvelocity = [0, 0, 1]\n"), "");
+  EXPECT_EQ(warning(up, "", "[[solid]]\nshape = \"plane\"\ncenter = [0, 1, 0]\n"), "");
+}
+
+} // namespace
+} // namespace sheet
