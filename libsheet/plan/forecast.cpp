@@ -11,6 +11,7 @@
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
+#include "libsheet/plan/passing.h"
 #include "libsheet/plan/running_down.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/scales.h"
@@ -99,7 +100,7 @@ std::optional<double> speed_along_solids(const Scene& scene, const Frame& first)
 
 // Steps besides those that end at output times.
 double steps_of_motion(const Scene& scene, const Frame& first, double until, double edge, double tolerance) {
-  constexpr double falls = 2.25;
+  constexpr double falls = 2.25, times_of_flow = 5;
   if (const auto down = runs_down(scene, first, first.time); down && scene.inflows.empty() && scene.holds.empty())
     return until * down->speed / (edge / 2); // energy/walls.h: longest_step_on_walls
   if (const auto along = speed_along_solids(scene, first); along && scene.holds.empty())
@@ -108,11 +109,14 @@ double steps_of_motion(const Scene& scene, const Frame& first, double until, dou
   const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm();
   const double falling = all.empty() ? 0 : falls * std::sqrt(2 * longest_fall(all) / gravity);
   const bool falls_freely = only_falls(scene, all);
-  double acceleration = falls_freely ? gravity : 0;
+  double acceleration = falls_freely ? gravity : 0, flow = 0; // some times of the flow [s]
   for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
-    if (!falls_freely && scales.length && *scales.length > 0)
+    if (!falls_freely && scales.length && *scales.length > 0) {
       acceleration = std::max(acceleration, scales.speed * scales.speed / *scales.length);
-  double end = scene.inflows.empty() ? falls_freely ? falling : until : 0;
+      flow = std::max(flow, times_of_flow * *scales.length / scales.speed);
+    }
+  const bool drawn = drawing_time(scene, first) > 0; // then what drives it faster is soon in balance with its holds
+  double end = scene.inflows.empty() ? falls_freely ? falling : drawn ? flow : until : 0;
   for (const scene::Inflow& inflow : scene.inflows)
     end = std::max(end, inflow.until ? *inflow.until + falling : until);
   return acceleration > 0 ? std::min(end, until) / std::sqrt(tolerance * edge / acceleration) : 0;

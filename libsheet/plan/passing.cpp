@@ -7,9 +7,11 @@
 #include <numbers>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/way_of_sheet.h"
+#include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
 
 namespace sheet {
@@ -65,6 +67,24 @@ std::optional<Moving> moving(const scene::Motion& motion, double first) {
   return velocity.isZero(0) ? std::nullopt : std::optional(Moving{velocity, start});
 }
 
+// The mean place of what a hold holds [m].
+Vector3 middle(const formats::Frame& frame, std::size_t hold) {
+  const auto held = masks(frame, "hold");
+  Vector3 sum = Vector3::Zero();
+  double count = 0;
+  for (std::size_t v = 0; v < held.size(); ++v)
+    if ((held[v] >> hold & 1) != 0) {
+      sum += positions(frame)[v];
+      ++count;
+    }
+  return sum / count;
+}
+
+struct Held {
+  Moving motion;
+  Vector3 middle; // at the start
+};
+
 } // namespace
 
 double passing_time(const Scene& scene, const formats::Frame& first) {
@@ -90,6 +110,23 @@ double passing_time(const Scene& scene, const formats::Frame& first) {
     }
   }
   return passed;
+}
+
+double drawing_time(const Scene& scene, const formats::Frame& first) {
+  const Vector3 sizes = way_of_sheet(first, Vector3::Zero()).sizes();
+  std::vector<Held> held; // those that are for ever
+  for (std::size_t i = 0; i < scene.holds.size(); ++i)
+    if (const scene::Hold& hold = scene.holds[i]; !hold.until && !hold.roll)
+      held.push_back({moving(hold.motion, first.time).value_or(Moving{Vector3::Zero(), first.time}), middle(first, i)});
+  double drawn = 0;
+  for (const Held& one : held)
+    for (const Held& other : held) {
+      const Vector3 apart = one.motion.velocity - other.motion.velocity;
+      if (apart.dot(one.middle - other.middle) > 0)
+        drawn = std::max(drawn, std::max(one.motion.start, other.motion.start) +
+                                    sizes.dot(apart.cwiseAbs()) / apart.squaredNorm());
+    }
+  return drawn;
 }
 
 } // namespace sheet

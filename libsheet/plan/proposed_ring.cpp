@@ -202,7 +202,7 @@ double until_of(const Scene& scene, const Frame& first) {
   }
   for (const scene::SheetTable& sheet : scene.sheets)
     ends(sheet.enters.value_or(0));
-  until = std::max(until, std::min(passing_time(scene, first), longest_passing * until));
+  until = std::max({until, drawing_time(scene, first), std::min(passing_time(scene, first), longest_passing * until)});
   return std::isfinite(until) && until > 0 ? rounded(until) : 1;
 }
 

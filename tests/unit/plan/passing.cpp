@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/proposed_ring.h"
 
 namespace sheet {
 namespace {
@@ -61,6 +62,32 @@ TEST(Passing, OneTurn) {
   EXPECT_EQ(turning(0.05, "[[0, 2], [1, 0]]"), 0);
   constexpr std::string_view inflow = "2}\n[[inflow]]\nregion = \"x_min\"\nvelocity = [1, 0, 0]\nthickness = 0.01\n#";
   EXPECT_NEAR(turning(0.1, inflow), std::numbers::pi, 1e-9); // what flows in may come to it
+}
+
+// Of a film of 10 by 20 mm whose side x_max is drawn away from x_min.
+TEST(Passing, UntilHoldsHaveDrawnTheSheetToTwiceItsLength) {
+  const auto drawing = [](const std::string& hold, const std::string& other) {
+    const Scene scene = scene::parse_scene("[sheet]\nshape = \"rectangle\"\nsize = [0.01, 0.02]\nedge_length = 0.002\n"
+                                           "plane = \"xy\"\nthickness = 1e-4\n[material]\nviscosity = 10\n"
+                                           "density = 1000\nsurface_tension = 0.05\n[[hold]]\nregion = \"x_max\"\n" +
+                                               hold + "[[hold]]\nregion = \"x_min\"\n" + other,
+                                           "s");
+    const auto first = first_frame(scene);
+    const double time = drawing_time(scene, first);
+    EXPECT_GE(proposed_ring(scene, first, {}).until, time);
+    return time;
+  };
+  const std::string away = "motion = {kind = \"translating\", velocity = [0.005, 0, 0]}\n";
+  const double thickness = 1e-4; // the box has it
+  EXPECT_NEAR(drawing(away, ""), (0.01 + thickness) / 0.005, 1e-9);
+  EXPECT_NEAR(drawing(away, "motion = {kind = \"translating\", velocity = [-0.005, 0, 0]}\n"),
+              (0.01 + thickness) / 0.01, 1e-9);
+  EXPECT_NEAR(drawing("motion = {kind = \"translating\", velocity = [[0, 0, 0, 0], [1, 0.005, 0, 0]]}\n", ""),
+              1 + (0.01 + thickness) / 0.005, 1e-9);
+  EXPECT_EQ(drawing("motion = {kind = \"translating\", velocity = [-0.005, 0, 0]}\n", ""), 0); // pressed together
+  EXPECT_EQ(drawing(away, away), 0);
+  EXPECT_EQ(drawing(away, "until = 0.01\n"), 0);
+  EXPECT_EQ(drawing("", ""), 0);
 }
 
 } // namespace
