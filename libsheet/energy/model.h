@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "libsheet/energy/air_drag.h"
 #include "libsheet/energy/bath_surface.h"
 #include "libsheet/energy/contact.h"
+#include "libsheet/energy/form_drag.h"
 #include "libsheet/energy/heat_model.h"
 #include "libsheet/energy/holds.h"
 #include "libsheet/energy/inertia.h"
@@ -40,7 +40,8 @@ struct Model {
   std::vector<PressureLaw> pressures; // one an enclosure
   std::optional<BathLiquid> bath;     // needs gravity
   std::vector<BathReach> bath_reach;  // of each vertex; empty: from below
-  std::optional<AirFlow> air;
+  std::optional<OuterFlow> air;
+  std::optional<OuterFlow> flooding; // of a bath, around what has gone under
   bool inertia = true;
   std::optional<ModelFaces> faces; // needs tension; chosen for a step
   Bending bending = Bending::none;

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "libsheet/base/error.h"
-#include "libsheet/energy/air_drag.h"
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/bath.h"
 #include "libsheet/energy/bath_drag.h"
@@ -17,6 +16,7 @@
 #include "libsheet/energy/channel_pressure.h"
 #include "libsheet/energy/contact_damping.h"
 #include "libsheet/energy/contact_shear.h"
+#include "libsheet/energy/form_drag.h"
 #include "libsheet/energy/gravity.h"
 #include "libsheet/energy/hinge.h"
 #include "libsheet/energy/membrane.h"
@@ -166,10 +166,15 @@ constexpr std::array table = {
                 maker.add(BathDrag(m.bath->drag, m.gravity, m.bath->level, m.bath_reach));
               }},
     TermEntry{
+        "flooding", [](const Model& m) { return m.flooding.has_value(); },
+        [](const Model&) -> std::string { return "the bath is around what has gone under, and holds it back"; },
+        [](const Model& m) -> std::string { return m.bath ? "nothing has gone under" : "no bath in [environment]"; },
+        [](const Model& m, TermMaker& maker) { maker.add(FormDrag(*m.flooding)); }},
+    TermEntry{
         "drag of air", [](const Model& m) { return m.air.has_value(); },
         [](const Model& m) { return fmt::format("air of {:.3g} kg/m³ holds back what moves in it", m.air->density); },
         [](const Model&) -> std::string { return "no air in [environment]"; },
-        [](const Model& m, TermMaker& maker) { maker.add(AirDrag(*m.air)); }},
+        [](const Model& m, TermMaker& maker) { maker.add(FormDrag(*m.air)); }},
     TermEntry{"contact", [](const Model& m) { return !m.contacts.empty(); },
               [](const Model&) -> std::string { return "the sheet cannot pass through itself"; }, no_contact,
               [](const Model& m, TermMaker& maker) { maker.add(Contact(m.contacts, m.contacts_adhere)); }},

@@ -176,7 +176,7 @@ using Pressure = std::variant<ConstantPressure, InverseSquarePressure, DrainingP
   return !std::holds_alternative<ConstantPressure>(pressure);
 }
 
-// Air that moves at `wind` everywhere, and drags on the sheet (libsheet/energy/air_drag.h).
+// Air that moves at `wind` everywhere, and drags on the sheet (libsheet/energy/form_drag.h).
 struct Air {
   double density = 0;                 // [kg/m³]
   double drag_coefficient = 1.2;      // of the pressure on a sheet that moves across itself: of a plate [Hoerner 1965]

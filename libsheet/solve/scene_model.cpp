@@ -386,22 +386,28 @@ HeatModel heat_of(const Scene& scene, const Frame& frame, const std::shared_ptr<
   return model;
 }
 
-AirFlow air_of(const scene::Air& air) {
+OuterFlow air_of(const scene::Air& air) {
   return {.density = air.density,
           .drag = air.drag_coefficient,
           .friction = air.friction_coefficient,
           .wind = [wind = air.wind](double t) { return scene::value_at(wind, t); }};
 }
 
-// What air does not reach: vertices that touch a solid or another layer, or are under the bath's surface.
-std::vector<char> sheltered_from_air(const Scene& scene, const Frame& frame, const Model& model) {
-  std::vector<char> sheltered(frame.vertices, 0);
+// Vertices that touch a solid or another layer, which no flow around the sheet reaches.
+std::vector<char> covered(const Scene& scene, const Frame& frame, const Model& model) {
+  std::vector<char> covered(frame.vertices, 0);
   const auto touched = touched_solids(frame, scene.solids.size());
   for (std::size_t v = 0; v < touched.size(); ++v)
-    sheltered[v] = touched[v] != no_solid ? 1 : 0;
+    covered[v] = touched[v] != no_solid ? 1 : 0;
   for (const ContactSpring& spring : model.contacts)
     for (const std::uint32_t v : spring.vertices)
-      sheltered[v] = 1;
+      covered[v] = 1;
+  return covered;
+}
+
+// What air does not reach, or is under the bath's surface.
+std::vector<char> sheltered_from_air(const Scene& scene, const Frame& frame, const Model& model) {
+  std::vector<char> sheltered = covered(scene, frame, model);
   if (const auto& bath = scene.environment.bath) {
     const auto x = positions(frame);
     const Vector3 up = -scene.environment.gravity->normalized();
@@ -410,6 +416,21 @@ std::vector<char> sheltered_from_air(const Scene& scene, const Frame& frame, con
         sheltered[v] = 1;
   }
   return sheltered;
+}
+
+// Of the bath, which rests; none where nothing has gone under.
+std::optional<OuterFlow> flooding(const Scene& scene, const Frame& frame, const Model& model) {
+  if (std::ranges::find(model.bath_reach, BathReach::around) == model.bath_reach.end())
+    return {};
+  scene::Air as_air;
+  as_air.density = model.bath->density;
+  OuterFlow flow = air_of(as_air);
+  flow.name = "flooding";
+  flow.sheltered = covered(scene, frame, model);
+  for (std::size_t v = 0; v < flow.sheltered.size(); ++v)
+    if (model.bath_reach[v] != BathReach::around)
+      flow.sheltered[v] = 1;
+  return flow;
 }
 
 // Nothing comes over a rim that is held, or that liquid enters by, nor over what the bath clings to.
@@ -572,6 +593,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
     model.inner_faces = inner_faces(scene, frame);
   if (model.bath && model.gravity.squaredNorm() > 0)
     model.bath_reach = reach_of_bath(frame, mesh, model);
+  model.flooding = flooding(scene, frame, model);
   if (model.air)
     model.air->sheltered = sheltered_from_air(scene, frame, model);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.

@@ -26,7 +26,7 @@ Result v43(const Settings& s) {
   State start = film(make_rectangle(1, 1, mesh_options(s, 1)), h);
   Model m;
   m.liquid.density = water;
-  m.air = AirFlow{.density = air, .drag = across, .friction = along};
+  m.air = OuterFlow{.density = air, .drag = across, .friction = along};
   if (thrown)
     std::ranges::fill(start.velocities, Vector3(0, start_speed, 0));
   else

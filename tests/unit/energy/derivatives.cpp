@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "libsheet/energy/air_drag.h"
+#include "libsheet/energy/form_drag.h"
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/bath.h"
@@ -332,10 +332,10 @@ TEST(Derivatives, OfTwoLiquids) {
 }
 TEST(Derivatives, SurfaceTension) { check(SurfaceTension(), {}); }
 TEST(Derivatives, SurfaceTensionOfWettedFaces) { check(SurfaceTension(), {}, true, crumpled, touch_walls); }
-TEST(Derivatives, AirDrag) {
+TEST(Derivatives, FormDrag) {
   // So strong that no difference crosses where the velocity against it is 0.
   const auto wind = [](double t) { return Vector3(20, 200 * t, -30); };
-  check(AirDrag({.density = 2, .drag = 1.2, .friction = 0.3, .wind = wind}), {false, false});
+  check(FormDrag({.density = 2, .drag = 1.2, .friction = 0.3, .wind = wind}), {false, false});
 }
 // The whole force on a triangle is that of its area, and what nothing reaches has none.
 TEST(Derivatives, AirPressesAndRubs) {
@@ -343,7 +343,7 @@ TEST(Derivatives, AirPressesAndRubs) {
   const State s = test::at_rest(mesh, 0.1);
   const Liquid liquid{.viscosity = 1, .density = 3};
   const double dt = 0.5;
-  AirDrag all({.density = 2, .drag = 1.2, .friction = 0.1}), part({.density = 2, .drag = 1.2, .sheltered = {0, 1, 1}});
+  FormDrag all({.density = 2, .drag = 1.2, .friction = 0.1}), part({.density = 2, .drag = 1.2, .sheltered = {0, 1, 1}});
   Stage stage = first_stage(s, liquid, dt, dt, false);
   all.begin(stage);
   part.begin(stage);
@@ -352,7 +352,7 @@ TEST(Derivatives, AirPressesAndRubs) {
   MatrixN<9> hessian;
   for (int c = 0; c < 3; ++c)
     u.segment<3>(3 * c) = s.positions[static_cast<std::size_t>(c)] + dt * velocity;
-  const auto force = [&](const AirDrag& drag) -> Vector3 {
+  const auto force = [&](const FormDrag& drag) -> Vector3 {
     drag.derivatives(0, u, gradient, hessian, false);
     return -(gradient.segment<3>(0) + gradient.segment<3>(3) + gradient.segment<3>(6));
   };

@@ -61,7 +61,7 @@ TEST(Modelled, TermsAreMadeUnderTheNamesThatTheTableHas) {
   model.gravity = {0, 0, -1};
   model.pressures.resize(1);
   model.bath = BathLiquid{.density = 2, .spreads = true, .drag = 1};
-  model.air = AirFlow{.density = 1.2, .drag = 1.2};
+  model.air = OuterFlow{.density = 1.2, .drag = 1.2};
   model.walls.resize(2);
   model.contacts.resize(1);
   model.contacts_flow = true;

@@ -243,5 +243,21 @@ TEST(BathReach, TwoLayersSpreadAsOneOfTwiceTheThickness) {
     EXPECT_NEAR(stack.mean(layer, 0) / before - 1, rate * duration, 0.01 * rate * duration) << layer;
 }
 
+// Held back as a plate is it falls at v, C_n ρ_b v²/2 = (ρ - ρ_b) g h.
+TEST(BathReach, WhatSinksComesToItsSpeed) {
+  constexpr double density = 1350, drag = 1.2;
+  FloatingStack stack({true});
+  stack.sink(100);
+  Model m = on_bath(stack, density, density);
+  m.inertia = true;
+  m.flooding = OuterFlow{.density = bath_density, .drag = drag};
+  Stepper stepper(m, {});
+  for (int i = 0; i < 100; ++i)
+    stepper.step(stack.state, 0.05);
+  const double speed = std::sqrt(2 * (density / bath_density - 1) * weight_of_kg * layer_depth / drag);
+  for (const Vector3& v : stack.state.velocities)
+    EXPECT_NEAR((v + Vector3(0, 0, speed)).norm(), 0, 1e-3 * speed);
+}
+
 } // namespace
 } // namespace sheet

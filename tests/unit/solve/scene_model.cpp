@@ -277,6 +277,24 @@ TEST(SceneModel, AirDoesNotReachWhatTouchesOrIsUnderABath) {
   EXPECT_EQ(model.air->wind(1), Vector3(2, 0, 0));
 }
 
+TEST(SceneModel, ABathHoldsBackWhatHasGoneUnder) {
+  Frame frame = two_squares();
+  put_masks(frame, "touch", {0, 1, 0, 0, 0, 0});
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  const auto model = [&](double level) {
+    return model_of(parse_scene(std::string(scene_text) + fmt::format("[environment]\ngravity = [0, 0, -9.81]\n"
+                                                                      "bath = {{density = 2000, level = {}}}\n",
+                                                                      level),
+                                "test"),
+                    frame, mesh, Bending::mid_edge, false);
+  };
+  EXPECT_FALSE(model(-100).flooding);
+  const Model under = model(100);
+  ASSERT_TRUE(under.flooding);
+  EXPECT_EQ(under.flooding->density, 2000);
+  EXPECT_EQ(under.flooding->sheltered, (std::vector<char>{0, 1, 0, 0, 0, 0}));
+}
+
 // What a vertex overshot counts where a solid holds it and no contact spring pulls at it. A step uses it up, and says
 // that it started where the frame had the vertex.
 TEST(SceneModel, WhatWasOvershotIsPutBackOnce) {

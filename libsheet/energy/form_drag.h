@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quadratic drag of air on what moves through it [Hoerner 1965, chapters 2 and 3]: with w the velocity less the wind's,
-// w_n across a triangle and w_t along it, the pressure C_n ρ |w_n| w_n/2 and the friction C_t ρ |w_t| w_t/2 [Pa], C_t
-// for both faces together. For each corner of a triangle
+// Quadratic drag of air, or of a bath around what has gone under, on what moves through it [Hoerner 1965, chapters 2
+// and 3]: with w the velocity less the wind's, w_n across a triangle and w_t along it, the pressure C_n ρ |w_n| w_n/2
+// and the friction C_t ρ |w_t| w_t/2 [Pa], C_t for both faces together. For each corner of a triangle
 //   W = (Â/3) τ (ρ/6) (C_n |w_n|³ + C_t |w_t|³),   w = (x - x̄)/τ - wind,
 // Â and the normal predicted for the end of the stage, x̄ the start of the step, in a second stage extrapolated from the
-// first, wind at the stage's end. A corner that air does not reach has none of it.
+// first, wind at the stage's end. A corner that is sheltered has none of it.
 #pragma once
 #include <functional>
 #include <vector>
@@ -14,23 +14,24 @@
 
 namespace sheet {
 
-struct AirFlow {
+struct OuterFlow {
+  const char* name = "drag of air";
   double density = 0;                                                                      // ρ [kg/m³]
   double drag = 0, friction = 0;                                                           // C_n, C_t
   std::function<Vector3(double)> wind = [](double) -> Vector3 { return Vector3::Zero(); }; // at a time [m/s]
-  std::vector<char> sheltered = {}; // of each vertex, whether air does not reach it; empty: it reaches all
+  std::vector<char> sheltered = {}; // of each vertex, whether it is not reached; empty: all are
 };
 
-class AirDrag {
+class FormDrag {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  explicit AirDrag(AirFlow air) : air_(std::move(air)) {}
-  [[nodiscard]] const char* name() const { return "drag of air"; }
+  explicit FormDrag(OuterFlow flow) : flow_(std::move(flow)) {}
+  [[nodiscard]] const char* name() const { return flow_.name; }
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
 
   void begin(const Stage& stage) {
     mesh_ = stage.start->mesh;
-    const Vector3 blown = stage.duration * air_.wind(stage.end_time);
+    const Vector3 blown = stage.duration * flow_.wind(stage.end_time);
     still_.resize(stage.vertices());
     for (std::uint32_t v = 0; v < still_.size(); ++v)
       still_[v] = reference_position(stage, v) + blown;
@@ -39,7 +40,7 @@ public:
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const Corners& c = mesh_->triangles[t];
       triangles_[t].normal = TriangleArea(x[c[0]], x[c[1]], x[c[2]]).normal;
-      triangles_[t].weight = stage.raised[t].area() * air_.density / (18 * stage.duration * stage.duration);
+      triangles_[t].weight = stage.raised[t].area() * flow_.density / (18 * stage.duration * stage.duration);
     }
   }
 
@@ -70,9 +71,10 @@ public:
       const double weight = 3 * triangles_[i].weight, slid = along.norm();
       sum += add_corner(triangles_[i].weight, across, along, gradient.segment<3>(3 * c));
       auto block = hessian.block<3, 3>(3 * c, 3 * c);
-      block = 2 * weight * air_.drag * across.norm() * nn + weight * air_.friction * slid * (Matrix3::Identity() - nn);
+      block =
+          2 * weight * flow_.drag * across.norm() * nn + weight * flow_.friction * slid * (Matrix3::Identity() - nn);
       if (slid > 0)
-        block += weight * air_.friction / slid * along * along.transpose();
+        block += weight * flow_.friction / slid * along * along.transpose();
     });
     return sum;
   }
@@ -85,29 +87,29 @@ private:
 
   static double cube(double x) { return x * x * x; }
   [[nodiscard]] double potential(double weight, double across, double along) const {
-    return weight * (air_.drag * cube(across) + air_.friction * cube(along));
+    return weight * (flow_.drag * cube(across) + flow_.friction * cube(along));
   }
   // Adds a corner's to the gradient and returns its potential.
   double add_corner(double weight, const Vector3& across, const Vector3& along, Eigen::Ref<Vector3> gradient) const {
     const double a = across.norm(), l = along.norm();
-    gradient += 3 * weight * (air_.drag * a * across + air_.friction * l * along);
+    gradient += 3 * weight * (flow_.drag * a * across + flow_.friction * l * along);
     return potential(weight, a, l);
   }
-  // Of each corner that air reaches what it has moved against the air, across the triangle and along it [m].
+  // Of each corner that is reached what it has moved against the flow, across the triangle and along it [m].
   template <class Visit> void each_corner(std::size_t i, const VectorN<9>& u, Visit&& visit) const {
     const Vector3& normal = triangles_[i].normal;
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t v = mesh_->triangles[i][static_cast<std::size_t>(c)];
-      if (!air_.sheltered.empty() && air_.sheltered[v] != 0)
+      if (!flow_.sheltered.empty() && flow_.sheltered[v] != 0)
         continue;
       const Vector3 moved = u.segment<3>(3 * c) - still_[v], across = normal.dot(moved) * normal;
       visit(c, across, Vector3(moved - across));
     }
   }
 
-  AirFlow air_;
+  OuterFlow flow_;
   std::shared_ptr<const Connectivity> mesh_;
-  std::vector<Vector3> still_; // of each vertex: where it would be if it rested in the air, from x̄ on [m]
+  std::vector<Vector3> still_; // of each vertex: where it would be if it rested in the flow, from x̄ on [m]
   std::vector<Triangle> triangles_;
 };
 
