@@ -41,7 +41,7 @@ struct Model {
   std::optional<BathLiquid> bath;     // needs gravity
   std::vector<BathReach> bath_reach;  // of each vertex; empty: from below
   std::optional<OuterFlow> air;
-  std::optional<OuterFlow> flooding; // of a bath, around what has gone under
+  std::optional<OuterFlow> bath_flow; // past what moves in the bath across itself
   bool inertia = true;
   std::optional<ModelFaces> faces; // needs tension; chosen for a step
   Bending bending = Bending::none;

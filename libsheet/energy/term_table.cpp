@@ -165,11 +165,14 @@ constexpr std::array table = {
               [](const Model& m, TermMaker& maker) {
                 maker.add(BathDrag(m.bath->drag, m.gravity, m.bath->level, m.bath_reach));
               }},
-    TermEntry{
-        "flooding", [](const Model& m) { return m.flooding.has_value(); },
-        [](const Model&) -> std::string { return "the bath is around what has gone under, and holds it back"; },
-        [](const Model& m) -> std::string { return m.bath ? "nothing has gone under" : "no bath in [environment]"; },
-        [](const Model& m, TermMaker& maker) { maker.add(FormDrag(*m.flooding)); }},
+    TermEntry{"bath resistance", [](const Model& m) { return m.bath_flow.has_value(); },
+              [](const Model&) -> std::string { return "it holds back what moves in it across itself"; },
+              [](const Model& m) -> std::string {
+                return !m.bath          ? "no bath in [environment]"
+                       : m.bath->clings ? "the bath clings"
+                                        : "without inertia nothing dives";
+              },
+              [](const Model& m, TermMaker& maker) { maker.add(FormDrag(*m.bath_flow)); }},
     TermEntry{
         "drag of air", [](const Model& m) { return m.air.has_value(); },
         [](const Model& m) { return fmt::format("air of {:.3g} kg/m³ holds back what moves in it", m.air->density); },

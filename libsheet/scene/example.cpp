@@ -162,9 +162,9 @@ gravity = [0, "-9.81 m/s^2", 0]
 
 # A heavy liquid below the sheet, up to the height `level` against gravity. It carries what is under its surface, and
 # takes from what has gone under the weight of as much of the bath; with clings = true it pulls down what is above it,
-# too, so that the sheet cannot leave it. With spreads = true the sheet spreads on it by its own weight, as glass on tin;
-# drag: what slides on it is held back so, its viscosity over its depth where that is shallow (default 0).
-#bath = {density = "1200 kg/m^3", level = "-0.5 m", clings = false, spreads = false, drag = "50 Pa*s/m"}
+# too, so that the sheet cannot leave it. Unless spreads = false, or it clings, the sheet spreads on it by its own weight,
+# as glass on tin; drag: what slides on it is held back so, its viscosity over its depth where that is shallow (default 0).
+#bath = {density = "1200 kg/m^3", level = "-0.5 m", clings = false, spreads = true, drag = "50 Pa*s/m"}
 
 # Air drags on what moves through it, across itself as on a plate, along itself by friction: it holds back films that are
 # thinner than some 0.2 mm. It moves everywhere at `wind`; what touches a solid or another layer, or is under a bath, it

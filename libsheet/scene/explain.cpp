@@ -309,7 +309,8 @@ std::vector<std::string> left_out_of(const Scene& scene, const Scales& scales) {
     left_out.push_back(
         fmt::format("the bath has no waves{} and {}", tension, bath->drag > 0 ? "stays at rest" : "no viscosity"));
     if (!bath->spreads)
-      left_out.push_back("what floats does not spread by its own weight (bath = {..., spreads = true})");
+      left_out.push_back("what floats does not spread by its own weight, and is drawn together at free rims (bath = "
+                         "{..., spreads = true})");
   }
   if (const auto& pressure = scene.environment.pressure; pressure && std::holds_alternative<GasPressure>(*pressure))
     left_out.push_back("enclosed gas has one pressure everywhere, and stays in where the sheet is torn");

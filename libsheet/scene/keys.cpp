@@ -181,7 +181,7 @@ constexpr std::array bath_keys{
     number_key("density", quantity::density, "of the heavy liquid below the sheet"),
     number_key("level", quantity::length, "height of its surface against gravity (default 0)"),
     boolean_key("clings", "the sheet cannot leave it (default false)"),
-    boolean_key("spreads", "the sheet spreads on it by its own weight (default false)"),
+    boolean_key("spreads", "the sheet spreads on it by its own weight (default true, unless it clings)"),
     number_key("drag", quantity::drag, "on what slides on it, over its speed (default 0)")};
 constexpr KeyTable bath_table{"bath", bath_keys};
 

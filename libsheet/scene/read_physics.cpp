@@ -99,9 +99,10 @@ Environment read_environment(TableReader table) {
   environment.pressure = read_pressure(table, environment.pressure_sheet);
   if (auto bath = table.table("bath")) {
     const double density = bath->required("density");
-    environment.bath =
-        BathLiquid{density, bath->quantity_or("level", 0), bath->boolean("clings").value_or(false),
-                   bath->boolean("spreads").value_or(false), bath->quantity_or("drag", 0, Bound::not_negative)};
+    const double level = bath->quantity_or("level", 0);
+    const bool clings = bath->boolean("clings").value_or(false);
+    environment.bath = BathLiquid{density, level, clings, bath->boolean("spreads").value_or(!clings),
+                                  bath->quantity_or("drag", 0, Bound::not_negative)};
     bath->finish();
   }
   if (auto air = table.table("air"))

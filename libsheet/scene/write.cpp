@@ -217,10 +217,10 @@ void write_environment(Writer& out, const Environment& environment) {
                              : fmt::format(", sheet = {}", toml_text(environment.pressure_sheet))));
   }
   if (environment.bath)
-    out.line("bath", fmt::format("{{density = {}, level = {}, clings = {}{}{}}}", number(environment.bath->density),
-                                 number(environment.bath->level), environment.bath->clings,
-                                 environment.bath->spreads ? ", spreads = true" : "",
-                                 environment.bath->drag > 0 ? ", drag = " + number(environment.bath->drag) : ""));
+    out.line("bath",
+             fmt::format("{{density = {}, level = {}, clings = {}, spreads = {}{}}}", number(environment.bath->density),
+                         number(environment.bath->level), environment.bath->clings, environment.bath->spreads,
+                         environment.bath->drag > 0 ? ", drag = " + number(environment.bath->drag) : ""));
   if (const auto& air = environment.air)
     out.line("air", fmt::format("{{density = {}, drag_coefficient = {}, friction_coefficient = {}{}}}",
                                 number(air->density), number(air->drag_coefficient), number(air->friction_coefficient),

@@ -418,19 +418,15 @@ std::vector<char> sheltered_from_air(const Scene& scene, const Frame& frame, con
   return sheltered;
 }
 
-// Of the bath, which rests; none where nothing has gone under.
-std::optional<OuterFlow> flooding(const Scene& scene, const Frame& frame, const Model& model) {
-  if (std::ranges::find(model.bath_reach, BathReach::around) == model.bath_reach.end())
-    return {};
-  scene::Air as_air;
-  as_air.density = model.bath->density;
-  OuterFlow flow = air_of(as_air);
-  flow.name = "flooding";
-  flow.sheltered = covered(scene, frame, model);
-  for (std::size_t v = 0; v < flow.sheltered.size(); ++v)
-    if (model.bath_reach[v] != BathReach::around)
-      flow.sheltered[v] = 1;
-  return flow;
+// What a bath does not resist, as it is not there, or something else is in between.
+std::vector<char> sheltered_from_bath(const Scene& scene, const Frame& frame, const Model& model) {
+  std::vector<char> sheltered = covered(scene, frame, model);
+  const BathSurface surface(model.gravity, model.bath->level, model.bath_reach);
+  const auto x = positions(frame);
+  for (std::uint32_t v = 0; v < x.size(); ++v)
+    if (!surface.wets(v, x[v]))
+      sheltered[v] = 1;
+  return sheltered;
 }
 
 // Nothing comes over a rim that is held, or that liquid enters by, nor over what the bath clings to.
@@ -457,6 +453,9 @@ Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   model.bath = scene.environment.bath;
   if (scene.environment.air)
     model.air = air_of(*scene.environment.air);
+  if (model.bath && model.has_weight() && model.has_inertia() && !model.bath->clings)
+    model.bath_flow =
+        OuterFlow{.name = "bath resistance", .density = model.bath->density, .drag = scene::Air().drag_coefficient};
   model.contacts_adhere = scene.contact && contacts_adhere(scene);
   model.contacts_flow = layers_flow(scene);
   return model;
@@ -593,7 +592,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
     model.inner_faces = inner_faces(scene, frame);
   if (model.bath && model.gravity.squaredNorm() > 0)
     model.bath_reach = reach_of_bath(frame, mesh, model);
-  model.flooding = flooding(scene, frame, model);
+  if (model.bath_flow)
+    model.bath_flow->sheltered = sheltered_from_bath(scene, frame, model);
   if (model.air)
     model.air->sheltered = sheltered_from_air(scene, frame, model);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.

@@ -125,7 +125,9 @@ def work_of_bath(said, start, end, of_liquids):
     all_round = reached & (overturned | around[triangle])
     liquid = start["liquid"].ravel() if "liquid" in start else numpy.zeros(len(triangle), int)
     density, _ = of_liquids(said, liquid)
-    thrust = density * g * volume ** 2 / 2 * (reached & from_below).mean(axis=1) * bath.get("spreads", False)
+    level_part = normals(start) @ up / numpy.linalg.norm(normals(start), axis=1)
+    floats_by = numpy.clip((level_part - 0.5) / 0.25, 0, 1) * bath.get("spreads", not clings)
+    thrust = density * g * volume ** 2 / 2 * (reached & from_below).mean(axis=1) * floats_by
 
     def potential(frame):
         heights = (frame["position"] @ up)[triangle] - level

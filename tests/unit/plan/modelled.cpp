@@ -35,7 +35,9 @@ using Names = std::set<std::string_view>;
 TEST(Modelled, PartsFollowTheTables) {
   const Scene all = scene_of(scene::everything);
   for (const scene::ModelledPart& part : modelled(all))
-    EXPECT_TRUE(part.modelled || part.name == "bath thrust" || part.name == "drag of a bath") << part.name;
+    EXPECT_TRUE(part.modelled || part.name == "bath thrust" || part.name == "drag of a bath" ||
+                part.name == "bath resistance")
+        << part.name;
   EXPECT_EQ(names(scene_of(disk + liquid)), (Names{"membrane", "bending", "inertia"}));
   EXPECT_EQ(names(scene_of(disk + "[material]\nviscosity = 0\ndensity = 1\nsurface_tension = 1\n")),
             (Names{"inertia", "surface tension"}));
@@ -62,6 +64,7 @@ TEST(Modelled, TermsAreMadeUnderTheNamesThatTheTableHas) {
   model.pressures.resize(1);
   model.bath = BathLiquid{.density = 2, .spreads = true, .drag = 1};
   model.air = OuterFlow{.density = 1.2, .drag = 1.2};
+  model.bath_flow = OuterFlow{.name = "bath resistance", .density = 2, .drag = 1.2};
   model.walls.resize(2);
   model.contacts.resize(1);
   model.contacts_flow = true;

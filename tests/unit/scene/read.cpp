@@ -33,7 +33,7 @@ TEST(Read, EveryTable) {
   EXPECT_EQ(s.material, (Liquid{100, 978, 0.0728}));
   EXPECT_EQ(*s.environment.gravity, Vector3d(0, -9.81, 0));
   EXPECT_EQ(std::get<ConstantPressure>(*s.environment.pressure).value, 10);
-  EXPECT_EQ(s.environment.bath, (BathLiquid{1200, 0.5}));
+  EXPECT_EQ(s.environment.bath, (BathLiquid{.density = 1200, .level = 0.5, .spreads = true}));
   ASSERT_TRUE(s.environment.air);
   EXPECT_EQ(s.environment.air->density, 1.2);
   EXPECT_EQ(s.environment.air->drag_coefficient, 1.2);

@@ -37,7 +37,7 @@ surface_tension = 0.0728
 [environment]
 gravity = [0, -9.81, 0]
 pressure = {law = "constant", value = 10}
-bath = {density = 1200, level = 0.5, clings = false}
+bath = {density = 1200, level = 0.5, clings = false, spreads = true}
 air = {density = 1.2, drag_coefficient = 1.2, friction_coefficient = 0.01, wind = [[0, 0, 0, 0], [1, 3, 0, 0]]}
 
 [model]
@@ -193,7 +193,7 @@ public:
       s.environment.pressure = gas;
     }
     if (s.environment.gravity && below(2))
-      s.environment.bath = BathLiquid{positive(), number(), below(2) == 1};
+      s.environment.bath = BathLiquid{positive(), number(), below(2) == 1, below(2) == 1};
     if (below(2))
       s.environment.air = Air{positive(), positive(), positive(), below(2) ? velocity() : Timed<Vector3d>{}};
     s.model = {below(2) == 1, below(2) == 1, below(2) == 1};

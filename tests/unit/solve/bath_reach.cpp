@@ -250,7 +250,7 @@ TEST(BathReach, WhatSinksComesToItsSpeed) {
   stack.sink(100);
   Model m = on_bath(stack, density, density);
   m.inertia = true;
-  m.flooding = OuterFlow{.density = bath_density, .drag = drag};
+  m.bath_flow = OuterFlow{.density = bath_density, .drag = drag};
   Stepper stepper(m, {});
   for (int i = 0; i < 100; ++i)
     stepper.step(stack.state, 0.05);
