@@ -165,8 +165,10 @@ std::string explained(Source source, bool ring_alone) {
         sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
-  if (const std::string late = sheet::late_running_warning(scene, frame, until); !source.until && !late.empty())
-    explanation.warnings.push_back(late);
+  for (const std::string& late :
+       {sheet::late_running_warning(scene, frame, until), sheet::late_overrun_warning(scene, frame, until)})
+    if (!source.until && !late.empty())
+      explanation.warnings.push_back(late);
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::hole_scales(scene, frame), std::back_inserter(explanation.scales));
   std::ranges::copy(sheet::hole_warnings(scene, frame), std::back_inserter(explanation.warnings));

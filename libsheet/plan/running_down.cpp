@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,6 +28,44 @@ constexpr double near_enough = 0.75;   // of the thickness: from the solid, of w
 constexpr double above_a_plane = 2.5;  // likewise, of what comes down on all of it at once
 constexpr double least_part = 0.5;     // of the sheet that lies
 constexpr double least_slope = 0.1;    // part of gravity along the solid
+constexpr double late = 2;             // times the run
+
+std::string word_of_late(double until, std::string_view solid, std::string_view what, double time) {
+  const double about = std::stod(fmt::format("{:.2g}", time));
+  return fmt::format(
+      "the run ends, at {} s, before what lands on {} has {}, which takes some {:.10g} s: --until {:.10g} "
+      "shows that",
+      until, solid, what, about, about);
+}
+
+// Nothing but its weight moves it.
+bool is_free(const Scene& scene) { return !scene.heat && scene.holds.empty() && scene.inflows.empty(); }
+
+// The level way from a place to the nearest side of a box [m].
+Vector3 way_to_edge(const solid::Box3& box, const Vector3& x, const Vector3& down) {
+  Vector3 way = Vector3::Constant(std::numeric_limits<double>::infinity());
+  for (int i = 0; i < 3; ++i)
+    for (const double side : {box.min()[i], box.max()[i]})
+      if (std::abs(down[i]) < 0.5 && std::abs(side - x[i]) < way.norm())
+        way = (side - x[i]) * Vector3::Unit(i);
+  return way;
+}
+
+// Whether another solid stands in a way.
+bool is_walled(const solid::Solids& solids, std::size_t number, const Vector3& x, const Vector3& way, double t) {
+  constexpr int points = 32;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    for (int k = 0; k <= points && i != number; ++k)
+      if (solids.at(i, x + k * way / points, t).distance < 0)
+        return true;
+  return false;
+}
+
+// To which a puddle draws together on it, or lies still [m].
+double resting_thickness(const Liquid& liquid, const scene::Solid& solid, double g) {
+  const double capillary_length = std::sqrt(liquid.surface_tension / (liquid.density * g));
+  return 2 * capillary_length * std::sin(solid.contact_angle.value_or(std::numbers::pi) / 2);
+}
 
 } // namespace
 
@@ -67,10 +109,9 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
 }
 
 std::string late_running_warning(const Scene& scene, const formats::Frame& first, double until) {
-  constexpr double late = 2; // times the run
   const scene::Measured sheet = measured(first);
   const std::vector<Landing> all = landings(scene, first);
-  if (all.empty() || scene.heat || !scene.holds.empty() || !scene.inflows.empty() || !sheet.length || !sheet.thickness)
+  if (all.empty() || !is_free(scene) || !sheet.length || !sheet.thickness)
     return "";
   const Vector3 gravity = *scene.environment.gravity;
   std::size_t lands = 0, solid = 0;
@@ -92,10 +133,48 @@ std::string late_running_warning(const Scene& scene, const formats::Frame& first
   const double time = std::sqrt(2 * longest_fall(all) / gravity.norm()) + *sheet.length / 2 / speed;
   if (!std::isfinite(time) || time < late * until)
     return "";
-  const double about = std::stod(fmt::format("{:.2g}", time));
-  return fmt::format("the run ends, at {} s, before what lands on {} has run down, which takes some {:.10g} s: --until "
-                     "{:.10g} shows that",
-                     until, solid::Solids(scene).name(solid), about, about);
+  return word_of_late(until, solid::Solids(scene).name(solid), "run down", time);
+}
+
+std::string late_overrun_warning(const Scene& scene, const formats::Frame& first, double until) {
+  constexpr double much_later = 30, most = 0.9; // times the run; part of the sheet that lands on the top
+  const scene::Measured sheet = measured(first);
+  const std::vector<Landing> all = landings(scene, first);
+  if (all.empty() || !is_free(scene) || !sheet.length || !sheet.thickness)
+    return "";
+  const std::size_t number = all.front().solid;
+  const scene::Solid& below = scene.solids[number];
+  const Liquid& liquid = all.front().liquid;
+  const Vector3 gravity = *scene.environment.gravity, down = gravity.normalized();
+  Vector3 middle = Vector3::Zero();
+  double lands = 0;
+  for (const Landing& landing : all)
+    if (landing.solid == number && landing.there.normal.cross(down).norm() < least_slope) {
+      middle += landing.place;
+      ++lands;
+    }
+  const solid::Solids solids(scene);
+  const solid::Box3 box = solids.shape(number).bounds().transformed(solids.pose(number, first.time));
+  if (below.contact != SolidContact::flow || !std::holds_alternative<scene::Fixed>(below.motion) ||
+      !box.sizes().allFinite() || !liquid.law.newtonian() ||
+      lands < most * static_cast<double>(probes_of(first).size()))
+    return "";
+  const double g = gravity.norm(), h = *sheet.thickness, volume = *sheet.length * *sheet.length * h;
+  const Vector3 way = way_to_edge(box, middle / lands, down);
+  const double edge = way.norm();
+  const Vector3 above = middle / lands - h * down, over = (1 + h / edge) * way;
+  const auto beyond = landing_below(solids, down, above + over, *sheet.length, first.time);
+  const double side = std::min(beyond ? beyond->fall : edge, *sheet.length / 2);
+  if (side < 2 * h || is_walled(solids, number, above, over, first.time) ||
+      !(volume > std::numbers::pi * edge * edge * resting_thickness(liquid, below, g)))
+    return "";
+  const double spreading =
+      std::pow(edge / 0.894, 8) * 3 * liquid.viscosity / liquid.density / (g * volume * volume * volume);
+  const double running = side / scene::speed_of_layer(liquid, liquid.density * g * h / 2, h / 2, below.slip_length);
+  const double time = std::sqrt(2 * longest_fall(all) / g) + spreading + running;
+  if (!(time > late * until && time < much_later * until))
+    return "";
+  return word_of_late(until, solids.name(number), "come over its edge and run down it", time);
 }
 
 } // namespace sheet

@@ -87,5 +87,44 @@ TEST(RunningDown, ASheetOfAnotherLiquidRunsAsThat) {
   EXPECT_NEAR(glaze->speed, u, 1e-9 * u);
 }
 
+// Icing of 40 ml, 8 mm thick, that lands on a cake of 100 by 100 mm, 70 mm high.
+TEST(RunningDown, WhatLandsOnATopComesOverItsEdgeLater) {
+  const auto late = [](const std::string& of_liquid, const std::string& tables, double until) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"disk\"\nradius = 0.04\nedge_length = 0.005\nthickness = 0.008\ncenter = [0, 0.08, 0]\n"
+        "[material]\nviscosity = 10\ndensity = 1000\n" +
+            of_liquid +
+            "[environment]\ngravity = [0, -10, 0]\n[[solid]]\nshape = \"box\"\nsize = [0.1, 0.07, 0.1]\n"
+            "center = [0, 0.035, 0]\ncontact = \"flow\"\n" +
+            tables,
+        "s");
+    return late_overrun_warning(scene, first_frame(scene), until);
+  };
+  const double volume = std::numbers::pi * 0.04 * 0.04 * 0.008;
+  const double spreading = std::pow(0.05 / 0.894, 8) * 3 * 0.01 / (10 * std::pow(volume, 3)); // [Huppert 1982]
+  const double running = std::sqrt(std::numbers::pi) * 0.04 / 2 / (10 * 0.004 * 0.004 / (3 * 0.01));
+  const double time = std::sqrt(2 * 0.01 / 10) + spreading + running;
+  const std::string words =
+                        "the run ends, at 1 s, before what lands on solid 0 (box) has come over its edge and run down "
+                        "it, which takes some ",
+                    told = late("", "", 1);
+  ASSERT_THAT(told, testing::StartsWith(words));
+  EXPECT_NEAR(std::stod(told.substr(words.size())), time, 0.15 * time); // its middle is that of some vertices
+  EXPECT_EQ(late("", "", time / 1.5), "");
+  EXPECT_EQ(late("", "", time / 50), "");
+  EXPECT_EQ(late("surface_tension = 0.1\n", "", 1), ""); // 2 l_c are 6 mm
+  EXPECT_EQ(late("", "[[hold]]\nregion = \"rim\"\n", 1), "");
+  const auto walls = [](double from_middle, double thickness) {
+    std::string text;
+    for (const double x : {-from_middle, from_middle})
+      text += fmt::format("[[solid]]\nshape = \"box\"\nsize = [{0}, 0.2, 0.1]\ncenter = [{1}, 0, 0]\n[[solid]]\n"
+                          "shape = \"box\"\nsize = [0.1, 0.2, {0}]\ncenter = [0, 0, {1}]\n",
+                          thickness, x);
+    return text;
+  };
+  EXPECT_EQ(late("", walls(0.048, 0.004), 1), ""); // that stand on it
+  EXPECT_EQ(late("", walls(0.1, 0.1), 1), "");     // beside it
+}
+
 } // namespace
 } // namespace sheet
