@@ -48,7 +48,8 @@ std::optional<Piling> what_piles_up(const Scene& scene, const Frame& first, cons
   for (std::size_t i = 0; i < scene.inflows.size(); ++i)
     if (const auto landing = landing_of_inflow(scene, first, i); landing && inflow_piles_up(scene, first, i, *landing))
       return Piling{"what flows in", landing->solid};
-  if (all.empty() || !scene.holds.empty() || !scene.inflows.empty() || !is_upright(scene, first))
+  if (all.empty() || !scene.holds.empty() || !scene.inflows.empty() || scene.environment.pressure ||
+      !is_upright(scene, first))
     return std::nullopt;
   const auto landing = std::ranges::max_element(all, {}, &Landing::fall);
   if (!piles_up(*landing, speed_after_fall(scene, 0, *landing), *measured(first).thickness))

@@ -17,8 +17,9 @@ struct Piling {
   std::size_t solid;     // on which
 };
 
-// What falls on a solid for more than three thicknesses, an inflow, or sheets that are free and rather upright (steeper
-// than 60 degrees); but not on a belt that draws it away faster than it comes. all: of the sheet's vertices.
+// What falls on a solid for more than three thicknesses, an inflow, or sheets that are free, without a pressure that
+// keeps them open, and rather upright (steeper than 60 degrees); but not on a belt that draws it away faster than it
+// comes. all: of the sheet's vertices.
 [[nodiscard]] std::optional<Piling> what_piles_up(const Scene& scene, const formats::Frame& first,
                                                   const std::vector<Landing>& all);
 

@@ -40,5 +40,20 @@ TEST(ContactWarnings, WhatASolidSpreadsMustNotStick) {
   EXPECT_THAT(warnings_of_roller("stick", 0.02, "velocity = [0.05, -0.1, 0]\n"), IsEmpty()); // presses
 }
 
+// A sphere, half of which is steeper than 60 degrees, above a plane.
+TEST(ContactWarnings, WhatIsBlownUpDoesNotPileUp) {
+  const auto warnings = [](const std::string& pressure) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"sphere\"\nradius = 0.03\nedge_length = 0.005\nthickness = 0.004\n[material]\n"
+        "viscosity = 1000\ndensity = 2500\n[environment]\ngravity = [0, -9.81, 0]\n" +
+            pressure + "[[solid]]\nshape = \"plane\"\ncenter = [0, -0.1, 0]\n",
+        "s");
+    return contact_warnings(scene, first_frame(scene), 1);
+  };
+  const auto piles_up = testing::Contains(HasSubstr("folds or piles up"));
+  EXPECT_THAT(warnings(""), piles_up);
+  EXPECT_THAT(warnings("pressure = {law = \"gas\", value = \"20 kPa\"}\n"), testing::Not(piles_up));
+}
+
 } // namespace
 } // namespace sheet
