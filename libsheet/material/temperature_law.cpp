@@ -48,12 +48,16 @@ TemperatureRange range_of(const TemperatureLaw& law) {
   return {0, infinity};
 }
 
+bool has_viscosity(const TemperatureLaw& law) {
+  return law.kind == TemperatureLawKind::table || (law.kind == TemperatureLawKind::vft && law.vft_a);
+}
+
 std::optional<double> reference_viscosity(const TemperatureLaw& law) {
+  if (!has_viscosity(law) || (law.kind == TemperatureLawKind::table && law.temperatures.empty()))
+    return {};
   if (law.kind == TemperatureLawKind::table)
     return std::exp(log_viscosity(law)(within(law, law.reference_temperature)));
-  if (law.kind == TemperatureLawKind::vft && law.vft_a)
-    return std::pow(10, *law.vft_a + law.vft_b / (law.reference_temperature - law.vft_temperature));
-  return {};
+  return std::pow(10, *law.vft_a + law.vft_b / (law.reference_temperature - law.vft_temperature));
 }
 
 ViscosityShift::ViscosityShift(const TemperatureLaw& law) : law_(law), log_greatest_(std::log(law.greatest_factor)) {

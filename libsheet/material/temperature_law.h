@@ -46,7 +46,10 @@ struct TemperatureRange {
 };
 [[nodiscard]] TemperatureRange range_of(const TemperatureLaw& law);
 
-// μ(T_r) as the law itself has it, where it does: a table, vft with A [Pa s].
+// Whether the law itself says how great the viscosity is, not only by how much it changes: a table, vft with A.
+[[nodiscard]] bool has_viscosity(const TemperatureLaw& law);
+
+// μ(T_r) as such a law has it [Pa s]; nothing for others, and for a table without rows.
 [[nodiscard]] std::optional<double> reference_viscosity(const TemperatureLaw& law);
 
 // A law made ready to be asked often.

@@ -97,8 +97,8 @@ void read_flow_law(TableReader& table, const Files& files, Liquid& liquid) {
   law.kind = static_cast<FlowLawKind>(choice);
   switch (law.kind) {
   case FlowLawKind::newtonian:
-    if (const auto viscosity = reference_viscosity(liquid.temperature_law)) {
-      liquid.viscosity = *viscosity;
+    if (has_viscosity(liquid.temperature_law)) {
+      liquid.viscosity = reference_viscosity(liquid.temperature_law).value_or(0); // 0: rows that are reported
       table.has_no_meaning({"viscosity"}, "viscosity_law has it, by temperature");
     } else {
       liquid.viscosity = table.required("viscosity", Bound::not_negative);

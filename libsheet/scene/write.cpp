@@ -303,7 +303,7 @@ void write_flow_law(Writer& out, const Liquid& liquid) {
   const bool plateaus = law.kind == FlowLawKind::carreau || law.kind == FlowLawKind::cross;
   if (!law.newtonian())
     out.line("law", word(words::flow_laws, static_cast<std::size_t>(law.kind)));
-  const bool by_temperature = law.newtonian() && reference_viscosity(liquid.temperature_law);
+  const bool by_temperature = law.newtonian() && has_viscosity(liquid.temperature_law);
   if (law.kind != FlowLawKind::table && !by_temperature)
     out.line(plateaus ? "zero_viscosity" : "viscosity", liquid.viscosity);
   const auto unless_newtonian = [&](std::string_view key, double FlowLaw::*member) {

@@ -132,5 +132,22 @@ TEST(Heat, SaysWhatIsWrong) {
             "s:6:1: missing key \"density\" in [material]: [heat] needs it");
 }
 
+TEST(Heat, SaysWhatIsWrongWithATableOfViscosities) {
+  const auto with = [](const std::string& keys) {
+    return problem(disk + "[material]\ndensity = 1\nreference_temperature = 2\nviscosity_law = \"table\"\n" + keys +
+                   heat_table);
+  };
+  EXPECT_EQ(with(""),
+            "s:6:1: missing key \"temperatures\" in [material], such as temperatures = [\"700 degC\", \"800 degC\", "
+            "...], or temperature_file = \"curve.csv\"\n"
+            "s:6:1: missing key \"temperature_viscosities\" in [material], such as temperature_viscosities = "
+            "[\"4e6 Pa*s\", 2e5, ...]");
+  EXPECT_EQ(with("temperatures = [1, 2, 3]\ntemperature_viscosities = [3, 2, 1]\n"),
+            "s:10:16: temperatures: a table takes four rows or more");
+  EXPECT_EQ(with("viscosity = 3\ntemperatures = [1, 2, 2, 3]\ntemperature_viscosities = [4, 3, 2, 1]\n"),
+            "s:10:1: key \"viscosity\" has no meaning in [material]: viscosity_law has it, by temperature\n"
+            "s:11:16: temperatures: they must increase from each row to the next");
+}
+
 } // namespace
 } // namespace sheet::scene
