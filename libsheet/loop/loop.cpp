@@ -71,8 +71,11 @@ Keep parse_keep(const LoopOptions& options) {
   return keep;
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// None where there is none: less than one frame in all times that there are.
 void stamp_next_output_time(Frame& frame, const LoopOptions& options) {
-  double next = options.until.value_or(std::numeric_limits<double>::infinity());
+  double next = options.until.value_or(infinity);
   if (options.fps)
     next = std::min(next, next_output_time(frame.time, *options.fps));
   if (std::isinf(next)) {
@@ -352,7 +355,7 @@ private:
 
   [[nodiscard]] bool is_wanted() const {
     return keep_.last_only      ? false
-           : keep_.output_times ? frame_.time >= back_.find("next_output_time")->values<double>()[0]
+           : keep_.output_times ? frame_.time >= number(back_, "next_output_time", infinity)
                                 : frame_.step % keep_.every == 0;
   }
 
@@ -521,6 +524,11 @@ void check(const LoopOptions& options) {
 
 double next_output_time(double time, double fps) {
   double k = std::floor(time * fps);
+  constexpr double most = 0x1p52; // beyond, k and k + 1 are the same number, or give the same time
+  if (!(std::abs(k) < most))
+    fail(ExitCode::usage,
+         "--fps: {} frames a second are so many at t = {} s that their times are the same numbers: give fewer", fps,
+         time);
   while (k / fps <= time)
     ++k;
   while ((k - 1) / fps > time)

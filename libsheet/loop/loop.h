@@ -36,6 +36,7 @@ void check(const LoopOptions& options);
 [[nodiscard]] int run_loop(const LoopOptions& options);
 
 // The k-th output time k/fps that comes after `time` [s]; a time that is one itself does not count.
+// Throws Error (usage) where such times are too near to each other for numbers.
 [[nodiscard]] double next_output_time(double time, double fps);
 
 } // namespace sheet

@@ -48,6 +48,17 @@ steps_of() { sheet-print "$1" | sed -n 's/^step //p' | tr '\n' ' '; }
   sheet-pass -q start.sheet > /dev/null
 }
 
+@test "so many frames a second that times are one number are refused, so few that none comes are none" {
+  sheet-loop -q -i start.sheet --steps 3 --fps 1e-310 -o run.sheet -- cat
+  [[ $(steps_of run.sheet) == "0 3 " ]]
+  sheet-print start.sheet | sed 's/^time 0$/time 1/' | sheet-parse -o late.sheet
+  for fps in 1e17 1e300; do
+    run -2 timeout -s KILL 20 sheet-loop -i late.sheet --steps 3 --fps "$fps" -o run.sheet -- cat
+    [[ $output == *"--fps: "*" frames a second are so many at t = 1 s"*"give fewer" ]]
+  done
+  [[ $(steps_of run.sheet) == "0 3 " ]]
+}
+
 @test "time per stage is told, and -q is quiet" {
   run -0 sheet-loop -i start.sheet --steps 5 -o run.sheet -- 'sheet-pass | sheet-pass'
   [[ $(grep -c 'sheet-pass .* ms a step' <<< "$output") == 2 ]]

@@ -51,6 +51,14 @@ TEST(NextOutputTime, IsTheNextMultipleAndNeverTheSame) {
   EXPECT_EQ(next_output_time(-0.3, 10), -0.2);
 }
 
+TEST(NextOutputTime, IsRefusedWhereNumbersCannotTellItFromTheLast) {
+  EXPECT_EQ(next_output_time(0, 1e300), 1e-300);
+  EXPECT_EQ(next_output_time(1, 1e15), 1 + 1e-15);
+  for (const double fps : {1e16, 1e17, 1e300})
+    for (const double time : {1.0, -1.0, 1e10})
+      EXPECT_THROW(static_cast<void>(next_output_time(time, fps)), Error) << fps << " at " << time;
+}
+
 TEST(DurationText, IsForPeople) {
   EXPECT_EQ(duration_text(0.2), "0 s");
   EXPECT_EQ(duration_text(59.2), "59 s");
