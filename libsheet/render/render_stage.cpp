@@ -227,18 +227,13 @@ struct RenderStage::Impl {
            subject.diagonal(), largest);
     if (options.camera.eye && !((options.camera.target.value_or(subject.middle()) - *options.camera.eye).norm() > 0))
       fail(ExitCode::usage, "--eye is the middle of what there is to see: give --target too");
-    if (const double away = options.camera.eye ? (subject.middle() - *options.camera.eye).norm() : 0;
-        !(away < farthest * subject.diagonal()))
-      fail(ExitCode::usage,
-           "--eye is {:.3g} m away from what there is to see, which measures {:.3g} m: nothing of it "
-           "would be seen",
-           away, subject.diagonal());
     const double growth = surveyed ? 0 : unknown_growth;
     const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.middle();
     subject = {middle - reach, middle + reach};
     Camera camera = extent.view.camera(middle, 2 * growth);
+    check_reach(camera, extent.box);
     if (options.aperture > 0 && options.look.is_material())
-      camera.set_lens({options.aperture / 2, focus_distance(camera, middle)});
+      camera.set_lens({options.aperture / 2, std::min(focus_distance(camera, middle), farthest * subject.diagonal())});
     const Vec toward = -camera.axis(), upward = up.cast<float>();
     Fixed f{subject, camera,
             surroundings ? Lighting::surroundings(*surroundings, toward, upward,
@@ -257,6 +252,19 @@ struct RenderStage::Impl {
                 target.x(), target.y(), target.z());
     if (options.look.has_scale())
       log::detail("scale: {:.9g} to {:.9g}", fixed->scale.low, fixed->scale.high);
+  }
+
+  // Rays go in single precision: nothing may be so far away, or so wide, that they end.
+  void check_reach(const Camera& camera, const Box& subject) const {
+    const double reach = farthest * subject.diagonal();
+    if (const double away = (subject.middle() - camera.eye()).norm(); !(away < reach))
+      fail(ExitCode::usage,
+           "--{} is {:.3g} m away from what there is to see, which measures {:.3g} m: nothing of it would be seen",
+           options.camera.eye ? "eye" : "target", away, subject.diagonal());
+    if (!(options.aperture < reach))
+      fail(ExitCode::usage,
+           "--aperture: a lens of {:.3g} m before what measures {:.3g} m: nothing of it would be sharp",
+           options.aperture, subject.diagonal());
   }
 
   [[nodiscard]] double focus_distance(const Camera& camera, const Vector3& middle) const {

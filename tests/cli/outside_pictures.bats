@@ -29,6 +29,21 @@ END
     [[ $output == *'--eye is '*' m away from what there is to see'* ]]
   done
   sheet-render disk.sheet --eye 1,0,0 --target 1e19,0,0 -q -o a.png "${small[@]}"
+  for target in 1e19,0,0 0,1e30,0 1e300,0,0; do
+    run -2 sheet-render disk.sheet --target "$target" -o a.png "${small[@]}"
+    [[ $output == *'--target is '*' m away from what there is to see'* ]]
+  done
+}
+
+@test "18: a lens out of all measure is refused, one that is focused on what is far beyond is none" {
+  sheet-init disk.toml -o disk.sheet
+  for aperture in 1e22 1e300; do
+    run -2 sheet-render disk.sheet --aperture "$aperture" -o a.png "${small[@]}"
+    [[ $output == *'--aperture: a lens of '* ]]
+  done
+  for far in -1e12 -1e300; do
+    run -0 sheet-render disk.sheet --aperture 5mm --focus="$far,$far,$far" -o "far$far.png" "${small[@]}"
+  done
 }
 
 @test "18: a name that is too long is an input or output error, in every program" {
