@@ -57,14 +57,20 @@ int main(int argc, char** argv) {
       sheet::want_thickness(changed, *wanted);
       return changed;
     };
-    sheet::run_film(
-        film, [&](const sheet::formats::Frame& frame) { stage.survey(with_deviation(frame)); },
-        [&](const sheet::formats::Frame& frame, std::uint64_t index, const std::function<void(double)>& progress) {
-          const auto report = stage.draw(with_deviation(frame), index, progress);
-          return fmt::format("{:.4g} samples a pixel, {:.3g} Mrays, noise {:.2g} of 255 levels (worst tile {:.2g}){}{}",
-                             report.samples, 1e-6 * static_cast<double>(report.rays), report.noise, report.worst_noise,
-                             report.file.empty() ? "" : ", ", report.file);
-        });
+    const auto survey = [&](const sheet::formats::Frame& frame) { stage.survey(with_deviation(frame)); };
+    const auto draw = [&](const sheet::formats::Frame& frame, std::uint64_t index,
+                          const std::function<void(double)>& progress) {
+      const auto report = stage.draw(with_deviation(frame), index, progress);
+      return fmt::format("{:.4g} samples a pixel, {:.3g} Mrays, noise {:.2g} of 255 levels (worst tile {:.2g}){}{}",
+                         report.samples, 1e-6 * static_cast<double>(report.rays), report.noise, report.worst_noise,
+                         report.file.empty() ? "" : ", ", report.file);
+    };
+    try {
+      sheet::run_film(film, survey, draw);
+    } catch (const sheet::formats::StreamError&) { // of a run that has failed: what is whole is drawn
+      stage.finish();
+      throw;
+    }
     stage.finish();
   });
 }

@@ -9,7 +9,6 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/named_files.h"
-#include "libsheet/base/whole_file.h"
 #include "libsheet/render/codecs.h"
 
 namespace sheet::render {
@@ -33,11 +32,6 @@ Image read_picture(const std::string& path) {
     for (float& x : c)
       x = x > 0 && std::isfinite(x) ? x : 0; // no light is negative or without bound
   return image;
-}
-
-void write_whole(const std::string& path, const std::string& bytes) {
-  make_folder_of(path);
-  write_whole_file(path, [&](OutputFile& file) { file.write(bytes); });
 }
 
 } // namespace sheet::render

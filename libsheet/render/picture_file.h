@@ -25,7 +25,4 @@ namespace sheet::render {
 // A .png (sRGB), .exr or .hdr file as linear light. Throws Error (io, bad_input), naming the file.
 [[nodiscard]] Image read_picture(const std::string& path);
 
-// Writes the file so that its name never stands for half of it (write_whole_file). Makes the folder. Throws Error (io).
-void write_whole(const std::string& path, const std::string& bytes);
-
 } // namespace sheet::render

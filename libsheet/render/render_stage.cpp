@@ -7,8 +7,8 @@
 #include "libsheet/base/error.h"
 #include "libsheet/base/file_roles.h"
 #include "libsheet/base/files.h"
+#include "libsheet/base/frame_files.h"
 #include "libsheet/base/log.h"
-#include "libsheet/base/numbered_name.h"
 #include "libsheet/render/denoised.h"
 #include "libsheet/render/display.h"
 #include "libsheet/render/drops.h"
@@ -120,7 +120,7 @@ bool is_clear(const Liquid& liquid, const formats::Frame& frame) {
 
 struct RenderStage::Impl {
   RenderOptions options;
-  std::optional<NumberedName> name;
+  std::optional<FrameFiles> files;
   std::optional<OutputFile> video;
   std::optional<Image> surroundings;
 
@@ -150,12 +150,12 @@ struct RenderStage::Impl {
     if (options.output.empty())
       video.emplace("-", OutputFile::Content::binary);
     else
-      name.emplace(options.output);
+      files.emplace(options.output, "--frames");
     if (!options.environment.empty())
       surroundings = environment();
-    if (name) { // refused before anything is drawn
-      claim_file(name->of(0), FileRole::output);
-      release_file(name->of(0), FileRole::output);
+    if (files) { // refused before anything is drawn
+      claim_file(files->names().of(0), FileRole::output);
+      release_file(files->names().of(0), FileRole::output);
     }
   }
 
@@ -415,15 +415,15 @@ struct RenderStage::Impl {
   void write(Picture& picture, const formats::Frame& frame, const std::string& file) {
     if (file.ends_with(".exr")) {
       add_layers(frame, *world_of(frame, frame.time), picture);
-      write_whole(file, encode_exr(picture));
+      files->write(encode_exr(picture));
       return;
     }
     const bool photo = options.look.is_material();
     Bitmap bitmap = to_bitmap(picture.light, photo ? options.tone : Tone::linear);
     if (!photo)
       draw_scale(bitmap, fixed->scale, options.look, frame.time);
-    if (name) {
-      write_whole(file, encode_png(bitmap));
+    if (files) {
+      files->write(encode_png(bitmap));
     } else if (options.ppm) {
       video->write(encode_ppm(bitmap));
     } else {
@@ -434,11 +434,7 @@ struct RenderStage::Impl {
   }
 
   PictureReport draw(const formats::Frame& frame, std::uint64_t index, const Progress& progress) {
-    if (name && !name->has_number() && pictures > 0)
-      fail(ExitCode::usage,
-           "-o {} names one file and there are several frames: number them, as in frame_%04d.png, or pick one with "
-           "--frames",
-           options.output);
+    const std::string file = files ? files->next(index) : "";
     read_scene_of(frame);
     if (!fixed)
       fix(frame);
@@ -450,7 +446,6 @@ struct RenderStage::Impl {
                    frame.time, options.draw.noise, picture.worst_noise);
       told_noisy = true;
     }
-    const std::string file = name ? name->of(index) : "";
     write(picture, seen, file);
     ++pictures;
     return {picture.noise, picture.worst_noise, picture.samples, picture.rays, file};
@@ -470,6 +465,8 @@ PictureReport RenderStage::draw(const formats::Frame& frame, std::uint64_t index
 }
 
 void RenderStage::finish() {
+  if (impl_->files)
+    impl_->files->finish();
   if (impl_->video)
     impl_->video->close();
 }

@@ -72,7 +72,8 @@ public:
   // files, nothing to see), io.
   PictureReport draw(const formats::Frame& frame, std::uint64_t index, const Progress& progress);
 
-  // The video is complete.
+  // There are no more frames: the video is complete, the picture of a name without number is written. Throws Error
+  // (io).
   void finish();
 
 private:

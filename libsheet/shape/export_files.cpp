@@ -11,8 +11,8 @@
 #include "formats/cpp/stream_reader.h"
 #include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
+#include "libsheet/base/frame_files.h"
 #include "libsheet/base/log.h"
-#include "libsheet/base/numbered_name.h"
 #include "libsheet/base/whole_file.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/shape/export.h"
@@ -147,34 +147,36 @@ void export_frames(const ExportOptions& o) {
   const ExportFormat format = o.format ? *o.format : format_by_name(o.output);
   check(o, format);
   Uniting united(o, format);
-  const NumberedName name(o.output);
+  FrameFiles files(o.output, "sheet-select");
   const InputFile in(o.input);
   formats::StreamReader reader(in.descriptor(), in.name());
   formats::Frame frame;
   FrameScene scenes;
   SeamTextures textures;
   std::vector<formats::PvdEntry> collection;
-  make_folder_of(name.of(0));
-  while (reader.read(frame)) {
-    const std::uint64_t index = reader.frames() - 1;
-    if (index > 0 && !name.has_number())
-      fail(ExitCode::usage,
-           "{} has several frames and -o names one file: number them, as in frame_%04d.vtu, or pick one with "
-           "sheet-select",
-           in.name());
-    const std::string path = name.of(index);
-    const Scene* const scene = needs_scene(format, frame) ? scenes.find(frame) : nullptr;
-    if (knows_drops(frame))
-      frame = with_drop_shells(frame);
-    write_file(path, o.unite
-                         ? united(frame, path, scene, textures)
-                         : encode(o.solidify ? to_solid_mesh(frame) : to_foreign_mesh(frame), format, scene, textures));
-    collection.push_back({frame.time, std::filesystem::path(path).filename().string()});
+  const auto finish = [&] {
+    files.finish();
+    if (!collection.empty() && files.names().has_number() && format == ExportFormat::vtu)
+      write_file(files.names().collection(".pvd"), formats::encode_pvd(collection));
+  };
+  try {
+    while (reader.read(frame)) {
+      const std::string path = files.next(reader.frames() - 1);
+      const Scene* const scene = needs_scene(format, frame) ? scenes.find(frame) : nullptr;
+      if (knows_drops(frame))
+        frame = with_drop_shells(frame);
+      files.write(o.unite
+                      ? united(frame, path, scene, textures)
+                      : encode(o.solidify ? to_solid_mesh(frame) : to_foreign_mesh(frame), format, scene, textures));
+      collection.push_back({frame.time, std::filesystem::path(path).filename().string()});
+    }
+  } catch (const formats::StreamError&) { // of a run that has failed: what is whole is exported
+    finish();
+    throw;
   }
   if (reader.frames() == 0)
     log::warning("{} has no frames: nothing is written", in.name());
-  else if (name.has_number() && format == ExportFormat::vtu)
-    write_file(name.collection(".pvd"), formats::encode_pvd(collection));
+  finish();
 }
 
 } // namespace sheet

@@ -223,3 +223,13 @@ count = [sum(line.startswith(word + " ") for line in obj) for word in ("v", "vt"
 assert count[0] == count[1] == count[2] == 2 * len(flat) and count[3] == len(thick), count
 END
 }
+
+@test "26: of a stream that was cut what is whole is exported, with the list of it" {
+  cat a.sheet a.sheet a.sheet | head -c -100 > cut.sheet
+  run -4 sheet-export cut.sheet -o 'f%d.vtu'
+  [[ -s f0.vtu && -s f1.vtu && ! -e f2.vtu ]]
+  [[ $(grep -c 'file="f[01].vtu"' f.pvd) == 2 ]]
+  head -c "$(($(stat -c %s a.sheet) + 100))" cut.sheet > first.sheet
+  run -4 sheet-export first.sheet -o one.obj
+  [[ -s one.obj ]]
+}

@@ -104,6 +104,10 @@ keeps() {
     run -4 sheet-$program $options bad.sheet -o new.sheet
     [[ ! -e new.sheet ]]
   done
+  echo earlier > one.png
+  keeps one.png 2 sheet-render run.sheet -o one.png --size 32x18 --samples 2
+  cp one.png one.obj
+  keeps one.obj 2 sheet-export run.sheet -o one.obj
   keeps run.sheet 0 sheet-loop -q --steps 3 --resume run.sheet -- sheet-pass
   sheet-loop -q --steps 5 -i a.sheet -o run.sheet -- sheet-pass
   [[ $(sheet-print run.sheet | grep -c '^frame$') == 6 ]]

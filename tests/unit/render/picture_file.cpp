@@ -2,12 +2,10 @@
 #include "libsheet/render/picture_file.h"
 
 #include <array>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "libsheet/base/error.h"
-#include "libsheet/base/files.h"
 #include "libsheet/render/codecs.h"
 #include "libsheet/render/display.h"
 
@@ -130,21 +128,6 @@ TEST(Y4m, KnowsTheColoursOfTheStandard) {
   EXPECT_EQ(fill_with(0, 0, 191), (std::array{35, 212, 114}));
   EXPECT_EQ(y4m_header(640, 360, 24), "YUV4MPEG2 W640 H360 F24:1 Ip A1:1 C420jpeg\n");
   EXPECT_EQ(y4m_header(640, 360, 29.97), "YUV4MPEG2 W640 H360 F29970:1000 Ip A1:1 C420jpeg\n");
-}
-
-TEST(WriteWhole, LeavesAWholeFileOrNone) {
-  const auto folder = std::filesystem::temp_directory_path() / "sheet_write_whole_test";
-  std::filesystem::remove_all(folder);
-  const std::string path = (folder / "deep" / "a.png").string();
-  write_whole(path, "one");
-  write_whole(path, "two");
-  EXPECT_EQ(read_text_file(path), "two");
-  std::size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / "deep"))
-    ++files;
-  EXPECT_EQ(files, 1U);
-  EXPECT_THROW(write_whole(path + "/b.png", "three"), Error); // the folder is a file
-  std::filesystem::remove_all(folder);
 }
 
 } // namespace
