@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "libsheet/base/error.h"
 #include "libsheet/collide/collide_stage.h"
@@ -152,6 +154,28 @@ Scene with_amount_of_gas(Scene scene, const Frame& frame) {
   return scene;
 }
 
+// Why the triangles are no surface; nothing if they are one.
+std::optional<Error> fault_of_surface(const Frame& frame) {
+  try {
+    (void)remesh::Mesh(frame.vertices, triangles(frame));
+  } catch (const Error& error) {
+    return error;
+  }
+  return {};
+}
+
+// Names the mesh file that is to blame, and its own vertices and triangles, whatever their numbers in the frame.
+void check_surface(const Scene& scene, const Frame& frame) {
+  const std::optional<Error> fault = fault_of_surface(frame);
+  if (!fault)
+    return;
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    if (const auto* mesh = std::get_if<scene::SheetMesh>(&scene.sheets[i].shape))
+      if (const std::optional<Error> own = fault_of_surface(build_sheet(scene, i, Notes::silent)))
+        fail(own->code(), "{}: {} (counted from 0)", mesh->file, own->what());
+  throw *fault;
+}
+
 } // namespace
 
 Frame first_frame(const Scene& scene) {
@@ -169,7 +193,7 @@ Frame first_frame(const Scene& scene) {
 
 Frame checked_first_frame(const Scene& scene) {
   Frame frame = first_frame(scene);
-  (void)remesh::Mesh(frame.vertices, triangles(frame));
+  check_surface(scene, frame);
   StepStage({}).check(frame);
   if (flows_in_or_out(scene)) {
     Frame copy = frame;

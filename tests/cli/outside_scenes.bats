@@ -184,6 +184,10 @@ gravity = [0, 0, -9.81]'
     [[ $output == *'triangles 0 and 1 run along it in the same direction'*'turn the faces the same way'* ]]
     [ ! -e turned.sheet ]
   done
+  { printf '[[sheet]]\nshape = "disk"\nradius = 1\nedge_length = 0.5\nthickness = 0.01\ncenter = [0, 0, 3]\n[[sheet]]\n'
+    sed 1d turned.toml; } > second.toml # the fault has the numbers of its own file
+  run -3 sheet-init second.toml -o turned.sheet
+  [[ $output == *'turned.obj: edge (1, 2): triangles 0 and 1 run along it'* ]]
   # A ball smaller than a triangle, under whose corners it is not.
   refused 'the sheet starts across solid 0 (sphere): triangle ' $'[[solid]]\nshape = "sphere"\nradius = "2 mm"\ncenter = [0.013, 0.017, 0.001]'
   run -3 sheet-init scene.toml -o across.sheet
