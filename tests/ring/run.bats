@@ -111,10 +111,39 @@ make_slow() {
   [[ ! -e run/film.mp4 && $(wide run/picture.png) == 320 ]]
   run -2 --separate-stderr sheet-run 'my scene.toml' --film 64
   [[ $stderr == *'--film: 64 is neither no nor a size'* ]]
+  run -2 --separate-stderr sheet-run 'my scene.toml' --film 33x18
+  [[ $stderr == *'--film: 33x18: width and height of a film are even'* ]]
+  run -2 --separate-stderr sheet-run 'my scene.toml' --film 640x16386
+  [[ $stderr == *'--film: 640x16386: sides have at most 16384 pixels'* && $(ls) == $'chocolate.png\nmy scene.toml\nrun' ]]
   run -2 --separate-stderr sheet-run 'my scene.toml' --material milk
   [[ $stderr == *'--material: milk is not one of chocolate, caramel, honey'* ]]
   run -2 --separate-stderr sheet-run 'my scene.toml' --material chocolate,milk
   [[ $stderr == *'--material: milk is not one of chocolate, caramel, honey'* ]]
+}
+
+@test "a film that cannot be made leaves no half of one, and the rest" {
+  mkdir mine
+  printf '#!/bin/sh\nfor last; do true; done\nhead -c 100 > "$last"\nexit 1\n' > mine/ffmpeg
+  chmod +x mine/ffmpeg
+  PATH=$PWD/mine:$PATH run -6 --separate-stderr sheet-run 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
+  [[ $stderr == *'ffmpeg failed, so there is no film; the rest is in run'* && -s run/picture.png ]]
+  [[ $(ls run) != *film* ]]
+}
+
+@test "folders and scenes may have names that look like options, and no file is in a folder's way unnoticed" {
+  cp 'my scene.toml' ./-q.toml
+  options=(--quality draft --until 0.05 --fps 40 --stream-only)
+  sheet-run -q ./-q.toml "${options[@]}"
+  sheet-run -q 'my scene.toml' "${options[@]}" -o -v
+  [[ -s ./-q-draft/run.csv && -s ./-v/run.csv ]]
+  cp 'my scene.toml' scene
+  run -6 --separate-stderr sheet-run scene --until 0.05
+  [[ $stderr == *'scene is a file, and the folder would have its name: give one by -o'* ]]
+  for file in ring.txt foretold.txt; do # what cannot be written
+    mkdir -p "$file/$file"
+    run -6 --separate-stderr sheet-run 'my scene.toml' "${options[@]}" -o "$file"
+    [[ $stderr == *"cannot write $file/$file"* ]]
+  done
 }
 
 @test "a folder is no scene" {
@@ -183,7 +212,7 @@ make_slow() {
     sleep 0.1
   done
   run -6 --separate-stderr sheet-run 'my scene.toml' "${options[@]}"
-  [[ $stderr == *'run.sheet is being written by process'*'the same command again goes on'* ]]
+  [[ $stderr == *'run: another sheet-run is at work there: wait until it has ended, or give another folder'* ]]
   [[ ! -e run/run.csv && ! -e run/picture.png ]]
   kill -TERM $whole
   wait $whole || true
@@ -227,8 +256,10 @@ END
   kill -TERM $whole
   wait $whole || true
   grep -q '"state": "interrupted"' progress.json
-  sheet-loop -i first.sheet --steps 2 -o short.sheet --progress no/such/folder/progress.json -- 'sheet-step --dt 1e-3' 2> log
-  grep -q -- '--progress: ' log
   sheet-loop -q -i first.sheet --steps 2 -o same.sheet -- 'sheet-step --dt 1e-3'
-  cmp short.sheet same.sheet
+  for file in no/such/folder/progress.json /dev/full; do
+    sheet-loop -i first.sheet --steps 2 -o short.sheet --progress "$file" -- 'sheet-step --dt 1e-3' 2> log
+    [[ $(grep -c -- '--progress: ' log) == 1 ]]
+    cmp short.sheet same.sheet
+  done
 }
