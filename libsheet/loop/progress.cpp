@@ -2,12 +2,12 @@
 #include "libsheet/loop/progress.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/whole_file.h"
@@ -73,7 +73,7 @@ void Progress::write(double time, std::uint64_t step, std::uint64_t frames_kept,
   written_ = Clock::now();
   try {
     write_whole_file(file_, [&](OutputFile& file) { file.write(json(time, step, frames_kept, elapsed(), state)); });
-  } catch (const Error& error) { // the run is worth more
+  } catch (const std::exception& error) { // no such folder, a full disk: the run is worth more
     log::warning("--progress: {}", error.what());
     file_.clear();
   }
