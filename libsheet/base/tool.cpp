@@ -298,6 +298,7 @@ void Tool::parse(int argc, char** argv) {
 int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   log::set_program(name_);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN); // a file may not grow further: as on a full disk
   first_common_ = options_.size();
   option("--threads", threads_, "N", "threads to use; 0 means one for each core", Provenance::omit);
   flag("-q,--quiet", quiet_, "errors only", Provenance::omit);
