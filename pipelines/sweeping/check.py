@@ -8,8 +8,8 @@ import shutil
 import subprocess
 import tempfile
 
-from .plan import SCENE, names_in, settings
-from .problem import BAD_INPUT, Problem
+from .plan import SCENE, filled, names_in, settings
+from .problem import BAD_INPUT, USAGE, Problem
 from .table import duplicates
 
 _TOLD = 20  # problems of rows that are printed; how many more there are is said
@@ -52,7 +52,9 @@ def _told(command):
 
 def check_all(sweep, table, path, inputs):
     """Throws one Problem with all that is wrong; of many rows that are, the first few are told."""
-    problems = _names(sweep, path) + _stages(sweep.ring) + duplicates(table) + _rows(sweep, table, inputs)
+    names = _names(sweep, path)
+    problems = names + _stages(sweep.ring) + duplicates(table) + _rows(sweep, table, inputs)
+    problems += [] if names else _loop(sweep, table)
     if problems:
         told = problems[:_TOLD]
         if len(problems) > _TOLD:
@@ -74,6 +76,14 @@ def _names(sweep, path):
             wrong.append(f"{path}: column {column.key}: unknown: no key of the scene (those have a dot), and nothing "
                          f"asks for {{{column.key}}}")  # fmt: skip
     return list(dict.fromkeys(wrong))
+
+
+def _loop(sweep, table):
+    """What sheet-loop refuses of its options, as the first row has them."""
+    options = [filled(option, sweep, table.rows[0]) for option in sweep.loop]
+    command = ["sheet-loop", *options, "-i", os.devnull, "-o", os.devnull, "--", "true"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    return [line.removeprefix("sheet-loop: ") for line in done.stderr.splitlines()] if done.returncode == USAGE else []
 
 
 def _stages(ring):

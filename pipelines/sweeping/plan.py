@@ -143,7 +143,7 @@ def read_json(path, default=None):
             return json.load(file)
     except FileNotFoundError:
         return default
-    except (OSError, json.JSONDecodeError) as error:
+    except ValueError as error:  # no JSON, no UTF-8
         raise Problem(IO, f"{path}: {error}: remove it, and what made it is done again") from error
 
 

@@ -79,6 +79,19 @@ END
   [[ $output == *"no rows"* ]]
 }
 
+@test "options that sheet-loop refuses are told before anything runs" {
+  run -3 sweep bad --until soon
+  [[ $output == *'pipelines/sweep: --until: "soon" is not a finite number'* ]]
+  run -3 sweep bad --keep often
+  [[ $output == *'pipelines/sweep: --keep: "often" is not'* && ! -e $t/bad ]]
+}
+
+@test "a folder that cannot be made is an input or output error, and one line" {
+  true > "$t/file"
+  run -6 sweep file/sweep
+  [[ $output == "pipelines/sweep: $t/file/sweep"*": Not a directory" && ${#lines[@]} == 1 ]]
+}
+
 @test "TOML: grid, zip, random and Latin hypercube" {
   cat > "$t/table.toml" << 'END'
 [grid]
