@@ -59,16 +59,17 @@ void leave_out_wedge(const EditableSheet& sheet, std::uint32_t tip, double angle
   using Entry = std::pair<double, std::uint32_t>;
   const double opening = wedge_part * 2 * std::tan(angle / 2);
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> reached;
-  reached.emplace(0, tip);
-  while (!reached.empty()) {
-    const double way = reached.top().first;
-    const std::uint32_t v = reached.top().second;
-    reached.pop();
-    if (way > 0 && (std::isinf(width[v]) || width[v] < opening * way))
-      continue;
+  const auto leave_out = [&](std::uint32_t v, double way) {
     width[v] = infinity;
     sheet.mesh().for_neighbours(v,
                                 [&](std::uint32_t w) { reached.emplace(way + (sheet.at(w) - sheet.at(v)).norm(), w); });
+  };
+  leave_out(tip, 0);
+  while (!reached.empty()) {
+    const auto [way, v] = reached.top();
+    reached.pop();
+    if (!std::isinf(width[v]) && width[v] >= opening * way)
+      leave_out(v, way);
   }
 }
 

@@ -68,6 +68,8 @@ TEST(StripWidth, ASharpEndIsAWedgeOrTheEndOfAStrip) {
   const EditableSheet sheet(test::frame_of(mesh, 0.001));
   EXPECT_EQ(strip_widths(sheet)[5], std::numeric_limits<double>::infinity());
   EXPECT_LT(strip_widths(sheet, std::numbers::pi / 9)[5], 0.1);
+  mesh.positions[1] = mesh.positions[0]; // a corner that has run together, from which there is no way to the next
+  EXPECT_EQ(strip_widths(EditableSheet(test::frame_of(mesh, 0.001))).size(), mesh.positions.size());
 }
 
 // A strand that turns and comes back beside its other end, a wedge of 30 degrees: only what lies behind the tip along
