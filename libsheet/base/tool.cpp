@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 #include <new>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -243,6 +244,25 @@ void Tool::tell_of_itself(int argc, char** argv) const {
   }
 }
 
+// The words of the command line, in which --title= has a word of its own for what is empty: CLI11 would take the next.
+std::vector<std::string> Tool::words_of(int argc, char** argv) const {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (auto word = words.begin(); word != words.end() && *word != "--"; ++word) {
+    if (!word->starts_with("--") || word->find('=') != word->size() - 1)
+      continue;
+    const std::string name = word->substr(0, word->size() - 1);
+    const bool has_value = std::ranges::any_of(options_, [&](const Option& option) {
+      const std::vector<std::string> spellings = CLI::detail::split(option.names, ',');
+      return !option.is_flag && std::ranges::find(spellings, name) != spellings.end();
+    });
+    if (has_value) {
+      *word = name;
+      word = words.insert(word + 1, "");
+    }
+  }
+  return words;
+}
+
 void Tool::parse(int argc, char** argv) {
   CLI::App app;
   app.set_help_flag();
@@ -280,7 +300,9 @@ void Tool::parse(int argc, char** argv) {
   app.add_flag("--completion", completion);
   tell_of_itself(argc, argv);
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words = words_of(argc, argv);
+    std::ranges::reverse(words); // as CLI11 takes them
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     fail(ExitCode::usage, "{} (see {} --help)", error.what(), name_);
   }

@@ -93,6 +93,7 @@ private:
   void add(Option option);
   void choice_of_word(std::string_view names, std::vector<std::string> words, std::string_view text,
                       std::function<void(std::size_t)> set, std::function<std::size_t()> get);
+  [[nodiscard]] std::vector<std::string> words_of(int argc, char** argv) const;
   void parse(int argc, char** argv);
   void tell_of_itself(int argc, char** argv) const;
   [[nodiscard]] std::string synopsis() const;

@@ -50,6 +50,11 @@ setup() {
   run -2 "$PROGRAM" -q -v
 }
 
+@test "an option that has nothing behind its = has an empty value, not the next word" {
+  run -2 --separate-stderr "$PROGRAM" --threads= 1
+  [[ $stderr == "$PROGRAM: "*"--threads: "*"is not a whole number"* ]]
+}
+
 @test "--help to a full disk is an error" {
   run "-$io" bash -c '"$PROGRAM" --help > /dev/full'
 }
