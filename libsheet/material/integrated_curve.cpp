@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <boost/math/interpolators/pchip.hpp>
 #include <boost/math/quadrature/gauss.hpp>
@@ -15,6 +16,11 @@ namespace {
 
 constexpr double longest = 0.05;   // interval of ln γ̇
 constexpr double least_part = -35; // ln of the part by which the viscosity differs from that at an end
+constexpr double widest = 230;     // ln γ̇ of the ends: rates of 1e-100 to 1e100, whose squares are numbers
+
+LogCurve between_plateaus(std::function<LogViscosity(double)> at, double middle, double reach) {
+  return {std::move(at), std::max(middle - reach, -widest), std::min(middle + reach, widest)};
+}
 
 LogCurve carreau_yasuda(const Liquid& liquid) {
   const FlowLaw law = liquid.law;
@@ -25,7 +31,7 @@ LogCurve carreau_yasuda(const Liquid& liquid) {
     const double above = (zero - infinite) * std::pow(1 + x, (law.flow_index - 1) / a), all = infinite + above;
     return {std::log(all), above / all * (law.flow_index - 1) * x / (1 + x)};
   };
-  return {at, middle - reach, middle + reach};
+  return between_plateaus(at, middle, reach);
 }
 
 LogCurve cross(const Liquid& liquid) {
@@ -37,7 +43,7 @@ LogCurve cross(const Liquid& liquid) {
     const double above = (zero - infinite) / (1 + x), all = infinite + above;
     return {std::log(all), -above / all * m * x / (1 + x)};
   };
-  return {at, middle - reach, middle + reach};
+  return between_plateaus(at, middle, reach);
 }
 
 LogCurve tabulated(const FlowLaw& law) {

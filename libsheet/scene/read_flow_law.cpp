@@ -16,7 +16,9 @@
 namespace sheet::scene {
 namespace {
 
-constexpr int looked_at_between = 8; // places between two rows of a table
+constexpr int looked_at_between = 8;                       // places between two rows of a table
+constexpr double least_rate = 1e-50, greatest_rate = 1e50; // at which a law bends [1/s], far from where numbers end
+constexpr double sharpest = 20;                            // transition
 
 // The first rate from which on the stress falls, if there is one: no steady flow is stable there.
 std::optional<double> falls_from(const Liquid& liquid) {
@@ -45,6 +47,9 @@ void read_table(TableReader& table, const Files& files, Liquid& liquid) {
   liquid.viscosity = std::numeric_limits<double>::quiet_NaN();
   if (!curve)
     return; // reported
+  if (curve->places.front() < least_rate || curve->places.back() > greatest_rate)
+    return table.wrong(by_file ? "file" : "rates",
+                       fmt::format("expected rates from {:g} to {:g} 1/s", least_rate, greatest_rate));
   liquid.law.rates = std::move(curve->places);
   liquid.law.viscosities = std::move(curve->values);
   if (const auto rate = falls_from(liquid))
@@ -69,6 +74,8 @@ void read_plateaus(TableReader& table, Liquid& liquid, double index_below) {
   liquid.viscosity = table.required("zero_viscosity");
   liquid.law.infinite_viscosity = table.quantity_or("infinite_viscosity", 0, Bound::not_negative);
   liquid.law.time_constant = table.required("time_constant");
+  if (liquid.law.time_constant < 1 / greatest_rate || liquid.law.time_constant > 1 / least_rate)
+    table.wrong("time_constant", fmt::format("expected a time from {:g} to {:g} s", 1 / greatest_rate, 1 / least_rate));
   liquid.law.flow_index = read_index(table, index_below);
   if (liquid.law.infinite_viscosity >= liquid.viscosity)
     table.wrong("infinite_viscosity", "expected less than zero_viscosity: the liquid thins from that to this");
@@ -107,6 +114,8 @@ void read_flow_law(TableReader& table, const Files& files, Liquid& liquid) {
   case FlowLawKind::carreau:
     read_plateaus(table, liquid, std::numeric_limits<double>::infinity());
     law.transition = table.quantity_or("transition", 2, Bound::positive);
+    if (law.transition > sharpest)
+      table.wrong("transition", fmt::format("expected at most {:g}, which is as sharp as a corner", sharpest));
     break;
   case FlowLawKind::cross:
     read_plateaus(table, liquid, 1);

@@ -102,6 +102,21 @@ TEST(FlowCurve, RestsBelowItsOwnRate) {
   EXPECT_EQ(rest_rate(liquid_of({}, 3)), 0);
 }
 
+// Plateaus that lie farther apart than numbers reach: nearly Newtonian, a transition that hardly begins.
+TEST(FlowCurve, BendsHoweverSlowly) {
+  using enum FlowLawKind;
+  for (const double index : {0.9, 0.98, 0.999}) {
+    const FlowCurve curve(liquid_of({.kind = cross, .flow_index = index, .time_constant = 2}, 7));
+    for (const double rate : {1e-9, 0.5, 1e9})
+      EXPECT_NEAR(curve.viscosity({rate * rate}), 7 / (1 + std::pow(2 * rate, 1 - index)), 1e-9) << index << rate;
+  }
+  for (const double a : {0.01, 20.0}) {
+    const FlowCurve curve(liquid_of({.kind = carreau, .flow_index = 0.4, .time_constant = 2, .transition = a}, 7));
+    for (const double rate : {1e-9, 0.5, 1e9})
+      EXPECT_NEAR(curve.viscosity({rate * rate}) / 7, std::pow(1 + std::pow(2 * rate, a), -0.6 / a), 1e-9) << a << rate;
+  }
+}
+
 // The tangent: what a small rate across another one feels is η, along it η + η'γ̇.
 TEST(FlowCurve, HasATangent) {
   const FlowCurve curve(liquid_of({.kind = FlowLawKind::power, .flow_index = 1.0 / 3}, 3));

@@ -360,7 +360,7 @@ private:
       law.kind = FlowLawKind::carreau;
       law.flow_index = positive();
       law.time_constant = positive();
-      law.transition = positive();
+      law.transition = 0.1 + unit(); // it has a greatest value
       break;
     case 2:
       law.kind = FlowLawKind::casson;
