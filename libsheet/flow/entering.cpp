@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "libsheet/base/error.h"
 #include "libsheet/flow/heat_account.h"
 #include "libsheet/scene/frame_heat.h"
 #include "libsheet/scene/frame_liquids.h"
@@ -26,21 +27,27 @@ std::vector<std::size_t> order_of_entry(const Scene& scene) {
   return order;
 }
 
-std::size_t entered(const Frame& frame) { return static_cast<std::size_t>(number(frame, "entered", 0)); }
+// How many of them have entered.
+std::size_t entered(const Frame& frame, const std::vector<std::size_t>& order) {
+  const double count = number(frame, "entered", 0);
+  if (!(count >= 0))
+    fail(ExitCode::bad_input, "array \"entered\" counts the sheets that have entered: {} is no count", count);
+  return static_cast<std::size_t>(std::min(count, static_cast<double>(order.size())));
+}
 
 } // namespace
 
 bool has_entered(const Scene& scene, const std::string& name, const Frame& frame) {
   const std::vector<std::size_t> order = order_of_entry(scene);
   const auto at = std::ranges::find_if(order, [&](std::size_t i) { return scene.sheets[i].name == name; });
-  return at == order.end() || static_cast<std::size_t>(at - order.begin()) < entered(frame);
+  return at == order.end() || static_cast<std::size_t>(at - order.begin()) < entered(frame, order);
 }
 
 double let_enter(Frame& frame, const Scene& scene) {
   scene::check_temperatures(scene, frame);
   const std::vector<std::size_t> order = order_of_entry(scene);
   double volume = 0, warmth = 0;
-  std::size_t count = entered(frame);
+  std::size_t count = entered(frame, order);
   for (; count < order.size() && frame.time >= *scene.sheets[order[count]].enters; ++count) {
     const Frame sheet = build_sheet(scene, order[count]);
     append_sheet(sheet, frame);

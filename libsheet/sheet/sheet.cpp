@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "libsheet/base/error.h"
+
 namespace sheet {
 
 using formats::Array;
@@ -135,7 +137,11 @@ void put_number(Frame& frame, std::string_view name, std::string_view unit, doub
 
 double number(const Frame& frame, std::string_view name, double otherwise) {
   const Array* array = frame.find(name);
-  return array == nullptr ? otherwise : array->values<double>()[0];
+  if (array == nullptr)
+    return otherwise;
+  if (array->place != Place::frame || array->type != Type::float64 || array->rows == 0)
+    fail(ExitCode::bad_input, "array \"{}\" must have a float64 of the frame", name);
+  return array->values<double>()[0];
 }
 
 } // namespace sheet

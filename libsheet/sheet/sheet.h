@@ -64,7 +64,7 @@ inline constexpr std::size_t bits_of_an_inlet = 3, most_inlets = 21;
 // Adds or replaces a float64 array of one row at place frame: a standard one, or one of the caller's.
 void put_number(formats::Frame& frame, std::string_view name, double value);
 void put_number(formats::Frame& frame, std::string_view name, std::string_view unit, double value);
-// Its value, or `otherwise` where there is no such array.
+// Its value, or `otherwise` where it is not there. Throws Error (bad_input) where it is another kind of array.
 [[nodiscard]] double number(const formats::Frame& frame, std::string_view name, double otherwise);
 
 } // namespace sheet

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "libsheet/base/error.h"
 #include "libsheet/flow/crossings.h"
 #include "libsheet/flow/drowned_inlets.h"
 #include "libsheet/flow/emit.h"
@@ -827,6 +828,10 @@ TEST(Emit, SeveralInletsAndSheets) {
     EXPECT_EQ(of_inlet(inlet[v], 0), 0U); // a's is released
   EXPECT_EQ(formats::find_value_error(all), "");
   EXPECT_EQ(a.find("inlet"), nullptr);
+  for (const double count : {-1.0, std::nan("")}) {
+    put_number(all, "entered", "1", count);
+    EXPECT_THROW(static_cast<void>(let_enter(all, both)), Error);
+  }
 }
 
 } // namespace

@@ -29,5 +29,17 @@ TEST(Account, ComponentsAreApartAndForeignArraysAreRefused) {
   EXPECT_THROW(add_to_account(frame, "test.volume", "m^3", std::span(momentum).first(1)), Error);
 }
 
+TEST(Number, IsOfTheFrameAndThere) {
+  using namespace formats;
+  Frame frame = make_frame({}, {}, {});
+  EXPECT_EQ(number(frame, "test.number", 7), 7);
+  put_number(frame, "test.number", "m", 3);
+  EXPECT_EQ(number(frame, "test.number", 7), 3);
+  frame.put(make_array("test.number", Place::frame, Type::float64, 1, "m", Transfer::copy, 0));
+  EXPECT_THROW(static_cast<void>(number(frame, "test.number", 7)), Error);
+  frame.put(make_array("test.number", Place::frame, Type::int8, 1, "m", Transfer::copy, 1));
+  EXPECT_THROW(static_cast<void>(number(frame, "test.number", 7)), Error);
+}
+
 } // namespace
 } // namespace sheet
