@@ -7,6 +7,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/files.h"
@@ -25,7 +26,8 @@ protected:
     const std::filesystem::directory_iterator files(folder / "deep");
     return std::distance(begin(files), end(files));
   }
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "sheet_frame_files_test";
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("sheet-frame-files-" + std::to_string(::getpid()));
 };
 
 void write_one(const std::string& name, const std::string& bytes) {
