@@ -22,6 +22,7 @@
 #include "libsheet/plan/falling_past.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/hole_forecast.h"
+#include "libsheet/plan/idle_rolls.h"
 #include "libsheet/plan/inflow_warnings.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/modelled.h"
@@ -160,6 +161,7 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::contact_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::warnings_of_solids_that_meet(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::inflow_warnings(scene, frame), std::back_inserter(explanation.warnings));
+  std::ranges::copy(sheet::idle_roll_warnings(scene, frame), std::back_inserter(explanation.warnings));
   for (const std::string& warning :
        {sheet::falling_past_warning(scene, frame), sheet::drawing_up_warning(scene, frame, until),
         sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until)})

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t impulse_rounds = 10, sweeps_of_round = 30, group_rounds = 5;
 constexpr std::array<double, 4> parts_of_way = {1, 0.5, 0.25, 0}; // pull-back
 constexpr double impulse_part = 0.5;                              // of the contact distance, that impulses want
+constexpr double least_missed = 0.1;                              // of the contact distance, that is told of
 constexpr double longest_throw = 2; // by impulses, times what brings features apart: their ways and their distance
 
 // n·Σ w_i x_i ≥ distance
@@ -270,9 +271,10 @@ private:
     for (std::size_t v = 0; v < level.size(); ++v)
       if (level[v] > 0) {
         ++report_.pulled_back;
-        report_.held_back += driven[v];
-        if (driven[v])
+        if (driven[v] && (wanted[v] - path_.end[v]).norm() > least_missed * reach_[v]) {
+          ++report_.held_back;
           report_.held_at = path_.end[v];
+        }
       }
   }
 

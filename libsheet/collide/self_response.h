@@ -52,7 +52,7 @@ struct SelfReport {
   std::size_t by_impulses = 0;       // inequalities
   std::size_t in_groups = 0;         // vertices that moved in rigid groups
   std::size_t pulled_back = 0;       // vertices, all kinds
-  std::size_t held_back = 0;         // those whose motion is prescribed, among them
+  std::size_t held_back = 0;         // those whose motion is prescribed and misses a tenth of the contact distance
   Vector3 held_at = Vector3::Zero(); // the last of those, where held_back > 0
   double taken = 0;                  // of kinetic energy less what was given, seen by the observer above [J]
 
