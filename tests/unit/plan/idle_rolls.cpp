@@ -14,7 +14,9 @@ namespace {
 // Of a film 0.2 m long, and rolls at these places.
 std::size_t idle_rolls(const std::string& first, const std::string& second) {
   const auto roll = [](const std::string& place) {
-    return "[[hold]]\nregion = {box = [[" + place + ", -1, -1], [1, 1, 1]]}\nroll = true\n";
+    return "[[hold]]\nregion = {box = [[" + place +
+           ", -1, -1], [1, 1, 1]]}\nroll = true\n"
+           "motion = {kind = \"translating\", velocity = [1, 0, 0]}\n";
   };
   const Scene scene = scene::parse_scene("[sheet]\nshape = \"rectangle\"\nplane = \"xz\"\nsize = [0.2, 0.1]\n"
                                          "center = [0.1, 0, 0]\nedge_length = 0.02\nthickness = 0.001\n"
