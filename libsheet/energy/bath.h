@@ -5,13 +5,16 @@
 // A bath acts from below only: ∫ min(d, 0)² dA takes the place of ∫ d² dA unless it clings to the sheet. In a triangle
 // of which one vertex a is under the surface q is d_a² s r with s = d_a/(d_a - d_b), r = d_a/(d_a - d_c), and the same
 // of the one vertex above it is what a triangle lacks of which two are under it.
-// The normals must point upwards: below zero, where W would have no lower bound, A_z counts as nothing, and smoothly so
-// from a twentieth of the area on. What is wet on both faces (BathReach::around, and under the surface what has its
-// face down at the start of a step) is lifted by the weight of as much of the bath as it is itself (Archimedes), ρ g
-// V/3 at each corner under the surface. Corners that another layer bears feel neither. A triangle has the part of W
-// that its corners are which the bath reaches from below alone. ρ in kg/m³, g in m/s².
+// The normals point upwards; those of what floats on its face, and of what is closed, point to the bath, and A_z has
+// the other sign there (BathReach::facing, outside). Below zero, where W would have no lower bound, A_z counts as
+// nothing, and smoothly so from a twentieth of the area on; what is closed has all of it, as the bath presses on its
+// top. What is wet on both faces (BathReach::around, and under the surface what has its face down at the start of a
+// step) is lifted by the weight of as much of the bath as it is itself (Archimedes), ρ g V/3 at each corner under the
+// surface. Corners that another layer bears feel neither. A triangle has the part of W that its corners are which the
+// bath reaches from below alone. ρ in kg/m³, g in m/s².
 #pragma once
 #include <algorithm>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -39,15 +42,17 @@ public:
     for (std::size_t t = 0; t < start_.size(); ++t) {
       const Corners& c = triangles[t];
       const TriangleArea area(x[c[0]], x[c[1]], x[c[2]]);
-      const bool overturned = surface_.up().dot(area.normal) < 0;
+      const bool closed = std::ranges::any_of(c, [&](auto v) { return surface_.reach(v) == BathReach::outside; });
+      start_[t].side = surface_.side(c);
+      const bool overturned = !closed && start_[t].side * surface_.up().dot(area.normal) < 0;
       int from_below = 0;
       for (int a = 0; a < 3; ++a) {
         const std::uint32_t v = c[static_cast<std::size_t>(a)];
-        from_below += !overturned && surface_.reach(v) == BathReach::below;
+        from_below += !overturned && surface_.on_one_face(v);
         if ((overturned || surface_.reach(v) == BathReach::around) && surface_.wets(v, x[v]))
           start_[t].lift[a] = 4 * weight_ * stage.start->volumes[t]; // ρ g V/3
       }
-      start_[t].steep = steepest * area.area;
+      start_[t].steep = closed ? -std::numeric_limits<double>::infinity() : steepest * area.area;
       start_[t].weight = from_below == 3 ? weight_ : weight_ * from_below / 3;
     }
   }
@@ -55,7 +60,7 @@ public:
   [[nodiscard]] double value(std::size_t t, const VectorN<9>& u) const {
     if (start_[t].weight == 0)
       return lifted(t, u);
-    const Parts p(*this, u);
+    const Parts p(*this, u, start_[t].side);
     return start_[t].weight * Projection(p.area, start_[t].steep).value * p.depth.square + lifted(t, u);
   }
 
@@ -67,17 +72,18 @@ public:
     const double weight = start_[t].weight;
     if (weight == 0)
       return lifted(t, u);
-    const Parts p(*this, u);
+    const Parts p(*this, u, start_[t].side);
     const Projection area(p.area, start_[t].steep);
     gradient += weight * (area.first * p.depth.square * p.by_area + area.value * p.by_square);
-    const Matrix3 upright = (weight * area.value) * (surface_.up() * surface_.up().transpose());
+    const Matrix3 upright =
+        (weight * (definite ? std::max(0.0, area.value) : area.value)) * (surface_.up() * surface_.up().transpose());
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
         hessian.block<3, 3>(3 * a, 3 * b) = p.depth.second(a, b) * upright;
     if (area.second > 0)
       hessian += (weight * area.second * p.depth.square) * p.by_area * p.by_area.transpose();
     if (!definite) {
-      const Matrix3 turn = (0.5 * weight * area.first * p.depth.square) * skew(surface_.up());
+      const Matrix3 turn = (0.5 * start_[t].side * weight * area.first * p.depth.square) * skew(surface_.up());
       for (int a = 0; a < 3; ++a) {
         hessian.block<3, 3>(3 * a, 3 * ((a + 2) % 3)) += turn;
         hessian.block<3, 3>(3 * a, 3 * ((a + 1) % 3)) -= turn;
@@ -90,6 +96,7 @@ public:
 private:
   static constexpr double steepest = 0.05; // projection over area
   struct Start {
+    double side = 1;                // by which A_z counts: -1 where the normal points to the bath
     double steep = 0;               // the projection below which it counts less [m²]
     double weight = 0;              // ρ g/12, in the part of its corners that the bath reaches from below [N/m³]
     Vector3 lift = Vector3::Zero(); // at each corner [N]
@@ -160,15 +167,15 @@ private:
     double area;
     Depth depth;
     VectorN<9> by_area, by_square;
-    Parts(const Bath& bath, const VectorN<9>& u)
+    Parts(const Bath& bath, const VectorN<9>& u, double side)
         : depth(Eigen::Map<const Matrix3>(u.data()).transpose() * bath.surface_.up() -
                     Vector3::Constant(bath.surface_.level()),
                 bath.clings_) {
       const Vector3& k = bath.surface_.up();
       const Vector3 x[3] = {u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)};
-      area = 0.5 * k.dot((x[1] - x[0]).cross(x[2] - x[0]));
+      area = 0.5 * side * k.dot((x[1] - x[0]).cross(x[2] - x[0]));
       for (int a = 0; a < 3; ++a) {
-        by_area.segment<3>(3 * a) = 0.5 * k.cross(x[(a + 2) % 3] - x[(a + 1) % 3]);
+        by_area.segment<3>(3 * a) = 0.5 * side * k.cross(x[(a + 2) % 3] - x[(a + 1) % 3]);
         by_square.segment<3>(3 * a) = depth.first[a] * k;
       }
     }

@@ -36,19 +36,21 @@ public:
     const auto& x = stage.start->positions;
     thrust_.assign(triangles.size(), 0);
     start_.assign(triangles.size(), 1);
+    side_.resize(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const double volume = stage.start->volumes[t];
       for (const auto v : triangles[t])
         if (surface_.bears(v, x[v]))
           thrust_[t] += stage.liquid_of(t).liquid.density * gravity_ / 3 * volume * volume / 2;
       const TriangleArea area(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
-      start_[t] = area.area * area.normal.dot(surface_.up());
+      side_[t] = surface_.side(triangles[t]);
+      start_[t] = side_[t] * area.area * area.normal.dot(surface_.up());
       thrust_[t] *= std::clamp((start_[t] / area.area - least_level) / (level_enough - least_level), 0.0, 1.0);
     }
   }
 
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
-    return thrust_[i] == 0 ? 0 : since_start(i, projection(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)));
+    return thrust_[i] == 0 ? 0 : since_start(i, projection(i, u));
   }
 
   double derivatives(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
@@ -58,14 +60,14 @@ public:
       hessian.setZero();
       return 0;
     }
-    const double area = projection(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6));
+    const double area = projection(i, u);
     const double slope = thrust_[i] / (area * area); // -dW/dA_z
     for (int a = 0; a < 3; ++a)
       gradient.segment<3>(3 * a) =
-          0.5 * surface_.up().cross(u.segment<3>(3 * ((a + 2) % 3)) - u.segment<3>(3 * ((a + 1) % 3)));
+          0.5 * side_[i] * surface_.up().cross(u.segment<3>(3 * ((a + 2) % 3)) - u.segment<3>(3 * ((a + 1) % 3)));
     hessian = 2 * slope / area * gradient * gradient.transpose();
     if (!definite) {
-      const Matrix3 turn = 0.5 * slope * skew(surface_.up());
+      const Matrix3 turn = 0.5 * side_[i] * slope * skew(surface_.up());
       for (int a = 0; a < 3; ++a) {
         hessian.block<3, 3>(3 * a, 3 * ((a + 2) % 3)) -= turn;
         hessian.block<3, 3>(3 * a, 3 * ((a + 1) % 3)) += turn;
@@ -78,8 +80,9 @@ public:
 private:
   static constexpr double least_level = 0.5, level_enough = 0.75; // projection over area
 
-  [[nodiscard]] double projection(const Vector3& a, const Vector3& b, const Vector3& c) const {
-    return 0.5 * surface_.up().dot((b - a).cross(c - a));
+  [[nodiscard]] double projection(std::size_t i, const VectorN<9>& u) const {
+    const Vector3 a = u.segment<3>(0), b = u.segment<3>(3), c = u.segment<3>(6);
+    return 0.5 * side_[i] * surface_.up().dot((b - a).cross(c - a));
   }
   // W less that at the start, which only keeps round-off small.
   [[nodiscard]] double since_start(std::size_t i, double area) const {
@@ -88,7 +91,7 @@ private:
 
   double gravity_; // [m/s²]
   BathSurface surface_;
-  std::vector<double> thrust_, start_; // W A_z [J m²], A_z at the start [m²]
+  std::vector<double> thrust_, start_, side_; // W A_z [J m²], A_z at the start [m²], its sign as in bath.h
 };
 
 } // namespace sheet

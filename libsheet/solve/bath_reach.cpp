@@ -2,6 +2,8 @@
 #include "libsheet/solve/bath_reach.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/disjoint_sets.h"
@@ -95,9 +97,55 @@ std::vector<char> flooded_vertices(const FloatingSheet& sheet, const Piled& pile
   return flooded;
 }
 
+// Of each vertex, by which face the bath reaches its piece of the sheet where that is not flooded and lies on nothing.
+std::vector<BathReach> faces_of_pieces(const FloatingSheet& sheet, const Piled& piled, const Vector3& up) {
+  constexpr double least_down = 0.1;    // of the area that lies on nothing
+  constexpr double greatest_hole = 0.1; // of the area of what is closed
+  constexpr double least_room = 0.3;    // in what is closed, of a sphere's of the same area
+  struct Piece {
+    Vector3 corners = Vector3::Zero(), across = Vector3::Zero();
+    double count = 0, area = 0, cones = 0; // area and across: twice; cones: six times
+    double up = 0, lowest = 0;             // of what lies on nothing, seen from above, and its area: twice
+  };
+  const auto& x = sheet.positions;
+  std::vector<char> lies(x.size(), 0);
+  for (const ContactSpring& s : piled.on)
+    lies[s.vertices[0]] = 1;
+  DisjointSets together(x.size());
+  for (const auto& [a, b] : sheet.mesh.edges)
+    together.join(a, b);
+  const std::vector<std::uint64_t> piece = together.take();
+  std::vector<Piece> pieces(x.size());
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    pieces[piece[v]].corners += x[v];
+    pieces[piece[v]].count += 1;
+  }
+  for (const Corners& c : sheet.mesh.triangles) {
+    Piece& p = pieces[piece[c[0]]];
+    const Vector3 normal = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
+    p.across += normal;
+    p.area += normal.norm();
+    p.cones += (x[c[0]] - p.corners / p.count).dot(normal);
+    if (std::ranges::none_of(c, [&](auto v) { return lies[v] != 0; })) {
+      p.up += up.dot(normal);
+      p.lowest += normal.norm();
+    }
+  }
+  std::vector<BathReach> faces(x.size(), BathReach::below);
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const Piece& p = pieces[piece[v]];
+    const double sphere = p.area / 2 * std::sqrt(p.area / 2) / (6 * std::sqrt(std::numbers::pi));
+    if (p.across.norm() <= greatest_hole * p.area && p.cones / 6 > least_room * sphere)
+      faces[v] = BathReach::outside;
+    else if (p.up < -least_down * p.lowest)
+      faces[v] = BathReach::facing;
+  }
+  return faces;
+}
+
 // Of each vertex, whether it lies on what the bath bears.
 std::vector<char> borne_vertices(const FloatingSheet& sheet, const Piled& piled, const std::vector<char>& flooded,
-                                 const Vector3& up) {
+                                 const std::vector<BathReach>& faces, const Vector3& up) {
   const auto& x = sheet.positions;
   std::vector<double> area(x.size(), 0); // seen from above, with its sign
   for (const Corners& c : sheet.mesh.triangles)
@@ -105,7 +153,7 @@ std::vector<char> borne_vertices(const FloatingSheet& sheet, const Piled& piled,
       area[v] += up.dot((x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]));
   std::vector<char> borne(x.size(), 0), bears(x.size());
   for (std::size_t v = 0; v < x.size(); ++v)
-    bears[v] = area[v] > 0 && flooded[v] == 0 ? 1 : 0;
+    bears[v] = (faces[v] == BathReach::below ? area[v] : -area[v]) > 0 && flooded[v] == 0 ? 1 : 0;
   for (bool more = true; more;) { // a layer in each round
     more = false;
     for (const ContactSpring& spring : piled.on)
@@ -122,10 +170,11 @@ std::vector<char> borne_vertices(const FloatingSheet& sheet, const Piled& piled,
 std::vector<BathReach> bath_reach(const FloatingSheet& sheet, const Vector3& up, double level) {
   const Piled piled(sheet.contacts, up);
   const std::vector<char> flooded = flooded_vertices(sheet, piled, deep_vertices(sheet, piled, up, level));
-  const std::vector<char> borne = borne_vertices(sheet, piled, flooded, up);
+  const std::vector<BathReach> faces = faces_of_pieces(sheet, piled, up);
+  const std::vector<char> borne = borne_vertices(sheet, piled, flooded, faces, up);
   std::vector<BathReach> reach(sheet.positions.size());
   for (std::size_t v = 0; v < reach.size(); ++v)
-    reach[v] = flooded[v] != 0 ? BathReach::around : borne[v] != 0 ? BathReach::none : BathReach::below;
+    reach[v] = flooded[v] != 0 ? BathReach::around : borne[v] != 0 ? BathReach::none : faces[v];
   if (std::ranges::all_of(reach, [](BathReach r) { return r == BathReach::below; }))
     return {};
   return reach;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a bath is below a sheet, where it has come over it, and where another layer is in between. SI units.
+// On which face a bath reaches a sheet, where it has come over it, and where another layer is in between. SI units.
 #pragma once
 #include <span>
 #include <vector>
@@ -21,6 +21,9 @@ struct FloatingSheet {
 
 // How the bath reaches each vertex; empty: from below all of them. up: against gravity; level: of the bath along that.
 //
+// Facing: of a connected piece that lies on its face, all in all. Outside: of one that is closed, or nearly so, with
+// its normals outwards.
+//
 // Around: what floats sinks until it displaces its own weight, with |d| < h if it is lighter than the bath, d the
 // height of a vertex above the level and h the thickness there. Where d + h < 0, with h that of all that lies on it,
 // the bath stands above it, and is there if it has come over a rim: a vertex is flooded that is on a rim, or next to
@@ -28,8 +31,8 @@ struct FloatingSheet {
 // stays dry whose rims are above the level. At d = -h the lift of both faces, ρ g V, is that of the lower one alone.
 //
 // None: a vertex is borne where a contact spring says that it lies on a triangle, no farther aside than over it, and
-// that one has its face up, so that the bath bears it with all that is above, or is borne itself. What lies on a layer
-// that the bath is around, or that has its face down, the lowest one of all, is not: that one is wet on both faces.
+// that one lies as its piece does, so that the bath bears it with all that is above, or is borne itself. What lies on a
+// layer that the bath is around, or that lies the other way, is not: that one is wet on both faces.
 [[nodiscard]] std::vector<BathReach> bath_reach(const FloatingSheet& sheet, const Vector3& up, double level);
 
 } // namespace sheet

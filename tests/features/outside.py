@@ -77,10 +77,42 @@ def flooded(frame, up, level, clings):
             return found
 
 
+def pieces(frame):
+    """Of each vertex, the number of its piece of the sheet."""
+    piece = numpy.arange(frame.vertices)
+    while True:
+        before = piece.copy()
+        least = piece[frame["triangle"]].min(axis=1)
+        for k in range(3):
+            numpy.minimum.at(piece, frame["triangle"][:, k], least)
+        if (piece == before).all():
+            return piece
+
+
+def sides(frame, up):
+    """Of each triangle, -1 where its piece lies on its face or is closed, so that its normal points to the bath; which are
+    closed."""
+    lies = numpy.zeros(frame.vertices, bool)
+    lies[piled(frame, up, 1)[0]] = True
+    lowest = ~lies[frame["triangle"]].any(axis=1)
+    side, closed = numpy.ones(len(frame["triangle"])), numpy.zeros(len(frame["triangle"]), bool)
+    piece, x, twice = pieces(frame)[frame["triangle"][:, 0]], frame["position"], normals(frame)
+    for number in numpy.unique(piece):
+        of = piece == number
+        across, area = twice[of].sum(axis=0) / 2, numpy.linalg.norm(twice[of], axis=1).sum() / 2
+        corners = frame["triangle"][of]
+        room = cones(x - x[numpy.unique(corners)].mean(axis=0), corners)
+        closed[of] = numpy.linalg.norm(across) <= 0.1 * area and room > 0.3 * area ** 1.5 / (6 * numpy.pi ** 0.5)
+        level_part, bare = (twice @ up)[of & lowest].sum(), numpy.linalg.norm(twice[of & lowest], axis=1).sum()
+        side[of] = -1 if closed[of].any() or level_part < -0.1 * bare else 1
+    return side, closed
+
+
 def borne(frame, up, is_flooded):
-    """Which vertices lie on another layer that faces up or is borne itself."""
+    """Which vertices lie on another layer that the bath bears, or that is borne itself."""
     found = numpy.zeros(frame.vertices, bool)
-    bears = (around_vertices(frame, normals(frame) @ up) > 0) & ~is_flooded
+    side, _ = sides(frame, up)
+    bears = (around_vertices(frame, side * (normals(frame) @ up)) > 0) & ~is_flooded
     on, below, weights = piled(frame, up, 1)
     while True:
         more = on[(weights * bears[below]).sum(axis=1) >= 0.5]
@@ -118,21 +150,22 @@ def work_of_bath(said, start, end, of_liquids):
     clings = bath.get("clings", False)
     around = flooded(start, up, level, clings)
     is_open = ~borne(start, up, around)[triangle]
-    overturned = (normals(start) @ up < 0)[:, numpy.newaxis]
+    side, closed = sides(start, up)
+    overturned = (~closed & (side * (normals(start) @ up) < 0))[:, numpy.newaxis]
     steep = 0.025 * numpy.linalg.norm(normals(start), axis=1) # a twentieth of the area
     reached = is_open & ((start["position"] @ up)[triangle] < level)
     from_below = is_open & ~around[triangle] & ~overturned
     all_round = reached & (overturned | around[triangle])
     liquid = start["liquid"].ravel() if "liquid" in start else numpy.zeros(len(triangle), int)
     density, _ = of_liquids(said, liquid)
-    level_part = normals(start) @ up / numpy.linalg.norm(normals(start), axis=1)
+    level_part = side * (normals(start) @ up) / numpy.linalg.norm(normals(start), axis=1)
     floats_by = numpy.clip((level_part - 0.5) / 0.25, 0, 1) * bath.get("spreads", not clings)
     thrust = density * g * volume ** 2 / 2 * (reached & from_below).mean(axis=1) * floats_by
 
     def potential(frame):
         heights = (frame["position"] @ up)[triangle] - level
-        projected = normals(frame) @ up / 2
-        counts = numpy.where(projected < steep, numpy.maximum(projected + steep, 0) ** 2 / (4 * steep), projected)
+        projected = side * (normals(frame) @ up) / 2
+        counts = numpy.where((projected < steep) & ~closed, numpy.maximum(projected + steep, 0) ** 2 / (4 * steep), projected)
         floats = weight / 12 * from_below.mean(axis=1) * counts * depth_integral(heights, clings)
         dips = -weight * volume / 3 * (heights * all_round).sum(axis=1)
         spread = numpy.divide(thrust, projected, out=numpy.zeros(len(thrust)), where=thrust > 0)

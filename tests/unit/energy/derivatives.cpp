@@ -8,7 +8,6 @@
 #include <numeric>
 #include <random>
 
-#include "libsheet/energy/form_drag.h"
 #include "libsheet/energy/area_loads.h"
 #include "libsheet/energy/assembly.h"
 #include "libsheet/energy/bath.h"
@@ -19,6 +18,7 @@
 #include "libsheet/energy/contact_damping.h"
 #include "libsheet/energy/contact_shear.h"
 #include "libsheet/energy/contact_squeeze.h"
+#include "libsheet/energy/form_drag.h"
 #include "libsheet/energy/gravity.h"
 #include "libsheet/energy/hinge.h"
 #include "libsheet/energy/inertia.h"
@@ -89,6 +89,9 @@ State leaning(Random& random) {
     s.director_angles.push_back(e % 3 == 0 ? 0.5 * random() : 1.3 * (random() > 0 ? 1 : -1) + 0.5 * random());
   return s;
 }
+
+// Of as many vertices as any of these has.
+std::vector<BathReach> on_the_face(BathReach reach) { return std::vector<BathReach>(1000, reach); }
 
 // Two of three vertices touch a bumpy wall.
 void touch_walls(Stage& stage, Random& random) {
@@ -394,11 +397,18 @@ TEST(Derivatives, WallDragOfFlowCurves) {
 TEST(Derivatives, DragOfTwoWalls) { check(WallDrag(), {false, false}, true, crumpled, touch_two_walls); }
 TEST(Derivatives, ChannelPressure) { check(ChannelPressure(), {false, false}, true, crumpled, touch_two_walls); }
 TEST(Derivatives, WallWeight) { check(WallWeight({0.3, -9, 2}), {}, true, crumpled, touch_walls); }
-TEST(Derivatives, SpreadingOnABath) { check(BathThrust({0.3, -9, 2}, 0.1), {false, false}); }
+TEST(Derivatives, SpreadingOnABath) {
+  check(BathThrust({0.3, -9, 2}, 0.1), {false, false});
+  check(BathThrust({0.3, -9, 2}, 0.1, on_the_face(BathReach::facing)), {false, false});
+}
 TEST(Derivatives, BathDrag) { check(BathDrag(3, {0.3, -9, 2}, 0.1), {false, false}); }
 TEST(Derivatives, Inertia) { check(Inertia(), {false, false}); }
 TEST(Derivatives, Gravity) { check(Gravity({0.3, -9, 2}), {false, false}); }
-TEST(Derivatives, Bath) { check(Bath(3, {0.3, -9, 2}, 0.1, true), {false, false}); }
+TEST(Derivatives, Bath) {
+  check(Bath(3, {0.3, -9, 2}, 0.1, true), {false, false});
+  for (const BathReach reach : {BathReach::facing, BathReach::outside})
+    check(Bath(3, {0.3, -9, 2}, 0.1, true, on_the_face(reach)), {false, false});
+}
 
 // With none, one, two and three vertices under the surface: continuous across it, and never a pull from above.
 TEST(Derivatives, BathActsFromBelowOnly) {
