@@ -4,7 +4,7 @@
 // and the friction C_t ρ |w_t| w_t/2 [Pa], C_t for both faces together. For each corner of a triangle
 //   W = (Â/3) τ (ρ/6) (C_n |w_n|³ + C_t |w_t|³),   w = (x - x̄)/τ - wind,
 // Â and the normal predicted for the end of the stage, x̄ the start of the step, in a second stage extrapolated from the
-// first, wind at the stage's end. A corner that is sheltered has none of it.
+// first, wind at the stage's end. A corner that is sheltered has none of it, one that slides no friction.
 #pragma once
 #include <functional>
 #include <vector>
@@ -20,6 +20,7 @@ struct OuterFlow {
   double drag = 0, friction = 0;                                                           // C_n, C_t
   std::function<Vector3(double)> wind = [](double) -> Vector3 { return Vector3::Zero(); }; // at a time [m/s]
   std::vector<char> sheltered = {}; // of each vertex, whether it is not reached; empty: all are
+  std::vector<char> slides = {};    // of each vertex, whether it has no friction; empty: all have
 };
 
 class FormDrag {
@@ -103,7 +104,8 @@ private:
       if (!flow_.sheltered.empty() && flow_.sheltered[v] != 0)
         continue;
       const Vector3 moved = u.segment<3>(3 * c) - still_[v], across = normal.dot(moved) * normal;
-      visit(c, across, Vector3(moved - across));
+      const bool rubs = flow_.slides.empty() || flow_.slides[v] == 0;
+      visit(c, across, rubs ? Vector3(moved - across) : Vector3::Zero());
     }
   }
 

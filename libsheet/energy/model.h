@@ -41,7 +41,7 @@ struct Model {
   std::optional<BathLiquid> bath;     // needs gravity
   std::vector<BathReach> bath_reach;  // of each vertex; empty: from below
   std::optional<OuterFlow> air;
-  std::optional<OuterFlow> bath_flow; // past what moves in the bath across itself
+  std::optional<OuterFlow> bath_flow; // past what moves in the bath
   bool inertia = true;
   std::optional<ModelFaces> faces; // needs tension; chosen for a step
   Bending bending = Bending::none;

@@ -166,12 +166,8 @@ constexpr std::array table = {
                 maker.add(BathDrag(m.bath->drag, m.gravity, m.bath->level, m.bath_reach));
               }},
     TermEntry{"bath resistance", [](const Model& m) { return m.bath_flow.has_value(); },
-              [](const Model&) -> std::string { return "it holds back what moves in it across itself"; },
-              [](const Model& m) -> std::string {
-                return !m.bath          ? "no bath in [environment]"
-                       : m.bath->clings ? "the bath clings"
-                                        : "without inertia nothing dives";
-              },
+              [](const Model&) -> std::string { return "it holds back what moves in it"; },
+              [](const Model& m) -> std::string { return m.bath ? "the bath clings" : "no bath in [environment]"; },
               [](const Model& m, TermMaker& maker) { maker.add(FormDrag(*m.bath_flow)); }},
     TermEntry{
         "drag of air", [](const Model& m) { return m.air.has_value(); },

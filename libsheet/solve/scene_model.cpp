@@ -429,6 +429,15 @@ std::vector<char> sheltered_from_bath(const Scene& scene, const Frame& frame, co
   return sheltered;
 }
 
+// What is not wet on both faces: `drag` is what holds it back along the bath. Without inertia nothing moves across the
+// bath for long there, and without friction what leans would glide without end.
+std::vector<char> afloat(const Frame& frame, const Model& model) {
+  std::vector<char> afloat(frame.vertices, 1);
+  for (std::size_t v = 0; v < model.bath_reach.size(); ++v)
+    afloat[v] = model.bath_reach[v] == BathReach::around ? 0 : 1;
+  return afloat;
+}
+
 // Nothing comes over a rim that is held, or that liquid enters by, nor over what the bath clings to.
 std::vector<BathReach> reach_of_bath(const Frame& frame, const Connectivity& mesh, const Model& model) {
   std::vector<char> shut(frame.vertices, model.bath->clings ? 1 : 0);
@@ -453,9 +462,11 @@ Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   model.bath = scene.environment.bath;
   if (scene.environment.air)
     model.air = air_of(*scene.environment.air);
-  if (model.bath && model.has_weight() && model.has_inertia() && !model.bath->clings)
-    model.bath_flow =
-        OuterFlow{.name = "bath resistance", .density = model.bath->density, .drag = scene::Air().drag_coefficient};
+  if (model.bath && model.has_weight() && !model.bath->clings)
+    model.bath_flow = OuterFlow{.name = "bath resistance",
+                                .density = model.bath->density,
+                                .drag = scene::Air().drag_coefficient,
+                                .friction = scene::Air().friction_coefficient};
   model.contacts_adhere = scene.contact && contacts_adhere(scene);
   model.contacts_flow = layers_flow(scene);
   return model;
@@ -592,8 +603,13 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
     model.inner_faces = inner_faces(scene, frame);
   if (model.bath && model.gravity.squaredNorm() > 0)
     model.bath_reach = reach_of_bath(frame, mesh, model);
-  if (model.bath_flow)
-    model.bath_flow->sheltered = sheltered_from_bath(scene, frame, model);
+  if (model.bath_flow) {
+    OuterFlow& flow = *model.bath_flow;
+    flow.sheltered = sheltered_from_bath(scene, frame, model);
+    flow.slides = afloat(frame, model);
+    for (std::size_t v = 0; v < flow.slides.size() && !model.has_inertia(); ++v)
+      flow.sheltered[v] = flow.sheltered[v] != 0 || flow.slides[v] != 0 ? 1 : 0;
+  }
   if (model.air)
     model.air->sheltered = sheltered_from_air(scene, frame, model);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.

@@ -292,20 +292,26 @@ TEST(BathReach, TwoLayersSpreadAsOneOfTwiceTheThickness) {
     EXPECT_NEAR(stack.mean(layer, 0) / before - 1, rate * duration, 0.01 * rate * duration) << layer;
 }
 
-// Held back as a plate is it falls at v, C_n ρ_b v²/2 = (ρ - ρ_b) g h.
+// Held back as a plate is it falls at v, C ρ_b v²/2 = (ρ - ρ_b) g h, with the C of what lies flat or stands on edge.
 TEST(BathReach, WhatSinksComesToItsSpeed) {
-  constexpr double density = 1350, drag = 1.2;
-  FloatingStack stack({true});
-  stack.sink(100);
-  Model m = on_bath(stack, density, density);
-  m.inertia = true;
-  m.bath_flow = OuterFlow{.density = bath_density, .drag = drag};
-  Stepper stepper(m, {});
-  for (int i = 0; i < 100; ++i)
-    stepper.step(stack.state, 0.05);
-  const double speed = std::sqrt(2 * (density / bath_density - 1) * weight_of_kg * layer_depth / drag);
-  for (const Vector3& v : stack.state.velocities)
-    EXPECT_NEAR((v + Vector3(0, 0, speed)).norm(), 0, 1e-3 * speed);
+  constexpr double density = 1350, drag = 1.2, friction = 0.01;
+  for (const auto& [on_edge, inertia] : {std::pair{false, true}, {true, true}, {false, false}, {true, false}}) {
+    FloatingStack stack({true});
+    if (on_edge)
+      for (Vector3& x : stack.state.positions)
+        x = Vector3(0, x.y(), x.x());
+    stack.sink(100);
+    Model m = on_bath(stack, density, density);
+    m.inertia = inertia;
+    m.bath_flow = OuterFlow{.density = bath_density, .drag = drag, .friction = friction};
+    Stepper stepper(m, {});
+    for (int i = 0; i < 100; ++i)
+      stepper.step(stack.state, 0.1);
+    const double held = on_edge ? friction : drag;
+    const double speed = std::sqrt(2 * (density / bath_density - 1) * weight_of_kg * layer_depth / held);
+    for (const Vector3& v : stack.state.velocities)
+      EXPECT_NEAR((v + Vector3(0, 0, speed)).norm(), 0, 0.01 * speed) << on_edge << inertia;
+  }
 }
 
 } // namespace

@@ -292,6 +292,14 @@ TEST(SceneModel, ABathHoldsBackWhatMovesInIt) {
   const Model under = model(100);
   EXPECT_EQ(under.bath_flow->density, 2000);
   EXPECT_EQ(under.bath_flow->sheltered, (std::vector<char>{0, 1, 0, 0, 0, 0}));
+  EXPECT_EQ(under.bath_flow->slides, (std::vector<char>{0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(model(1e-9).bath_flow->slides, (std::vector<char>{1, 1, 1, 0, 0, 0})); // one is afloat
+  const std::string creeping =
+      "[environment]\ngravity = [0, 0, -9.81]\nbath = {density = 2, level = 1e-9}\n[model]\ninertia = false\n";
+  const Model slow =
+      model_of(parse_scene(std::string(scene_text) + creeping, "test"), frame, mesh, Bending::mid_edge, false);
+  ASSERT_TRUE(slow.bath_flow);
+  EXPECT_EQ(slow.bath_flow->sheltered, (std::vector<char>{1, 1, 1, 0, 0, 0}));
 }
 
 // What a vertex overshot counts where a solid holds it and no contact spring pulls at it. A step uses it up, and says
