@@ -193,6 +193,15 @@ TEST(Health, FindsStepsFarBelowTheScenesTime) {
   Frame falling = frame;
   std::ranges::fill(velocities(falling), Vector3(0, -31.3, 0));
   EXPECT_TRUE(look(falling, &scene).empty());
+  // so are steps of what rests on a bath
+  Frame resting = frame;
+  std::ranges::fill(velocities(resting), Vector3(0, 1e-7, 0));
+  put_number(resting, "step_size", 1e-3);
+  Scene afloat = scene_with();
+  afloat.environment.bath = BathLiquid{.density = 2 * afloat.material.density};
+  EXPECT_TRUE(look(resting, &afloat).empty());
+  put_number(resting, "step_size", 1e-4);
+  EXPECT_EQ(only(look(resting, &afloat)).trouble, Trouble::short_steps);
   // gas may drive it a thousand times as fast as what else the scene says
   Scene blown = scene_with();
   blown.environment.pressure =
