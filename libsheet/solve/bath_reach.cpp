@@ -100,12 +100,13 @@ std::vector<char> flooded_vertices(const FloatingSheet& sheet, const Piled& pile
 // Of each vertex, by which face the bath reaches its piece of the sheet where that is not flooded and lies on nothing.
 std::vector<BathReach> faces_of_pieces(const FloatingSheet& sheet, const Piled& piled, const Vector3& up) {
   constexpr double least_down = 0.1;    // of the area that lies on nothing
-  constexpr double greatest_hole = 0.1; // of the area of what is closed
-  constexpr double least_room = 0.3;    // in what is closed, of a sphere's of the same area
+  constexpr double greatest_hole = 0.1; // of the area of what is closed but for it
+  constexpr double least_room = 0.3;    // in that, of a sphere's of the same area
   struct Piece {
     Vector3 corners = Vector3::Zero(), across = Vector3::Zero();
     double count = 0, area = 0, cones = 0; // area and across: twice; cones: six times
-    double up = 0, lowest = 0;             // of what lies on nothing, seen from above, and its area: twice
+    bool rim = false;
+    double up = 0, lowest = 0; // of what lies on nothing, seen from above, and its area: twice
   };
   const auto& x = sheet.positions;
   std::vector<char> lies(x.size(), 0);
@@ -120,6 +121,9 @@ std::vector<BathReach> faces_of_pieces(const FloatingSheet& sheet, const Piled& 
     pieces[piece[v]].corners += x[v];
     pieces[piece[v]].count += 1;
   }
+  for (std::size_t e = 0; e < sheet.mesh.edges.size(); ++e)
+    if (sheet.mesh.on_rim(e))
+      pieces[piece[sheet.mesh.edges[e][0]]].rim = true;
   for (const Corners& c : sheet.mesh.triangles) {
     Piece& p = pieces[piece[c[0]]];
     const Vector3 normal = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
@@ -135,7 +139,7 @@ std::vector<BathReach> faces_of_pieces(const FloatingSheet& sheet, const Piled& 
   for (std::size_t v = 0; v < x.size(); ++v) {
     const Piece& p = pieces[piece[v]];
     const double sphere = p.area / 2 * std::sqrt(p.area / 2) / (6 * std::sqrt(std::numbers::pi));
-    if (p.across.norm() <= greatest_hole * p.area && p.cones / 6 > least_room * sphere)
+    if (p.across.norm() <= greatest_hole * p.area && p.cones / 6 > (p.rim ? least_room * sphere : 0))
       faces[v] = BathReach::outside;
     else if (p.up < -least_down * p.lowest)
       faces[v] = BathReach::facing;

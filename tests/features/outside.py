@@ -102,7 +102,8 @@ def sides(frame, up):
         across, area = twice[of].sum(axis=0) / 2, numpy.linalg.norm(twice[of], axis=1).sum() / 2
         corners = frame["triangle"][of]
         room = cones(x - x[numpy.unique(corners)].mean(axis=0), corners)
-        closed[of] = numpy.linalg.norm(across) <= 0.1 * area and room > 0.3 * area ** 1.5 / (6 * numpy.pi ** 0.5)
+        least_room = 0.3 * area ** 1.5 / (6 * numpy.pi ** 0.5) if len(rim_of(corners)) else 0
+        closed[of] = numpy.linalg.norm(across) <= 0.1 * area and room > least_room
         level_part, bare = (twice @ up)[of & lowest].sum(), numpy.linalg.norm(twice[of & lowest], axis=1).sum()
         side[of] = -1 if closed[of].any() or level_part < -0.1 * bare else 1
     return side, closed

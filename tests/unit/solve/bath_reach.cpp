@@ -168,18 +168,21 @@ TEST(BathReach, WhatHangsIntoTheBath) {
 // A ball's outer face is wet, wherever it is; one with a small hole on top is a boat, until the bath is over its rim.
 TEST(BathReach, WhatIsClosedIsWetOutside) {
   using enum BathReach;
-  const auto of = [](bool hole, double level) {
+  const auto of = [](bool hole, double level, double height = 1) {
     test::Mesh ball = test::icosphere(2);
     if (hole)
       std::erase_if(ball.triangles, [&](const Corners& c) {
         return std::ranges::all_of(c, [&](auto v) { return ball.positions[v].z() > 0.9; });
       });
+    for (Vector3& x : ball.positions)
+      x.z() *= height;
     const State s = test::at_rest(ball, 0.01);
     return bath_reach({*s.mesh, s.positions, s.volumes, {}, std::vector<char>(s.positions.size(), 0)}, Vector3::UnitZ(),
                       level);
   };
   for (const double level : {-2, 0, 2})
     EXPECT_EQ(of(false, level), OfLayers(test::icosphere(2).positions.size(), outside));
+  EXPECT_EQ(of(false, 2, 0.01), OfLayers(test::icosphere(2).positions.size(), outside)); // a collapsed one
   EXPECT_EQ(std::ranges::count(of(true, 0.5), outside), std::ssize(test::icosphere(2).positions) - 1);
   EXPECT_EQ(std::ranges::count(of(true, 1), around), std::ssize(test::icosphere(2).positions) - 1);
 }
