@@ -429,13 +429,19 @@ std::vector<char> sheltered_from_bath(const Scene& scene, const Frame& frame, co
   return sheltered;
 }
 
-// What is not wet on both faces: `drag` is what holds it back along the bath. Without inertia nothing moves across the
-// bath for long there, and without friction what leans would glide without end.
-std::vector<char> afloat(const Frame& frame, const Model& model) {
-  std::vector<char> afloat(frame.vertices, 1);
+// Whom the bath resists; no flow if that is none. What is not wet on both faces has no friction: `drag` is what holds
+// it back along the bath. Without inertia such does not move across the bath for long, while what has gone under would
+// glide without end.
+void put_bath_flow(const Scene& scene, const Frame& frame, Model& model) {
+  OuterFlow& flow = *model.bath_flow;
+  flow.sheltered = sheltered_from_bath(scene, frame, model);
+  flow.slides.assign(frame.vertices, 1);
   for (std::size_t v = 0; v < model.bath_reach.size(); ++v)
-    afloat[v] = model.bath_reach[v] == BathReach::around ? 0 : 1;
-  return afloat;
+    flow.slides[v] = model.bath_reach[v] == BathReach::around ? 0 : 1;
+  for (std::size_t v = 0; v < flow.slides.size() && !model.has_inertia(); ++v)
+    flow.sheltered[v] = flow.sheltered[v] != 0 || flow.slides[v] != 0 ? 1 : 0;
+  if (std::ranges::all_of(flow.sheltered, [](char s) { return s != 0; }))
+    model.bath_flow.reset();
 }
 
 // Nothing comes over a rim that is held, or that liquid enters by, nor over what the bath clings to.
@@ -603,13 +609,8 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
     model.inner_faces = inner_faces(scene, frame);
   if (model.bath && model.gravity.squaredNorm() > 0)
     model.bath_reach = reach_of_bath(frame, mesh, model);
-  if (model.bath_flow) {
-    OuterFlow& flow = *model.bath_flow;
-    flow.sheltered = sheltered_from_bath(scene, frame, model);
-    flow.slides = afloat(frame, model);
-    for (std::size_t v = 0; v < flow.slides.size() && !model.has_inertia(); ++v)
-      flow.sheltered[v] = flow.sheltered[v] != 0 || flow.slides[v] != 0 ? 1 : 0;
-  }
+  if (model.bath_flow)
+    put_bath_flow(scene, frame, model);
   if (model.air)
     model.air->sheltered = sheltered_from_air(scene, frame, model);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
