@@ -3,6 +3,7 @@
 // momentum.
 #include "libsheet/collide/self_response.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
