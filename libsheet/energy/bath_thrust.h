@@ -45,7 +45,8 @@ public:
       const TriangleArea area(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
       side_[t] = surface_.side(triangles[t]);
       start_[t] = side_[t] * area.area * area.normal.dot(surface_.up());
-      thrust_[t] *= std::clamp((start_[t] / area.area - least_level) / (level_enough - least_level), 0.0, 1.0);
+      const double level_part = area.area > 0 ? start_[t] / area.area : 0;
+      thrust_[t] *= std::clamp((level_part - least_level) / (level_enough - least_level), 0.0, 1.0);
     }
   }
 

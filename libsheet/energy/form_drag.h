@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quadratic drag of air, or of a bath, on what moves through it [Hoerner 1965, chapters 2
-// and 3]: with w the velocity less the wind's, w_n across a triangle and w_t along it, the pressure C_n ρ |w_n| w_n/2
-// and the friction C_t ρ |w_t| w_t/2 [Pa], C_t for both faces together. For each corner of a triangle
+// Quadratic drag of air, or of a bath, on what moves through it [Hoerner 1965, chapters 2 and 3]: with w the velocity
+// less the wind's, w_n across a triangle and w_t along it, the pressure C_n ρ |w_n| w_n/2 and the friction
+// C_t ρ |w_t| w_t/2 [Pa], C_t for both faces together. For each corner of a triangle
 //   W = (Â/3) τ (ρ/6) (C_n |w_n|³ + C_t |w_t|³),   w = (x - x̄)/τ - wind,
 // Â and the normal predicted for the end of the stage, x̄ the start of the step, in a second stage extrapolated from the
 // first, wind at the stage's end. A corner that is sheltered has none of it, one that slides no friction.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Liquid below the height `level`, measured against gravity from the origin. It carries what is under its surface, and
-// pulls down what is above it if it clings. What floats on it spreads under its own weight where that is asked for, and is
-// dragged where it slides.
+// pulls down what is above it if it clings. What floats on it spreads under its own weight where that is asked for, and
+// is dragged where it slides.
 #pragma once
 
 namespace sheet {
