@@ -10,6 +10,7 @@
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/step_stage.h"
+#include "tests/validation/round_hole.h"
 #include "tests/validation/table.h"
 
 namespace sheet::validation {
@@ -122,14 +123,35 @@ TEST(Validation, LongNumberOfHoles) {
   }
 }
 
-// A hole grows as a law has it that knows of the rim's own tension; a bar of 3 % is missed (4.3 %, 4.1 with edges a
-// third as long).
-TEST(Validation, HolesGrow) { EXPECT_LT(std::abs(run(find_case("V42"), settings("V42", 0.1, 200, 1)).error), 0.045); }
+// A hole grows as the film in one dimension has it; a bar of 3 % is just missed with edges as long as its rim is thick.
+TEST(Validation, HolesGrow) { EXPECT_LT(std::abs(run(find_case("V42"), settings("V42", 0.1, 200, 1)).error), 0.035); }
 
-// Where the rim is thin, at the speed of Taylor and Culick; so holes climb a slow curtain, and a fast one sweeps them
-// away.
+// That film: of rings half as wide it is the same, and a hole far from where it began opens at the speed of Taylor and
+// Culick, a thin film's sooner.
+TEST(Validation, HoleInOneDimension) {
+  const auto part_of_culick = [](double thickness, double width) {
+    const PiercedFilm film{.thickness = thickness,
+                           .first = 2e-3,
+                           .border = 2e-3,
+                           .outer = 0.03,
+                           .density = 1000,
+                           .surface_tension = 0.07,
+                           .viscosity = 0.05 * std::sqrt(0.07 * 1000 * thickness)};
+    const std::vector<HoleRadius> growth = growth_of_hole(film, 0.02, width);
+    return 0.01 / (time_at(growth, 0.02) - time_at(growth, 0.01)) / std::sqrt(2 * 0.07 / (1000 * thickness));
+  };
+  const double thick = part_of_culick(1e-3, 2e-4), thin = part_of_culick(2e-4, 2e-4);
+  EXPECT_NEAR(thick, part_of_culick(1e-3, 4e-4), 0.005);
+  EXPECT_NEAR(thin, part_of_culick(2e-4, 4e-4), 0.005);
+  EXPECT_LT(thick, thin);
+  EXPECT_NEAR(thin, 1, 0.05);
+}
+
+// With edges half as long as the rim is thick within 3 %, likewise at the speed of Taylor and Culick; so holes climb a
+// slow curtain, and a fast one sweeps them away.
 TEST(Validation, LongHolesGrow) {
   const Result hole = run(find_case("V42"), settings("V42", 0.025, 200, 2));
+  EXPECT_LT(std::abs(hole.error), 0.03);
   ASSERT_EQ(hole.more[0].first, "of_culick");
   EXPECT_NEAR(hole.more[0].second, 1, 0.03);
   EXPECT_NEAR(run(find_case("V42"), settings("V42", 0.03, 200, 3)).value, 1 - std::sqrt(0.8), 0.03);

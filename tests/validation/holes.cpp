@@ -14,6 +14,7 @@
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
+#include "tests/validation/round_hole.h"
 #include "tests/validation/setup.h"
 #include "tests/validation/stages.h"
 
@@ -128,31 +129,28 @@ Result number_of_holes(const Settings& s) {
 }
 
 constexpr double tension = 0.07, density = 1000;
+constexpr double most = 0.022; // radius to which holes grow [m]
 
-// A hole in a film of the thickness h that gathers all it meets in a round rim. The film draws with 2 γ, the rim, a
-// ring of the section π d²/4 = h R/2, holds back with the tension of a thread, γ π d/2: of the momentum P = π ρ h R²
-// R',
-//   dP/dt = 2 π (2 γ R - γ √(π h R/2)),
-// so R' = √(2 γ/(ρ h)) [Taylor 1959; Culick 1960] where R is much above h, and R' = 0 at the first radius, whose liquid
-// the rim has, too.
-struct GrowingHole {
-  double thickness, first; // [m]
-  [[nodiscard]] double retraction() const { return std::sqrt(2 * tension / (density * thickness)); }
-  [[nodiscard]] double speed(double r) const {
-    const auto work = [&](double at) {
-      return at * at * at * at / 2 - std::sqrt(pi * thickness / 2) * std::pow(at, 3.5) / 3.5;
-    };
-    return retraction() * std::sqrt(2 * (work(r) - work(first))) / (r * r);
-  }
-  // From radius a to b, with a above the first one [s].
-  [[nodiscard]] double time(double a, double b) const {
-    constexpr int parts = 1000;
-    double sum = 0;
-    for (int k = 0; k < parts; ++k)
-      sum += (b - a) / parts / speed(a + (k + 0.5) * (b - a) / parts);
-    return sum;
-  }
-};
+// Oh 0.05.
+double viscosity_of(double thickness) { return 0.05 * std::sqrt(tension * density * thickness); }
+
+// The speed at which a film draws open far from where a hole began, √(2 γ/(ρ h)) [Taylor 1959; Culick 1960].
+double retraction(double thickness) { return std::sqrt(2 * tension / (density * thickness)); }
+
+// What a hole of this first radius does in a wide film of which the triangles around it have its liquid, as those of
+// the edge length do (round_hole.h).
+std::vector<HoleRadius> exact_growth(double thickness, double first, double last, double edge) {
+  constexpr double wide = 0.03, rings_a_rim = 16; // the rim's diameter is √(2 R h/π)
+  const double rim = std::sqrt(2 * (most / 4) * thickness / pi);
+  return growth_of_hole({.thickness = thickness,
+                         .first = first,
+                         .border = edge,
+                         .outer = wide,
+                         .density = density,
+                         .surface_tension = tension,
+                         .viscosity = viscosity_of(thickness)},
+                        last, rim / rings_a_rim);
+}
 
 // Opens one at the vertex nearest to a place.
 void open_hole(Frame& frame, const Vector3& place) {
@@ -170,25 +168,21 @@ void open_hole(Frame& frame, const Vector3& place) {
 }
 
 std::string film_scene(const std::string& sheet, const Settings& s, double thickness, const std::string& more) {
-  const double viscosity = 0.05 * std::sqrt(tension * density * thickness); // Oh 0.05
   return fmt::format(
       "[sheet]\n{}plane = \"xy\"\nedge_length = {}\nthickness = {}\nseed = {}\n[material]\nviscosity = {}\n"
       "density = {}\nsurface_tension = {}\n[model]\nbending = false\nfaces = true\n[[hold]]\nregion = "
       "{{box = [[-1, -1, -1], [1, 1, 1]]}}\naxes = \"z\"\n{}",
-      sheet, s.edge, thickness, s.seed, viscosity, density, tension, more);
+      sheet, s.edge, thickness, s.seed, viscosity_of(thickness), density, tension, more);
 }
-
-constexpr double most = 0.022; // radius to which holes grow [m]
 
 double area_of(const Frame& frame) { return total(areas(frame)); }
 
 // A film of 30 mm radius, held at its rim; a hole opens in its middle, and grows to 22 mm. Value: its mean speed from 3
-// times its first radius on over that of the law above; over √(2 γ/(ρ h)) it is `of_culick`.
+// times its first radius on over that of the film in one dimension; over √(2 γ/(ρ h)) it is `of_culick`.
 Result hole_in_film(const Settings& s, double thickness) {
   constexpr double radius = 0.03;
   Settings own = s;
   own.edge = s.edge * radius;
-  GrowingHole law{thickness, 0};
   std::vector<std::pair<double, double>> radii; // over time
   double whole = 0;
   const auto measure = [&](const Frame& frame) {
@@ -196,18 +190,19 @@ Result hole_in_film(const Settings& s, double thickness) {
   };
   const Staged run = run_stages(film_scene(fmt::format("shape = \"disk\"\nradius = {}\n", radius), own, thickness,
                                            "[[hold]]\nregion = \"rim\"\n"),
-                                own, most / law.retraction(), measure, [&](Frame& frame) {
+                                own, most / retraction(thickness), measure, [&](Frame& frame) {
                                   whole = area_of(frame);
                                   open_hole(frame, Vector3::Zero());
                                   measure(frame);
                                 });
-  law.first = radii.front().second;
-  const auto [start, from] = *std::ranges::find_if(radii, [&](const auto& at) { return at.second > 3 * law.first; });
+  const double first = radii.front().second;
+  const auto [start, from] = *std::ranges::find_if(radii, [&](const auto& at) { return at.second > 3 * first; });
   const auto [end, to] = radii.back();
-  Result r = result_of(run, own, law.time(from, to) / (end - start));
+  const std::vector<HoleRadius> exact = exact_growth(thickness, first, to, own.edge);
+  Result r = result_of(run, own, (time_at(exact, to) - time_at(exact, from)) / (end - start));
   r.edge = s.edge;
-  r.more = {{"of_culick", (to - from) / (end - start) / law.retraction()},
-            {"first_radius", law.first / thickness},
+  r.more = {{"of_culick", (to - from) / (end - start) / retraction(thickness)},
+            {"first_radius", first / thickness},
             {"last_radius", to / thickness}};
   return r;
 }
@@ -231,8 +226,8 @@ Result hole_in_curtain(const Settings& s, double thickness, double weber) {
   constexpr double side = 0.06;
   Settings own = s;
   own.edge = s.edge * side / 2;
-  GrowingHole law{thickness, 0};
-  const double unit = law.retraction(), u = std::sqrt(weber) * unit, until = most / unit;
+  double first = 0;
+  const double unit = retraction(thickness), u = std::sqrt(weber) * unit, until = most / unit;
   std::vector<std::pair<double, double>> tops; // over time
   const std::string shape =
       fmt::format("shape = \"rectangle\"\nsize = [{}, {}]\nvelocity = [0, {}, 0]\n", side, side, -u);
@@ -247,13 +242,14 @@ Result hole_in_curtain(const Settings& s, double thickness, double weber) {
       [&](Frame& frame) {
         const double whole = area_of(frame);
         open_hole(frame, Vector3::Zero());
-        law.first = std::sqrt((whole - area_of(frame)) / pi);
+        first = std::sqrt((whole - area_of(frame)) / pi);
       });
   const auto [start, from] = tops[tops.size() / 2];
   const auto [end, to] = tops.back();
   const double climbed = (to - from) / (end - start) / unit;
   const double radius = from + u * start, later = to + u * end; // of the hole
-  const double exact = (later - radius) / law.time(radius, later) / unit - std::sqrt(weber);
+  const std::vector<HoleRadius> growth = exact_growth(thickness, first, later, own.edge);
+  const double exact = (later - radius) / (time_at(growth, later) - time_at(growth, radius)) / unit - std::sqrt(weber);
   Result r = result_of(run, own, climbed);
   r.error = climbed - exact;
   r.edge = s.edge;
