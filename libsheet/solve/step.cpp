@@ -59,8 +59,8 @@ bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const E
   });
 }
 
-// How much each vertex counts: wholly, but less in films, the thinner they are, or as the vertex carries less than three
-// hundredths of the mean volume: strands of next to no mass shall rule neither steps nor iterations, either.
+// How much each vertex counts: wholly, but less in films, the thinner they are, or as the vertex carries less than
+// three hundredths of the mean volume: strands of next to no mass shall rule neither steps nor iterations, either.
 Eigen::VectorXd vertex_weights(const Stage& stage) {
   constexpr double carries_enough = 0.03;
   const auto& triangles = stage.start->mesh->triangles;
