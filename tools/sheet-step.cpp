@@ -24,8 +24,10 @@ int main(int argc, char** argv) {
               "shortest that -v shows with --tolerance, or a tenth of the time in which anything moves by an edge");
   tool.option(
       "--tolerance", o.tolerance, "E",
-      fmt::format("choose steps whose estimated error is below this part of the edges' length (the default, with {})",
-                  sheet::default_tolerance));
+      fmt::format(
+          "choose steps whose estimated error is below this part of the edges' length, in 99 % of the liquid, and "
+          "nowhere above twice that (the default, with {})",
+          sheet::default_tolerance));
   tool.choice("--scheme", o.scheme,
               {{"sdirk2", sheet::Scheme::sdirk2}, {"backward-euler", sheet::Scheme::backward_euler}},
               "second order, or the paper's first order");

@@ -20,6 +20,7 @@
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/solve/free_turning.h"
 #include "libsheet/solve/reactions.h"
+#include "libsheet/solve/step_error.h"
 #include "libsheet/solve/step_heat.h"
 
 namespace sheet {
@@ -309,13 +310,14 @@ void Stepper::estimate_error(const State& state, double dt, const Stage& stage, 
   if (filtered)
     e += system.respond(tau * system.multiply(cache_->terms, Kind::inertial, last, speeds) -
                         system.multiply(cache_->terms, Kind::elastic, last, e));
-  for (std::size_t v = 0; v < state.positions.size(); ++v) {
+  std::vector<double> errors(state.positions.size());
+  for (std::size_t v = 0; v < errors.size(); ++v) {
     const auto at = static_cast<Eigen::Index>(3 * v);
-    const double own = e.segment<3>(at).norm() / scale[at];
-    if (own > report.error) {
-      report.error = own;
-      report.worst = v;
-    }
+    errors[v] = e.segment<3>(at).norm() / scale[at];
+  }
+  if (const StepError error = step_error(errors, stage.vertex_volumes); error.value > report.error) {
+    report.error = error.value;
+    report.worst = error.vertex;
   }
 }
 

@@ -25,9 +25,9 @@ struct StepReport {
   int inaccurate = 0; // steps taken though their error is above the tolerance (step_within), beside the unfinished ones
   NewtonReport newton; // sums over all stages; last_step of the last one
   // Filtered difference to the first-order result, in edge lengths, less where next to nothing is carried
-  // (docs/model.md, stopping rule), greatest of the substeps.
+  // (docs/model.md, stopping rule), of all vertices as in step_error.h, greatest of the substeps.
   double error = 0;
-  std::size_t worst = 0; // the vertex that has it
+  std::size_t worst = 0; // the vertex with the greatest difference
   // How many times as long the last attempt might have been until SDIRK2's second stage has no reference
   // (energy/stage_setup.h); below 1: was refused for it.
   double room = std::numeric_limits<double>::infinity();

@@ -176,10 +176,10 @@ struct StepStage::Impl {
     }
     const double elapsed = watch.lap();
     totals.add(report, elapsed);
-    log::detail(
-        "step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge at vertex {}, {:.1f} ms",
-        frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error, report.worst,
-        1e3 * elapsed);
+    log::detail("step {}: t = {:.6g} s, dt = {:.4g} s, {} Newton iterations, error {:.2e} of an edge, most at vertex "
+                "{}, {:.1f} ms",
+                frame.step + 1, state.time, state.time - frame.time, report.newton.iterations, report.error,
+                report.worst, 1e3 * elapsed);
     if (report.unfinished > 0)
       teller.tell(frame,
                   {.trouble = health::Trouble::not_converged,
@@ -218,9 +218,10 @@ struct StepStage::Impl {
     const Vector3& x = state.positions[report.worst];
     teller.tell(
         frame, {.trouble = health::Trouble::above_tolerance, .value = report.error, .place = x},
-        fmt::format("step {}: its error is about {:.2g} of an edge length, above the tolerance, at vertex {} ({:.4g}, "
-                    "{:.4g}, {:.4g}) m: no step from t = {:.6g} s keeps to it; shorter edges there may help",
-                    frame.step + 1, report.error, report.worst, x.x(), x.y(), x.z(), frame.time));
+        fmt::format(
+            "step {}: its error is about {:.2g} of an edge length, above the tolerance, most at vertex {} ({:.4g}, "
+            "{:.4g}, {:.4g}) m: no step from t = {:.6g} s keeps to it; shorter edges there may help",
+            frame.step + 1, report.error, report.worst, x.x(), x.y(), x.z(), frame.time));
   }
 };
 
