@@ -181,6 +181,23 @@ make_slow() {
   sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
 }
 
+@test "--set changes the scene as sheet-init does, in the ring, in what is told, and in the commands" {
+  options=(--quality draft --until 0.05 --fps 40 --stream-only)
+  sheet-run 'my scene.toml' "${options[@]}" --set 'material.viscosity=20 Pa*s' --set=sheet.edge_length=2e-3 -o run 2> log
+  sed 's/viscosity = .*/viscosity = 20/; s/edge_length = .*/edge_length = "2 mm"/' 'my scene.toml' > changed.toml
+  sheet-run -q changed.toml "${options[@]}" -o same
+  sheet-diff -q --ignore provenance run/run.sheet same/run.sheet
+  sed 's/changed.toml/my scene.toml/' same/check.txt | diff <(grep -v 'sheet-init' run/check.txt) <(grep -v 'sheet-init' -)
+  grep -q -- '--set .material.viscosity=20 Pa\*s. --set .\?sheet.edge_length=2e-3' log
+  sheet-run -q 'my scene.toml' "${options[@]}" --set material.viscosity=20 --set 'sheet.edge_length=2 mm' -o run # goes on
+  run -2 --separate-stderr sheet-run 'my scene.toml' "${options[@]}" -o run
+  [[ $stderr == *'run has the run of another scene'* ]]
+  run -3 --separate-stderr sheet-run 'my scene.toml' --set material.viscocity=20
+  [[ $stderr == *'--set'*'viscocity'*'viscosity'* ]]
+  run -2 --separate-stderr sheet-run 'my scene.toml' --edge-length 0.002
+  [[ $stderr == *"unknown option --edge-length; what the scene says is changed by --set, as in --set 'sheet.edge_length=5 mm'"* ]]
+}
+
 @test "what is wrong with the scene is told as sheet-init tells it, and nothing is left" {
   sed -i 's/viscosity/viscocity/' 'my scene.toml'
   run -3 --separate-stderr sheet-run 'my scene.toml'
