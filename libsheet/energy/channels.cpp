@@ -27,10 +27,17 @@ GapBeside gap_of(const Wall& wall, const Wall& facing, double t, const Vector3& 
   return beside.gap < across.gap ? beside : across;
 }
 
-// The wall that faces the site's own one, nearest of those within reach; place, gap and slope are set.
+Vector3 velocity_at(const Wall& wall, const Stage& stage, std::uint32_t vertex) {
+  return wall.velocity ? wall.velocity(stage.start->time, stage.start->positions[vertex]) : Vector3(Vector3::Zero());
+}
+
+// The wall that faces the site's own one, nearest of those within reach; place, gap and slope are set. Within the step
+// a gap narrows by no more than twice what the walls and the vertex move: where the two come to face each other,
+// as when liquid goes round an edge, it was as narrow before, or what is there would have to be as thin at once.
 std::optional<Channel> find_channel(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site,
                                     double thickness, double longest_edge) {
   const Vector3& x = stage.predicted[site.vertex];
+  const Vector3 own_velocity = velocity_at(walls[site.wall], stage, site.vertex);
   const double t = stage.end_time, least = least_gap * thickness;
   std::optional<Channel> found;
   for (std::uint32_t w = 0; w < walls.size(); ++w) {
@@ -46,17 +53,20 @@ std::optional<Channel> find_channel(const std::vector<Wall>& walls, const Stage&
     found->vertex = site.vertex;
     found->facing = w;
     found->gap = gap;
-    found->gap_before = gap_at(stage.start->time, stage.start->positions[site.vertex]).gap;
+    const double speed = (velocity_at(walls[w], stage, site.vertex) - own_velocity).norm();
+    const auto gap_then = [&](double time, const Vector3& place) {
+      double moved = (x - place).norm() + speed * std::abs(t - time);
+      for (const Wall* wall : {&walls[site.wall], &walls[w]})
+        moved += std::abs(wall->nearest(t, x).distance - wall->nearest(time, place).distance);
+      return std::min(gap_at(time, place).gap, gap + 2 * (1 + slope.norm()) * moved);
+    };
+    found->gap_before = gap_then(stage.start->time, stage.start->positions[site.vertex]);
     if (stage.previous != nullptr)
-      found->gap_first = gap_at(stage.start->time + stage.duration, stage.position(*stage.previous, site.vertex)).gap;
+      found->gap_first = gap_then(stage.start->time + stage.duration, stage.position(*stage.previous, site.vertex));
     found->place = x;
     found->slope = slope;
   }
   return found;
-}
-
-Vector3 velocity_at(const Wall& wall, const Stage& stage, std::uint32_t vertex) {
-  return wall.velocity ? wall.velocity(stage.start->time, stage.start->positions[vertex]) : Vector3(Vector3::Zero());
 }
 
 // Of how the two walls close on what is between them, and slide past each other [1/s].

@@ -339,6 +339,29 @@ TEST(Walls, WhatIsTooFarFromItsWallInAGapComesNearerInTime) {
   }
 }
 
+// Where a wall begins to face another one all at once, as beyond an edge of a box, a gap is there at once, and was as
+// narrow before but for what the vertex has moved: what is too thick for it gives way in time, not in one step.
+TEST(Walls, AGapThatIsFoundHasNotNarrowedByMoreThanWhatMoves) {
+  constexpr double lid_at = 0.08, speed = 1e-3, duration = 0.01, moved = speed * duration;
+  State s = resting(0.1);
+  s.velocities.assign(s.positions.size(), Vector3(speed, 0, 0));
+  Wall lid;
+  lid.nearest = [&](double, const Vector3& x) {
+    const bool faces = x.x() > 0.4 + moved / 2; // a row of vertices comes there
+    return WallPoint{lid_at - x.z(), faces ? Vector3(-Vector3::UnitZ()) : Vector3::UnitX()};
+  };
+  Stage stage = first_stage(s, heavy_layer().liquid, duration, duration, true);
+  set_wall_sites({floor_of(s), lid}, stage);
+  ASSERT_FALSE(stage.channels.empty());
+  bool comes = false;
+  for (const Channel& channel : stage.channels) {
+    EXPECT_NEAR(channel.gap, lid_at, 1e-12);
+    EXPECT_LT(channel.gap_before, lid_at + 4 * moved);
+    comes = comes || std::abs(s.positions[channel.vertex].x() - 0.4) < moved;
+  }
+  EXPECT_TRUE(comes);
+}
+
 // A fixed step in which liquid would pass edges is taken in parts.
 TEST(Walls, StepsPassHalfAnEdgeAtMost) {
   State s = resting(0.1);
