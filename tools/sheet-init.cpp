@@ -160,6 +160,8 @@ std::string explained(Source source, bool ring_alone) {
   const std::string init = command_of(source);
   std::ranges::copy(sheet::contact_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::warnings_of_solids_that_meet(scene, frame, until), std::back_inserter(explanation.warnings));
+  std::ranges::copy(sheet::warnings_of_solids_that_meet_what_is_held(scene, frame, until),
+                    std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::inflow_warnings(scene, frame), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::idle_roll_warnings(scene, frame), std::back_inserter(explanation.warnings));
   for (const std::string& warning :

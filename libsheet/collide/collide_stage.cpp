@@ -20,6 +20,7 @@
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
 #include "libsheet/collide/solid_sweep.h"
+#include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/health/teller.h"
 #include "libsheet/scene/frame_liquids.h"
@@ -230,14 +231,32 @@ struct CollideStage::Impl {
     return borders;
   }
 
+  // Whether one vertex is reached from another one along triangles.
+  static bool are_connected(const StepPath& path, std::uint32_t one, std::uint32_t other) {
+    DisjointSets pieces(path.start.size());
+    for (const Corners& t : path.triangles) {
+      pieces.join(t[0], t[1]);
+      pieces.join(t[0], t[2]);
+    }
+    return pieces.find(one) == pieces.find(other);
+  }
+
   void check_start(const StepPath& path) {
     if (std::equal(path.start.begin(), path.start.end(), last_end.begin(), last_end.end()))
       return;
-    if (const auto pair = search->crossing(path.start, known.unknown(path.triangles, path.start)))
+    if (const auto pair = search->crossing(path.start, known.unknown(path.triangles, path.start))) {
+      const Corners &one = path.triangles[pair->first], &other = path.triangles[pair->second];
+      Vector3 place = Vector3::Zero();
+      for (const Corners* corners : {&one, &other})
+        for (const std::uint32_t v : *corners)
+          place += path.start[v] / 6;
       fail(ExitCode::bad_input,
-           "the sheet passes through itself before the step: triangles {} and {}, and perhaps more (sheet-check lists "
-           "them); start from a sheet that does not, or let it: [contact] self = false",
-           pair->first, pair->second);
+           "{} before the step, near ({:.4g}, {:.4g}, {:.4g}) m: triangles {} and {}, and perhaps more (sheet-check "
+           "lists them); start from a sheet that does not, or let it: [contact] self = false",
+           are_connected(path, one[0], other[0]) ? "the sheet passes through itself"
+                                                 : "two sheets, or pieces of one, pass through each other",
+           place.x(), place.y(), place.z(), pair->first, pair->second);
+    }
   }
 
   // A vertex that a step has thrown far away sweeps over everything there is, and what is found means nothing.

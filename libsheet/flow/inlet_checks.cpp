@@ -35,9 +35,13 @@ void check_velocity(const Frame& frame, const InletChain& chain, double time, co
     const Vector3d outward = edge.cross(TriangleArea(x[c[0]], x[c[1]], x[c[2]]).normal);
     if (velocity.dot(outward) > most_outward * speed * outward.norm())
       fail(ExitCode::bad_input,
-           "the inflow's velocity at {} s, ({}, {}, {}) m/s, points out of the sheet at the inlet's edge ({}, {}): "
-           "liquid cannot be drawn back; choose the border at the other side, or end the inflow with `until`",
-           time, velocity[0], velocity[1], velocity[2], a, b);
+           "the inflow's velocity at {} s, ({}, {}, {}) m/s, points out of the sheet at the inlet's edge ({}, {}): {}, "
+           "or "
+           "end the inflow with `until`",
+           time, velocity[0], velocity[1], velocity[2], a, b,
+           chain.row.empty() ? "liquid cannot be drawn back; choose the border at the other side"
+                             : "what has flowed in was turned over there, as by a solid that comes to the inlet or by "
+                               "what piles up below it; give it room");
     if (!(edge.cross(velocity).norm() > least_across * edge.norm() * speed))
       fail(ExitCode::bad_input,
            "the inflow's velocity at {} s, ({}, {}, {}) m/s, runs along the inlet's edge ({}, {}): nothing would enter",

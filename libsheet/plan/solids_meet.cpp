@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <variant>
 
 #include <fmt/format.h>
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/scene/brief.h"
+#include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
 
 namespace sheet {
@@ -72,20 +75,63 @@ struct Meeting {
   double begins, deepest; // [s], [m]
 };
 
-// Of two that start apart; nothing of those that start in each other, as parts of one thing do.
-std::optional<Meeting> meeting_of(const Pair& pair, double start, double until, double thickness) {
-  if (pair.depth(start) > resting * thickness)
+// Of two that start apart; nothing of those that start in each other, as parts of one thing do. depth_at: how deep they
+// are in each other at a time [m].
+template <class Depth>
+std::optional<Meeting> meeting_of(const Depth& depth_at, double start, double until, double thickness) {
+  if (depth_at(start) > resting * thickness)
     return std::nullopt;
   std::optional<Meeting> meeting;
   for (int k = 1; k <= times; ++k) {
-    const double t = start + (until - start) * k / times, depth = pair.depth(t);
+    const double t = start + (until - start) * k / times, depth = depth_at(t);
     if (depth > (meeting ? meeting->deepest : deep * thickness))
       meeting = {meeting ? meeting->begins : t, depth};
   }
   return meeting;
 }
 
-bool is_moved(const scene::Solid& solid) { return !std::holds_alternative<scene::Fixed>(solid.motion); }
+bool moves(const scene::Motion& motion) { return !std::holds_alternative<scene::Fixed>(motion); }
+bool is_moved(const scene::Solid& solid) { return moves(solid.motion); }
+
+// What gives way to nothing: places at the start [m], how they move, and until when [s].
+struct Prescribed {
+  std::string name;
+  std::vector<Vector3> places;
+  scene::Motion motion;
+  double until;
+};
+
+// Of the vertices with a bit of an array of the frame, some hundred.
+template <class Counts>
+std::vector<Vector3> some_places(const formats::Frame& first, std::string_view array, const Counts& counts) {
+  constexpr std::size_t most = 200;
+  std::vector<Vector3> places;
+  const auto bits = masks(first, array);
+  for (std::size_t v = 0; v < bits.size(); ++v)
+    if (counts(bits[v]))
+      places.push_back(positions(first)[v]);
+  const std::size_t every = places.size() / most + 1;
+  std::vector<Vector3> some;
+  for (std::size_t i = 0; i < places.size(); i += every)
+    some.push_back(places[i]);
+  return some;
+}
+
+std::vector<Prescribed> what_is_prescribed(const Scene& scene, const formats::Frame& first) {
+  constexpr double forever = std::numeric_limits<double>::infinity();
+  std::vector<Prescribed> all;
+  for (std::size_t i = 0; i < scene.holds.size(); ++i)
+    if (const scene::Hold& hold = scene.holds[i]; !hold.roll && hold.axes == all_axes)
+      all.push_back({fmt::format("what [[hold]] number {} (from 0) holds", i),
+                     some_places(first, "hold", [i](std::uint64_t bits) { return (bits >> i & 1) != 0; }), hold.motion,
+                     hold.until.value_or(forever)});
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i)
+    all.push_back(
+        {fmt::format("the inlet of inflow {}", i),
+         some_places(first, "inlet", [i](std::uint64_t bits) { return (of_inlet(bits, i) & at_inlet_border) != 0; }),
+         scene::Fixed{}, scene.inflows[i].until.value_or(forever)});
+  return all;
+}
 
 } // namespace
 
@@ -103,12 +149,43 @@ std::vector<std::string> warnings_of_solids_that_meet(const Scene& scene, const 
     for (std::size_t b = a + 1; b < solids.size(); ++b) {
       if (!is_moved(scene.solids[a]) && !is_moved(scene.solids[b]))
         continue;
-      if (const auto meeting = meeting_of(Pair(solids, points, a, b), first.time, until, *sheet.thickness))
+      const Pair pair(solids, points, a, b);
+      const auto depth = [&](double t) { return pair.depth(t); };
+      if (const auto meeting = meeting_of(depth, first.time, until, *sheet.thickness))
         warnings.push_back(fmt::format("{} and {} move into each other, from {:.2g} s on and by up to {} m: what lies "
                                        "between them has nowhere to go, and the run stalls there; their motions must "
                                        "leave it room",
                                        solids.name(a), solids.name(b), meeting->begins,
                                        scene::brief(meeting->deepest)));
+    }
+  return warnings;
+}
+
+std::vector<std::string> warnings_of_solids_that_meet_what_is_held(const Scene& scene, const formats::Frame& first,
+                                                                   double until) {
+  std::vector<std::string> warnings;
+  const scene::Measured sheet = measured(first);
+  if (scene.solids.empty() || !sheet.thickness)
+    return warnings;
+  const solid::Solids solids(scene);
+  for (const Prescribed& held : what_is_prescribed(scene, first))
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const double end = std::min(until, held.until);
+      if ((!is_moved(scene.solids[i]) && !moves(held.motion)) || held.places.empty() || !(end > first.time))
+        continue;
+      const auto depth = [&](double t) {
+        const Eigen::Isometry3d way = scene::motion_between(held.motion, first.time, t);
+        double deepest = -std::numeric_limits<double>::infinity();
+        for (const Vector3& x : held.places)
+          deepest = std::max(deepest, -solids.at(i, way * x, t).distance);
+        return deepest;
+      };
+      if (const auto meeting = meeting_of(depth, first.time, end, *sheet.thickness))
+        warnings.push_back(
+            fmt::format("{} and {} move into each other, from {:.2g} s on and by up to {} m: what is held "
+                        "there does not give way, and the run stalls or ends there; let them pass each "
+                        "other, or give it an `until`",
+                        held.name, solids.name(i), meeting->begins, scene::brief(meeting->deepest)));
     }
   return warnings;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solids whose motions take them into each other, judged before anything is run.
+// Solids whose motions take them into each other, or into what is held or flows in, judged before anything is run.
 #pragma once
 #include <string>
 #include <vector>
@@ -14,5 +14,10 @@ namespace sheet {
 // points of their surfaces and some hundred times, so what is told is true, and what is thin or quick may be missed.
 [[nodiscard]] std::vector<std::string> warnings_of_solids_that_meet(const Scene& scene, const formats::Frame& first,
                                                                     double until);
+
+// Likewise for each solid and each [[hold]] along all axes or inlet, of which one moves. What is prescribed does not
+// give way: the solid stands in the liquid there.
+[[nodiscard]] std::vector<std::string>
+warnings_of_solids_that_meet_what_is_held(const Scene& scene, const formats::Frame& first, double until);
 
 } // namespace sheet

@@ -276,6 +276,8 @@ Inflow read_inflow(TableReader table, std::span<const SheetTable> sheets) {
   inflow.thickness = thickness.value_or(uniform ? *uniform : 0);
   inflow.temperature = table.timed_number("temperature", Bound::positive);
   inflow.until = table.quantity("until", Bound::positive);
+  table.has_no_meaning({"motion"}, "an inlet stands; let the solids move past it the other way ([[solid]] velocity or "
+                                   "motion), which is the same as seen from it");
   const auto& common = inflow.velocity.entries;
   const auto& radial = inflow.radial_velocity.entries;
   const bool some_radial = std::ranges::any_of(radial, [](const auto& entry) { return entry.value != 0; });

@@ -596,6 +596,22 @@ TEST(Emit, WhatCannotFlowInIsRefused) {
   EXPECT_THAT(error_of([&] { emit(ring, scene_of("[0, 0, 1]")); }), HasSubstr("points out of the sheet"));
 }
 
+TEST(Emit, WhatIsTurnedOverAtTheInletIsSaidSo) {
+  Frame frame = curtain();
+  const Scene scene = scene_of("[0, -1, 0]");
+  for (int i = 0; i < 8; ++i) { // a row
+    move(frame, scene, 0.125);
+    emit(frame, scene);
+  }
+  double inlet = 0;
+  for (const Vector3& x : positions(frame))
+    inlet = std::max(inlet, x.y());
+  for (Vector3& x : positions(frame))
+    x.y() = 2 * inlet - x.y();
+  EXPECT_THAT(error_of([&] { emit(frame, scene); }),
+              HasSubstr("what has flowed in was turned over there, as by a solid"));
+}
+
 TEST(Emit, AnInletThatIsNotThereIsSaidSo) {
   const Scene scene = scene_of("[0, -1, 0]");
   Frame frame = test::grid(4, 2, 1, thickness);

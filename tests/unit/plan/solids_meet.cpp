@@ -42,5 +42,39 @@ TEST(SolidsMeet, NothingIsToldOfWhatIsOneThingOrStands) {
   EXPECT_TRUE(warnings("center = [0, 0.004, 0]\n").empty());
 }
 
+// Of a curtain 20 cm wide whose upper edge is at a height of 30 cm.
+std::vector<std::string> curtain_warnings(const std::string& rest, double until = 1) {
+  const Scene scene = scene::parse_scene(
+      "[sheet]\nshape = \"rectangle\"\nplane = \"xy\"\nsize = [0.2, 0.1]\nedge_length = 0.01\nthickness = 0.002\n"
+      "center = [0, 0.25, 0]\n[material]\nviscosity = 10\ndensity = 1400\n" +
+          rest,
+      "s");
+  return warnings_of_solids_that_meet_what_is_held(scene, first_frame(scene), until);
+}
+
+const std::string nozzle = "[inflow]\nregion = \"y_max\"\nvelocity = [0, -0.3, 0]\n";
+const std::string moving_box = "[[solid]]\nshape = \"box\"\nsize = [0.05, 0.05, 0.05]\nvelocity = [0.5, 0, 0]\n";
+
+TEST(SolidsMeet, ABoxThatGoesThroughANozzle) {
+  const auto told = curtain_warnings(nozzle + moving_box + "center = [-0.225, 0.3, 0]\n"); // 10 cm before it
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_THAT(told[0], HasSubstr("the inlet of inflow 0 and solid 0 (box) move into each other, from 0.2 s on and by "
+                                 "up to 0.025 m"));
+  EXPECT_TRUE(curtain_warnings(nozzle + moving_box + "center = [-0.225, 0.2, 0]\n").empty()); // below it
+  EXPECT_TRUE(curtain_warnings(nozzle + "until = 0.1\n" + moving_box + "center = [-0.225, 0.3, 0]\n").empty());
+}
+
+TEST(SolidsMeet, AClipThatIsLoweredIntoATable) {
+  const std::string table = "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\n[[hold]]\nregion = \"y_max\"\n";
+  const std::string down = "motion = {kind = \"translating\", velocity = [0, -0.5, 0]}\n";
+  const auto told = curtain_warnings(table + down);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_THAT(told[0], HasSubstr("what [[hold]] number 0 (from 0) holds and solid 0 (plane) move into each other, from "
+                                 "0.6"));
+  EXPECT_TRUE(curtain_warnings(table).empty());
+  EXPECT_TRUE(curtain_warnings(table + down, 0.5).empty());
+  EXPECT_TRUE(curtain_warnings(table + down + "axes = \"xz\"\n").empty());
+}
+
 } // namespace
 } // namespace sheet

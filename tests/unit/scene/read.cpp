@@ -362,6 +362,9 @@ TEST(Read, ProblemsOfTheOtherTables) {
             "s:11:12: velocity: with no velocity nothing flows in"},
            {"[inflow]\nregion = \"outer_rim\"\nradial_velocity = 0",
             "s:11:19: radial_velocity: with no velocity nothing flows in"},
+           {"[inflow]\nregion = \"outer_rim\"\nvelocity = [1, 0, 0]\nmotion = {kind = \"translating\"}",
+            "s:12:1: key \"motion\" has no meaning in [inflow]: an inlet stands; let the solids move past it the other "
+            "way ([[solid]] velocity or motion), which is the same as seen from it"},
            {"[environment]\nair = {wind = [1, 0, 0]}",
             "s:10:7: missing key \"density\" in air, such as density = \"1000 kg/m^3\""},
            {"[environment]\nair = {density = 1.2, drag_coefficient = 0, friction_coefficient = 0}",
