@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/way_of_sheet.h"
 #include "libsheet/sheet/sheet.h"
@@ -67,6 +68,35 @@ std::optional<Moving> moving(const scene::Motion& motion, double first) {
   return velocity.isZero(0) ? std::nullopt : std::optional(Moving{velocity, start});
 }
 
+bool rests(const scene::Solid& solid) { return std::holds_alternative<scene::Fixed>(solid.motion); }
+
+Vector3 down_in(const Scene& scene) { return scene.environment.gravity.value_or(Vector3::Zero()).normalized(); }
+
+// The way of the sheet until it has landed.
+Box3 falling_way(const Scene& scene, const formats::Frame& first) {
+  return way_of_sheet(first, longest_fall(landings(scene, first)) * down_in(scene));
+}
+
+// In the world; that of a half-space is infinite.
+Box3 box_of(const solid::Solids& solids, std::size_t number, double t) {
+  const Box3& bounds = solids.shape(number).bounds();
+  return bounds.sizes().allFinite() ? Box3(bounds.transformed(solids.pose(number, t))) : bounds;
+}
+
+// Whether all of a box is farther in a direction than all of another one.
+bool is_beyond(const Box3& box, const Box3& other, const Vector3& direction) {
+  const double apart = direction.dot(box.center() - other.center());
+  return apart >= direction.cwiseAbs().dot(box.sizes() + other.sizes()) / 2;
+}
+
+// Whether a corner of a box, or its middle, is nearer to a solid than that [m].
+bool is_near(const solid::Solids& solids, std::size_t number, const Box3& box, double t, double reach) {
+  bool any = solids.at(number, box.center(), t).distance < reach;
+  for (int i = 0; i < 8; ++i)
+    any = any || solids.at(number, box.corner(static_cast<Box3::CornerType>(i)), t).distance < reach;
+  return any;
+}
+
 // The mean place of what a hold holds [m].
 Vector3 middle(const formats::Frame& frame, std::size_t hold) {
   const auto held = masks(frame, "hold");
@@ -89,8 +119,7 @@ struct Held {
 
 double passing_time(const Scene& scene, const formats::Frame& first) {
   const solid::Solids solids(scene);
-  const Vector3 down = scene.environment.gravity.value_or(Vector3::Zero()).normalized();
-  const Box3 way = way_of_sheet(first, longest_fall(landings(scene, first)) * down);
+  const Box3 way = falling_way(scene, first);
   if (way.isEmpty())
     return 0;
   double passed = 0;
@@ -110,6 +139,30 @@ double passing_time(const Scene& scene, const formats::Frame& first) {
     }
   }
   return passed;
+}
+
+double carrying_time(const Scene& scene, const formats::Frame& first) {
+  const solid::Solids solids(scene);
+  const Box3 way = falling_way(scene, first);
+  const Vector3 down = down_in(scene);
+  const double thickness = measured(first).thickness.value_or(0);
+  double carried = 0;
+  for (std::size_t belt = 0; belt < solids.size() && !way.isEmpty(); ++belt) {
+    if (scene.solids[belt].surface_velocity.isZero(0) || !rests(scene.solids[belt]) ||
+        !is_near(solids, belt, way, first.time, thickness))
+      continue;
+    const Vector3 velocity = solids.at(belt, way.center(), first.time).velocity;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const Box3 other = box_of(solids, i, first.time);
+      if (i == belt || !rests(scene.solids[i]) || !other.sizes().allFinite())
+        continue;
+      Box3 reached = way;
+      if (is_beyond(other, box_of(solids, belt, first.time), velocity)) // there it falls from the belt's end
+        reached.extend(way.translated(std::max(0.0, down.dot(other.center() - way.center())) * down));
+      carried = std::max(carried, leaves(reached, velocity, other));
+    }
+  }
+  return carried > 0 ? first.time + carried : 0;
 }
 
 double drawing_time(const Scene& scene, const formats::Frame& first) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solids that move on for ever: a paddle drawn through a layer, a ball through a curtain, a fork lifted out of syrup, a
-// plate that turns. There is something to see until they have come through, or round. Likewise holds that draw a sheet.
+// plate that turns. There is something to see until they have come through, or round. Likewise holds that draw a sheet,
+// and belts that carry it.
 #pragma once
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/scene.h"
@@ -11,6 +12,10 @@ namespace sheet {
 // has gone at least as far as the second of the box's sides is long, or has turned once, if it comes to the box in that
 // turn or liquid flows in, which may come to it [s]; 0 if none does.
 [[nodiscard]] double passing_time(const Scene& scene, const formats::Frame& first);
+
+// When what lies at the start on a belt that rests, or falls on it, has been carried past the last of the solids that
+// rest in its way: a blade, a second belt [s]; 0 if there is none.
+[[nodiscard]] double carrying_time(const Scene& scene, const formats::Frame& first);
 
 // When holds that move on for ever, away from others, none of them a roll, have gone as far as the sheet is long that
 // way, so that it is twice as long [s]; 0 if none does.

@@ -124,7 +124,7 @@ double round_number(double value) {
   return unit * (value > 5 * unit ? 10 : value > 2 * unit ? 5 : value > unit ? 2 : 1);
 }
 
-constexpr double longest_passing = 10; // of solids that creep, in times of everything else
+constexpr double longest_passing = 10; // of solids and belts that creep, in times of everything else
 
 // Some times of the flow; of what its weight draws out some times of the fall after that.
 double flow_time(const Scene& scene, const Frame& first) {
@@ -177,7 +177,7 @@ std::vector<double> events_of(const Scene& scene) {
 }
 
 // Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
-// ends by the clock has ended, and whatever moves on for ever has come through.
+// ends by the clock has ended, whatever moves on for ever has come through, and belts have carried it past all.
 double until_of(const Scene& scene, const Frame& first) {
   double at_rest = first.time; // all solids
   for (const scene::Solid& solid : scene.solids)
@@ -202,7 +202,9 @@ double until_of(const Scene& scene, const Frame& first) {
   }
   for (const scene::SheetTable& sheet : scene.sheets)
     ends(sheet.enters.value_or(0));
-  until = std::max({until, drawing_time(scene, first), std::min(passing_time(scene, first), longest_passing * until)});
+  const double lands_later = scene.inflows.empty() ? 1 : 1.5;
+  const double passed = std::max(passing_time(scene, first), lands_later * carrying_time(scene, first));
+  until = std::max({until, drawing_time(scene, first), std::min(passed, longest_passing * until)});
   return std::isfinite(until) && until > 0 ? rounded(until) : 1;
 }
 

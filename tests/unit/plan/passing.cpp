@@ -90,5 +90,44 @@ TEST(Passing, UntilHoldsHaveDrawnTheSheetToTwiceItsLength) {
   EXPECT_EQ(drawing("", ""), 0);
 }
 
+// Of a strip 80 mm long, 4 mm thick, that lies on a belt, or falls on it.
+double carrying(const std::string& more, double height = 0, const std::string& belt = "[0.1, 0, 0]") {
+  const Scene scene = scene::parse_scene(
+      fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.08, 0.03]\nedge_length = 0.01\nthickness = 0.004\n"
+                  "center = [0, {}, 0]\n[material]\nviscosity = 50\ndensity = 1400\n[environment]\n"
+                  "gravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\nsurface_velocity = {}\n{}",
+                  height + 0.002, belt, more),
+      "s");
+  return carrying_time(scene, first_frame(scene));
+}
+
+// A blade 4 mm wide, 0.3 m away.
+TEST(Passing, UntilABeltHasCarriedTheSheetPastABlade) {
+  const std::string blade = "[[solid]]\nshape = \"box\"\nsize = [0.004, 0.03, 0.1]\ncenter = [0.3, 0.018, 0]\n";
+  constexpr double way = 0.302 + 0.04 + 0.002; // with half of what the strip is thick
+  EXPECT_NEAR(carrying(blade), way / 0.1, 1e-9);
+  EXPECT_NEAR(carrying(blade, 0.05), way / 0.1, 1e-9);
+  EXPECT_EQ(carrying(blade, 0, "[-0.1, 0, 0]"), 0);
+  EXPECT_EQ(carrying(blade, 0, "[0, 0, 0.1]"), 0);
+  EXPECT_EQ(carrying(blade + "velocity = [0, 0.1, 0]\n"), 0); // it is not there any more
+  EXPECT_EQ(carrying(""), 0);
+}
+
+// Two belts of 150 mm, of which the second one runs 15 mm lower, on a table under both.
+TEST(Passing, UntilABeltHasCarriedTheSheetPastASecondOne) {
+  const auto belt = [](double x, double y) {
+    return fmt::format("[[solid]]\nshape = \"box\"\nsize = [0.15, 0.01, 0.06]\ncenter = [{}, {}, 0]\n"
+                       "surface_velocity = [0.1, 0, 0]\n",
+                       x, y);
+  };
+  const std::string sheet =
+                        "[sheet]\nshape = \"rectangle\"\nsize = [0.08, 0.03]\nedge_length = 0.01\nthickness = 0.004\n"
+                        "center = [-0.06, 0.032, 0]\n[material]\nviscosity = 50\ndensity = 1400\n[environment]\n"
+                        "gravity = [0, -9.81, 0]\n",
+                    table = "[[solid]]\nshape = \"box\"\nsize = [2, 0.02, 1]\ncenter = [0, -0.02, 0]\n";
+  const Scene scene = scene::parse_scene(sheet + belt(-0.075, 0.025) + belt(0.08, 0.01) + table, "s");
+  EXPECT_NEAR(carrying_time(scene, first_frame(scene)), (0.155 + 0.1 + 0.002) / 0.1, 1e-9);
+}
+
 } // namespace
 } // namespace sheet
