@@ -58,10 +58,12 @@ void offer_forces(Scales& scales, const Scene& scene) {
   if (h <= 0)
     return;
   offer(scales, least(2 * tension / h, 2, std::sqrt(2 * tension / (density * h))), "surface tension");
+  const bool free = scene.holds.empty() && scene.inflows.empty(); // wind takes it along, however viscous it is
   if (const auto& air = scene.environment.air)
     for (const auto& entry : air->wind.entries) {
       const double stress = air->drag_coefficient * air->density * entry.value.squaredNorm() / 2 * L / h;
-      offer(scales, std::min(entry.value.norm(), least(stress, 2, std::sqrt(stress / density))), "wind");
+      const double flying = inertia ? std::sqrt(stress / density) : unlimited;
+      offer(scales, std::min(entry.value.norm(), free ? flying : least(stress, 2, flying)), "wind");
     }
   offer(scales, least(scales.pressure * L / h, 2, std::sqrt(scales.pressure * L / (density * h))), "pressure");
 }

@@ -177,6 +177,14 @@ TEST(Explain, TheFastestDriveGivesTheSpeed) {
       0.6);
 }
 
+// p = cd rho_a v²/2 = 6.48 Pa. What is held creeps in the wind; what is free goes along with it.
+TEST(Explain, WindTakesAlongWhatIsFree) {
+  const std::string windy = disk + "[material]\nviscosity = 1e6\ndensity = 1000\n[environment]\n"
+                                   "air = {density = 1.2, drag_coefficient = 1.2, wind = [0, 0, 3]}\n";
+  EXPECT_DOUBLE_EQ(scale(of(windy), "V"), std::sqrt(6.48 / (1000 * 0.02)));
+  EXPECT_LT(scale(of(windy + "[[hold]]\nregion = \"rim\"\n"), "V"), 1e-3);
+}
+
 TEST(Explain, MeshesAreAsTheyAreMeasured) {
   const Scene mesh = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"a.off\"\nthickness = 0.1\n" + liquid, "s");
   EXPECT_THAT(explain(mesh).numbers, IsEmpty());
