@@ -140,13 +140,14 @@ constexpr std::array table{
          .name = "crushed",
          .least = false,
          .told = Told::plainly,
-         .what = "triangles are up to {} times as thick as what entered, and thicker than twice their longest edge",
+         .what = "triangles are up to {} times as thick as the sheet at its start or inlet, and thicker than twice "
+                 "their longest edge",
          .counted = "",
          .noted = {.worst = 4, .share = 0, .times = 3},
          .serious = {.worst = 10, .share = 0, .times = 3},
          .remedy = "what should fold does not, or has no room: contact = \"flow\" on what it is poured on, [[sheet]] "
                    "perturbation where all is symmetric about the sheet's plane (sheet-init --check), more room, or "
-                   "shorter edges"},
+                   "shorter edges; what surface tension has drawn to a lump is no sheet any more: end before"},
 };
 
 } // namespace
