@@ -104,14 +104,16 @@ void Pressure::begin_gas(const Stage& stage) {
     return capped_volume(mesh, x, law_.part) + law_.gas.more_volume;
   };
   start_enclosed_ = whole(state.positions);
-  gas_reference_ =
-      law_.gas.leak > 0 && law_.number < state.gas.size() ? state.gas[law_.number].amount : law_.gas.amount;
-  if (law_.gas.leak > 0 && stage.previous) {
+  gas_reference_ = law_.number < state.gas.size() ? state.gas[law_.number] : Gas{.amount = law_.gas.amount};
+  if (!law_.gas.flows())
+    gas_reference_.amount = law_.gas.amount;
+  else if (stage.previous) {
     std::vector<Vector3> first(stage.vertices());
     for (std::uint32_t v = 0; v < first.size(); ++v)
       first[v] = stage.position(*stage.previous, v);
-    const double amount = gas_in(law_.gas, whole(first), gas_reference_, stage.duration).amount;
-    gas_reference_ += stage.ratio * (amount - gas_reference_);
+    const Gas gas = gas_in(law_.gas, whole(first), gas_reference_.amount, stage.duration);
+    gas_reference_.amount += stage.ratio * (gas.amount - gas_reference_.amount);
+    gas_reference_.escaped += stage.ratio * gas.escaped;
   }
   if (lagged_.empty())
     return;
@@ -132,6 +134,7 @@ void Pressure::finish(const Unknowns& last, State& end) {
   prepare(last);
   end.gas.resize(std::max(end.gas.size(), law_.number + 1));
   end.gas[law_.number] = gas_;
+  end.gas[law_.number].escaped += gas_reference_.escaped;
 }
 
 void Pressure::prepare(const Unknowns& u) {
@@ -159,10 +162,10 @@ void Pressure::prepare(const Unknowns& u) {
     break;
   }
   case PressureLaw::Kind::gas:
-    gas_ = gas_in(law_.gas, enclosed_, gas_reference_, duration_);
+    gas_ = gas_in(law_.gas, enclosed_, gas_reference_.amount, duration_);
     pressure_ = gas_.pressure;
     stiffness_ = gas_.stiffness;
-    scale_ = mean_pressure(law_.gas, start_enclosed_, enclosed_, gas_reference_, duration_);
+    scale_ = mean_pressure(law_.gas, start_enclosed_, enclosed_, gas_reference_.amount, duration_);
     break;
   }
 }

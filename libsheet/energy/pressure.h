@@ -4,12 +4,13 @@
 //   constant         p
 //   inverse square   p (r0/r)², r the radius of the ball of volume Ω: W = -4π p r0² (r - r_start)
 //   draining         gas leaves at the rate c p: p = -(dΩ/dt)/c, W = (Ω - Ω̄)²/(2 c τ), Ω̄ the reference of the stage
-//   gas              an amount of gas, compressed (gas.h); its Ω has rims closed (capped_volume.h)
+//   gas              an amount of gas, compressed, and what leaves it (gas.h); its Ω has rims closed (capped_volume.h)
 // Ω is that of a part of the sheet, if one is given; each enclosure has a law of its own then.
 // On a closed sheet, or one whose rim is held, this is p n A exactly. On a free rim the gradient of Ω also holds a part
 // that belongs to the missing cap; it is taken away with the rim at its predicted place, so the sum stays a potential:
 // Ω then changes by what the sheet sweeps. The laws that depend on Ω couple all vertices: W'' g gᵀ, g = ∂Ω/∂x.
 #pragma once
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,8 +25,10 @@ struct PressureLaw {
   double reference_radius = 1; // r0 [m], inverse square
   double conductance = 1;      // c [m³/(Pa s)], draining
   GasLaw gas = {};
-  std::size_t number = 0;      // of the enclosure, whose gas has this place in a state
-  std::vector<char> part = {}; // of each triangle, whether it encloses; empty: all do
+  std::size_t number = 0;               // of the enclosure, whose gas has this place in a state
+  std::vector<char> part = {};          // of each triangle, whether it encloses; empty: all do
+  std::optional<Gas> gas_at_start = {}; // of the step, if it is not as the step before has left it
+  Vector3 hole_place = Vector3::Zero(); // of the widest hole [m]
 };
 
 class Pressure {
@@ -65,7 +68,7 @@ private:
   double start_enclosed_ = 0, enclosed_ = 0, pressure_ = 0;
   double reference_change_ = 0; // Ω̄ - Ω_start, draining [m³]
   double stiffness_ = 0;        // W''
-  double gas_reference_ = 0;    // the amount of gas that the stage refers to [m³]
+  Gas gas_reference_;           // the amount of gas that the stage refers to, and what has escaped before
   Gas gas_;
   double scale_ = 0; // W = -scale_ Σ (each triangle's change of volume) [Pa]
 };

@@ -2,6 +2,7 @@
 #include "libsheet/health/trouble.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sheet::health {
 
@@ -148,6 +149,15 @@ constexpr std::array table{
          .remedy = "what should fold does not, or has no room: contact = \"flow\" on what it is poured on, [[sheet]] "
                    "perturbation where all is symmetric about the sheet's plane (sheet-init --check), more room, or "
                    "shorter edges; what surface tension has drawn to a lump is no sheet any more: end before"},
+    Kind{.trouble = Trouble::gas_escapes,
+         .name = "gas escapes",
+         .least = false,
+         .told = Told::plainly,
+         .what = "gas has left what enclosed it through holes of up to {} m^2",
+         .counted = "m^3",
+         .noted = {.worst = 0, .share = 0, .times = 1},
+         .serious = {.worst = std::numeric_limits<double>::infinity(), .share = 0, .times = 1},
+         .remedy = "nothing to do where it is to burst; else [tear] below and sites, and what closes the rims"},
 };
 
 } // namespace

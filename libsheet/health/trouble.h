@@ -25,6 +25,7 @@ enum class Trouble : std::uint8_t {
   volume = 12,
   two_solids = 13,
   crushed = 14,
+  gas_escapes = 15,
 };
 
 // From where on trouble counts: all three must be reached.

@@ -179,6 +179,27 @@ void measure_motion(const formats::Frame& frame, const Densities& densities, Mea
   m.angular_momentum = angular.value();
 }
 
+// Of the enclosures. In the first frame there is none yet, but a canonical scene that says so.
+void measure_gas(const formats::Frame& frame, Measurements& m) {
+  const auto values = [&](std::string_view name) {
+    const formats::Array* array = frame.find(name);
+    return array != nullptr ? array->values<double>() : std::span<const double>();
+  };
+  const auto pressure = values("gas.pressure");
+  const formats::Array* scene = frame.find("scene");
+  m.has[static_cast<std::size_t>(Needs::gas)] =
+      !pressure.empty() ||
+      (scene != nullptr && scene->text().find("pressure = {law = \"gas\"") != std::string_view::npos);
+  if (pressure.empty())
+    return;
+  m.gas_pressure = std::ranges::max(pressure);
+  m.gas_amount = m.gas_escaped = 0;
+  for (const double amount : values("gas.amount"))
+    m.gas_amount += amount;
+  for (const double escaped : values("gas.escaped"))
+    m.gas_escaped += escaped;
+}
+
 } // namespace
 
 Measurements measure(const formats::Frame& frame, const std::optional<Densities>& densities) {
@@ -193,6 +214,7 @@ Measurements measure(const formats::Frame& frame, const std::optional<Densities>
     m.drops = static_cast<double>(read_drops(frame).size());
     m.drop_volume = volume_of_drops(frame);
   }
+  measure_gas(frame, m);
   const std::vector<Side> sides = sorted_sides(triangles(frame), frame.vertices);
   measure_edges(frame, sides, m);
   if (densities)

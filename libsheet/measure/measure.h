@@ -56,6 +56,9 @@ struct Measurements {
   double heat = absent;                       // measure_energies
   double drops = absent;                      // number of balls of liquid beside the sheet (sheet/drops.h)
   double drop_volume = absent;                // of all of them, which is no part of `volume` [m³]
+  double gas_amount = absent;                 // of all that is enclosed, at the pressure outside [m³]
+  double gas_pressure = absent;               // the greatest, above that outside [Pa]
+  double gas_escaped = absent;                // through holes [m³]
   double part_at_rest = absent;               // quantities/fields.h
   double angle_min = absent;                  // of the triangles' corners [rad]
   double angle_max = absent;

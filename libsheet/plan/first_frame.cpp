@@ -24,6 +24,7 @@
 #include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
+#include "libsheet/solve/gas_holes.h"
 #include "libsheet/solve/step_stage.h"
 
 namespace sheet {
@@ -182,9 +183,12 @@ Frame first_frame(const Scene& scene) {
   Frame frame = build_frame(scene);
   if (flows_on_solids(scene))
     mark_touching(scene, frame);
+  if (encloses_gas(scene)) {
+    const solid::Solids solids(scene);
+    seal_open_rims(scene, frame, &solids);
+  }
   // Where there are several, each one's amount is in the frames.
-  if (scene.environment.pressure && std::holds_alternative<scene::GasPressure>(*scene.environment.pressure) &&
-      enclosures(frame).empty())
+  if (encloses_gas(scene) && enclosures(frame).empty())
     frame.put_text("scene", to_toml(with_amount_of_gas(scene, frame)));
   if (scene.tear && scene.tear->drops)
     write_drops(frame, {});

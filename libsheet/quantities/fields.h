@@ -17,9 +17,10 @@ enum class Needs {
   law,    // a law of viscosity, by rate or temperature
   heat,   // temperatures
   wanted, // a wanted thickness (wanted.h)
-  drops   // liquid beside the sheet (sheet/drops.h)
+  drops,  // liquid beside the sheet (sheet/drops.h)
+  gas     // enclosed and compressed (formats/sheet.md, section 5)
 };
-inline constexpr std::size_t kinds_of_needs = 5;
+inline constexpr std::size_t kinds_of_needs = 6;
 
 struct Field {
   std::string_view name;    // of sheet-render's look and of columns of CSV

@@ -144,7 +144,8 @@ gravity = [0, "-9.81 m/s^2", 0]
 # or of a given amount of enclosed gas, p = ambient ((amount/V)^exponent - 1), V the enclosed volume. `amount`: the volume
 # that it would fill outside; or `value`, its pressure at the start. exponent: 1 as it keeps its temperature (default), 1.4
 # for air without time to cool. ambient: pressure outside (default 101325 Pa); leak: a hole's conductance as above
-# (default 0); more_volume: of vessels and pipes that the gas fills, too (default 0).
+# (default 0); more_volume: of vessels and pipes that the gas fills, too (default 0). Where the sheet tears, or a rim comes
+# off what closed it, gas leaves by itself.
 #[sheet]
 #shape = "sphere"
 #radius = "0.1 m"

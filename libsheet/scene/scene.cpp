@@ -142,6 +142,10 @@ bool solids_squeeze(const Scene& scene) {
          std::ranges::any_of(scene.solids, [](const Solid& s) { return !std::holds_alternative<Fixed>(s.motion); });
 }
 
+bool encloses_gas(const Scene& scene) {
+  return scene.environment.pressure && std::holds_alternative<GasPressure>(*scene.environment.pressure);
+}
+
 bool flows_on_solids(const Scene& scene) {
   return std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact != SolidContact::stick; });
 }

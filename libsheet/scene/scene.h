@@ -416,6 +416,9 @@ struct PlaneAxes {
 };
 [[nodiscard]] PlaneAxes axes_of(Plane plane);
 
+// Whether the sheet encloses gas, compressed.
+[[nodiscard]] bool encloses_gas(const Scene& scene);
+
 // Whether liquid that touches flows or slips along any of the scene's solids.
 [[nodiscard]] bool flows_on_solids(const Scene& scene);
 
@@ -437,6 +440,7 @@ struct PlaneAxes {
 
 namespace sheet {
 using scene::contacts_adhere;
+using scene::encloses_gas;
 using scene::flows_in_or_out;
 using scene::flows_on_solids;
 using scene::layers_flow;

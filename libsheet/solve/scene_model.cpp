@@ -9,7 +9,6 @@
 #include "libsheet/base/overloaded.h"
 #include "libsheet/energy/overshoot.h"
 #include "libsheet/geometry/area.h"
-#include "libsheet/geometry/capped_volume.h"
 #include "libsheet/geometry/longest_edges.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/heat/surroundings.h"
@@ -21,10 +20,10 @@
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/directors.h"
-#include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/bath_reach.h"
 #include "libsheet/solve/held_rims.h"
+#include "libsheet/solve/pressure_laws.h"
 
 namespace sheet {
 
@@ -32,68 +31,6 @@ namespace {
 
 using formats::Array;
 using formats::Frame;
-
-PressureLaw pressure_law(const scene::Pressure& pressure) {
-  PressureLaw law;
-  std::visit(Overloaded{[&](const scene::ConstantPressure& p) { law.value = p.value; },
-                        [&](const scene::InverseSquarePressure& p) {
-                          law.kind = PressureLaw::Kind::inverse_square;
-                          law.value = p.value;
-                          law.reference_radius = p.reference_radius;
-                        },
-                        [&](const scene::DrainingPressure& p) {
-                          law.kind = PressureLaw::Kind::draining;
-                          law.conductance = p.conductance;
-                        },
-                        [&](const scene::GasPressure& p) {
-                          law.kind = PressureLaw::Kind::gas;
-                          law.gas = {p.amount.value_or(0), p.ambient, p.exponent, p.leak, p.more_volume};
-                        }},
-             pressure);
-  return law;
-}
-
-// The amount of gas in an enclosure: that in the frame, or as the scene starts it.
-double amount_in(const scene::GasPressure& gas, const PressureLaw& law, const Frame& frame, const Connectivity& mesh) {
-  if (gas.amount)
-    return *gas.amount;
-  if (const Array* amounts = frame.find("gas.amount"); amounts != nullptr && law.number < amounts->rows)
-    return amounts->values<double>()[law.number];
-  const double volume = capped_volume(mesh, positions(frame), law.part) + gas.more_volume;
-  if (!(volume > 0))
-    fail(ExitCode::bad_input,
-         "pressure: piece {} of the sheet (from 0) encloses {:.3g} m^3 on the side that its triangles' normals point "
-         "away from, so there is no room for gas: turn it round, or give more_volume",
-         law.number, volume);
-  return amount_of_gas(law.gas, gas.value, volume);
-}
-
-// One law for each enclosure that is left.
-std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, const Connectivity& mesh) {
-  const scene::Pressure& pressure = *scene.environment.pressure;
-  const auto* gas = std::get_if<scene::GasPressure>(&pressure);
-  const auto numbers = enclosures(frame);
-  if (numbers.empty()) {
-    if ((depends_on_volume(pressure) && scene.sheets.size() > 1) || !scene.environment.pressure_sheet.empty() ||
-        (gas != nullptr && !gas->amount))
-      fail(ExitCode::bad_input, "pressure: the frame does not say which triangles enclose what, or how much gas (array "
-                                "\"enclosure\", gas.amount): make the first frame with sheet-init");
-    return {pressure_law(pressure)};
-  }
-  std::vector<PressureLaw> laws;
-  for (std::uint32_t number = 1; number <= last_enclosure(frame); ++number) {
-    PressureLaw law = pressure_law(pressure);
-    law.number = number - 1;
-    for (const std::uint32_t of : numbers)
-      law.part.push_back(of == number ? 1 : 0);
-    if (std::ranges::count(law.part, 1) == 0)
-      continue;
-    if (gas != nullptr)
-      law.gas.amount = amount_in(*gas, law, frame, mesh);
-    laws.push_back(std::move(law));
-  }
-  return laws;
-}
 
 // By a scene's motion, and by that of a belt's surface [m/s].
 void move(Hold& hold, const scene::Motion& motion, const Vector3& surface_velocity = Vector3::Zero()) {
@@ -327,15 +264,6 @@ void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh
   }
 }
 
-// A row for each enclosure.
-void put_of_gas(Frame& frame, std::string_view name, std::string_view unit, std::span<const Gas> gas,
-                double Gas::*quantity) {
-  Array array = formats::make_array(name, formats::Place::frame, formats::Type::float64, 1, unit,
-                                    formats::Transfer::copy, gas.size());
-  std::ranges::transform(gas, array.values<double>().begin(), [&](const Gas& g) { return g.*quantity; });
-  frame.put(std::move(array));
-}
-
 // As they are at the start of the step, so that a run that is gone on with has the same.
 ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& mesh) {
   constexpr double least_slope = 0.02; // of a face: what is less adds 5e-5 to its area
@@ -509,9 +437,7 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
   take("temperature_rate", state.temperature_rates);
   take("temperature_mode", state.temperature_modes);
   take("temperature_mode_rate", state.temperature_mode_rates);
-  if (const Array* amounts = frame.find("gas.amount"))
-    for (const double amount : amounts->values<double>())
-      state.gas.push_back({.amount = amount});
+  state.gas = gas_of(frame);
   state.time = frame.time;
   return state;
 }
@@ -555,10 +481,7 @@ void put_state(const State& state, Frame& frame) {
   put_of_triangles("temperature_mode", state.temperature_modes);
   put_of_triangles("temperature_mode_rate", state.temperature_mode_rates);
   put_director_angles(state.director_angles, frame);
-  if (!state.gas.empty()) {
-    put_of_gas(frame, "gas.amount", "m^3", state.gas, &Gas::amount);
-    put_of_gas(frame, "gas.pressure", "Pa", state.gas, &Gas::pressure);
-  }
+  put_gas(state.gas, frame);
   frame.time = state.time;
   ++frame.step;
 }
@@ -595,7 +518,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
                const std::shared_ptr<const solid::Solids>& solids) {
   Model model = numbers_of(scene, bending, arcs);
   if (scene.environment.pressure)
-    model.pressures = pressure_laws(scene, frame, mesh);
+    model.pressures = pressure_laws(scene, frame, mesh, solids.get());
   const bool touching = add_touching(scene, frame, mesh, solids,
                                      model); // first: along the axes that a [[hold]] prescribes that one counts
   add_holds(scene, frame, mesh, model);
@@ -625,7 +548,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
 Model model_of(const Scene& scene) {
   Model model = numbers_of(scene, Bending::mid_edge, true);
   if (scene.environment.pressure)
-    model.pressures.push_back(pressure_law(*scene.environment.pressure));
+    model.pressures.push_back(pressure_law(scene.environment));
   for (const scene::Solid& solid : scene.solids)
     if (solid.contact != SolidContact::stick) {
       Wall wall;

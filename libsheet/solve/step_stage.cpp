@@ -24,6 +24,7 @@
 #include "libsheet/solve/arc_rest.h"
 #include "libsheet/solve/drop_flight.h"
 #include "libsheet/solve/impossible_speed.h"
+#include "libsheet/solve/pressure_laws.h"
 #include "libsheet/solve/scene_model.h"
 
 namespace sheet {
@@ -71,9 +72,10 @@ void check_edges(const Frame& frame, const Connectivity& mesh) {
 }
 
 // Liquid that flows on solids has to know their surfaces, and so has what sticks to belts, which run along them, and
-// what is squeezed between two, and what takes heat.
+// what is squeezed between two, what takes heat, and what they may close as it encloses gas.
 bool needs_surfaces(const Scene& scene) {
-  return flows_on_solids(scene) || solids_squeeze(scene) || (scene.heat && !scene.solids.empty()) ||
+  return flows_on_solids(scene) || solids_squeeze(scene) ||
+         ((scene.heat || encloses_gas(scene)) && !scene.solids.empty()) ||
          std::ranges::any_of(scene.solids, [](const scene::Solid& solid) { return !solid.surface_velocity.isZero(0); });
 }
 
@@ -153,6 +155,7 @@ struct StepStage::Impl {
     }
     State state = state_of(frame, mesh.mesh());
     put_back_overshoot(frame, stepper->model(), state);
+    settle_gas(stepper->model().pressures, state.gas);
     const State start = state;
     ArcRest rest(frame);
     stepper->rest_arcs(rest.rests());
@@ -194,6 +197,7 @@ struct StepStage::Impl {
     rest.note(report.flat_fallbacks > 0);
     rest.put(frame);
     put_state(state, frame);
+    tell_of_gas(start, frame);
     fly_drops(frame, scenes.of(frame), start.time);
     put_heat_moved(state, frame);
     put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), frame);
@@ -211,6 +215,23 @@ struct StepStage::Impl {
         "(triangles crushed, or solids that leave no room); remesh, tear, or shorten edges there",
         frame.step + 1, impossible->vertex, x.x(), x.y(), x.z(), end.velocities[impossible->vertex].norm(),
         impossible->energy, impossible->work);
+  }
+
+  // That it escapes, from the widest hole of each enclosure.
+  void tell_of_gas(const State& start, Frame& frame) {
+    put_gas_holes(stepper->model().pressures, frame);
+    const std::vector<Gas> gas = gas_of(frame);
+    for (const PressureLaw& law : stepper->model().pressures)
+      if (const double hole = law.gas.hole; hole > 0)
+        teller.tell(
+            frame,
+            {.trouble = health::Trouble::gas_escapes,
+             .value = hole,
+             .amount = gas[law.number].escaped - (law.number < start.gas.size() ? start.gas[law.number].escaped : 0),
+             .place = law.hole_place},
+            fmt::format("step {}: gas escapes through holes of {:.3g} m^2, the widest about ({:.4g}, {:.4g}, "
+                        "{:.4g}) m",
+                        frame.step, hole, law.hole_place.x(), law.hole_place.y(), law.hole_place.z()));
   }
 
   // state: at the end of the step.

@@ -40,6 +40,56 @@ TEST(Gas, LeaksAsFastAsItPresses) {
     }
 }
 
+// The orifice's equation, and the stiffness with it against a central difference, outward and inward.
+TEST(Gas, LeavesThroughAHoleAsFromAnOrifice) {
+  GasLaw law = air;
+  for (const double hole : {1e-9, 1e-6, 1e-4, 1e-2})
+    for (const double leak : {0.0, 1e-8})
+      for (const double volume : {0.3e-3, 1.999e-3, 2.001e-3, 9e-3}) {
+        law.hole = hole;
+        law.leak = leak;
+        constexpr double tau = 1e-3;
+        const Gas gas = gas_in(law, volume, law.amount, tau);
+        const double speed = std::copysign(std::sqrt(2 * std::abs(gas.pressure) / 1.2), gas.pressure);
+        EXPECT_NEAR(gas.escaped, 0.61 * hole * speed * tau, 1e-14 * law.amount);
+        EXPECT_NEAR(gas.amount + gas.escaped + leak * tau * gas.pressure, law.amount, 1e-14 * law.amount);
+        EXPECT_NEAR(gas.pressure, 1e5 * (std::pow(gas.amount / volume, 1.4) - 1), 1e-9 * 1e5);
+        const double d = 1e-5 * volume;
+        const double slope =
+            (gas_in(law, volume + d, law.amount, tau).pressure - gas_in(law, volume - d, law.amount, tau).pressure) /
+            (2 * d);
+        EXPECT_NEAR(-slope / gas.stiffness, 1, 1e-4) << hole << ' ' << volume;
+      }
+  law.hole = 1e-4;
+  EXPECT_EQ(gas_in(law, law.amount, law.amount, 1).pressure, 0);
+}
+
+// What is open has the pressure outside, and as much gas as room.
+TEST(Gas, IsThatOutsideWhereItIsOpen) {
+  GasLaw law = air;
+  law.open = true;
+  const Gas gas = gas_in(law, 1.5e-3, law.amount, 1);
+  EXPECT_EQ(gas.pressure, 0);
+  EXPECT_DOUBLE_EQ(gas.amount, 1.5e-3);
+  EXPECT_DOUBLE_EQ(gas.escaped, 0.5e-3);
+  EXPECT_EQ(gas_in(law, -1, law.amount, 1).amount, 0);
+  EXPECT_EQ(mean_pressure(law, 1e-3, -1e-3, law.amount, 1), 0);
+}
+
+// The potential of flow that turns: against the midpoint rule.
+TEST(Gas, MeanPressureWithAHole) {
+  GasLaw law = air;
+  law.hole = 1e-4;
+  constexpr double tau = 1e-3;
+  constexpr int parts = 20000;
+  for (const auto& [from, to] : {std::pair{1.999e-3, 2.002e-3}, {2.1e-3, 1.7e-3}, {1.5e-3, 1.9e-3}}) {
+    double sum = 0;
+    for (int k = 0; k < parts; ++k)
+      sum += gas_in(law, from + (k + 0.5) / parts * (to - from), law.amount, tau).pressure / parts;
+    EXPECT_NEAR(mean_pressure(law, from, to, law.amount, tau) / sum, 1, 1e-6);
+  }
+}
+
 // Against the closed form of an exponent of 1: ∫ p dΩ = p_a (m ln(Ω1/Ω0) - (Ω1 - Ω0)).
 TEST(Gas, MeanPressure) {
   GasLaw law = air;
