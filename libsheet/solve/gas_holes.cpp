@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
-#include <ranges>
 
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/capped_volume.h"
@@ -102,36 +102,78 @@ std::vector<char> closed_vertices(const Scene& scene, const Frame& frame) {
   return closed;
 }
 
-// Over the nearest solid, less the thickness h there, half of which is between it and what touches it, or the bath.
-double clearance(const Scene& scene, const solid::Solids* solids, const Vector3& x, double h, double t) {
+// Over the nearest solid, less the thickness h there, half of which is between it and what touches it.
+double clearance(const solid::Solids* solids, const Vector3& x, double h, double t) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; solids != nullptr && i < solids->size(); ++i)
     least = std::min(least, solids->at(i, x, t).distance - h);
-  if (const auto up = scene::up(scene.environment); up && scene.environment.bath)
-    least = std::min(least, up->dot(x) - scene.environment.bath->level);
   return std::max(0.0, least);
+}
+
+std::vector<std::uint32_t> rim_vertices(const Connectivity& mesh) {
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.on_rim(e))
+      vertices.insert(vertices.end(), mesh.edges[e].begin(), mesh.edges[e].end());
+  std::ranges::sort(vertices);
+  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  return vertices;
+}
+
+double area_of(const Connectivity& mesh, std::span<const Vector3> x, std::uint32_t t) {
+  const Corners& c = mesh.triangles[t];
+  return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+}
+
+// Whether it holds more than a tenth of the ball of its area.
+bool hollow(const Connectivity& mesh, std::span<const Vector3> x, std::span<const char> part) {
+  double area = 0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    if (part.empty() || part[t] != 0)
+      area += area_of(mesh, x, t);
+  return capped_volume(mesh, x, part) > 0.1 * std::pow(area, 1.5) / (6 * std::sqrt(std::numbers::pi));
 }
 
 } // namespace
 
-std::vector<double> rim_clearances(const Scene& scene, const Frame& frame, const Connectivity& mesh,
-                                   const solid::Solids* solids) {
-  std::vector<double> clearances(frame.vertices, 0);
-  if (std::ranges::none_of(std::views::iota(std::size_t{0}, mesh.edges.size()),
-                           [&](std::size_t e) { return mesh.on_rim(e); }))
-    return clearances;
+RimClearances rim_clearances(const Scene& scene, const Frame& frame, const Connectivity& mesh,
+                             const solid::Solids* solids) {
+  RimClearances result;
+  result.with_bath.assign(frame.vertices, 0);
+  const std::vector<std::uint32_t> rim = rim_vertices(mesh);
+  if (rim.empty())
+    return result;
   const auto x = positions(frame);
   const std::vector<char> closed = closed_vertices(scene, frame);
-  const std::vector<double> thickness =
-      thickness_around(frame.vertices, mesh.triangles, volumes(frame), [&](std::uint32_t t) {
-        const Corners& c = mesh.triangles[t];
-        return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
-      });
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    for (const std::uint32_t v : mesh.edges[e])
-      if (mesh.on_rim(e) && closed[v] == 0 && clearances[v] == 0)
-        clearances[v] = clearance(scene, solids, x[v], thickness[v], frame.time);
-  return clearances;
+  const std::vector<double> thickness = thickness_around(frame.vertices, mesh.triangles, volumes(frame),
+                                                         [&](std::uint32_t t) { return area_of(mesh, x, t); });
+  for (const std::uint32_t v : rim)
+    if (closed[v] == 0)
+      result.with_bath[v] = clearance(solids, x[v], thickness[v], frame.time);
+  const auto up = scene::up(scene.environment);
+  if (!up || !scene.environment.bath)
+    return result;
+  result.without = result.with_bath;
+  result.depths.assign(frame.vertices, 0);
+  for (const std::uint32_t v : rim) {
+    result.depths[v] = scene.environment.bath->level - up->dot(x[v]);
+    result.with_bath[v] = std::min(result.with_bath[v], std::max(0.0, -result.depths[v]));
+  }
+  return result;
+}
+
+std::span<const double> clearances_at(const RimClearances& clearances, const Connectivity& mesh,
+                                      std::span<const Vector3> positions, std::span<const char> part, double weight,
+                                      double pressure) {
+  if (clearances.without.empty())
+    return clearances.with_bath;
+  double shallowest = std::numeric_limits<double>::infinity();
+  for (const Edge& edge : open_edges(mesh, clearances.without, part))
+    for (const std::uint32_t v : edge)
+      if (clearances.depths[v] >= 0 && clearances.without[v] > 0)
+        shallowest = std::min(shallowest, clearances.depths[v]);
+  const bool holds = pressure <= weight * shallowest && hollow(mesh, positions, part);
+  return holds ? clearances.with_bath : clearances.without;
 }
 
 GasHoles gas_holes(const Connectivity& mesh, std::span<const Vector3> positions, std::span<const double> clearances,
@@ -176,7 +218,8 @@ std::vector<char> still_enclosing(const Connectivity& mesh, std::span<const Vect
 
 void seal_open_rims(const Scene& scene, Frame& frame, const solid::Solids* solids) {
   const Connectivity mesh = connect(frame.vertices, triangles(frame));
-  const std::vector<double> clearances = rim_clearances(scene, frame, mesh, solids);
+  const RimClearances all = rim_clearances(scene, frame, mesh, solids);
+  const std::vector<double>& clearances = all.without.empty() ? all.with_bath : all.without;
   if (std::ranges::none_of(clearances, [](double c) { return c > 0; }))
     return;
   const auto numbers = enclosures(frame);

@@ -55,10 +55,19 @@ double section(double volume) {
   return std::numbers::pi * r * r;
 }
 
+// Density times gravity [Pa/m].
+double weight_of_bath(const Scene& scene) {
+  const scene::Environment& around = scene.environment;
+  return around.bath && around.gravity ? around.bath->density * around.gravity->norm() : 0;
+}
+
 // What the holes leave of the gas and of what encloses it. While there are holes, and in the step after, pressure goes
 // on as it was though caps and pieces are others than before: what volume is gained or lost by that has this pressure.
-void add_holes(const Frame& frame, const Connectivity& mesh, std::span<const double> clearances, PressureLaw& law) {
+void add_holes(const Scene& scene, const Frame& frame, const Connectivity& mesh, const RimClearances& rims,
+               PressureLaw& law) {
   const auto x = positions(frame);
+  const double pressure = of_enclosure(frame, "gas.pressure", law.number).value_or(0);
+  const auto clearances = clearances_at(rims, mesh, x, law.part, weight_of_bath(scene), pressure);
   GasHoles holes = gas_holes(mesh, x, clearances, law.part);
   if (holes.area == 0 && of_enclosure(frame, "gas.hole_area", law.number).value_or(0) == 0)
     return;
@@ -114,8 +123,7 @@ std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, c
   const scene::Pressure& pressure = *scene.environment.pressure;
   const auto* gas = std::get_if<scene::GasPressure>(&pressure);
   const auto numbers = enclosures(frame);
-  const std::vector<double> clearances =
-      gas != nullptr ? rim_clearances(scene, frame, mesh, solids) : std::vector<double>{};
+  const RimClearances rims = gas != nullptr ? rim_clearances(scene, frame, mesh, solids) : RimClearances{};
   if (numbers.empty()) {
     if ((depends_on_volume(pressure) && scene.sheets.size() > 1) || !scene.environment.pressure_sheet.empty() ||
         (gas != nullptr && !gas->amount))
@@ -124,7 +132,7 @@ std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, c
     PressureLaw law = pressure_law(scene.environment);
     if (gas != nullptr) {
       law.gas.amount = amount_in(*gas, law, frame, mesh);
-      add_holes(frame, mesh, clearances, law);
+      add_holes(scene, frame, mesh, rims, law);
     }
     return {std::move(law)};
   }
@@ -138,7 +146,7 @@ std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, c
       continue;
     if (gas != nullptr) {
       law.gas.amount = amount_in(*gas, law, frame, mesh);
-      add_holes(frame, mesh, clearances, law);
+      add_holes(scene, frame, mesh, rims, law);
     }
     laws.push_back(std::move(law));
   }

@@ -79,5 +79,26 @@ TEST(GasHoles, WhatHasComeOffEnclosesNothing) {
   EXPECT_LT(gas_holes(mesh, ball.positions, open, part).area, gas_holes(mesh, ball.positions, open, {}).area);
 }
 
+// A half ball with its rim 0.1 m under the level holds what a bath of 1000 Pa/m presses there, and no more; a disk
+// nothing.
+TEST(GasHoles, ABathHoldsGasAsADivingBell) {
+  test::Mesh ball = test::icosphere(3);
+  std::erase_if(ball.triangles, [&](const Corners& c) {
+    return std::ranges::any_of(c, [&](auto v) { return ball.positions[v].z() < -1e-9; });
+  });
+  const std::size_t n = ball.positions.size();
+  const RimClearances rims{.with_bath = std::vector<double>(n, 0),
+                           .without = std::vector<double>(n, infinity),
+                           .depths = std::vector<double>(n, 0.1)};
+  const auto held = [&](std::span<const Vector3> x, double pressure) {
+    return clearances_at(rims, connect(n, ball.triangles), x, {}, 1000, pressure).data() == rims.with_bath.data();
+  };
+  EXPECT_TRUE(held(ball.positions, 99));
+  EXPECT_FALSE(held(ball.positions, 101));
+  for (Vector3& x : ball.positions)
+    x.z() *= 0.01;
+  EXPECT_FALSE(held(ball.positions, 99));
+}
+
 } // namespace
 } // namespace sheet
