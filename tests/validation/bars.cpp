@@ -322,7 +322,8 @@ TEST(Validation, LayersOnWalls) {
   EXPECT_LT(error("V24", settings("V24", 0.1, 40, 5)), 2e-3);  // on top of a cylinder
   EXPECT_LT(error("V24", settings("V24", 0.1, 160, 6)), 1e-3); // spin coating
   EXPECT_LT(error("V24", settings("V24", 0.1, 40, 8)), 1e-3);  // on a bath
-  for (const int set : {3, 4, 5, 6, 8})
+  EXPECT_LT(error("V24", settings("V24", 0.1, 40, 9)), 1e-3);  // as a disk
+  for (const int set : {3, 4, 5, 6, 8, 9})
     EXPECT_GE(order_in_time("V24", settings("V24", 0.1, 80, set), Scheme::sdirk2), 1.9) << "set " << set;
 }
 

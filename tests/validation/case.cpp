@@ -74,8 +74,8 @@ const std::vector<Case>& cases() {
       {"V23", "a block flows down an incline, its upper end held", "length", "", 1, at(0.1, 200), true, true, v23},
       {"V24",
        "layers on walls (set 1: down an incline; 2: with slip; 3: a plug stops; 4: spreads without drag; 5: on top of "
-       "a cylinder; 6: spin coating; 7: a puddle; 8: spreads on a bath)",
-       "1, 2, 3: way; else thickness", "", 8, at(0.1, 40), true, false, v24},
+       "a cylinder; 6: spin coating; 7: a puddle; 8: spreads on a bath; 9: as a disk)",
+       "1, 2, 3: way; else thickness", "", 9, at(0.1, 40), true, false, v24},
       {"V25", "a layer on an incline overruns a tenth as thick one, remeshed", "place of the front", "", 1,
        at(0.1, 100), false, true, v25},
       {"V26", "film casting, draw ratio 10, 15, 20, 25, 30 (sets 1 to 5)", "force of the roll", "", 5, at(0.02, 4000),

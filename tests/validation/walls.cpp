@@ -278,6 +278,19 @@ Result floating(const Settings& s) {
   return run.result(thickness_of(run.state()) / (thin / 2));
 }
 
+// The same as a free disk, which is drawn out both ways: h = h0/(1 + g' h0 t/(6 ν)); to half the thickness.
+Result floating_disk(const Settings& s) {
+  constexpr double denser = 2, buoyant = gravity * (1 - 1 / denser);
+  State state = film(make_disk(radius, mesh_options(s, radius)), thin);
+  for (Vector3& x : state.positions)
+    x.z() = -thin / denser;
+  Model m = layer(s, {0, 0, -gravity});
+  m.bath = BathLiquid{.density = denser * density, .spreads = true};
+  Run run(std::move(state), m, s, radius);
+  run.advance(6 * kinematic / (buoyant * thin), s.steps);
+  return run.result(thickness_of(run.state()) / (thin / 2));
+}
+
 // The film on top of a cylinder: h = h0/sqrt(1 + 2 g h0² t/(3 ν R)); to half the thickness.
 Result on_a_cylinder(const Settings& s) {
   Channel c = channel(s, radius, thin);
@@ -356,8 +369,10 @@ Result v24(const Settings& s) {
     return spinning(s);
   case 7:
     return puddle(s);
-  default:
+  case 8:
     return floating(s);
+  default:
+    return floating_disk(s);
   }
 }
 
