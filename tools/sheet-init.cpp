@@ -16,6 +16,7 @@
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/shell_words.h"
+#include "libsheet/plan/bath_crushing.h"
 #include "libsheet/plan/contact_warnings.h"
 #include "libsheet/plan/drawing_up.h"
 #include "libsheet/plan/face_warnings.h"
@@ -166,7 +167,8 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::idle_roll_warnings(scene, frame), std::back_inserter(explanation.warnings));
   for (const std::string& warning :
        {sheet::falling_past_warning(scene, frame), sheet::drawing_up_warning(scene, frame, until),
-        sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until)})
+        sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until),
+        sheet::bath_crushing_warning(scene, frame)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :

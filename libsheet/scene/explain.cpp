@@ -313,7 +313,8 @@ std::vector<std::string> left_out_of(const Scene& scene, const Scales& scales) {
                          "{..., spreads = true})");
   }
   if (const auto& pressure = scene.environment.pressure; pressure && std::holds_alternative<GasPressure>(*pressure))
-    left_out.push_back("enclosed gas has one pressure everywhere, and leaves through holes without a jet that pushes anything");
+    left_out.push_back(
+        "enclosed gas has one pressure everywhere, and leaves through holes without a jet that pushes anything");
   else if (pressure && depends_on_volume(*pressure))
     left_out.push_back("enclosed gas is not compressed");
   if (scene.tear && scene.tear->below)
