@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "libsheet/collide/bath_cover.h"
 #include "libsheet/collide/solid_sweep.h"
 #include "libsheet/collide/swept_pair.h"
 #include "libsheet/geometry/area.h"
@@ -128,8 +129,11 @@ private:
 // What drops come to lie on, in the step from `start` to `end` [s]. solids: null for none.
 class Grounds {
 public:
-  Grounds(const Scene& scene, const solid::Solids* solids, double start, double end)
-      : scene_(scene), solids_(solids), start_(start), end_(end) {}
+  Grounds(const Frame& frame, const Scene& scene, const solid::Solids* solids, double start)
+      : scene_(scene), solids_(solids), start_(start), end_(frame.time) {
+    if (has_bath())
+      cover_.emplace(frame, up(), scene.environment.bath->level);
+  }
 
   [[nodiscard]] bool bears(const Drop& drop) const { return !drop.flies() && drop.touch <= count() + has_bath(); }
 
@@ -176,14 +180,17 @@ public:
 private:
   [[nodiscard]] std::size_t count() const { return solids_ == nullptr ? 0 : solids_->size(); }
   [[nodiscard]] bool has_bath() const { return scene_.environment.bath.has_value(); }
+  [[nodiscard]] Vector3 up() const { return scene::up(scene_.environment).value_or(Vector3::UnitY()); }
 
   [[nodiscard]] std::optional<double> meets_bath(const DropWay& way) const {
     if (!has_bath())
       return std::nullopt;
-    const Vector3 up = scene::up(scene_.environment).value_or(Vector3::UnitY());
     const double level = scene_.environment.bath->level + way.radius;
-    const double above = up.dot(way.start) - level, at_end = up.dot(way.end) - level;
-    return at_end > 0 ? std::nullopt : std::optional(above > 0 ? above / (above - at_end) : 0.0);
+    const double above = up().dot(way.start) - level, at_end = up().dot(way.end) - level;
+    if (at_end > 0)
+      return std::nullopt;
+    const double s = above > 0 ? above / (above - at_end) : 0;
+    return cover_->under((1 - s) * way.start + s * way.end) ? std::nullopt : std::optional(s);
   }
 
   // As far out as its radius; own: in the solid's frame.
@@ -196,6 +203,7 @@ private:
   const Scene& scene_;
   const solid::Solids* solids_;
   double start_, end_;
+  std::optional<BathCover> cover_; // where there is a bath
 };
 
 // The sheet at the end of the step, as it takes drops up, or stops them.
@@ -307,7 +315,7 @@ Landed land_drops(Frame& frame, const Scene& scene, const solid::Solids* solids)
   if (starts == nullptr || sheet_start == nullptr || starts->rows == 0)
     return landed;
   std::vector<Drop> drops = read_drops(frame), left;
-  const Grounds grounds(scene, solids, number(frame, "start_time", frame.time), frame.time);
+  const Grounds grounds(std::as_const(frame), scene, solids, number(frame, "start_time", frame.time));
   std::vector<DropWay> ways;
   for (std::size_t i = 0; i < drops.size(); ++i) {
     const Vector3& from = starts->values<Vector3>()[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where drops (sheet/drops.h) land: on solids, where they stay as balls and go where the solid and its belt take them,
-// on a bath, where they rest, and on the sheet, which takes them up. SI units.
+// on a bath, where they rest if no sheet floats there, and on the sheet, which takes them up. SI units.
 //
 // A drop meets a triangle when its middle comes as near to it as its radius and half of the sheet's thickness, on
 // straight ways in the step (swept_pair.h: none is missed). What starts nearer, as a drop that has just come off does,

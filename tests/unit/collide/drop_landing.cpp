@@ -2,6 +2,7 @@
 // Drops that land, on sheets and on solids that move.
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/collide/drop_landing.h"
@@ -145,6 +146,21 @@ TEST(DropLanding, ABathBearsDrops) {
   EXPECT_EQ(drop.touch, 1U);
   EXPECT_NEAR(drop.position.z(), -19.5, 1e-12);
   EXPECT_EQ(drop.velocity, Vector3::Zero());
+}
+
+// The sheet is 0.2 thick: under 0.15 of the bath it floats and has the drop come, under 0.3 the bath is above it.
+TEST(DropLanding, ASheetThatFloatsCoversTheBath) {
+  const auto lands = [](double level, const Vector3& place) {
+    Frame frame = after_step({0, 0, 0}, std::vector<Drop>{ball(0.5, place, {0, 0, -3})});
+    const Scene on = landing_scene(
+        fmt::format("[environment]\ngravity = [0, 0, -9.81]\nbath = {{density = 1500, level = {}}}\n", level));
+    const Landed landed = land_drops(frame, on, nullptr);
+    EXPECT_EQ(landed.on_sheet + landed.on_solids, 1U);
+    return landed.on_sheet == 1;
+  };
+  EXPECT_TRUE(lands(0.15, {4.1, 4.2, 0.55}));
+  EXPECT_FALSE(lands(0.3, {4.1, 4.2, 0.55}));
+  EXPECT_FALSE(lands(0.15, {20, 4, 0.55}));
 }
 
 } // namespace
