@@ -69,9 +69,10 @@ void add_holes(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   const double pressure = of_enclosure(frame, "gas.pressure", law.number).value_or(0);
   const auto clearances = clearances_at(rims, mesh, x, law.part, weight_of_bath(scene), pressure);
   GasHoles holes = gas_holes(mesh, x, clearances, law.part);
-  if (holes.area == 0 && of_enclosure(frame, "gas.hole_area", law.number).value_or(0) == 0)
-    return;
   const double before = of_enclosure(frame, "gas.amount", law.number).value_or(law.gas.amount);
+  const bool had_holes = of_enclosure(frame, "gas.hole_area", law.number).value_or(0) > 0 || before == 0;
+  if (holes.area == 0 && !had_holes)
+    return;
   Gas start{.escaped = of_enclosure(frame, "gas.escaped", law.number).value_or(0)};
   start.pressure = of_enclosure(frame, "gas.pressure", law.number)
                        .value_or(gas_in(law.gas, room_in(law, frame, mesh), law.gas.amount, 0).pressure);
