@@ -6,6 +6,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "formats/cpp/mesh_export.h"
 
@@ -57,7 +58,7 @@ class SeamTexture : public testing::Test {
 protected:
   SeamTexture() { save(file_); }
   ~SeamTexture() override { std::remove(file_.c_str()); }
-  std::string file_ = testing::TempDir() + "seam_texture_test.ply";
+  std::string file_ = testing::TempDir() + "seam_texture_test_" + std::to_string(::getpid()) + ".ply";
 };
 
 TEST_F(SeamTexture, IsLookedUpInTheIslandOfTheTriangle) {
