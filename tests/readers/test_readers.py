@@ -20,7 +20,7 @@ class Readers(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         os.chdir(cls.folder.name)
         shell("sheet-init --example | sed 's/^edge_length = .*/edge_length = 0.1/' > scene.toml; sheet-init scene.toml | "
-              "sheet-loop -q --until 0.25 --fps 24 -o run.sheet -- 'sheet-remesh | sheet-step | sheet-collide'")
+              "sheet-loop -q --until 0.375 --fps 24 -o run.sheet -- 'sheet-remesh | sheet-step | sheet-collide'")
         cls.wanted = np.array(READERS["sheet-info"]("run.sheet"))
         cls.at_vertices = cls.wanted.copy()
         for row, frame in zip(cls.at_vertices, sheetstream.Run("run.sheet")):
@@ -32,7 +32,7 @@ class Readers(unittest.TestCase):
         cls.folder.cleanup()
 
     def test_they_get_what_sheet_info_says(self):
-        self.assertEqual(len(self.wanted), 7)
+        self.assertEqual(len(self.wanted), 10)
         self.assertGreater(len(set(self.wanted[:, 1])), 2)
         for name, read in READERS.items():
             with self.subTest(name):
