@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 namespace sheet::collide {
 
@@ -36,10 +37,11 @@ public:
   }
 
   SelfReport run() {
-    std::vector<Hit> hits = search_.hits(path_.start, path_.end, reach_, {});
+    std::vector<Hit> hits = search_.hits(path_.start, path_.end, reach_);
     report_.hits = hits.size();
     if (hits.empty())
       return report_;
+    watch_.emplace(search_.watch(path_.start, path_.end, reach_));
     const std::vector<Vector3> asked = path_.end, velocity = path_.velocity;
     note(hits);
     hits = give_impulses(std::move(hits));
@@ -57,17 +59,6 @@ private:
         islands_.join(hit.pair.vertices[0], hit.pair.vertices[i]);
   }
 
-  // The hits of vertices whose ends are not those of `before`, and the hits among `old` that may remain.
-  std::vector<Hit> hits_after(const std::vector<Vector3>& before) {
-    ++report_.rounds;
-    std::vector<std::uint8_t> moved(before.size());
-    for (std::size_t v = 0; v < moved.size(); ++v)
-      moved[v] = path_.end[v] != before[v];
-    std::vector<Hit> hits = search_.hits(path_.start, path_.end, reach_, moved);
-    note(hits);
-    return hits;
-  }
-
   void add_inequality(const Hit& hit) {
     std::array<Vector3, 4> x;
     double contact = std::numeric_limits<double>::infinity();
@@ -76,8 +67,7 @@ private:
       x[i] = (1 - hit.time) * path_.start[v] + hit.time * path_.end[v];
       contact = std::min(contact, reach_[v]);
     }
-    const ClosestPoints closest =
-        hit.pair.features == Features::vertex_triangle ? closest_vertex_triangle(x) : closest_edge_edge(x);
+    const ClosestPoints closest = closest_points(hit.pair.features, x);
     const double length = closest.offset.norm();
     if (!(length > 0))
       return; // no direction: left to the other means
@@ -156,7 +146,9 @@ private:
 
   // Hits of the path as it is now, when `hits` were those of the ends `before`.
   std::vector<Hit> remaining(std::vector<Hit> hits, const std::vector<Vector3>& before) {
-    std::vector<Hit> now = hits_after(before);
+    ++report_.rounds;
+    std::vector<Hit> now = watch_->hits(path_.end);
+    note(now);
     for (const Hit& hit : hits) // not looked at again, because none of its vertices moved
       if (std::all_of(hit.pair.vertices.begin(), hit.pair.vertices.end(),
                       [&](std::uint32_t v) { return path_.end[v] == before[v]; }))
@@ -355,6 +347,7 @@ private:
 
   StepPath& path_;
   SelfSearch& search_;
+  std::optional<PairWatch> watch_; // of the path, once there are hits
   std::span<const double> reach_;
   std::vector<Axes> prescribed_; // velocities
   std::span<const RigidStep> solids_;

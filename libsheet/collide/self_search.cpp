@@ -15,10 +15,6 @@ namespace sheet::collide {
 
 namespace {
 
-// Of the contact distance: nearer than this is too near, whatever the distance at the start.
-constexpr double nearest_part = 0.1;
-// Of the distance at the start.
-constexpr double kept_part = 0.5;
 // Cosine between a triangle's normal and the way to a vertex beside it that still counts as a contact of surfaces.
 constexpr double facing = 0.5;
 
@@ -28,35 +24,12 @@ std::array<Vector3, 4> points(std::span<const Vector3> x, const Four& v) {
   return {x[v[0]], x[v[1]], x[v[2]], x[v[3]]};
 }
 
-ClosestPoints closest(Features features, const std::array<Vector3, 4>& x) {
-  return features == Features::vertex_triangle ? closest_vertex_triangle(x) : closest_edge_edge(x);
-}
-
 // Contact distance of a pair whose closest points have these weights.
 double contact_distance(std::span<const double> reach, const Four& v, const std::array<double, 4>& weights) {
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
     sum += std::abs(weights[i]) * reach[v[i]];
   return 0.5 * sum;
-}
-
-constexpr std::array<double, 4> even_weights(Features features) {
-  return features == Features::vertex_triangle ? std::array{1.0, -1.0 / 3, -1.0 / 3, -1.0 / 3}
-                                               : std::array{0.5, 0.5, -0.5, -0.5};
-}
-
-std::optional<Hit> hit_of(const FeaturePair& pair, std::span<const Vector3> start, std::span<const Vector3> end,
-                          std::span<const double> reach) {
-  const SweptPair swept{pair.features, points(start, pair.vertices), points(end, pair.vertices)};
-  const double wanted = nearest_part * contact_distance(reach, pair.vertices, even_weights(pair.features));
-  if (surely_apart(swept, wanted))
-    return std::nullopt;
-  const Vector3 offset = closest(pair.features, swept.start).offset;
-  const double distance = offset.norm(), gap = std::min(wanted, kept_part * distance);
-  const auto time = first_contact(swept, {.gap = gap, .time_tolerance = 1e-4, .budget = 1024, .towards = offset});
-  if (!time)
-    return std::nullopt;
-  return Hit{pair, *time, gap, distance};
 }
 
 // Whether an edge of the mesh joins one of the first vertices to one of the others.
@@ -87,13 +60,6 @@ std::optional<ClosestPoints> facing_points(const Connectivity& mesh, const Featu
     return std::nullopt; // further than that
   const ClosestPoints closest = closest_vertex_triangle(p);
   return height > facing * closest.offset.norm() && !edge_joins(mesh, v, 1) ? std::optional(closest) : std::nullopt;
-}
-
-// Whether the boxes of the features on their ways overlap, grown by half of a part of their reach.
-bool boxes_overlap(const FeaturePair& pair, const Ways& ways, double part) {
-  const std::size_t first = pair.features == Features::vertex_triangle ? 1 : 2;
-  const std::span<const std::uint32_t> v = pair.vertices;
-  return ways.way(v.first(first)).box(part).overlaps(ways.way(v.subspan(first)).box(part));
 }
 
 // What work(pair, out) appends to `out`, for the pairs that pairs_of gives of each part, goes to the end of `all`, in
@@ -131,11 +97,10 @@ public:
     const auto vertices = [&](const Candidates& part) { return std::span((part.*pairs).vertex_triangle); };
     const auto edges = [&](const Candidates& part) { return std::span((part.*pairs).edge_edge); };
     for_pairs(parts, vertices, found_, [&](const FeaturePairs::Pair& pair, std::vector<Found>& out) {
-      look_at(vertex_triangle(pair), flagged, out);
+      look_at(vertex_triangle(mesh_, pair[0], pair[1]), flagged, out);
     });
     for_pairs(parts, edges, found_, [&](const FeaturePairs::Pair& pair, std::vector<Found>& out) {
-      const Edge &a = mesh_.edges[pair[0]], &b = mesh_.edges[pair[1]];
-      look_at({Features::edge_edge, {a[0], a[1], b[0], b[1]}}, flagged, out);
+      look_at(edge_edge(mesh_, pair[0], pair[1]), flagged, out);
     });
   }
   // Those joined by an edge of the mesh of which the vertex is over the triangle.
@@ -144,7 +109,7 @@ public:
     for_pairs(parts, joined, found_, [&](const FeaturePairs::Pair& pair, std::vector<Found>& out) {
       const Corners& c = mesh_.triangles[pair[1]];
       if (may_be_over_triangle(x[pair[0]], x[c[0]], x[c[1]], x[c[2]]))
-        look_at(vertex_triangle(pair), flagged, out);
+        look_at(vertex_triangle(mesh_, pair[0], pair[1]), flagged, out);
     });
   }
 
@@ -154,10 +119,6 @@ public:
   }
 
 private:
-  [[nodiscard]] FeaturePair vertex_triangle(const FeaturePairs::Pair& pair) const {
-    const Corners& c = mesh_.triangles[pair[1]];
-    return {Features::vertex_triangle, {pair[0], c[0], c[1], c[2]}};
-  }
   void look_at(const FeaturePair& pair, bool flagged, std::vector<Found>& out) const {
     const Four& v = pair.vertices;
     if (((flags_[v[0]] | flags_[v[1]] | flags_[v[2]] | flags_[v[3]]) != 0) == flagged)
@@ -196,22 +157,18 @@ void SelfSearch::gather(Positions start, Positions end, std::span<const double> 
   candidates_ = tree_.candidates({start, end, reach}, nearest_part, true, {});
 }
 
-std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<const double> reach,
-                                  std::span<const std::uint8_t> moved) {
+std::vector<Hit> SelfSearch::hits(Positions start, Positions end, std::span<const double> reach) {
+  gather(start, end, reach);
   const Ways ways{start, end, reach};
   const auto test = [&](const FeaturePair& pair, std::vector<Hit>& out) {
     if (!boxes_overlap(pair, ways, nearest_part))
       return;
-    if (const auto hit = hit_of(pair, start, end, reach))
+    if (const auto hit = hit_or_room(pair, ways).hit)
       out.push_back(*hit);
   };
-  if (moved.empty())
-    gather(start, end, reach);
-  const Flags left = moved.empty() ? outside(ways) : Flags();
-  const std::span<const std::uint8_t> flags = moved.empty() ? left : moved;
+  const Flags flags = outside(ways);
   Collector<Hit, decltype(test)> collector(mesh_, flags, test);
-  if (moved.empty())
-    collector.look_at(candidates_, &Candidates::on_way, false);
+  collector.look_at(candidates_, &Candidates::on_way, false);
   if (std::ranges::find(flags, 1) != flags.end())
     collector.look_at(tree_.candidates(ways, nearest_part, false, flags), &Candidates::on_way, true);
   return std::move(collector).sorted();

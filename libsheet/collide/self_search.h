@@ -8,7 +8,7 @@
 // around the whole step, are candidates for all questions about places within these boxes; those that can only be near
 // each other are told apart from those that may come too near on the way. Each question compares its own, tighter boxes
 // first, so its answer does not depend on what the candidates were gathered for. Pairs with a vertex that is found
-// elsewhere, or that was moved since, are looked up in the tree.
+// elsewhere are looked up in the tree.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -16,26 +16,14 @@
 #include <vector>
 
 #include "libsheet/collide/feature_tree.h"
+#include "libsheet/collide/hit.h"
 #include "libsheet/collide/linked_vertices.h"
+#include "libsheet/collide/pair_watch.h"
 #include "libsheet/collide/sheet_layers.h"
-#include "libsheet/collide/swept_pair.h"
 #include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/connectivity.h"
 
 namespace sheet::collide {
-
-// Vertex, then triangle; or edge, then edge.
-struct FeaturePair {
-  Features features = Features::vertex_triangle;
-  std::array<std::uint32_t, 4> vertices{};
-  auto operator<=>(const FeaturePair&) const = default;
-};
-
-// The pair comes nearer than `gap` [m] soon after `time` (0 start, 1 end of the step); `distance` [m]: at the start.
-struct Hit {
-  FeaturePair pair;
-  double time = 0, gap = 0, distance = 0;
-};
 
 struct NearPair {
   FeaturePair pair;
@@ -47,13 +35,17 @@ public:
   // `mesh` must outlive the search.
   explicit SelfSearch(const Connectivity& mesh);
 
-  // The pairs that come too near to each other on the straight way from `start` to `end` [m], ascending. Too near is:
-  // nearer than a tenth of their contact distance, or than half the distance that they start with, if that is less. So
-  // what is apart at the start and not found here is apart all the time, and two that are pressed together lose
-  // distance slowly. `reach` [m], one a vertex: the contact distance of a pair is the mean of its features'.
-  // `moved` (a flag a vertex; empty: all): only pairs with such a vertex are looked at.
+  // The pairs that come too near to each other (hit.h) on the straight way from `start` to `end` [m], ascending.
+  // `reach` [m], one a vertex: the contact distance of a pair is the mean of its features'.
   [[nodiscard]] std::vector<Hit> hits(std::span<const Vector3> start, std::span<const Vector3> end,
-                                      std::span<const double> reach, std::span<const std::uint8_t> moved);
+                                      std::span<const double> reach);
+
+  // Where ends are corrected after that, again and again: asks for hits of what has moved. What is given and the search
+  // must outlive it, and no other question be asked meanwhile.
+  [[nodiscard]] PairWatch watch(std::span<const Vector3> start, std::span<const Vector3> end,
+                                std::span<const double> reach) {
+    return {mesh_, tree_, start, end, reach};
+  }
 
   // Pairs within their contact distance of each other whose surfaces face each other, ascending: a vertex over a
   // triangle, or beside one by no more than 60 degrees off its normal, and edges that cross. Of features joined by an

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <ccd/ccd.h>
 
@@ -69,15 +70,30 @@ struct Hull {
       points[count++] = d.end[i];
     }
   }
-  // d·p > gap |d| for all points p. Differences, interpolation and products together round by less than 16 units in
-  // the last place of numbers below twice the size; twice smallest_gap of it is a thousand times that.
+  // d·p > gap |d| for all points p.
   [[nodiscard]] bool beyond(const Vector3& direction, double gap) const {
-    const double least = (gap + 2 * smallest_gap * size) * direction.norm();
+    const double least = rounded_up(gap) * direction.norm();
     for (int i = 0; i < count; ++i)
       if (!(direction.dot(points[i]) > least)) // also where something is not a number
         return false;
     return true;
   }
+  // The least d·p / |d| less the gap; of the directions that do not have all points on one side something below zero.
+  [[nodiscard]] double room(const Vector3& direction, double gap) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < count; ++i) {
+      const double along = direction.dot(points[i]);
+      if (!(along > 0))
+        return -rounded_up(gap);
+      least = std::min(least, along);
+    }
+    return least / direction.norm() - rounded_up(gap);
+  }
+
+private:
+  // Differences, interpolation and products together round by less than 16 units in the last place of numbers below
+  // twice the size; twice smallest_gap of it is a thousand times that.
+  [[nodiscard]] double rounded_up(double gap) const { return gap + 2 * smallest_gap * size; }
 };
 
 // What libccd's callbacks see: the hull, and the last direction that it was asked about.
@@ -156,13 +172,17 @@ struct Search {
   double gap, time_tolerance;
   int left;
   Vector3 direction;
+  double room = std::numeric_limits<double>::infinity(); // by how much farther than the gap, where it is proved
 
   // Depth first, earlier half first.
   std::optional<double> between(double from, double to) {
     if (--left < 0)
       return from;
-    if (apart(Hull(differences, from, to), gap, direction))
+    const Hull hull(differences, from, to);
+    if (apart(hull, gap, direction)) {
+      room = std::min(room, hull.room(direction, gap));
       return std::nullopt;
+    }
     if (to - from <= time_tolerance)
       return from;
     const double middle = 0.5 * (from + to);
@@ -190,25 +210,31 @@ Vector3 across(const Differences& d, const Vector3& towards) {
   return normal.dot(towards) < 0 ? Vector3(-normal) : normal;
 }
 
-} // namespace
-
-bool surely_apart(const SweptPair& pair, double gap) {
-  const Differences d = differences(pair);
-  if (!d.moving)
-    return true;
+// The larger of what the two guesses prove.
+double room(const Differences& d, double gap) {
   const Hull whole(d);
   const double wanted = std::max(gap, smallest_gap * d.size);
   const Vector3 direction = middle(whole);
-  return whole.beyond(across(d, direction), wanted) || whole.beyond(direction, wanted);
+  return std::max(whole.room(across(d, direction), wanted), whole.room(direction, wanted));
 }
 
-std::optional<double> first_contact(const SweptPair& pair, const SweptOptions& options) {
+} // namespace
+
+double sure_room(const SweptPair& pair, double gap) { return room(differences(pair), gap); }
+
+bool surely_apart(const SweptPair& pair, double gap) {
+  const Differences d = differences(pair);
+  return !d.moving || room(d, gap) > 0;
+}
+
+ContactOrRoom contact_or_room(const SweptPair& pair, const SweptOptions& options) {
   const Differences d = scaled(differences(pair));
   if (!d.moving)
-    return std::nullopt;
+    return {};
   const Vector3 direction = options.towards.isZero(0) ? middle(Hull(d, 0, 1)) : options.towards;
   Search search{d, std::max(options.gap / d.size, smallest_gap), options.time_tolerance, options.budget, direction};
-  return search.between(0, 1);
+  const std::optional<double> contact = search.between(0, 1);
+  return {contact, contact ? 0 : search.room * d.size};
 }
 
 } // namespace sheet::collide

@@ -32,12 +32,23 @@ struct SweptOptions {
 // taken for it: what rounding needs.
 inline constexpr double smallest_gap = 1e-12;
 
-// Cheap: true only if the features surely are further apart than the gap all the time; of layers it mostly is, if they
-// are.
+// Cheap: by how much farther than the gap the features are from each other all the time, at least; less than they are,
+// and mostly below zero, where no layers lie on each other.
+[[nodiscard]] double sure_room(const SweptPair& pair, double gap);
+
+// True only if that is positive, or the points do not move against each other.
 [[nodiscard]] bool surely_apart(const SweptPair& pair, double gap);
+
+struct ContactOrRoom {
+  std::optional<double> time; // as of first_contact
+  double room = 0;            // if there is none: by how much farther than the gap they are proved to be all the time
+};
+[[nodiscard]] ContactOrRoom contact_or_room(const SweptPair& pair, const SweptOptions& options);
 
 // A time until which the features are surely further apart than the gap, and shortly after which they may not be; none
 // if they surely are all the time. Points that do not move against each other have no contact.
-[[nodiscard]] std::optional<double> first_contact(const SweptPair& pair, const SweptOptions& options);
+[[nodiscard]] inline std::optional<double> first_contact(const SweptPair& pair, const SweptOptions& options) {
+  return contact_or_room(pair, options).time;
+}
 
 } // namespace sheet::collide

@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
     const std::vector<double> reach(pile.start.size(), Pile::thickness);
     const double check = median_cpu_ms([&] { (void)SelfSearch(unused).crossing(pile.start); });
     std::size_t hits = 0, springs = 0;
-    const double find = median_cpu_ms([&] { hits = SelfSearch(unused).hits(pile.start, pile.end, reach, {}).size(); });
+    const double find = median_cpu_ms([&] { hits = SelfSearch(unused).hits(pile.start, pile.end, reach).size(); });
     std::vector<Vector3> safe;
     const double respond = median_cpu_ms([&] {
       StepPath path;

@@ -99,7 +99,7 @@ TEST(SelfSearch, HitsAreThoseOfAllPairs) {
   const Sheets s(1, 0.2);
   SelfSearch search(s.mesh);
   std::set<FeaturePair> found;
-  for (const Hit& hit : search.hits(s.start, s.end, s.reach, {}))
+  for (const Hit& hit : search.hits(s.start, s.end, s.reach))
     EXPECT_TRUE(found.insert(hit.pair).second);
   std::size_t wanted = 0;
   s.for_pairs([&](const FeaturePair& pair) {
@@ -119,25 +119,37 @@ TEST(SelfSearch, HitsAreThoseOfAllPairs) {
   EXPECT_GT(wanted, 20u);
 }
 
-TEST(SelfSearch, HitsOfMovedVerticesAreThoseThatHaveOne) {
-  Sheets s(1, 0.2);
+// Ends that go on by more or less each time, of few vertices and of many.
+TEST(SelfSearch, WatchedHitsAreThoseThatHaveAVertexThatMoved) {
+  const Sheets s(1, 0.2);
   SelfSearch search(s.mesh);
-  const auto all = search.hits(s.start, s.end, s.reach, {});
-  std::vector<std::uint8_t> moved(s.start.size(), 0);
-  for (std::size_t v = 0; v < moved.size(); v += 7)
-    moved[v] = 1;
-  std::size_t wanted = 0;
-  std::set<FeaturePair> found;
-  for (const Hit& hit : search.hits(s.start, s.end, s.reach, moved))
-    found.insert(hit.pair);
-  for (const Hit& hit : all) {
-    const auto& v = hit.pair.vertices;
-    const bool has_one = (moved[v[0]] | moved[v[1]] | moved[v[2]] | moved[v[3]]) != 0;
-    EXPECT_EQ(found.contains(hit.pair), has_one);
-    wanted += has_one;
+  (void)search.hits(s.start, s.end, s.reach);
+  std::vector<Vector3> end = s.end;
+  PairWatch watch = search.watch(s.start, end, s.reach);
+  std::size_t wanted = 0, left_out = 0;
+  for (unsigned round = 0; round < 24; ++round) {
+    const std::size_t every = 1 + round % 5 * 3;
+    const double by = std::array{0.001, 0.01, 0.05}[round % 3];
+    const auto ways = scattered(end.size(), 10 + round, by);
+    std::vector<std::uint8_t> moved(end.size(), 0);
+    for (std::size_t v = round % every; v < end.size(); v += every) {
+      end[v] += ways[v];
+      moved[v] = 1;
+    }
+    std::vector<FeaturePair> pairs, found;
+    for (const Hit& hit : SelfSearch(s.mesh).hits(s.start, end, s.reach)) {
+      const auto& v = hit.pair.vertices;
+      const bool has_one = (moved[v[0]] | moved[v[1]] | moved[v[2]] | moved[v[3]]) != 0;
+      (has_one ? wanted : left_out) += 1;
+      if (has_one)
+        pairs.push_back(hit.pair);
+    }
+    for (const Hit& hit : watch.hits(end))
+      found.push_back(hit.pair);
+    EXPECT_EQ(found, pairs) << round;
   }
-  EXPECT_EQ(found.size(), wanted);
-  EXPECT_LT(wanted, all.size());
+  EXPECT_GT(wanted, 1000u);
+  EXPECT_GT(left_out, 1000u);
 }
 
 TEST(SelfSearch, NearAreThoseThatFaceEachOther) {
@@ -195,12 +207,12 @@ TEST(SelfSearch, AnswersDoNotDependOnThePlacesBefore) {
         pairs.push_back(f.pair);
       return pairs;
     };
-    const auto hits = pairs_of(SelfSearch(s.mesh).hits(start, end, reach, {}));
-    EXPECT_NE(hits, pairs_of(search.hits(s.start, s.end, s.reach, {}))); // the places matter
-    EXPECT_EQ(pairs_of(search.hits(start, end, reach, {})), hits) << every;
+    const auto hits = pairs_of(SelfSearch(s.mesh).hits(start, end, reach));
+    EXPECT_NE(hits, pairs_of(search.hits(s.start, s.end, s.reach))); // the places matter
+    EXPECT_EQ(pairs_of(search.hits(start, end, reach)), hits) << every;
     EXPECT_EQ(pairs_of(search.near(end, reach)), pairs_of(SelfSearch(s.mesh).near(end, reach))) << every;
     EXPECT_EQ(search.crossing(end), SelfSearch(s.mesh).crossing(end)) << every;
-    EXPECT_EQ(pairs_of(search.hits(start, end, reach, {})), hits) << every;
+    EXPECT_EQ(pairs_of(search.hits(start, end, reach)), hits) << every;
   }
 }
 

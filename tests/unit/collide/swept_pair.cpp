@@ -160,6 +160,41 @@ TEST(SweptPair, UntilThenTheyAreApart) {
   EXPECT_GT(contacts, 400);
 }
 
+// Ends anywhere that together are as far from those given as the room is, no more: still no contact.
+TEST(SweptPair, RoomIsForEndsElsewhere) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  constexpr double gap = 0.05;
+  int with_room = 0;
+  double most = 0;
+  for (int i = 0; i < 4000; ++i) {
+    SweptPair pair;
+    pair.features = i % 2 == 0 ? Features::vertex_triangle : Features::edge_edge;
+    for (std::size_t p = 0; p < 4; ++p) {
+      pair.start[p] = Vector3(uniform(random), uniform(random), uniform(random));
+      pair.end[p] = Vector3(uniform(random), uniform(random), uniform(random));
+    }
+    const auto [time, exact] = contact_or_room(pair, {.gap = gap, .time_tolerance = 1e-3});
+    const double room = std::max(exact, sure_room(pair, gap));
+    EXPECT_TRUE(!time || room <= 0);
+    EXPECT_EQ(surely_apart(pair, gap), sure_room(pair, gap) > 0);
+    if (!(room > 0))
+      continue;
+    ++with_room;
+    most = std::max(most, room);
+    std::array<double, 4> part;
+    for (double& p : part)
+      p = std::abs(uniform(random));
+    const double sum = part[0] + part[1] + part[2] + part[3];
+    for (std::size_t p = 0; p < 4; ++p)
+      pair.end[p] +=
+          0.999 * room * part[p] / sum * Vector3(uniform(random), uniform(random), uniform(random)).normalized();
+    EXPECT_FALSE(first_contact(pair, {.gap = gap, .time_tolerance = 1e-3})) << i;
+  }
+  EXPECT_GT(with_room, 1000);
+  EXPECT_GT(most, 0.3);
+}
+
 TEST(SweptPair, NotANumberIsAContact) { EXPECT_TRUE(first_contact(falling(std::nan(""), {0, 0, -1}), {})); }
 
 } // namespace
