@@ -11,7 +11,7 @@ namespace sheet::collide {
 
 namespace {
 
-constexpr std::size_t impulse_rounds = 10, sweeps_of_round = 30, group_rounds = 5;
+constexpr std::size_t impulse_rounds = 10, sweeps_of_round = 30, group_rounds = 5, hold_rounds = 12, rounds_of_hold = 3;
 constexpr std::array<double, 4> parts_of_way = {1, 0.5, 0.25, 0}; // pull-back
 constexpr double impulse_part = 0.5;                              // of the contact distance, that impulses want
 constexpr double least_missed = 0.1;                              // of the contact distance, that is told of
@@ -31,7 +31,7 @@ public:
   Response(StepPath& path, SelfSearch& search, std::span<const double> reach, std::vector<Axes> prescribed,
            std::span<const RigidStep> solids)
       : path_(path), search_(search), reach_(reach), prescribed_(std::move(prescribed)), solids_(solids),
-        islands_(path.start.size()), mobility_(path.start.size()) {
+        islands_(path.start.size()), mobility_(path.start.size()), shortened_(path.start.size(), 0) {
     for (std::size_t v = 0; v < mobility_.size(); ++v)
       mobility_[v] = free_part(path.fixed[v]) / path.mass[v];
   }
@@ -44,10 +44,11 @@ public:
     watch_.emplace(search_.watch(path_.start, path_.end, reach_));
     const std::vector<Vector3> asked = path_.end, velocity = path_.velocity;
     note(hits);
-    hits = give_impulses(std::move(hits));
-    hits = take_back_throws(std::move(hits), asked);
+    hits = take_back_throws(give_impulses(std::move(hits), impulse_rounds), asked);
+    hits = hold_some(std::move(hits), asked);
     hits = move_groups(std::move(hits));
     pull_back(std::move(hits));
+    count_shortened(asked);
     set_velocities(asked, velocity);
     return report_;
   }
@@ -107,8 +108,8 @@ private:
     }
   }
 
-  std::vector<Hit> give_impulses(std::vector<Hit> hits) {
-    for (std::size_t round = 0; round < impulse_rounds && !hits.empty(); ++round) {
+  std::vector<Hit> give_impulses(std::vector<Hit> hits, std::size_t rounds) {
+    for (std::size_t round = 0; round < rounds && !hits.empty(); ++round) {
       for (const Hit& hit : hits)
         add_inequality(hit);
       const std::vector<Vector3> before = path_.end;
@@ -119,8 +120,52 @@ private:
     return hits;
   }
 
-  // Where many pairs want apart what has no room for it, their impulses drive each other on, without end. An island in
-  // which they move a vertex farther than any of its pairs can want goes on from where it was asked to go.
+  // What impulses leave: vertices that have no room between others, of which some are prescribed. They go 1/2, 1/4,
+  // then none of their way and are as fixed; impulses take what is beside round them.
+  std::vector<Hit> hold_some(std::vector<Hit> hits, const std::vector<Vector3>& asked) {
+    if (hits.empty())
+      return hits;
+    const std::vector<Vector3> without = ends_without_way(path_.end, std::vector<std::uint8_t>(path_.end.size(), 0));
+    std::vector<Vector3> wanted = path_.end;
+    std::vector<std::uint8_t> level(wanted.size(), 0);
+    for (std::size_t round = 0; round < hold_rounds && !hits.empty(); ++round) {
+      const std::vector<std::uint8_t> next = held_more(hits, level);
+      if (next == level)
+        break;
+      const std::vector<Vector3> before = path_.end;
+      for (std::size_t v = 0; v < level.size(); ++v)
+        if (next[v] != level[v]) {
+          wanted[v] = level[v] == 0 ? path_.end[v] : wanted[v];
+          path_.end[v] = without[v] + parts_of_way[next[v]] * (wanted[v] - without[v]);
+          mobility_[v] = Vector3::Zero();
+          shortened_[v] = 1;
+        }
+      level = next;
+      std::erase_if(inequalities_, [&](const Inequality& q) { return lever(q) > longest_lever; });
+      hits = take_back_throws(give_impulses(remaining(std::move(hits), before), rounds_of_hold), asked);
+    }
+    return hits;
+  }
+
+  // The next level for the vertices of hits that are not at their last: those that flow along a solid, if a hit has
+  // any, else those that are not prescribed.
+  [[nodiscard]] std::vector<std::uint8_t> held_more(std::span<const Hit> hits,
+                                                    const std::vector<std::uint8_t>& level) const {
+    constexpr std::uint8_t last = parts_of_way.size() - 1;
+    std::vector<std::uint8_t> next = level;
+    for (const Hit& hit : hits) {
+      const auto flows = [&](std::uint32_t v) { return path_.touch[v] != no_solid && level[v] < last; };
+      const bool some_flow = std::ranges::any_of(hit.pair.vertices, flows);
+      for (const std::uint32_t v : hit.pair.vertices)
+        if (some_flow ? flows(v) : path_.fixed[v] != all_axes && level[v] < last)
+          next[v] = static_cast<std::uint8_t>(level[v] + 1);
+    }
+    return next;
+  }
+
+  // Where many pairs want apart what has no room for it, their impulses drive each other on, without end. What they
+  // move farther than any pair of its island can want, and what is in a pair with that, goes on from where it was asked
+  // to go.
   std::vector<Hit> take_back_throws(std::vector<Hit> hits, const std::vector<Vector3>& asked) {
     std::vector<double> wanted(asked.size(), 0); // at each vertex [m]
     for (const Inequality& q : inequalities_) {
@@ -130,17 +175,19 @@ private:
       for (const std::uint32_t v : q.vertices)
         wanted[v] = std::max(wanted[v], way + q.distance);
     }
-    const std::vector<Vector3> before = path_.end;
+    std::vector<std::uint8_t> thrown(asked.size(), 0);
     for (const auto& island : islands_.all()) {
-      double farthest = 0, most = 0;
-      for (const std::uint32_t v : island) {
-        farthest = std::max(farthest, (path_.end[v] - asked[v]).norm());
+      double most = 0;
+      for (const std::uint32_t v : island)
         most = std::max(most, wanted[v]);
-      }
-      if (farthest > longest_throw * most)
-        for (const std::uint32_t v : island)
-          path_.end[v] = asked[v];
+      for (const std::uint32_t v : island)
+        thrown[v] = shortened_[v] == 0 && (path_.end[v] - asked[v]).norm() > longest_throw * most;
     }
+    const std::vector<Vector3> before = path_.end;
+    for (const Inequality& q : inequalities_)
+      if (std::ranges::any_of(q.vertices, [&](std::uint32_t v) { return thrown[v] != 0; }))
+        for (const std::uint32_t v : q.vertices)
+          path_.end[v] = shortened_[v] == 0 ? asked[v] : path_.end[v];
     return path_.end == before ? std::move(hits) : remaining(std::move(hits), before);
   }
 
@@ -261,13 +308,20 @@ private:
       hits = remaining(std::move(hits), before);
     }
     for (std::size_t v = 0; v < level.size(); ++v)
-      if (level[v] > 0) {
-        ++report_.pulled_back;
-        if (driven[v] && (wanted[v] - path_.end[v]).norm() > least_missed * reach_[v]) {
-          ++report_.held_back;
-          report_.held_at = path_.end[v];
-        }
+      shortened_[v] |= static_cast<std::uint8_t>(level[v] > 0);
+  }
+
+  void count_shortened(const std::vector<Vector3>& asked) {
+    for (std::size_t v = 0; v < shortened_.size(); ++v) {
+      if (shortened_[v] == 0)
+        continue;
+      ++report_.pulled_back;
+      const Vector3 prescribed = with_fixed(path_.fixed[v], asked[v], path_.end[v]);
+      if ((prescribed - path_.end[v]).norm() > least_missed * reach_[v]) {
+        ++report_.held_back;
+        report_.held_at = path_.end[v];
       }
+    }
   }
 
   void set_velocities(const std::vector<Vector3>& asked, const std::vector<Vector3>& before) {
@@ -352,7 +406,8 @@ private:
   std::vector<Axes> prescribed_; // velocities
   std::span<const RigidStep> solids_;
   Sets islands_;
-  std::vector<Vector3> mobility_; // inverse mass along each axis [1/kg]
+  std::vector<Vector3> mobility_;       // inverse mass along each axis [1/kg]
+  std::vector<std::uint8_t> shortened_; // vertices that go a part of their way, or none
   std::vector<Inequality> inequalities_;
   SelfReport report_;
 };
