@@ -127,7 +127,9 @@ constexpr std::array table = {
     TermEntry{"gap pressure",
               [](const Model& m) { return m.liquid.viscous() && (m.may_squeeze || m.walls.size() > 1); },
               [](const Model&) -> std::string { return "what two solids close on flows out from between them"; },
-              [](const Model& m) { return m.liquid.viscous() ? "fewer than two [[solid]]s" : inviscid(m); },
+              [](const Model& m) {
+                return m.liquid.viscous() ? "no two [[solid]]s of which one moves or lets liquid flow" : inviscid(m);
+              },
               [](const Model&, TermMaker& maker) { maker.add(ChannelPressure()); }},
     TermEntry{"weight on walls", [](const Model& m) { return !m.walls.empty() && m.has_weight(); },
               [](const Model&) -> std::string { return "thick parts of a layer flow to thin ones by their weight"; },

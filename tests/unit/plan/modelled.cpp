@@ -56,6 +56,17 @@ TEST(Modelled, LiquidThatFlowsOnASolidIsDraggedAndLevels) {
   EXPECT_TRUE(on_plane("slip").contains("weight on walls"));
 }
 
+TEST(Modelled, NoPressureInGapsIsExplainedByWhatSolidsDo) {
+  const std::string box = "[[solid]]\nshape = \"box\"\nsize = [1, 1, 1]\n";
+  const auto gaps = [&](const std::string& one, const std::string& other) {
+    const auto parts = modelled(scene_of(disk + liquid + box + one + box + other));
+    return *std::ranges::find(parts, "gap pressure", &scene::ModelledPart::name);
+  };
+  EXPECT_EQ(gaps("", "").why, "no two [[solid]]s of which one moves or lets liquid flow");
+  EXPECT_TRUE(gaps("contact = \"flow\"\n", "").modelled);
+  EXPECT_TRUE(gaps("velocity = [0, 1, 0]\n", "").modelled);
+}
+
 // Each term that is made has the name under which the table explains it, but for those of the shell.
 TEST(Modelled, TermsAreMadeUnderTheNamesThatTheTableHas) {
   Model model;
