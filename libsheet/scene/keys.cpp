@@ -378,6 +378,14 @@ const Key* KeyTable::find(std::string_view key) const {
 
 const KeyTable& scene_keys() { return scene_table; }
 
+std::vector<std::string> tables_with(std::string_view key) {
+  std::vector<std::string> tables;
+  for (const Key& table : scene_table.keys)
+    if (table.below->find(key) != nullptr)
+      tables.push_back(is_numbered(table.name) ? fmt::format("[[{}]]", table.name) : fmt::format("[{}]", table.name));
+  return tables;
+}
+
 std::vector<ListedKey> listed_keys() {
   std::vector<ListedKey> listed;
   list_below(scene_table, "", listed);

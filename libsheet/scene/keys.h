@@ -35,6 +35,9 @@ struct KeyTable {
 // The tables of a scene, as keys of one above them.
 [[nodiscard]] const KeyTable& scene_keys();
 
+// Those of them that have a key of this name, as they are written: "[material]", "[[solid]]".
+[[nodiscard]] std::vector<std::string> tables_with(std::string_view key);
+
 // A key with the way to it from the top of the scene, in the words of --set: "material.viscosity", "hold.N.kind" for
 // one in a list of tables, whose items N counts from 0.
 struct ListedKey {

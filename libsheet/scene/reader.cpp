@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <fmt/ranges.h>
+
 #include "libsheet/base/edit_distance.h"
 
 namespace sheet::scene {
@@ -320,8 +322,12 @@ void TableReader::finish() {
   for (const Member& member : table_.members) {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end())
       continue;
-    problems_.add(member.place, fmt::format("unknown key \"{}\" in {}{}", member.key.substr(0, 60), where_,
-                                            suggestion(member.key, known_)));
+    const std::vector<std::string> others =
+        keys_.find(member.key) == nullptr ? tables_with(member.key) : std::vector<std::string>{};
+    problems_.add(member.place,
+                  fmt::format("unknown key \"{}\" in {}{}", member.key.substr(0, 60), where_,
+                              others.empty() ? suggestion(member.key, known_)
+                                             : fmt::format("; it belongs in {}", fmt::join(others, ", "))));
   }
 }
 

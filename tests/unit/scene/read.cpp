@@ -90,6 +90,17 @@ TEST(Read, AllProblemsTogetherInTheOrderOfTheFile) {
             "s:6:2: unknown key \"modell\" in the scene; did you mean \"model\"?");
 }
 
+TEST(Read, AKeyOfAnotherTableIsToldItsPlace) {
+  const std::string disk = "[sheet]\nshape = \"disk\"\nradius = 1\nthickness = 0.02\nedge_length = 0.2\n"
+                           "[material]\nviscosity = 1\ndensity = 1\n";
+  EXPECT_EQ(problem("gravity = [0, -9.81, 0]\n" + disk + "[heat]\nviscosity_law = \"arrhenius\"\n" +
+                    "specific_heat = 1\ntemperature = 300\n[contact]\ncontact_angle = 1\nheight = 2\n"),
+            "s:1:1: unknown key \"gravity\" in the scene; it belongs in [environment]\n"
+            "s:11:1: unknown key \"viscosity_law\" in [heat]; it belongs in [material]\n"
+            "s:15:1: unknown key \"contact_angle\" in [contact]; it belongs in [[solid]]\n"
+            "s:16:1: unknown key \"height\" in [contact]; it belongs in [sheet], [[solid]]");
+}
+
 TEST(Read, ErrorsAreBadInput) {
   try {
     (void)parse_scene("", "s");
