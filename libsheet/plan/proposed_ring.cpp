@@ -208,11 +208,38 @@ double until_of(const Scene& scene, const Frame& first) {
   return std::isfinite(until) && until > 0 ? rounded(until) : 1;
 }
 
+// In which the first frame's sheet falls to the level of the bath [s].
+double time_to_bath(const Scene& scene, const Frame& first) {
+  if (!scene.environment.bath)
+    return 0;
+  const Vector3 up = -scene.environment.gravity->normalized();
+  double height = std::numeric_limits<double>::infinity();
+  for (const Vector3& x : positions(first))
+    height = std::min(height, up.dot(x) - scene.environment.bath->level);
+  return std::sqrt(2 * std::max(0.0, height) / scene.environment.gravity->norm());
+}
+
+// When the last has ended of what the scene prescribes: holds, inflows, rows, solids that come through, and what falls
+// into a bath has come there [s].
+double action_time(const Scene& scene, const Frame& first) {
+  double time = std::max(passing_time(scene, first), time_to_bath(scene, first));
+  for (const scene::Hold& hold : scene.holds)
+    time = std::max(time, hold.until.value_or(0));
+  for (const scene::Inflow& inflow : scene.inflows)
+    time = std::max(time, inflow.until.value_or(0));
+  for (const double event : events_of(scene))
+    time = std::max(time, event);
+  return time;
+}
+
 // That of films where it gives 50 to 250 frames, else a round one that gives 50 to 125: so few that they do not rule
-// the steps, each of which an output time ends.
-double rate_of(double until) {
-  constexpr double film = 24, fewest = 50, most = 250; // [1/s], frames
-  return film * until >= fewest && film * until <= most ? film : round_number(fewest / until);
+// the steps, each of which an output time ends. Up to that of films, and somewhat above 250 frames, where ten shall
+// show what ends at the beginning (action_time).
+double rate_of(double until, double action) {
+  constexpr double film = 24, fewest = 50, most = 250, of_action = 10; // [1/s], frames
+  const double rate = film * until >= fewest && film * until <= most ? film : round_number(fewest / until);
+  const double wanted = action > 0 ? std::min({of_action / action, film, most / until}) : 0;
+  return wanted > rate ? std::min(film, round_number(wanted)) : rate;
 }
 
 std::string word_of_edges(const ProposedRing& ring) {
@@ -253,7 +280,7 @@ ProposedRing proposed_ring(const Scene& with_heat, const Frame& first, const Rin
   until = wishes.until.value_or(until);
   const auto folds = edges_in_folds(scene, first, wishes.quality);
   return {.until = until,
-          .fps = wishes.fps.value_or(rate_of(until)),
+          .fps = wishes.fps.value_or(rate_of(until, action_time(with_heat, first))),
           .folds = folds,
           .stages = pipeline_at(scene, wishes.quality, folds)};
 }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/proposed_ring.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "libsheet/plan/first_frame.h"
+
+namespace sheet {
+namespace {
+
+ProposedRing ring_of(const std::string& text) {
+  const Scene scene = scene::parse_scene(text, "s");
+  return proposed_ring(scene, first_frame(scene), {});
+}
+
+// Syrup of 3 mm, 80 by 60 mm, at this height over a bath.
+ProposedRing over_bath(const std::string& height) {
+  return ring_of("[sheet]\nshape = \"rectangle\"\nsize = [0.08, 0.06]\nedge_length = 0.01\nthickness = 0.003\n"
+                 "center = [0, " +
+                 height +
+                 ", 0]\n[material]\nviscosity = 50\ndensity = 900\nsurface_tension = 0.03\n[environment]\n"
+                 "gravity = [0, -9.81, 0]\nbath = {density = 1000}\n");
+}
+
+// 0.2 m down in 0.2 s; on the bath its tension contracts it within ten seconds and more.
+TEST(ProposedRing, FramesShowWhatFallsIntoABath) {
+  EXPECT_GT(over_bath("0").until, 10);
+  EXPECT_EQ(over_bath("0.2").until, over_bath("0").until);
+  EXPECT_EQ(over_bath("0").fps, 5);
+  EXPECT_EQ(over_bath("0.2").fps, 20);
+}
+
+// A layer of honey that creeps down a slope for a minute, over which a ball may pass in two seconds.
+TEST(ProposedRing, FramesShowWhatEndsAtTheBeginning) {
+  const std::string slope =
+      "[sheet]\nshape = \"rectangle\"\nsize = [0.15, 0.06]\nedge_length = 0.01\nthickness = 0.004\n"
+      "center = [0, 0.002, 0]\n[material]\nviscosity = 10\ndensity = 1400\n[environment]\ngravity = [2, -9.6, 0]\n"
+      "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncontact = \"flow\"\n";
+  const std::string ball = "[[solid]]\nshape = \"sphere\"\nradius = 0.02\ncenter = [-0.11, 0.021, 0]\n";
+  const ProposedRing alone = ring_of(slope + ball), passed = ring_of(slope + ball + "velocity = [0.1, 0, 0]\n");
+  EXPECT_EQ(passed.until, alone.until);
+  EXPECT_GT(alone.until, 50);
+  EXPECT_EQ(alone.fps, 1);
+  EXPECT_EQ(passed.fps, 5);
+  const std::string hold = "[[hold]]\nregion = \"x_min\"\nuntil = ";
+  EXPECT_EQ(ring_of(slope + hold + "2\n").fps, 5);
+  EXPECT_EQ(ring_of(slope + hold + "20\n").fps, 1);    // twenty frames
+  EXPECT_EQ(ring_of(slope + hold + "0.001\n").fps, 5); // not more than 250 frames or so
+}
+
+} // namespace
+} // namespace sheet
