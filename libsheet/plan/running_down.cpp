@@ -67,12 +67,23 @@ double resting_thickness(const Liquid& liquid, const scene::Solid& solid, double
   return 2 * capillary_length * std::sin(solid.contact_angle.value_or(std::numbers::pi) / 2);
 }
 
+// What the turning of a solid adds to gravity for what turns with it at x [m/s²].
+Vector3 outward_pull(const scene::Motion& motion, double t, const Vector3& x) {
+  const auto* turning = std::get_if<scene::Rotating>(&motion);
+  if (turning == nullptr || turning->rate.entries.empty())
+    return Vector3::Zero();
+  const Vector3 axis = turning->axis.normalized();
+  const Vector3 out = x - turning->center - scene::integral(turning->velocity, 0, t);
+  const double rate = scene::value_at(turning->rate, t);
+  return rate * rate * (out - out.dot(axis) * axis);
+}
+
 } // namespace
 
 std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t) {
   const Vector3 gravity = scene.environment.gravity.value_or(Vector3::Zero());
   const scene::Measured sheet = measured(first);
-  if (!scene::flows_on_solids(scene) || gravity.isZero(0) || !sheet.length || !sheet.thickness || !(*sheet.length > 0))
+  if (!scene::flows_on_solids(scene) || !sheet.length || !sheet.thickness || !(*sheet.length > 0))
     return std::nullopt;
   const solid::Solids solids(scene);
   const auto x = positions(first);
@@ -90,7 +101,9 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
         continue;
       const Vector3 normal =
           solids.pose(i, t).linear() * (solids.pose(i, first.time).linear().transpose() * point.normal);
-      along += (gravity - gravity.dot(normal) * normal).norm();
+      const Vector3 place = scene::motion_between(scene.solids[i].motion, first.time, t) * x[v];
+      const Vector3 pull = gravity + outward_pull(scene.solids[i].motion, t, place);
+      along += (pull - pull.dot(normal) * normal).norm();
       slip += scene.solids[i].slip_length;
       ++lies;
       lying[numbers.empty() ? 0 : numbers[v]] = true;

@@ -17,7 +17,8 @@ struct RunningDown {
 };
 
 // At the time t [s], when the solids have turned and carried what lies on them. Nothing unless half of the sheet lies
-// on solids along which it flows and which are, in the mean, steeper than 6 degrees then.
+// on solids along which it flows and which are, in the mean, steeper than 6 degrees then, or turn so fast that they
+// drive it outwards as such slopes do.
 [[nodiscard]] std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t);
 
 // Of a free sheet without heat that lands on such solids, and would run down them by half its length long after the

@@ -72,6 +72,25 @@ TEST(RunningDown, WhenTheSolidHasTurned) {
   EXPECT_NEAR(honey->speed, honey_on(30)->speed, 1e-3 * honey->speed);
 }
 
+// A drop of honey on a disk that turns about its axis [Emslie, Bonner, Peck 1958]; a slow one hardly drives it.
+TEST(RunningDown, ATurningDiskDrivesItOutwards) {
+  const auto spun = [](double rate) {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[sheet]\nshape = \"disk\"\nradius = 0.03\nedge_length = 0.003\nthickness = 0.002\n"
+                    "center = [0.2, 0.001, 0]\n[material]\nviscosity = 5\ndensity = 1400\n[environment]\n"
+                    "gravity = [0, -9.81, 0]\n[[solid]]\nshape = \"cylinder\"\nradius = 0.1\nheight = 0.01\n"
+                    "center = [0.2, -0.005, 0]\ncontact = \"flow\"\nangular_velocity = [0, {}, 0]\n",
+                    rate),
+        "s");
+    return runs_down(scene, first_frame(scene), 0);
+  };
+  const auto honey = spun(30);
+  ASSERT_TRUE(honey);
+  const double u = 1400 * 30 * 30 * 0.02 * 0.002 * 0.002 / (3 * 5); // at the disk's mean radius
+  EXPECT_NEAR(honey->speed, u, 0.05 * u);
+  EXPECT_FALSE(spun(3));
+}
+
 // A sheet runs as its own liquid does, whatever [material] says.
 TEST(RunningDown, ASheetOfAnotherLiquidRunsAsThat) {
   const Scene scene = scene::parse_scene(
