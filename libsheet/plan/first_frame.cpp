@@ -209,7 +209,10 @@ Frame checked_first_frame(const Scene& scene) {
   }
   if (!scene.solids.empty())
     check_outside_solids(scene, frame);
-  if (!scene.solids.empty() || (scene.contact && scene.contact->self)) {
+  const bool keeps_apart = scene.contact && scene.contact->self;
+  if (const std::string seam = keeps_apart ? seam_warning(scene, frame) : ""; !seam.empty())
+    fail(ExitCode::bad_input, "{}", seam);
+  if (!scene.solids.empty() || keeps_apart) {
     Frame copy = frame; // as if a step so short that no solid moves had made it
     formats::Array start = formats::make_standard_array("start_position", frame.vertices);
     std::ranges::copy(positions(std::as_const(frame)), start.values<Eigen::Vector3d>().begin());

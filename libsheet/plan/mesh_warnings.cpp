@@ -13,6 +13,7 @@
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/mesh_width.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/scene/solid_width.h"
 #include "libsheet/shape/mesh_measure.h"
@@ -31,7 +32,9 @@ constexpr double close = 1e-6;                        // of the whole: what lies
 
 std::string written(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z()); }
 
-bool is_mesh(const scene::SheetTable& sheet) { return std::holds_alternative<scene::SheetMesh>(sheet.shape); }
+bool is_mesh_sheet(const scene::SheetTable& sheet) { return std::holds_alternative<scene::SheetMesh>(sheet.shape); }
+
+bool is_mesh(const scene::Solid& solid) { return std::holds_alternative<scene::SolidMesh>(solid.shape); }
 
 std::size_t pieces_of(const Frame& frame) {
   DisjointSets sets(frame.vertices);
@@ -55,21 +58,10 @@ std::vector<Vector3> border_middles(const Frame& frame) {
   return middles;
 }
 
-// Of seams that are not welded, or else of pieces that nothing joins.
+// Of pieces that nothing joins, of meshes without seams.
 std::string warning_of_pieces(const Scene& scene, const Frame& first) {
-  if (std::ranges::none_of(scene.sheets, is_mesh))
+  if (std::ranges::none_of(scene.sheets, is_mesh_sheet) || !seam_warning(scene, first).empty())
     return {};
-  Box box;
-  for (const Vector3& x : positions(first))
-    box.add(x);
-  const std::vector<Vector3> middles = border_middles(first);
-  const std::vector<bool> paired = coincident(middles, close * box.diagonal());
-  const auto seam = std::ranges::find(paired, true);
-  if (seam != paired.end())
-    return fmt::format(
-        "{} edges of the sheet's border lie on each other, the first at {}, and nothing joins them: weld "
-        "the mesh's vertices (merge those at the same place), or it comes apart there",
-        std::ranges::count(paired, true), written(middles[static_cast<std::size_t>(seam - paired.begin())]));
   const auto present = std::ranges::count_if(scene.sheets, [](const auto& sheet) { return !sheet.enters; });
   if (const std::size_t pieces = pieces_of(first); pieces > static_cast<std::size_t>(present))
     return fmt::format("the sheet's mesh has {} pieces that nothing joins: if they belong together, weld its vertices",
@@ -98,23 +90,23 @@ std::string warning_of_needles(const Frame& first) {
       count, least * 180 / std::numbers::pi, sharpest, written(x[triangles(first)[sharpest][0]]));
 }
 
-// Of solids that are narrower than edges are long; else "".
+// Of solids that are narrower than edges are long, meshes in parts; else "".
 std::string warning_of_narrow_solids(const Scene& scene, const solid::Solids& solids, const Frame& first) {
   const double edge = mean_edge(first);
-  std::vector<std::size_t> narrow;
+  std::vector<double> width;
   for (std::size_t i = 0; i < solids.size(); ++i)
-    if (scene::width_of(scene.solids[i].shape) < edge)
-      narrow.push_back(i);
-  if (narrow.empty())
+    width.push_back(is_mesh(scene.solids[i]) ? narrow_width(solids.shape(i)) : scene::width_of(scene.solids[i].shape));
+  const auto narrow = std::ranges::count_if(width, [&](double w) { return w < edge; });
+  if (narrow == 0)
     return {};
-  const auto width = [&](std::size_t i) { return scene::width_of(scene.solids[i].shape); };
-  const std::size_t least = *std::ranges::min_element(narrow, {}, width);
-  const bool thick = *measured(first).thickness > 2 * width(least);
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(width) - width.begin());
+  const bool thick = *measured(first).thickness > 2 * width[least];
   return fmt::format(
-      "{}{} narrower ({:.3g} m) than edges are long ({:.3g} m), so triangles span {} instead of lying on "
+      "{}{}{} narrower ({:.3g} m) than edges are long ({:.3g} m), so triangles span {} instead of lying on "
       "{}: edge_length = {:.2g} in [sheet]{}",
-      solids.name(least), narrow.size() > 1 ? fmt::format(" and {} more are", narrow.size() - 1) : " is", width(least),
-      edge, narrow.size() > 1 ? "them" : "it", narrow.size() > 1 ? "them" : "it", width(least),
+      solids.name(least), narrow > 1 ? fmt::format(" and {} more are", narrow - 1) : " is",
+      is_mesh(scene.solids[least]) ? " in parts" : "", width[least], edge, narrow > 1 ? "them" : "it",
+      narrow > 1 ? "them" : "it", width[least],
       thick ? "; and thinner than the sheet: a groove that it draws within the layer is not modelled" : "");
 }
 
@@ -126,12 +118,29 @@ std::string hint_of_scale(const std::string& what, double length) {
              : std::string();
 }
 
+std::string seam_warning(const Scene& scene, const Frame& first) {
+  if (std::ranges::none_of(scene.sheets, is_mesh_sheet))
+    return {};
+  Box box;
+  for (const Vector3& x : positions(first))
+    box.add(x);
+  const std::vector<Vector3> middles = border_middles(first);
+  const std::vector<bool> paired = coincident(middles, close * box.diagonal());
+  const auto seam = std::ranges::find(paired, true);
+  if (seam == paired.end())
+    return {};
+  return fmt::format("{} edges of the sheet's border lie on each other, the first at {}, and nothing joins them: weld "
+                     "the mesh's vertices (merge those at the same place), or it comes apart there",
+                     std::ranges::count(paired, true),
+                     written(middles[static_cast<std::size_t>(seam - paired.begin())]));
+}
+
 std::vector<std::string> mesh_warnings(const Scene& scene, const Frame& first) {
   const solid::Solids solids(scene);
-  std::vector<std::string> warnings{warning_of_pieces(scene, first), warning_of_needles(first),
-                                    warning_of_narrow_solids(scene, solids, first)};
+  std::vector<std::string> warnings{seam_warning(scene, first), warning_of_pieces(scene, first),
+                                    warning_of_needles(first), warning_of_narrow_solids(scene, solids, first)};
   for (std::size_t i = 0; i < solids.size(); ++i)
-    if (std::holds_alternative<scene::SolidMesh>(scene.solids[i].shape))
+    if (is_mesh(scene.solids[i]))
       warnings.push_back(hint_of_scale(solids.name(i), solids.shape(i).bounds().diagonal().norm()));
   std::erase(warnings, "");
   return warnings;

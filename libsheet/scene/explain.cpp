@@ -153,6 +153,14 @@ std::optional<std::string> warning_of_buckling(const Scene& scene, const SheetTa
 }
 
 // What jumps does so within one time step, which ends there: how hard it pulls goes by the step's length.
+// Of a mesh whose data say how thick it is, thicker than long [m]; else "".
+std::string hint_of_thickness(const SheetTable& sheet, double thickness, double length) {
+  if (!std::holds_alternative<ThicknessData>(sheet.thickness) || !(thickness > length))
+    return "";
+  return fmt::format("; its data make it {} m thick: if they are in millimetres, scale = 0.001 in its thickness",
+                     brief(thickness));
+}
+
 std::optional<std::string> warning_of_jumps(const Motion& motion, std::string_view thing) {
   const auto* keyed = std::get_if<Keyframed>(&motion);
   if (keyed == nullptr || keyed->frames->interpolation() != Interpolation::step)
@@ -222,7 +230,8 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
   if (const auto biot = warning_of_biot(scene, scales))
     warn(*biot);
   if (scales.length && scales.thickness && *scales.thickness > 0.2 * *scales.length)
-    warn("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful");
+    warn(fmt::format("the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful{}",
+                     hint_of_thickness(sheet, *scales.thickness, *scales.length)));
   constexpr double large = 20;    // [m]
   constexpr double of_rock = 1e8; // ice and rock are that large [Pa s]
   if (scales.length && *scales.length > large && scales.viscosity < of_rock)

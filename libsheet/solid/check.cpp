@@ -58,8 +58,10 @@ void refuse_open(const std::vector<Vector3>& middles, const std::string& where, 
          "{}: the surface is open along {} edges, the first at {}; {} of them lie on each other: weld its vertices "
          "(merge those at the same place), and close the holes that remain",
          name, open, where, together);
-  fail(ExitCode::bad_input, "{}: the surface is open along {} edges, the first at {}; close its holes", name, open,
-       where);
+  fail(ExitCode::bad_input,
+       "{}: the surface is open along {} edges, the first at {}; close its holes (a solid is a body: ground that is "
+       "a height field needs sides and a bottom)",
+       name, open, where);
 }
 
 // The neighbour of each triangle across each side; fails where a side has not exactly one.

@@ -220,6 +220,20 @@ TEST(Explain, Warnings) {
                   "the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful"));
 }
 
+TEST(Explain, DoubtsThicknessesThatMayBeMillimetres) {
+  const Scene scene = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"leaf.ply\"\nscale = 0.001\n"
+                                  "thickness = {data = \"h\", place = \"vertex\"}\n" +
+                                      liquid,
+                                  "s");
+  const auto thick = [&](double thickness) {
+    const std::array measured{Measured{.length = 0.08, .thickness = thickness, .curvature = {}}};
+    return explain(scene, measured).warnings;
+  };
+  EXPECT_THAT(thick(3), testing::Contains(testing::HasSubstr(
+                            "doubtful; its data make it 3 m thick: if they are in millimetres, scale = 0.001")));
+  EXPECT_THAT(thick(0.02), testing::Contains(testing::EndsWith("thin sheets are doubtful")));
+}
+
 // On a ball liquid may come to hang below; on a level plate it cannot, and with an adhesion it drips off.
 TEST(Explain, TellsThatNothingDripsOff) {
   const std::string disk = "[sheet]\nshape = \"disk\"\nradius = 1\nedge_length = 0.1\nthickness = 0.02\n" + liquid +

@@ -52,7 +52,7 @@ TEST(BadSolids, Open) {
   SolidSurface surface = box();
   surface.triangles.pop_back();
   EXPECT_THAT(problem(surface), AllOf(HasSubstr("solid 3 (x.off)"), HasSubstr("open along 3 edges"), HasSubstr("0.5"),
-                                      HasSubstr("close its holes")));
+                                      HasSubstr("close its holes"), HasSubstr("a height field needs sides")));
 }
 
 TEST(BadSolids, NotWelded) {
