@@ -2,14 +2,19 @@
 #include "libsheet/plan/falling_past.h"
 
 #include <algorithm>
+#include <limits>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
+#include "libsheet/plan/parting.h"
+#include "libsheet/plan/way_of_sheet.h"
 #include "libsheet/scene/brief.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet {
 
@@ -50,6 +55,36 @@ std::string falling_past_warning(const Scene& scene, const Frame& first) {
     return "";
   return fmt::format("the sheet falls for ever, past every solid: none is below it, where gravity = [{}, {}, {}] pulls",
                      scene::brief(gravity[0]), scene::brief(gravity[1]), scene::brief(gravity[2]));
+}
+
+std::string falling_on_warning(const Scene& scene, const Frame& first, double until) {
+  if (!scene::is_bottomless(scene) || first.vertices == 0)
+    return "";
+  Scene parting = scene;
+  if (parting.contact)
+    parting.contact->adhesion.reset();
+  const auto comes_off = must_part(parting, first, until);
+  if (!comes_off || comes_off->thrown)
+    return "";
+  const Vector3d up = *scene::up(scene.environment);
+  const solid::Solids solids(scene);
+  solid::Box3 all = way_of_sheet(first, Vector3d::Zero());
+  double highest_low = -std::numeric_limits<double>::infinity(), lowest_high = -highest_low; // of the solids' boxes [m]
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const solid::Box3 box(solids.shape(i).bounds().transformed(solids.pose(i, first.time)));
+    const double middle = up.dot(box.center()), half = up.cwiseAbs().dot(box.sizes()) / 2;
+    highest_low = std::max(highest_low, middle - half);
+    lowest_high = std::min(lowest_high, middle + half);
+    all.extend(box);
+  }
+  if (lowest_high <= highest_low) // one may take up what comes off another one
+    return "";
+  const double below = all.sizes().dot(up.cwiseAbs()) / 2 + measured(first).length.value_or(0);
+  const Vector3d point = all.center() - below * up;
+  return fmt::format("{}. Nothing is below: what falls there falls for ever, in steps of its fall. [[outflow]] point = "
+                     "[{}, {}, {}], normal = [{}, {}, {}] ends it",
+                     comes_off->why, scene::brief(point.x()), scene::brief(point.y()), scene::brief(point.z()),
+                     scene::brief(-up.x()), scene::brief(-up.y()), scene::brief(-up.z()));
 }
 
 } // namespace sheet

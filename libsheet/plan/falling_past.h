@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What falls beside all that should catch it, as where gravity points along another axis than the scene is drawn for.
+// What falls beside all that should catch it, as where gravity points along another axis than the scene is drawn for,
+// and what comes off solids below which there is nothing.
 #pragma once
 #include <string>
 
@@ -10,5 +11,9 @@ namespace sheet {
 
 // "" unless there are solids, all at rest, and nothing but gravity moves the sheet, straight down, past all of them.
 [[nodiscard]] std::string falling_past_warning(const Scene& scene, const formats::Frame& first);
+
+// Of what is carried, runs or is drawn over the edge of a solid before `until` [s] (parting.h), where no other solid
+// lies lower and nothing else takes it up: with an outflow that would, below all by the sheet's length; else "".
+[[nodiscard]] std::string falling_on_warning(const Scene& scene, const formats::Frame& first, double until);
 
 } // namespace sheet

@@ -62,8 +62,8 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
   const Vector3d& gravity = *scene.environment.gravity;
   const solid::Solids solids(scene);
   const double thickness = *measured(first).thickness;
-  const auto parting = [&](const std::string& why, double density) {
-    return Parting{why, density * gravity.norm() * thickness / 2};
+  const auto parting = [&](const std::string& why, double density, bool thrown) {
+    return Parting{why, density * gravity.norm() * thickness / 2, thrown};
   };
   std::vector<bool> seen(solids.size(), false);
   std::vector<double> ends(solids.size(), std::numeric_limits<double>::infinity()), densities(solids.size(), 0);
@@ -82,18 +82,18 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
     if (const double thrown = height_of_throw(solids.scene(number).motion, landing.place, t, until, gravity);
         thrown > thickness)
       return parting(fmt::format("{} throws what lies on it {:.2g} m up", solids.name(number), thrown),
-                     landing.liquid.density);
+                     landing.liquid.density, true);
   }
   const auto earliest = std::ranges::min_element(ends);
   const double end = earliest == ends.end() ? until : std::min(until, *earliest);
   if (const auto edge = goes_over_edge(scene, first, all, end))
-    return parting(edge->why, edge->density);
+    return parting(edge->why, edge->density, false);
   if (!(end < until))
     return std::nullopt;
   const auto number = static_cast<std::size_t>(earliest - ends.begin());
   return parting(
       fmt::format("{} carries what lies on it past its end, from about {:.2g} s on", solids.name(number), *earliest),
-      densities[number]);
+      densities[number], false);
 }
 
 } // namespace sheet

@@ -12,6 +12,7 @@ namespace sheet {
 struct Parting {
   std::string why; // which solid, and what it does with the sheet
   double adhesion; // at which it comes off: half of the sheet's weight by area, rho g h/2 [Pa]
+  bool thrown;     // up, so that it may come down on the solid again
 };
 
 // The first of these that happens before the end of the run, `until` [s], to what lies on a solid or lands on it:

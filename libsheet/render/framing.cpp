@@ -2,6 +2,10 @@
 #include "libsheet/render/framing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libsheet/geometry/area.h"
 
 namespace sheet::render {
 
@@ -16,7 +20,29 @@ void Extent::add(const Extent& other) {
   view.add(other.view);
 }
 
+static double area_of(const formats::Frame& frame) {
+  const auto x = positions(frame);
+  double area = 0;
+  for (const Corners& c : sheet::triangles(frame))
+    area += TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+  return area;
+}
+
 void Survey::add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look) {
+  const Vector3 upwards = up_of(scene);
+  double lowest = std::numeric_limits<double>::infinity(); // of the solids [m]
+  Box solids;
+  for (const SolidMesh& mesh : meshes) {
+    const Eigen::Isometry3d motion = motion_of(scene->solids[mesh.solid], frame.time);
+    for (const Vector3& p : mesh.positions) {
+      solids_.add(motion * p, 0);
+      solids.add(motion * p);
+      lowest = std::min(lowest, upwards.dot(motion * p));
+    }
+  }
+  const double lost = !meshes.empty() && scene::is_bottomless(*scene)
+                          ? lowest - solids.diagonal() - std::sqrt(area_of(frame))
+                          : -std::numeric_limits<double>::infinity();
   const auto x = positions(frame);
   const std::vector<double> thickness = vertex_thickness(frame);
   std::vector<bool> used(x.size(), false);
@@ -24,13 +50,8 @@ void Survey::add(const formats::Frame& frame, const Scene* scene, const std::vec
     for (const std::uint32_t v : t)
       used[v] = true;
   for (std::size_t v = 0; v < x.size(); ++v)
-    if (used[v])
+    if (used[v] && upwards.dot(x[v]) > lost)
       sheet_.add(x[v], thickness[v] / 2);
-  for (const SolidMesh& mesh : meshes) {
-    const Eigen::Isometry3d motion = motion_of(scene->solids[mesh.solid], frame.time);
-    for (const Vector3& p : mesh.positions)
-      solids_.add(motion * p, 0);
-  }
   if (look.has_scale())
     scale_.add(values_of(frame, *look.field));
 }

@@ -23,7 +23,9 @@ public:
   // `meshes`: of the frame's scene.
   void add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look);
   // What the picture is about: the sheet, with half its thickness to all sides, and the finite solids unless they are
-  // more than 4 times as large. Its box is empty if there is nothing at all.
+  // more than 4 times as large. Where nothing takes up what comes off the solids, liquid that has fallen farther below
+  // them than they and the sheet (the root of its area) are large does not count. Its box is empty if there is nothing
+  // at all.
   [[nodiscard]] Extent subject() const;
   [[nodiscard]] const Scale& scale() const { return scale_; } // of the look's values
 

@@ -150,6 +150,11 @@ bool flows_on_solids(const Scene& scene) {
   return std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact != SolidContact::stick; });
 }
 
+bool is_bottomless(const Scene& scene) {
+  return up(scene.environment) && !scene.solids.empty() && !scene.environment.bath && scene.outflows.empty() &&
+         std::ranges::none_of(scene.solids, [](const Solid& s) { return std::holds_alternative<HalfSpace>(s.shape); });
+}
+
 bool layers_flow(const Scene& scene) {
   return flows_on_solids(scene) || (scene.environment.bath && scene.environment.bath->spreads);
 }

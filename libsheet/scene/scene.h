@@ -422,6 +422,9 @@ struct PlaneAxes {
 // Whether liquid that touches flows or slips along any of the scene's solids.
 [[nodiscard]] bool flows_on_solids(const Scene& scene);
 
+// Whether what comes off the scene's solids falls for ever: no plane, no bath, no outflow takes it up.
+[[nodiscard]] bool is_bottomless(const Scene& scene);
+
 // Whether what sticks to a solid may be squeezed by another one: where there are several and one of them moves.
 [[nodiscard]] bool solids_squeeze(const Scene& scene);
 

@@ -30,6 +30,32 @@ TEST(FallingPast, WhereGravityPointsAlongAnotherAxisOrUp) {
   EXPECT_THAT(warning("[0, 0, -9.81]"), testing::HasSubstr("gravity = [0, 0, -9.81]"));
 }
 
+// Of a strip on a belt 0.4 m long, which ends 0.11 m ahead of it.
+TEST(FallingOn, FromABeltsEndWhereNothingIsBelow) {
+  const auto warning = [](double until, const std::string& more) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.08, 0.05]\nedge_length = 0.01\nthickness = 0.004\n"
+        "center = [0.05, 0.002, 0]\n[material]\nviscosity = 100\ndensity = 1000\n[environment]\n"
+        "gravity = [0, -9.81, 0]\n[[solid]]\nshape = \"box\"\nsize = [0.4, 0.02, 0.1]\n"
+        "center = [0, -0.01, 0]\nsurface_velocity = [0.1, 0, 0]\n" +
+            more,
+        "s");
+    return falling_on_warning(scene, first_frame(scene), until);
+  };
+  const std::string adhesion = "[contact]\nadhesion = 50\n";
+  for (const std::string& contact : {std::string(), adhesion})
+    EXPECT_THAT(warning(5, contact),
+                testing::AllOf(testing::StartsWith("solid 0 (box) carries what lies on it past its end, from about 1"),
+                               testing::HasSubstr("[[outflow]] point = [0, -0.0"),
+                               testing::EndsWith("normal = [0, -1, 0] ends it")));
+  EXPECT_EQ(warning(0.5, adhesion), "");
+  EXPECT_EQ(warning(5, adhesion + "[[outflow]]\npoint = [0, -1, 0]\nnormal = [0, -1, 0]\n"), "");
+  EXPECT_EQ(warning(5, adhesion + "[[solid]]\nshape = \"plane\"\ncenter = [0, -1, 0]\n"), "");
+  const std::string ball = adhesion + "[[solid]]\nshape = \"sphere\"\nradius = 0.02\n";
+  EXPECT_EQ(warning(5, ball + "center = [0.3, -0.05, 0]\n"), "");
+  EXPECT_NE(warning(5, ball + "center = [0.3, -0.02, 0]\n"), "");
+}
+
 TEST(FallingPast, NotOfWhatMayComeToASolidOtherwise) {
   const std::string up = "[0, 9.81, 0]";
   EXPECT_EQ(warning(up, "velocity = [1, 0, 0]\n"), "");

@@ -142,6 +142,31 @@ TEST(Survey, SolidsCountUnlessTheyAreLarge) {
   EXPECT_TRUE(empty.scale().empty());
 }
 
+// Of a sheet of 1 m² that is 4 m below a ball of 0.2 m radius, or 0.4 m.
+TEST(Survey, WhatFallsForEverIsNotFollowed) {
+  const auto lowest = [](double below, auto&& change) {
+    Scene scene;
+    scene.environment.gravity = Vector3(0, -9.81, 0);
+    scene.solids.resize(1);
+    scene.solids[0].shape = scene::Sphere{0.2};
+    scene.solids[0].center = {0, below, 0};
+    change(scene);
+    Survey survey(any_view);
+    survey.add(test::flat(2, 0.01), &scene, make_solids(scene), {});
+    return survey.subject().box.low.y();
+  };
+  const auto alone = [](Scene&) {};
+  EXPECT_NEAR(lowest(0.4, alone), -0.005, 1e-9);
+  EXPECT_NEAR(lowest(4, alone), 3.8, 1e-3); // of the ball
+  EXPECT_NEAR(lowest(4, [](Scene& scene) { scene.environment.gravity.reset(); }), -0.005, 1e-9);
+  EXPECT_NEAR(lowest(4, [](Scene& scene) { scene.outflows.resize(1); }), -0.005, 1e-9);
+  EXPECT_NEAR(lowest(4, [](Scene& scene) { scene.environment.bath.emplace(); }), -0.005, 1e-9);
+  const auto with_floor = [](Scene& scene) {
+    scene.solids.emplace_back().shape.emplace<scene::HalfSpace>(Vector3::UnitY());
+  };
+  EXPECT_NEAR(lowest(4, with_floor), -0.005, 1e-9);
+}
+
 TEST(Survey, MovingSolidsAreSeenWhereTheyAre) {
   formats::Frame frame = test::flat(2, 0.01);
   frame.time = 2;
