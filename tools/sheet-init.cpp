@@ -41,6 +41,7 @@
 #include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/keys.h"
 #include "libsheet/scene/read.h"
+#include "libsheet/scene/scales.h"
 
 namespace {
 
@@ -149,6 +150,10 @@ std::string explained(Source source, bool ring_alone) {
     std::ranges::copy(sheet::small_noise(scene, sheets, measured), std::back_inserter(source.sets));
   }
   std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));
+  if (std::ranges::any_of(sheet::scene::scales_of_sheets(scene, measured), [&](const sheet::scene::Scales& scales) {
+        return sheet::scene::warning_of_biot(with_heat, scales).has_value();
+      }))
+    source.sets.emplace_back("heat.profile=3");
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
   const double until = sheet::proposed_ring(with_heat, frame, wishes).until;
   if (const auto parting = sheet::must_part(scene, frame, until)) {
@@ -166,9 +171,9 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::inflow_warnings(scene, frame), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::idle_roll_warnings(scene, frame), std::back_inserter(explanation.warnings));
   for (const std::string& warning :
-       {sheet::falling_past_warning(scene, frame), sheet::drawing_up_warning(scene, frame, until),
-        sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until),
-        sheet::bath_crushing_warning(scene, frame)})
+       {sheet::falling_past_warning(scene, frame), sheet::falling_on_warning(scene, frame, until),
+        sheet::drawing_up_warning(scene, frame, until), sheet::thick_stream_warning(scene, frame, until),
+        sheet::wetting_warning(scene, frame, until), sheet::bath_crushing_warning(scene, frame)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :

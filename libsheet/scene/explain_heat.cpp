@@ -224,12 +224,12 @@ std::optional<std::string> warning_of_biot(const Scene& scene, const Scales& sca
   if (const double biot = biot_number(scene, *scales.thickness); biot > 1)
     return fmt::format("the Biot number is {}: its faces cool long before its middle, which the parabola across the "
                        "thickness does not follow, so all of it cools and stiffens too soon: profile = 3 in [heat] "
-                       "gives it modes of its own",
+                       "gives it modes of its own, as in the ring below",
                        brief(biot));
   if (const double biot = biot_number_on_solids(scene, *scales.thickness); biot > 1)
     return fmt::format("the Biot number on solids is {}: what touches them has their temperature long before the rest, "
                        "which the parabola across the thickness does not follow, so all of it flows by their "
-                       "temperature too soon: profile = 3 in [heat] gives it modes of its own",
+                       "temperature too soon: profile = 3 in [heat] gives it modes of its own, as in the ring below",
                        brief(biot));
   return {};
 }

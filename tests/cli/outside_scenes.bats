@@ -336,6 +336,17 @@ END
   proposes 120 0.5 --until 120
 }
 
+@test "7: the ring that --check proposes follows faces that cool long before the middle" {
+  proposes_modes() { # SET...
+    sheet-init --check crust.toml "$@" | grep -q -- '--set heat.profile=3 -o first.sheet'
+  }
+  { cat disk.toml; printf '[heat]\nspecific_heat = 1000\nconductivity = 1\ntemperature = 1400\nambient = 300\ntransfer = 1000\n'; } > crust.toml
+  proposes_modes
+  run -1 proposes_modes --set heat.transfer=10
+  run -1 proposes_modes --set heat.profile=4
+  { sheet-init --ring crust.toml | grep first; } | grep -q -- '--set heat.profile=3'
+}
+
 @test "7: --check judges sheets by what they are and by what drives them" {
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n' > mesh.obj
   printf '[sheet]\nshape = "mesh"\nfile = "mesh.obj"\nthickness = 0.01\n[material]\nviscosity = 100\ndensity = 1000\n' > mesh.toml
