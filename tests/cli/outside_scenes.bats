@@ -333,7 +333,8 @@ END
   proposes 10.4 24 --until 10.4
   proposes 11 5 --until 11
   proposes 30 2 --until 30
-  proposes 120 0.5 --until 120
+  proposes 120 2 --until 120 # as the solid moves within the first 9 s
+  proposes 120 0.5 --until 120 --set solid.motion='{kind = "fixed"}'
 }
 
 @test "7: the ring that --check proposes follows faces that cool long before the middle" {
