@@ -68,6 +68,19 @@ std::optional<Moving> moving(const scene::Motion& motion, double first) {
   return velocity.isZero(0) ? std::nullopt : std::optional(Moving{velocity, start});
 }
 
+// The time in which it turns once, from when it goes on turning for ever [s]; nothing if it does not.
+struct Turning {
+  double start, time;
+};
+std::optional<Turning> turning(const scene::Motion& motion, double first) {
+  const auto* rotating = std::get_if<scene::Rotating>(&motion);
+  if (rotating == nullptr || rotating->rate.entries.empty())
+    return std::nullopt;
+  const double start = std::max(first, rotating->rate.entries.back().time);
+  const double rate = std::abs(scene::value_at(rotating->rate, start));
+  return rate > 0 ? std::optional(Turning{start, 2 * std::numbers::pi / rate}) : std::nullopt;
+}
+
 bool rests(const scene::Solid& solid) { return std::holds_alternative<scene::Fixed>(solid.motion); }
 
 Vector3 down_in(const Scene& scene) { return scene.environment.gravity.value_or(Vector3::Zero()).normalized(); }
@@ -130,13 +143,9 @@ double passing_time(const Scene& scene, const formats::Frame& first) {
       const double time = leaves(bounds.transformed(solids.pose(i, start)), velocity, way);
       if (time > 0)
         passed = std::max(passed, start + std::max(time, middle_size(way) / velocity.norm()));
-    } else if (const auto* turning = std::get_if<scene::Rotating>(&scene.solids[i].motion);
-               turning != nullptr && !turning->rate.entries.empty()) {
-      const double start = std::max(first.time, turning->rate.entries.back().time);
-      const double turn = 2 * std::numbers::pi / std::abs(scene::value_at(turning->rate, start));
-      if (std::isfinite(turn) && (!scene.inflows.empty() || sweeps(solids, i, start, turn, way)))
-        passed = std::max(passed, start + turn);
-    }
+    } else if (const auto turn = turning(scene.solids[i].motion, first.time);
+               turn && (!scene.inflows.empty() || sweeps(solids, i, turn->start, turn->time, way)))
+      passed = std::max(passed, turn->start + turn->time);
   }
   return passed;
 }
@@ -180,6 +189,14 @@ double drawing_time(const Scene& scene, const formats::Frame& first) {
                                     sizes.dot(apart.cwiseAbs()) / apart.squaredNorm());
     }
   return drawn;
+}
+
+double turning_time(const Scene& scene, const formats::Frame& first) {
+  double turned = 0;
+  for (const scene::Hold& hold : scene.holds)
+    if (const auto turn = turning(hold.motion, first.time); turn && !hold.until && !hold.roll)
+      turned = std::max(turned, turn->start + turn->time);
+  return turned;
 }
 
 } // namespace sheet

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solids that move on for ever: a paddle drawn through a layer, a ball through a curtain, a fork lifted out of syrup, a
-// plate that turns. There is something to see until they have come through, or round. Likewise holds that draw a sheet,
-// and belts that carry it.
+// plate that turns. There is something to see until they have come through, or round. Likewise holds that draw a sheet
+// or turn it, and belts that carry it.
 #pragma once
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/scene.h"
@@ -20,5 +20,8 @@ namespace sheet {
 // When holds that move on for ever, away from others, none of them a roll, have gone as far as the sheet is long that
 // way, so that it is twice as long [s]; 0 if none does.
 [[nodiscard]] double drawing_time(const Scene& scene, const formats::Frame& first);
+
+// When the last of the holds that turn on for ever has turned once [s]; 0 if none does.
+[[nodiscard]] double turning_time(const Scene& scene, const formats::Frame& first);
 
 } // namespace sheet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/plan/passing.h"
 
+#include <algorithm>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -88,6 +89,26 @@ TEST(Passing, UntilHoldsHaveDrawnTheSheetToTwiceItsLength) {
   EXPECT_EQ(drawing(away, away), 0);
   EXPECT_EQ(drawing(away, "until = 0.01\n"), 0);
   EXPECT_EQ(drawing("", ""), 0);
+}
+
+// Of a film between two rings, the upper one of which may turn.
+TEST(Passing, UntilAHoldHasTurnedOnce) {
+  const auto turning = [](const std::string& rate, const std::string& more) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"tube\"\nradius = 0.03\nheight = 0.02\nedge_length = 0.005\nthickness = 2e-4\n[material]\n"
+        "viscosity = 10\ndensity = 1000\n[[hold]]\nregion = \"y_min\"\n[[hold]]\nregion = \"y_max\"\n"
+        "motion = {kind = \"rotating\", axis = [0, 1, 0], rate = " +
+            rate + "}\n" + more,
+        "s");
+    const auto first = first_frame(scene);
+    const double time = turning_time(scene, first);
+    EXPECT_GE(proposed_ring(scene, first, {}).until, std::min(time, 5.0));
+    return time;
+  };
+  EXPECT_NEAR(turning("-2", ""), std::numbers::pi, 1e-9);
+  EXPECT_NEAR(turning("[[0, 0], [1, 2]]", ""), 1 + std::numbers::pi, 1e-9);
+  EXPECT_EQ(turning("[[0, 2], [1, 0]]", ""), 0);
+  EXPECT_EQ(turning("2", "until = 1\n"), 0);
 }
 
 // Of a strip 80 mm long, 4 mm thick, that lies on a belt, or falls on it.
