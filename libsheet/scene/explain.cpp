@@ -152,7 +152,6 @@ std::optional<std::string> warning_of_buckling(const Scene& scene, const SheetTa
       brief(*edge), brief(enough));
 }
 
-// What jumps does so within one time step, which ends there: how hard it pulls goes by the step's length.
 // Of a mesh whose data say how thick it is, thicker than long [m]; else "".
 std::string hint_of_thickness(const SheetTable& sheet, double thickness, double length) {
   if (!std::holds_alternative<ThicknessData>(sheet.thickness) || !(thickness > length))
@@ -161,6 +160,7 @@ std::string hint_of_thickness(const SheetTable& sheet, double thickness, double 
                      brief(thickness));
 }
 
+// What jumps does so within one time step, which ends there: how hard it pulls goes by the step's length.
 std::optional<std::string> warning_of_jumps(const Motion& motion, std::string_view thing) {
   const auto* keyed = std::get_if<Keyframed>(&motion);
   if (keyed == nullptr || keyed->frames->interpolation() != Interpolation::step)
