@@ -9,10 +9,11 @@
 //    A pair that the one vertex that is free would have to leave by more than 4 times the way wanted, because only a
 //    small weight is its own, is left to the other means; so is, with all that is in a pair with it, what they move
 //    farther than twice what any pair of its island (vertices joined by hits) can want.
-// 2. Holding. What still hits has no room, mostly between places that are prescribed. It ends at 1/2, 1/4, then none of
-//    its way (below), first what flows along a solid, and has infinite mass from then on, and impulses move what is
-//    beside. Without this the next two means hold back a whole pile for the sake of a few of its vertices: what lies on
-//    a vertex that is pulled back, and would come as far as that does not, is pulled back, too.
+// 2. Holding. What still hits has no room, mostly between places that are prescribed. It goes 1/2, 1/4, then none of
+//    its way (below) across the pair, then none at all, first what flows along a solid, and has infinite mass from then
+//    on, and impulses move what is beside. Without this the next two means hold back a whole pile for the sake of a few
+//    of its vertices: what lies on a vertex that is pulled back, and comes nearer to it than it may, is pulled back,
+//    too.
 // 3. Rigid groups [Provot 1997; Bridson et al. 2002]. Vertices of pairs that still hit are joined to groups, which move
 //    as rigid bodies with the momentum and angular momentum of their vertices, or with those of their vertices that are
 //    fixed, if these move as a rigid body does; where some are fixed along some axes only, as what shifts but does not
@@ -21,8 +22,8 @@
 // 4. Pull-back. What still hits ends at 1/2, 1/4, then none of its way; free vertices and those at rest first, then,
 //    because nothing else is left, those whose motion is prescribed. Where an island touches one solid and nothing else
 //    is prescribed to it, this is its way in the solid's frame: without any it goes on with the solid, which else would
-//    go through what stays behind. Along axes along which nothing in an island is fixed, as along a level floor on which
-//    it flows, it is the way against the island's mean: without any it goes on as one.
+//    go through what stays behind. Along axes along which nothing in an island is fixed, as along a level floor on
+//    which it flows, it is the way against the island's mean: without any it goes on as one.
 //
 // It ends: the first three have a number of rounds; each round of the last shortens the way of at least one vertex of
 // each hit, three times at most, and four vertices without any way do not hit: one rigid motion takes them all, or
