@@ -12,8 +12,7 @@ namespace sheet::collide {
 namespace {
 
 constexpr std::size_t impulse_rounds = 10, sweeps_of_round = 30, group_rounds = 5, hold_rounds = 12, rounds_of_hold = 3;
-constexpr std::array<double, 4> parts_of_way = {1, 0.5, 0.25, 0}; // pull-back
-constexpr std::array<double, 4> held_parts = {1, 0.5, 0.5, 0};    // of what the level before has left across a pair
+constexpr std::array<double, 4> parts_of_way = {1, 0.5, 0.25, 0}; // held, pulled back
 constexpr double impulse_part = 0.5;                              // of the contact distance, that impulses want
 constexpr double least_missed = 0.1;                              // of the contact distance, that is told of
 constexpr double longest_throw = 2; // by impulses, times what brings features apart: their ways and their distance
@@ -61,24 +60,18 @@ private:
         islands_.join(hit.pair.vertices[0], hit.pair.vertices[i]);
   }
 
-  // At the time of the hit, on the way to these ends.
-  [[nodiscard]] ClosestPoints closest_at(const Hit& hit, const std::vector<Vector3>& ends) const {
+  void add_inequality(const Hit& hit) {
     std::array<Vector3, 4> x;
+    double contact = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t v = hit.pair.vertices[i];
-      x[i] = (1 - hit.time) * path_.start[v] + hit.time * ends[v];
+      x[i] = (1 - hit.time) * path_.start[v] + hit.time * path_.end[v];
+      contact = std::min(contact, reach_[v]);
     }
-    return closest_points(hit.pair.features, x);
-  }
-
-  void add_inequality(const Hit& hit) {
-    const ClosestPoints closest = closest_at(hit, path_.end);
+    const ClosestPoints closest = closest_points(hit.pair.features, x);
     const double length = closest.offset.norm();
     if (!(length > 0))
       return; // no direction: left to the other means
-    double contact = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t v : hit.pair.vertices)
-      contact = std::min(contact, reach_[v]);
     inequalities_.push_back({hit.pair.vertices, closest.weights, closest.offset / length,
                              std::min(hit.distance, impulse_part * contact), 0});
     if (lever(inequalities_.back()) > longest_lever)
@@ -128,22 +121,23 @@ private:
   }
 
   // What impulses leave: vertices that have no room between others, of which some are prescribed. They go 1/2, 1/4,
-  // then none of their way across the pair, then none at all, and are as fixed; impulses take what is beside round
-  // them.
+  // then none of their way and are as fixed; impulses take what is beside round them.
   std::vector<Hit> hold_some(std::vector<Hit> hits, const std::vector<Vector3>& asked) {
     const std::vector<std::uint8_t> none(path_.end.size(), 0);
     std::vector<std::uint8_t> level = none;
+    std::vector<Vector3> wanted = path_.end;
     for (std::size_t round = 0; round < hold_rounds && !hits.empty(); ++round) {
       const std::vector<std::uint8_t> next = held_more(hits, level);
       if (next == level)
         break;
       const std::vector<Vector3> before = path_.end, without = ends_without_way(before, none);
-      for (const Hit& hit : hits) {
-        const Vector3 normal = closest_at(hit, before).offset.stableNormalized();
-        for (const std::uint32_t v : hit.pair.vertices)
-          if (next[v] != level[v])
-            hold(v, next[v], normal, without[v]);
-      }
+      for (std::size_t v = 0; v < level.size(); ++v)
+        if (next[v] > 0) {
+          wanted[v] = level[v] == 0 ? before[v] : wanted[v];
+          path_.end[v] = without[v] + parts_of_way[next[v]] * (wanted[v] - without[v]);
+          mobility_[v] = Vector3::Zero();
+          shortened_[v] = 1;
+        }
       level = next;
       std::erase_if(inequalities_, [&](const Inequality& q) { return lever(q) > longest_lever; });
       hits = take_back_throws(give_impulses(remaining(std::move(hits), before), rounds_of_hold), asked);
@@ -151,21 +145,19 @@ private:
     return hits;
   }
 
-  void hold(std::uint32_t v, std::uint8_t level, const Vector3& normal, const Vector3& without) {
-    const double across = normal.dot(path_.end[v] - without);
-    path_.end[v] =
-        level < held_parts.size() ? Vector3(path_.end[v] - (1 - held_parts[level]) * across * normal) : without;
-    mobility_[v] = Vector3::Zero();
-    shortened_[v] = 1;
-  }
-
   // The next level for the vertices of hits that are not at their last: those that flow along a solid, if a hit has
-  // any, else those that are not prescribed.
+  // any, else those that are not prescribed. Where nothing in an island is prescribed along all axes there is room.
   [[nodiscard]] std::vector<std::uint8_t> held_more(std::span<const Hit> hits,
                                                     const std::vector<std::uint8_t>& level) const {
-    constexpr std::uint8_t last = held_parts.size();
-    std::vector<std::uint8_t> next = level;
+    constexpr std::uint8_t last = parts_of_way.size() - 1;
+    std::vector<std::uint8_t> next = level, between_prescribed(level.size(), 0);
+    for (const auto& island : islands_.all())
+      if (std::ranges::any_of(island, [&](std::uint32_t v) { return path_.fixed[v] == all_axes; }))
+        for (const std::uint32_t v : island)
+          between_prescribed[v] = 1;
     for (const Hit& hit : hits) {
+      if (between_prescribed[hit.pair.vertices[0]] == 0)
+        continue;
       const auto flows = [&](std::uint32_t v) { return path_.touch[v] != no_solid && level[v] < last; };
       const bool some_flow = std::ranges::any_of(hit.pair.vertices, flows);
       for (const std::uint32_t v : hit.pair.vertices)

@@ -9,11 +9,10 @@
 //    A pair that the one vertex that is free would have to leave by more than 4 times the way wanted, because only a
 //    small weight is its own, is left to the other means; so is, with all that is in a pair with it, what they move
 //    farther than twice what any pair of its island (vertices joined by hits) can want.
-// 2. Holding. What still hits has no room, mostly between places that are prescribed. It goes 1/2, 1/4, then none of
-//    its way (below) across the pair, then none at all, first what flows along a solid, and has infinite mass from then
-//    on, and impulses move what is beside. Without this the next two means hold back a whole pile for the sake of a few
-//    of its vertices: what lies on a vertex that is pulled back, and comes nearer to it than it may, is pulled back,
-//    too.
+// 2. Holding. What still hits in an island of which something is prescribed along all axes has no room. It goes 1/2,
+//    1/4, then none of its way (below), first what flows along a solid, and has infinite mass from then on, and
+//    impulses move what is beside. Without this the next two means hold back a whole pile for the sake of a few of its
+//    vertices: what lies on a vertex that is pulled back, and comes nearer to it than it may, is pulled back, too.
 // 3. Rigid groups [Provot 1997; Bridson et al. 2002]. Vertices of pairs that still hit are joined to groups, which move
 //    as rigid bodies with the momentum and angular momentum of their vertices, or with those of their vertices that are
 //    fixed, if these move as a rigid body does; where some are fixed along some axes only, as what shifts but does not
