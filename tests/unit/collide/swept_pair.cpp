@@ -104,6 +104,18 @@ SweptPair falling(double height, const Vector3& way) {
   return pair;
 }
 
+// Within a cube of two; every other one of edges.
+SweptPair random_pair(int number, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  SweptPair pair;
+  pair.features = number % 2 == 0 ? Features::vertex_triangle : Features::edge_edge;
+  for (std::size_t p = 0; p < 4; ++p) {
+    pair.start[p] = Vector3(uniform(random), uniform(random), uniform(random));
+    pair.end[p] = Vector3(uniform(random), uniform(random), uniform(random));
+  }
+  return pair;
+}
+
 TEST(SweptPair, TimeOfContact) {
   const auto time = first_contact(falling(1, {0, 0, -2}), {.gap = 0.1});
   ASSERT_TRUE(time);
@@ -134,15 +146,9 @@ TEST(SweptPair, SlidingJustAboveTheGap) {
 // However near the features come, what remains at the time returned is more than the gap.
 TEST(SweptPair, UntilThenTheyAreApart) {
   std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform(-1, 1);
   int contacts = 0;
   for (int i = 0; i < 4000; ++i) {
-    SweptPair pair;
-    pair.features = i % 2 == 0 ? Features::vertex_triangle : Features::edge_edge;
-    for (std::size_t p = 0; p < 4; ++p) {
-      pair.start[p] = Vector3(uniform(random), uniform(random), uniform(random));
-      pair.end[p] = Vector3(uniform(random), uniform(random), uniform(random));
-    }
+    const SweptPair pair = random_pair(i, random);
     const double gap = 0.05;
     const auto time = first_contact(pair, {.gap = gap, .time_tolerance = 1e-3});
     contacts += time.has_value();
@@ -168,12 +174,7 @@ TEST(SweptPair, RoomIsForEndsElsewhere) {
   int with_room = 0;
   double most = 0;
   for (int i = 0; i < 4000; ++i) {
-    SweptPair pair;
-    pair.features = i % 2 == 0 ? Features::vertex_triangle : Features::edge_edge;
-    for (std::size_t p = 0; p < 4; ++p) {
-      pair.start[p] = Vector3(uniform(random), uniform(random), uniform(random));
-      pair.end[p] = Vector3(uniform(random), uniform(random), uniform(random));
-    }
+    SweptPair pair = random_pair(i, random);
     const auto [time, exact] = contact_or_room(pair, {.gap = gap, .time_tolerance = 1e-3});
     const double room = std::max(exact, sure_room(pair, gap));
     EXPECT_TRUE(!time || room <= 0);
