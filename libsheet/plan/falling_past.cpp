@@ -45,13 +45,27 @@ bool falls_straight_down(const Scene& scene, const Frame& first, const Vector3d&
          (!moves || std::ranges::all_of(velocities(first), [&](const Vector3d& v) { return is_along(v, down); }));
 }
 
+// Whether any of it lies on a solid from the start, as paint on an upright wall.
+bool lies_on_solid(const Scene& scene, const Frame& first) {
+  constexpr double near_enough = 0.75; // thicknesses
+  const solid::Solids solids(scene);
+  const double reach = near_enough * measured(first).thickness.value_or(0);
+  return std::ranges::any_of(probes_of(first), [&](std::size_t v) {
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      if (solids.at(i, positions(first)[v], first.time).distance < reach)
+        return true;
+    return false;
+  });
+}
+
 } // namespace
 
 std::string falling_past_warning(const Scene& scene, const Frame& first) {
   const Vector3d gravity = scene.environment.gravity.value_or(Vector3d::Zero());
   const auto rests = [](const scene::Solid& solid) { return std::holds_alternative<scene::Fixed>(solid.motion); };
   if (scene.solids.empty() || gravity.isZero(0) || !std::ranges::all_of(scene.solids, rests) ||
-      !falls_straight_down(scene, first, gravity.normalized()) || !landings(scene, first).empty())
+      !falls_straight_down(scene, first, gravity.normalized()) || !landings(scene, first).empty() ||
+      lies_on_solid(scene, first))
     return "";
   return fmt::format("the sheet falls for ever, past every solid: none is below it, where gravity = [{}, {}, {}] pulls",
                      scene::brief(gravity[0]), scene::brief(gravity[1]), scene::brief(gravity[2]));

@@ -65,6 +65,9 @@ TEST(FallingPast, NotOfWhatMayComeToASolidOtherwise) {
   EXPECT_EQ(warning(up, "", "[[hold]]\nregion = \"rim\"\n"), "");
   EXPECT_EQ(warning(up, "", "[[inflow]]\nregion = \"rim\"\nvelocity = [0, 0, 1]\n"), "");
   EXPECT_EQ(warning(up, "", "[[solid]]\nshape = \"plane\"\ncenter = [0, 1, 0]\n"), "");
+  const std::string wall = "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncenter = [0, 0.0";
+  EXPECT_EQ(warning("[0, 0, -9.81]", "", wall + "48, 0]\n"), ""); // down a wall on which it lies
+  EXPECT_NE(warning("[0, 0, -9.81]", "", wall + "40, 0]\n"), "");
 }
 
 } // namespace
