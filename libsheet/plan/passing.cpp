@@ -9,9 +9,11 @@
 #include <variant>
 #include <vector>
 
+#include "libsheet/material/flow_curve.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/way_of_sheet.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
 
@@ -123,6 +125,39 @@ Vector3 middle(const formats::Frame& frame, std::size_t hold) {
   return sum / count;
 }
 
+// What flows in as a layer that runs down a slope.
+struct Running {
+  std::size_t slope; // the number of the solid
+  Vector3 pull;      // gravity along it [m/s²]
+  double viscosity;  // kinematic, at the inlet's rate [m²/s]
+  double flux, end;  // for each metre across its way [m²/s]; until when [s]
+
+  // When it has come so far [s].
+  [[nodiscard]] double time_to(double way) const {
+    const double speed = std::cbrt(pull.norm() * flux * flux / (3 * viscosity)), all = flux * end;
+    return std::max(way / speed, 4 * viscosity * way * way * way / (9 * all * all * pull.norm()));
+  }
+};
+
+// Nothing of an inflow that lands on no slope along which it flows.
+std::optional<Running> running(const Scene& scene, const formats::Frame& first, std::size_t number) {
+  constexpr double least_slope = 0.1; // part of gravity along the solid
+  const auto landing = landing_of_inflow(scene, first, number);
+  const scene::Inflow& inflow = scene.inflows[number];
+  const double speed = scene::inlet_velocity(scene, inflow).speed(first.time), rate = speed / inflow.thickness;
+  if (!landing || scene.solids[landing->solid].contact != SolidContact::flow || !(speed > 0))
+    return std::nullopt;
+  const Vector3 gravity = *scene.environment.gravity, &normal = landing->there.normal;
+  const Vector3 pull = gravity - gravity.dot(normal) * normal;
+  if (pull.norm() < least_slope * gravity.norm())
+    return std::nullopt;
+  return Running{.slope = landing->solid,
+                 .pull = pull,
+                 .viscosity = viscosity_of(landing->liquid, {rate * rate}) / landing->liquid.density,
+                 .flux = inflow.thickness * speed,
+                 .end = inflow.until.value_or(std::numeric_limits<double>::infinity())};
+}
+
 struct Held {
   Moving motion;
   Vector3 middle; // at the start
@@ -172,6 +207,19 @@ double carrying_time(const Scene& scene, const formats::Frame& first) {
     }
   }
   return carried > 0 ? first.time + carried : 0;
+}
+
+double running_time(const Scene& scene, const formats::Frame& first) {
+  const solid::Solids solids(scene);
+  const Box3 way = falling_way(scene, first);
+  double passed = 0;
+  for (std::size_t inflow = 0; inflow < scene.inflows.size() && !way.isEmpty(); ++inflow)
+    if (const auto layer = running(scene, first, inflow))
+      for (std::size_t i = 0; i < solids.size(); ++i)
+        if (const Box3 other = box_of(solids, i, first.time);
+            i != layer->slope && rests(scene.solids[i]) && other.sizes().allFinite())
+          passed = std::max(passed, layer->time_to(leaves(way, layer->pull.normalized(), other)));
+  return passed > 0 ? first.time + passed : 0;
 }
 
 double drawing_time(const Scene& scene, const formats::Frame& first) {

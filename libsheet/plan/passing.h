@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solids that move on for ever: a paddle drawn through a layer, a ball through a curtain, a fork lifted out of syrup, a
 // plate that turns. There is something to see until they have come through, or round. Likewise holds that draw a sheet
-// or turn it, and belts that carry it.
+// or turn it, belts that carry it, and slopes that it runs down.
 #pragma once
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/scene.h"
@@ -16,6 +16,11 @@ namespace sheet {
 // When what lies at the start on a belt that rests, or falls on it, has been carried past the last of the solids that
 // rest in its way: a blade, a second belt [s]; 0 if there is none.
 [[nodiscard]] double carrying_time(const Scene& scene, const formats::Frame& first);
+
+// When what flows in, and runs down a slope where it lands, has come past the last of the solids that rest in its way:
+// a wall with a gate, blocks [s]; 0 if there is none. As wide as its inlet it is a layer of h³ = 3 ν q/g_t, whose front
+// goes at q/h [Nusselt 1916]; when all has flowed in, A = q t_end, it comes to x at 4 ν x³/(9 A² g_t) [Huppert 1982].
+[[nodiscard]] double running_time(const Scene& scene, const formats::Frame& first);
 
 // When holds that move on for ever, away from others, none of them a roll, have gone as far as the sheet is long that
 // way, so that it is twice as long [s]; 0 if none does.

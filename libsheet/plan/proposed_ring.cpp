@@ -177,8 +177,8 @@ std::vector<double> events_of(const Scene& scene) {
 }
 
 // Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
-// ends by the clock has ended, whatever moves on for ever has come through or round, and belts have carried it past
-// all.
+// ends by the clock has ended, whatever moves on for ever has come through or round, and belts and slopes have carried
+// it past all.
 double until_of(const Scene& scene, const Frame& first) {
   double at_rest = first.time; // all solids
   for (const scene::Solid& solid : scene.solids)
@@ -204,8 +204,8 @@ double until_of(const Scene& scene, const Frame& first) {
   for (const scene::SheetTable& sheet : scene.sheets)
     ends(sheet.enters.value_or(0));
   const double lands_later = scene.inflows.empty() ? 1 : 1.5;
-  const double passed =
-      std::max({passing_time(scene, first), turning_time(scene, first), lands_later * carrying_time(scene, first)});
+  const double carried = std::max(carrying_time(scene, first), running_time(scene, first));
+  const double passed = std::max({passing_time(scene, first), turning_time(scene, first), lands_later * carried});
   until = std::max({until, drawing_time(scene, first), std::min(passed, longest_passing * until)});
   return std::isfinite(until) && until > 0 ? rounded(until) : 1;
 }
