@@ -13,8 +13,10 @@
 #include <fmt/format.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/inlet_width.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/scene/frame_liquids.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
@@ -38,8 +40,38 @@ std::string word_of_late(double until, std::string_view solid, std::string_view 
       until, solid, what, about, about);
 }
 
-// Nothing but its weight moves it.
-bool is_free(const Scene& scene) { return !scene.heat && scene.holds.empty() && scene.inflows.empty(); }
+// Nothing but its weight moves it, and what flows in.
+bool is_free(const Scene& scene) { return !scene.heat && scene.holds.empty(); }
+
+// What comes to a solid: a sheet as it is, or what an inflow brings, straight down.
+struct Coming {
+  double volume;   // infinite if it flows in for ever [m³]
+  double flux = 0; // [m³/s]
+};
+
+// Nothing where several inflows come, or one aslant.
+std::optional<Coming> coming(const Scene& scene, const formats::Frame& first, const Vector3& down) {
+  constexpr double aslant = 0.3; // part of the speed
+  const scene::Measured sheet = measured(first);
+  if (scene.inflows.empty())
+    return Coming{.volume = *sheet.length * *sheet.length * *sheet.thickness};
+  const scene::Inflow& inflow = scene.inflows.front();
+  const scene::InletVelocity velocity = scene::inlet_velocity(scene, inflow);
+  const Vector3 entering = value_at(velocity.common, first.time);
+  if (scene.inflows.size() > 1 || velocity.fans_out() || !(entering.dot(down) > 0) ||
+      entering.cross(down).norm() > aslant * entering.norm())
+    return std::nullopt;
+  const double flux = width_of_inlet(first, 0) * inflow.thickness * entering.norm();
+  return Coming{.volume = inflow.until ? flux * *inflow.until : std::numeric_limits<double>::infinity(), .flux = flux};
+}
+
+// In which it has spread from a point to a radius r: a volume V in (r/0.894)⁸ 3 nu/(g V³), a flux Q in
+// (r/0.715)² (3 nu/(g Q³))^¼ [Huppert 1982]; what flows in and has ended takes no less than either [s].
+double spreading_time(const Coming& what, double r, double nu, double g) {
+  const double of_volume = std::pow(r / 0.894, 8) * 3 * nu / (g * std::pow(what.volume, 3));
+  const double of_flux = std::pow(r / 0.715, 2) * std::pow(3 * nu / (g * std::pow(what.flux, 3)), 0.25);
+  return what.flux > 0 ? std::max(of_volume, of_flux) : of_volume;
+}
 
 // The level way from a place to the nearest side of a box [m].
 Vector3 way_to_edge(const solid::Box3& box, const Vector3& x, const Vector3& down) {
@@ -124,7 +156,7 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
 std::string late_running_warning(const Scene& scene, const formats::Frame& first, double until) {
   const scene::Measured sheet = measured(first);
   const std::vector<Landing> all = landings(scene, first);
-  if (all.empty() || !is_free(scene) || !sheet.length || !sheet.thickness)
+  if (all.empty() || !is_free(scene) || !scene.inflows.empty() || !sheet.length || !sheet.thickness)
     return "";
   const Vector3 gravity = *scene.environment.gravity;
   std::size_t lands = 0, solid = 0;
@@ -172,19 +204,21 @@ std::string late_overrun_warning(const Scene& scene, const formats::Frame& first
       !box.sizes().allFinite() || !liquid.law.newtonian() ||
       lands < most * static_cast<double>(probes_of(first).size()))
     return "";
-  const double g = gravity.norm(), h = *sheet.thickness, volume = *sheet.length * *sheet.length * h;
+  const double g = gravity.norm(), h = *sheet.thickness, nu = liquid.viscosity / liquid.density;
+  const auto what = coming(scene, first, down);
   const Vector3 way = way_to_edge(box, middle / lands, down);
   const double edge = way.norm();
   const Vector3 above = middle / lands - h * down, over = (1 + h / edge) * way;
   const auto beyond = landing_below(solids, down, above + over, *sheet.length, first.time);
-  const double side = std::min(beyond ? beyond->fall : edge, *sheet.length / 2);
-  if (side < 2 * h || is_walled(solids, number, above, over, first.time) ||
-      !(volume > std::numbers::pi * edge * edge * resting_thickness(liquid, below, g)))
+  const double seen = scene.inflows.empty() ? *sheet.length / 2 : edge; // of the side
+  const double side = std::min(beyond ? beyond->fall : edge, seen);
+  if (!what || side < 2 * h || is_walled(solids, number, above, over, first.time) ||
+      !(what->volume > std::numbers::pi * edge * edge * resting_thickness(liquid, below, g)))
     return "";
-  const double spreading =
-      std::pow(edge / 0.894, 8) * 3 * liquid.viscosity / liquid.density / (g * volume * volume * volume);
-  const double running = side / scene::speed_of_layer(liquid, liquid.density * g * h / 2, h / 2, below.slip_length);
-  const double time = std::sqrt(2 * longest_fall(all) / g) + spreading + running;
+  const double around = what->flux / (2 * std::numbers::pi * edge);
+  const double speed = around > 0 ? std::cbrt(g * around * around / (3 * nu))
+                                  : scene::speed_of_layer(liquid, liquid.density * g * h / 2, h / 2, below.slip_length);
+  const double time = std::sqrt(2 * longest_fall(all) / g) + spreading_time(*what, edge, nu, g) + side / speed;
   if (!(time > late * until && time < much_later * until))
     return "";
   return word_of_late(until, solids.name(number), "come over its edge and run down it", time);

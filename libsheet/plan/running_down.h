@@ -27,8 +27,9 @@ struct RunningDown {
 
 // Likewise of one that lands on the level top of a solid at rest, Newtonian, and comes over its edge. In the time t it
 // spreads to the radius 0.894 (g V³ t/(3 nu))^(1/8) [Huppert 1982], V its volume, then runs down the side by half its
-// length, or all there is of that, in a layer half as thick as the sheet; "" where surface tension or
-// a wall keeps it on the top, or all that takes many times the run.
+// length, or all there is of that, in a layer half as thick as the sheet. Of what flows in straight down, Q, to the
+// radius 0.715 (g Q³/(3 nu))^(1/8) t^½, then all around as far down the side as that is wide, (3 nu q/g)^⅓ thick. ""
+// where surface tension or a wall keeps it on the top, or all that takes many times the run.
 [[nodiscard]] std::string late_overrun_warning(const Scene& scene, const formats::Frame& first, double until);
 
 } // namespace sheet

@@ -145,5 +145,36 @@ TEST(RunningDown, WhatLandsOnATopComesOverItsEdgeLater) {
   EXPECT_EQ(late("", walls(0.1, 0.1), 1), "");     // beside it
 }
 
+// Icing, 10 ml/s, that is poured on a cake 100 mm in diameter, 50 mm high.
+TEST(RunningDown, WhatIsPouredOnATopComesOverItsEdgeLater) {
+  const auto late = [](const std::string& of_inflow, const std::string& tables, double until) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nplane = \"xy\"\nsize = [0.02, 0.01]\nedge_length = 0.005\n"
+        "thickness = 0.005\ncenter = [0, 0.08, 0]\n[material]\nviscosity = 10\ndensity = 1000\n[environment]\n"
+        "gravity = [0, -10, 0]\n[[solid]]\nshape = \"cylinder\"\nradius = 0.05\nheight = 0.05\n"
+        "center = [0, 0.025, 0]\ncontact = \"flow\"\n" +
+            tables + "[[inflow]]\nregion = \"y_max\"\n" + of_inflow,
+        "s");
+    return late_overrun_warning(scene, first_frame(scene), until);
+  };
+  const double nu = 0.01, flux = 1e-5, around = flux / (2 * std::numbers::pi * 0.05);
+  const double side = 0.05 / std::cbrt(10 * around * around / (3 * nu));
+  const auto time = [&](double spreading) { return std::sqrt(2 * 0.03 / 10) + spreading + side; };
+  const std::string words =
+      "the run ends, at 1 s, before what lands on solid 0 (cylinder) has come over its edge and run down it, which "
+      "takes some ";
+  const std::string straight = "velocity = [0, -0.1, 0]\n", for_ever = late(straight, "", 1),
+                    ends = late(straight + "until = 3\n", "", 1);
+  ASSERT_THAT(for_ever, testing::StartsWith(words));
+  const double of_flux = time(std::pow(0.05 / 0.715, 2) * std::pow(3 * nu / (10 * std::pow(flux, 3)), 0.25));
+  EXPECT_NEAR(std::stod(for_ever.substr(words.size())), of_flux, 0.05 * of_flux); // [Huppert 1982]
+  ASSERT_THAT(ends, testing::StartsWith(words));
+  const double of_volume = time(std::pow(0.05 / 0.894, 8) * 3 * nu / (10 * std::pow(3 * flux, 3)));
+  EXPECT_NEAR(std::stod(ends.substr(words.size())), of_volume, 0.05 * of_volume);
+  EXPECT_EQ(late(straight, "", of_flux / 1.5), "");
+  EXPECT_EQ(late("velocity = [0.1, -0.1, 0]\n", "", 1), ""); // aslant
+  EXPECT_EQ(late(straight, "[[hold]]\nregion = \"x_min\"\n", 1), "");
+}
+
 } // namespace
 } // namespace sheet
