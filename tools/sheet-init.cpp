@@ -156,7 +156,9 @@ std::string explained(Source source, bool ring_alone) {
     source.sets.emplace_back("heat.profile=3");
   const sheet::RingWishes wishes{source.quality, source.until, source.fps};
   const double until = sheet::proposed_ring(with_heat, frame, wishes).until;
-  if (const auto parting = sheet::must_part(scene, frame, until)) {
+  // a first look, until sooner, begins as the run does that goes on with it
+  const double whole = std::max(until, sheet::proposed_ring(with_heat, frame, {source.quality, {}, {}}).until);
+  if (const auto parting = sheet::must_part(scene, frame, whole)) {
     const std::string adhesion = fmt::format("\"{:.2g} Pa\"", parting->adhesion);
     explanation.warnings.push_back(fmt::format(
         "{}, but what touches a solid never comes off. adhesion = {} in [contact] lets it, as in the ring below",

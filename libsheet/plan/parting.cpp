@@ -54,6 +54,27 @@ double time_to_end(const solid::Solids& solids, std::size_t number, const Vector
   return std::max(time, 0.0);
 }
 
+// When what lands at time t on a face of that normal has been turned under the solid; infinity if not before `until`
+// [s].
+double time_turned_under(const scene::Motion& motion, const Vector3d& normal, double t, double until,
+                         const Vector3d& down) {
+  constexpr int times = 400;
+  constexpr double looks_down = 0.2; // cosine
+  if (!scene::turns(motion))
+    return std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= times; ++i) {
+    const double later = t + (until - t) * i / times;
+    if ((scene::motion_between(motion, t, later).linear() * normal).dot(down) > looks_down)
+      return later;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+// Whether a layer so thick hangs by its surface tension.
+bool can_hang(const Liquid& liquid, double thickness, double g) {
+  return thickness < 2 * std::sqrt(liquid.surface_tension / (liquid.density * g));
+}
+
 } // namespace
 
 std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first, double until) {
@@ -65,9 +86,18 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
   const auto parting = [&](const std::string& why, double density, bool thrown) {
     return Parting{why, density * gravity.norm() * thickness / 2, thrown};
   };
+  struct Turned {
+    std::size_t solid;
+    double time, density;
+  };
+  std::optional<Turned> turned; // under its solid, the first
   std::vector<bool> seen(solids.size(), false);
   std::vector<double> ends(solids.size(), std::numeric_limits<double>::infinity()), densities(solids.size(), 0);
   const std::vector<Landing> all = landings(scene, first);
+  const auto lies_wholly_on = [&](std::size_t number) {
+    return scene.holds.empty() && scene.inflows.empty() && all.size() == probes_of(first).size() &&
+           std::ranges::all_of(all, [&](const Landing& landing) { return landing.solid == number; });
+  };
   for (const Landing& landing : all) {
     const std::size_t number = landing.solid;
     const double t = first.time + std::sqrt(2 * std::max(0.0, landing.fall - thickness / 2) / gravity.norm());
@@ -83,11 +113,20 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
         thrown > thickness)
       return parting(fmt::format("{} throws what lies on it {:.2g} m up", solids.name(number), thrown),
                      landing.liquid.density, true);
+    const double under =
+        time_turned_under(solids.scene(number).motion, landing.there.normal, t, until, gravity.normalized());
+    if (under < (turned ? turned->time : until) &&
+        !(lies_wholly_on(number) && can_hang(landing.liquid, thickness, gravity.norm())))
+      turned = Turned{number, under, landing.liquid.density};
   }
   const auto earliest = std::ranges::min_element(ends);
   const double end = earliest == ends.end() ? until : std::min(until, *earliest);
   if (const auto edge = goes_over_edge(scene, first, all, end))
     return parting(edge->why, edge->density, false);
+  if (turned && turned->time < end)
+    return parting(fmt::format("{} turns what lies on it under itself, from about {:.2g} s on",
+                               solids.name(turned->solid), turned->time),
+                   turned->density, false);
   if (!(end < until))
     return std::nullopt;
   const auto number = static_cast<std::size_t>(earliest - ends.begin());

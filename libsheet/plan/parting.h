@@ -18,6 +18,8 @@ struct Parting {
 // The first of these that happens before the end of the run, `until` [s], to what lies on a solid or lands on it:
 //   - the solid throws it up: in free flight from some time on it would get farther than its thickness above the solid
 //   - a belt carries it past the solid's end, where the belt does not go on
+//   - the solid turns it under itself, as a roll that a film runs over does; not of what lies wholly on the solid, in a
+//     layer that surface tension carries, 2 sqrt(gamma/(rho g)) thick
 //   - it slides, runs or is drawn over an edge in the open (over_edge.h)
 // Nothing where the scene has an adhesion, or no gravity.
 [[nodiscard]] std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first, double until);

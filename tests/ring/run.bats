@@ -166,6 +166,14 @@ make_slow() {
   [[ $(wc -l < run/run.csv) == 102 ]]
 }
 
+@test "a first look goes on for longer, though only later its solid turns what lies on it under itself" {
+  sed -i 's/^shape = "plane"/shape = "cylinder"\nradius = "30 mm"\nheight = "80 mm"\ncenter = [0, "-30 mm", 0]/' 'my scene.toml'
+  printf '%s\n' 'rotation = {axis = [1, 0, 0], angle = "90 deg"}' 'angular_velocity = [0, 0, "-60 rpm"]' >> 'my scene.toml'
+  sheet-init --ring 'my scene.toml' | grep -q 'contact.adhesion'
+  sheet-run -q 'my scene.toml' --until 0.01 --fps 100 --film no -o run
+  sheet-run -q 'my scene.toml' --until 0.5 --fps 100 --film no -o run
+}
+
 @test "another scene, quality or rate is refused with what to do, and the folder stays as it is" {
   sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
   before=$(cd run && sha256sum ./*)

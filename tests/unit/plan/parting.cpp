@@ -91,6 +91,30 @@ TEST(Parting, OfWhatABoxThatTiltsLetsSlide) {
   EXPECT_EQ(tilts(150)->why, "solid 0 (box) turns over with what lies on it");
 }
 
+// A film, 2 mm thick, over two rolls that turn once in 4 s; it is 100 mm to either side of the first one.
+TEST(Parting, OfWhatARollTurnsUnderItself) {
+  const auto rolls = [](const std::string& of_liquid, double radius, const std::string& motion) {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.2, 0.1]\nedge_length = 0.01\nthickness = 0.002\n"
+                    "center = [0, 0.001, 0]\n[material]\nviscosity = 5000\ndensity = 1000\n{}[environment]\n"
+                    "gravity = [0, -10, 0]\n[[solid]]\nshape = \"cylinder\"\nradius = {}\nheight = 0.3\n"
+                    "center = [0, {}, 0]\nrotation = {{axis = [1, 0, 0], angle = \"90 deg\"}}\n{}",
+                    of_liquid, radius, -radius, motion),
+        "s");
+    return must_part(scene, first_frame(scene), 3);
+  };
+  const std::string turns = "angular_velocity = [0, 0, \"-15 rpm\"]\n";
+  const auto parting = rolls("", 0.02, turns);
+  ASSERT_TRUE(parting);
+  EXPECT_NEAR(parting->adhesion, 10, 1e-9);
+  EXPECT_TRUE(parting->why.starts_with("solid 0 (cylinder) turns what lies on it under itself, from about "));
+  EXPECT_TRUE(rolls("surface_tension = 0.05\n", 0.02, turns)); // a film that goes on beyond it
+  EXPECT_FALSE(rolls("", 0.02, "angular_velocity = [0, 0, \"-1 rpm\"]\n"));
+  EXPECT_FALSE(rolls("", 0.02, "angular_velocity = [0, \"-15 rpm\", 0]\n")); // its face stays up
+  EXPECT_TRUE(rolls("", 1, turns));
+  EXPECT_FALSE(rolls("surface_tension = 0.05\n", 1, turns)); // lies wholly on it, and thinner than 4.5 mm
+}
+
 TEST(Parting, OfWhatAHoldDrawsOverAnEdge) {
   const auto pulled = [](const std::string& velocity) {
     return parting_of(
