@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/scene/solid_width.h"
 #include "libsheet/sheet/drops.h"
@@ -23,6 +25,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tall = 2;             // thicker than so many edges: no sheet
 constexpr double least_crushed = 0.01; // of the volume: less is a rim or a crumb
+constexpr std::size_t least_row = 8;   // triangles of a strand: fewer are at corners of rims
 
 struct Triangle {
   Vector3 normal, middle;
@@ -104,9 +107,9 @@ std::pair<double, double> start_thickness(const Scene& scene, const Surface& sur
   return {least, greatest};
 }
 
-// With [tear] the scene itself says what becomes of thin places.
+// With [tear] below or sites the scene itself says what becomes of thin places.
 void look_for_thin(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
-  if (scene.tear)
+  if (scene.tear && (scene.tear->below || scene.tear->inclusions))
     return;
   const double start = start_thickness(scene, surface).first;
   const auto volume = volumes(frame);
@@ -135,6 +138,67 @@ void look_for_crushed(const Frame& frame, const Surface& surface, const Scene& s
   }
   if (crushed > least_crushed * surface.volume)
     worst.add_to(seen, surface.area);
+}
+
+// Around a vertex that is on no rim each neighbour comes next in one triangle and last in another one, so that the sum
+// of next less last, modulo 2^32, is 0.
+std::vector<bool> on_rims(const Frame& frame) {
+  std::vector<std::uint32_t> sums(frame.vertices, 0);
+  for (const Corners& c : triangles(frame))
+    for (std::size_t i = 0; i < 3; ++i)
+      sums[c[i]] += c[(i + 1) % 3] - c[(i + 2) % 3];
+  std::vector<bool> on_rim(frame.vertices);
+  for (std::size_t v = 0; v < sums.size(); ++v)
+    on_rim[v] = sums[v] != 0;
+  return on_rim;
+}
+
+// Those of strands of one row: all corners are on rims, and no fewer than least_row hang together by sides.
+std::vector<std::uint32_t> triangles_of_strands(const Frame& frame) {
+  const auto corners = triangles(frame);
+  const std::vector<bool> on_rim = on_rims(frame);
+  std::vector<std::uint32_t> between_rims;
+  for (std::uint32_t t = 0; t < corners.size(); ++t)
+    if (std::ranges::all_of(corners[t], [&](std::uint32_t v) { return on_rim[v]; }))
+      between_rims.push_back(t);
+  struct Side {
+    std::uint32_t low, high; // vertices
+    std::uint64_t triangle;  // its number in between_rims
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  for (std::uint64_t i = 0; i < between_rims.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(corners[between_rims[i]][k], corners[between_rims[i]][(k + 1) % 3]);
+      sides.push_back({low, high, i});
+    }
+  std::ranges::sort(sides);
+  DisjointSets rows(between_rims.size());
+  for (std::size_t k = 1; k < sides.size(); ++k)
+    if (sides[k].low == sides[k - 1].low && sides[k].high == sides[k - 1].high)
+      rows.join(sides[k].triangle, sides[k - 1].triangle);
+  const std::vector<std::uint64_t> row = rows.take();
+  std::vector<std::size_t> length(row.size(), 0);
+  for (const std::uint64_t r : row)
+    ++length[r];
+  std::vector<std::uint32_t> strands;
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (length[row[i]] >= least_row)
+      strands.push_back(between_rims[i]);
+  return strands;
+}
+
+// Their width is a triangle's least height. With [tear] snap the scene says what becomes of them.
+void look_for_threads(const Frame& frame, const Surface& surface, const Scene& scene, std::vector<Observation>& seen) {
+  if (scene.tear && scene.tear->snap)
+    return;
+  const auto volume = volumes(frame);
+  Worst worst(Trouble::threads);
+  for (const std::uint32_t t : triangles_of_strands(frame)) {
+    const Triangle& triangle = surface.triangles[t];
+    worst.see(2 * triangle.area / triangle.longest / (volume[t] / triangle.area), triangle);
+  }
+  worst.add_to(seen, surface.area);
 }
 
 void look_for_sharp(const Surface& surface, std::vector<Observation>& seen) {
@@ -252,6 +316,7 @@ std::vector<Observation> look(const Frame& frame, const Scene* scene) {
   if (scene == nullptr)
     return seen;
   look_for_thin(frame, surface, *scene, seen);
+  look_for_threads(frame, surface, *scene, seen);
   look_for_crushed(frame, surface, *scene, seen);
   look_at_solids(frame, surface, *scene, seen);
   look_at_step(frame, surface, *scene, seen);

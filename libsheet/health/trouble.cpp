@@ -158,6 +158,17 @@ constexpr std::array table{
          .noted = {.worst = 0, .share = 0, .times = 1},
          .serious = {.worst = std::numeric_limits<double>::infinity(), .share = 0, .times = 1},
          .remedy = "nothing to do where it is to burst; else [tear] below and sites, and what closes the rims"},
+    Kind{.trouble = Trouble::threads,
+         .name = "threads",
+         .least = true,
+         .told = Told::plainly,
+         .what = "strands, one triangle wide, are down to {} times as wide as they are thick",
+         .counted = "",
+         .noted = {.worst = 1, .share = 0, .times = 3},
+         .serious = {.worst = 0, .share = 0, .times = 3},
+         .remedy = "a sheet so narrow is a thread, which tension parts into drops: say from what width on by [tear] "
+                   "snap, with sheet-tear in the ring, and faces = true in [model] makes it round; else it is drawn "
+                   "out until sheet-remesh cuts it, where edges get no shorter"},
 };
 
 } // namespace

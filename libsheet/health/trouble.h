@@ -26,6 +26,7 @@ enum class Trouble : std::uint8_t {
   two_solids = 13,
   crushed = 14,
   gas_escapes = 15,
+  threads = 16,
 };
 
 // From where on trouble counts: all three must be reached.

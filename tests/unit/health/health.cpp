@@ -96,8 +96,37 @@ TEST(Health, FindsThinPlacesByTheStart) {
   volumes(frame)[3] = volumes(frame)[4] = 1.01e-2 * start_thickness / 32;
   EXPECT_TRUE(look(frame, &scene).empty());
   volumes(frame)[3] *= 1e-3;
-  const Scene tearing = scene_with("[tear]\nbelow = 0.001\n");
+  const Scene tearing = scene_with("[tear]\nbelow = 0.001\n"), parting = scene_with("[tear]\nsnap = 0.001\n");
   EXPECT_TRUE(look(frame, &tearing).empty());
+  EXPECT_EQ(only(look(frame, &parting)).trouble, Trouble::thin); // only strands part
+}
+
+// A strand of one row, 10 mm wide, with two rims and nothing else.
+TEST(Health, FindsThreads) {
+  const auto strand = [](std::size_t count, double thickness) {
+    const double side = 0.01 / std::sqrt(0.75);
+    std::vector<Vector3> x;
+    std::vector<Corners> t;
+    for (std::uint32_t i = 0; i < count + 2; ++i)
+      x.emplace_back(i * side / 2, 0, i % 2 == 0 ? 0 : 0.01);
+    for (std::uint32_t i = 0; i < count; ++i)
+      t.push_back(i % 2 == 0 ? Corners{i, i + 1, i + 2} : Corners{i + 1, i, i + 2});
+    return make_frame(x, t, std::vector<double>(count, thickness * 0.01 * side / 2));
+  };
+  const Scene scene = scene_with(), parting = scene_with("[tear]\nsnap = 0.001\n");
+  const Frame thread = strand(20, 0.0125);
+  const Observation seen = only(look(thread, &scene));
+  EXPECT_EQ(seen.trouble, Trouble::threads);
+  EXPECT_NEAR(seen.value, 0.8, 1e-9);
+  EXPECT_THAT(told(seen, 3),
+              HasSubstr("threads: strands, one triangle wide, are down to 0.8 times as wide as they are thick, at ("));
+  EXPECT_THAT(told(seen, 3), HasSubstr("[tear] snap"));
+  EXPECT_EQ(told(seen, 2), "");
+  EXPECT_TRUE(look(thread, &parting).empty());
+  EXPECT_TRUE(look(strand(20, 0.009), &scene).empty());
+  EXPECT_TRUE(look(strand(7, 0.0125), &scene).empty());
+  EXPECT_THAT(look(grid([](auto, auto) { return 0.0; }, 1), &scene), // thick, but no strand
+              testing::Not(testing::Contains(testing::Field(&Observation::trouble, Trouble::threads))));
 }
 
 // Triangles of edges of 0.25 m, 1 m thick, of 0.01 m.
