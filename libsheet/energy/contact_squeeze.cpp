@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/energy/contact_squeeze.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "libsheet/energy/layers.h"
 #include "libsheet/energy/walls.h"
 
@@ -22,6 +26,39 @@ std::vector<double> presses(std::span<const ContactSpring> springs, const Stage&
   return force;
 }
 
+// What a layer feels, in the mean over its depth h, of pressures on its face, at vertices [Pa]: of one with the wave
+// number k the part 1 - k² h²/6, as at the depth z it is (1 + k z) exp(-k z) of it [Turcotte and Schubert, Geodynamics,
+// on postglacial rebound: a deep liquid below a load]. The mean over a triangle with sides e, then over a vertex's
+// triangles, leaves 1 - k² e²/6, so that h²/e² times of it do; the sum of pressure times area stays.
+std::vector<double> felt_in_depth(std::vector<double> pressure, std::span<const Corners> triangles,
+                                  std::span<const double> areas, std::span<const double> volumes) {
+  constexpr double most = 16; // passes
+  std::vector<double> around(pressure.size(), 0), passes(triangles.size(), 0);
+  double needed = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const double h = volumes[t] / areas[t], squared_side = 4 / std::sqrt(3.0) * areas[t];
+    passes[t] = std::min(most, h * h / squared_side);
+    for (const std::uint32_t v : triangles[t]) {
+      around[v] += areas[t] / 3;
+      needed = pressure[v] > 0 ? std::max(needed, passes[t]) : needed;
+    }
+  }
+  const double rounds = std::ceil(needed);
+  std::vector<double> flows(pressure.size());
+  for (int round = 0; round < static_cast<int>(rounds); ++round) {
+    std::ranges::fill(flows, 0);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const Corners& c = triangles[t];
+      const double mean = (pressure[c[0]] + pressure[c[1]] + pressure[c[2]]) / 3;
+      for (const std::uint32_t v : c)
+        flows[v] += std::min(1.0, passes[t] / rounds) * areas[t] / 3 * (mean - pressure[v]);
+    }
+    for (std::size_t v = 0; v < pressure.size(); ++v)
+      pressure[v] += around[v] > 0 ? flows[v] / around[v] : 0;
+  }
+  return pressure;
+}
+
 } // namespace
 
 bool ContactSqueeze::from_above_only(const Stage& stage, std::uint32_t v) const {
@@ -32,14 +69,17 @@ void ContactSqueeze::begin(const Stage& stage) {
   const auto& triangles = stage.start->mesh->triangles;
   const auto& x = stage.start->positions;
   const LayerShares shares = layer_shares(stage);
-  const std::vector<double> force = presses(springs_, stage);
   work_.assign(triangles.size(), 0);
   start_area_.assign(triangles.size(), 1);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (const auto v : triangles[t])
-      work_[t] += (from_above_only(stage, v) ? 1 : 0.5) * force[v] / shares.area[v] / 3 * stage.start->volumes[t];
+  for (std::size_t t = 0; t < triangles.size(); ++t)
     start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
-  }
+  std::vector<double> pressure = presses(springs_, stage);
+  for (std::size_t v = 0; v < pressure.size(); ++v)
+    pressure[v] /= pressure[v] > 0 ? shares.area[v] : 1;
+  pressure = felt_in_depth(std::move(pressure), triangles, start_area_, stage.start->volumes);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const auto v : triangles[t])
+      work_[t] += (from_above_only(stage, v) ? 1 : 0.5) * pressure[v] / 3 * stage.start->volumes[t];
 }
 
 } // namespace sheet

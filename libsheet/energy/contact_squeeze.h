@@ -5,8 +5,8 @@
 //   W = -q V ln(A/A0),
 // q the mean over its corners of p on walls and on a bath on which a sheet spreads (bath_thrust.h), of (P + p)/2
 // elsewhere [Pa]: from the forces of the contact springs at the start of the step, in a second stage at the end of the
-// first, by the vertices' areas. Springs that pull do not count: layers that hang from each other would be unstable at
-// wavelengths that no such equation bounds.
+// first, by the vertices' areas, as felt in the mean over the layer's depth. Springs that pull do not count: layers
+// that hang from each other would be unstable at wavelengths that no such equation bounds.
 #pragma once
 #include <cmath>
 #include <optional>
