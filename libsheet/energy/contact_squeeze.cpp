@@ -29,7 +29,8 @@ std::vector<double> presses(std::span<const ContactSpring> springs, const Stage&
 // What a layer feels, in the mean over its depth h, of pressures on its face, at vertices [Pa]: of one with the wave
 // number k the part 1 - k² h²/6, as at the depth z it is (1 + k z) exp(-k z) of it [Turcotte and Schubert, Geodynamics,
 // on postglacial rebound: a deep liquid below a load]. The mean over a triangle with sides e, then over a vertex's
-// triangles, leaves 1 - k² e²/6, so that h²/e² times of it do; the sum of pressure times area stays.
+// triangles, leaves 1 - k² e²/6, so that h²/e² times of it do; the sum of pressure times area stays. What is thinner
+// than half an edge feels pressures as they are: such waves are none of its mesh, and a rim that presses stays sharp.
 std::vector<double> felt_in_depth(std::vector<double> pressure, std::span<const Corners> triangles,
                                   std::span<const double> areas, std::span<const double> volumes) {
   constexpr double most = 16; // passes
@@ -37,7 +38,8 @@ std::vector<double> felt_in_depth(std::vector<double> pressure, std::span<const 
   double needed = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const double h = volumes[t] / areas[t], squared_side = 4 / std::sqrt(3.0) * areas[t];
-    passes[t] = std::min(most, h * h / squared_side);
+    const double thick = std::sqrt(h * h / squared_side); // edges
+    passes[t] = std::min(most, thick * thick * std::clamp(2 * thick - 1, 0.0, 1.0));
     for (const std::uint32_t v : triangles[t]) {
       around[v] += areas[t] / 3;
       needed = pressure[v] > 0 ? std::max(needed, passes[t]) : needed;
