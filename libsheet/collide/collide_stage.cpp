@@ -416,7 +416,19 @@ struct CollideStage::Impl {
     return taken;
   }
 
+  // Whether the self-response has moved a vertex, which touched none, so deep into a solid that the next step would
+  // refuse it, or have to bring it out (solid_contact.cpp).
+  [[nodiscard]] bool drives_in(const StepPath& path, const StepPath& asked) const {
+    for (std::size_t v = 0; v < path.end.size(); ++v)
+      if (path.touch[v] == no_solid && path.end[v] != asked.end[v])
+        for (std::size_t i = 0; i < solids->size(); ++i)
+          if (solids->at(i, path.end[v], path.end_time).distance < -path.thickness[v] / 2)
+            return true;
+    return false;
+  }
+
   // Vertices that the self-response would move into a solid stay where the solids put them, and the rest tries again.
+  // Where that still drives some in, all go on as far as they can, and nothing is pushed.
   // Returns the kinetic energy that it took, less what it gave [J].
   double resolve_self_beside_solids(StepPath& path, std::span<const double> reach, Frame& frame) {
     const StepPath asked = path;
@@ -435,6 +447,12 @@ struct CollideStage::Impl {
         break;
       path = asked;
       path.fixed = std::move(fixed);
+    }
+    if (solids && report.hits > 0 && drives_in(path, asked)) {
+      const std::vector<Axes> fixed = std::move(path.fixed);
+      path = asked;
+      path.fixed = fixed;
+      report = resolve_self(path, *search, reach, asked.fixed, steps, Means::pull_back);
     }
     if (report.held_back > 0)
       teller.tell(frame, health::Trouble::held_back, report.held_back, report.held_at,

@@ -36,7 +36,7 @@ public:
       mobility_[v] = free_part(path.fixed[v]) / path.mass[v];
   }
 
-  SelfReport run() {
+  SelfReport run(Means means) {
     std::vector<Hit> hits = search_.hits(path_.start, path_.end, reach_);
     report_.hits = hits.size();
     if (hits.empty())
@@ -44,9 +44,11 @@ public:
     watch_.emplace(search_.watch(path_.start, path_.end, reach_));
     const std::vector<Vector3> asked = path_.end, velocity = path_.velocity;
     note(hits);
-    hits = take_back_throws(give_impulses(std::move(hits), impulse_rounds), asked);
-    hits = hold_some(std::move(hits), asked);
-    hits = move_groups(std::move(hits));
+    if (means == Means::all) {
+      hits = take_back_throws(give_impulses(std::move(hits), impulse_rounds), asked);
+      hits = hold_some(std::move(hits), asked);
+      hits = move_groups(std::move(hits));
+    }
     pull_back(std::move(hits));
     count_shortened(asked);
     set_velocities(asked, velocity);
@@ -432,8 +434,8 @@ SelfReport& SelfReport::operator+=(const SelfReport& later) {
 }
 
 SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
-                        std::optional<std::vector<Axes>> prescribed, std::span<const RigidStep> solids) {
-  return Response(path, search, reach, std::move(prescribed).value_or(path.fixed), solids).run();
+                        std::optional<std::vector<Axes>> prescribed, std::span<const RigidStep> solids, Means means) {
+  return Response(path, search, reach, std::move(prescribed).value_or(path.fixed), solids).run(means);
 }
 
 } // namespace sheet::collide

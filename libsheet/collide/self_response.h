@@ -64,11 +64,13 @@ struct SelfReport {
   SelfReport& operator+=(const SelfReport& later); // all adds up; the place is the later one's
 };
 
+enum class Means { all, pull_back }; // the four above, or the last one alone, which brings nothing off its way
+
 // Corrects end and velocity of the path. `reach`: contact distance at each vertex [m]; `prescribed`: axes along which
 // each vertex has a prescribed velocity, those of path.fixed if not given; `solids`: how each solid that path.touch
 // names moves in the step, if any moves.
 SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
                         std::optional<std::vector<Axes>> prescribed = std::nullopt,
-                        std::span<const RigidStep> solids = {});
+                        std::span<const RigidStep> solids = {}, Means means = Means::all);
 
 } // namespace sheet::collide

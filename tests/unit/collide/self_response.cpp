@@ -50,12 +50,12 @@ struct Case {
     path.velocity[v] = way / path.length();
   }
 
-  SelfReport resolve(std::span<const RigidStep> solids = {}) {
+  SelfReport resolve(std::span<const RigidStep> solids = {}, Means means = Means::all) {
     path.triangles = triangles;
     path.start = start;
     const Connectivity mesh = connect(start.size(), triangles);
     SelfSearch search(mesh);
-    return resolve_self(path, search, reach, std::nullopt, solids);
+    return resolve_self(path, search, reach, std::nullopt, solids, means);
   }
 
   [[nodiscard]] double energy() const {
@@ -99,6 +99,22 @@ TEST(SelfResponse, WhatDoesNotHitStays) {
   EXPECT_EQ(c.resolve().hits, 0u);
   EXPECT_EQ(c.path.end, end);
   EXPECT_EQ(c.path.velocity, velocity);
+}
+
+// By pull-back alone what hits ends on the way that was asked for.
+TEST(SelfResponse, PullBackAloneBringsNothingOffItsWay) {
+  Case c(2, 6, 0.1);
+  for (std::uint32_t v = 0; v < c.start.size(); ++v)
+    c.displace(v, {0.1, 0, v < c.start.size() / 2 ? 0.3 : -0.2});
+  for (Axes& fixed : c.path.fixed)
+    fixed = all_axes; // else an island goes on as one
+  const std::vector<Vector3> asked = c.path.end;
+  const SelfReport report = c.resolve({}, Means::pull_back);
+  EXPECT_GT(report.pulled_back, 0u);
+  EXPECT_EQ(report.by_impulses, 0u);
+  c.expect_safe();
+  for (std::size_t v = 0; v < asked.size(); ++v)
+    EXPECT_LT((c.path.end[v] - c.start[v]).cross(asked[v] - c.start[v]).norm(), 1e-15);
 }
 
 // Two sheets that have been put through each other at next to no speed are parted, and the way is no velocity.
