@@ -11,8 +11,6 @@ namespace sheet::flow {
 
 namespace {
 
-constexpr double kept_apart = 0.25, kept_from_welds = 0.5; // of the distance
-
 // The triangles that stay and have an area, on their ways.
 TriangleGrid grid_of(const Connectivity& mesh, const std::vector<bool>& taken, std::span<const Vector3> x,
                      std::span<const Vector3> end) {
@@ -23,39 +21,27 @@ TriangleGrid grid_of(const Connectivity& mesh, const std::vector<bool>& taken, s
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     if (!taken[t] && !corners_collinear(x, mesh.triangles[t]) && !corners_collinear(end, mesh.triangles[t])) {
       Box box = box_of(x, mesh.triangles[t]);
-      for (const std::uint32_t v : mesh.triangles[t])
-        box.add(end[v], (end[v] - x[v]).norm()); // nothing farther off comes so near
+      box.add(box_of(end, mesh.triangles[t]));
       grid.add(t, box);
     }
   return grid;
 }
 
-// Whether a corner of one triangle comes to the other one, or is above it at first and below it at the end.
-bool comes_to(std::span<const Vector3> x, std::span<const Vector3> end, const Corners& one, const Corners& other) {
+// Whether a corner of one triangle is above the other one at first and below it at the end.
+bool passes(std::span<const Vector3> x, std::span<const Vector3> end, const Corners& one, const Corners& other) {
   return std::ranges::any_of(one, [&](std::uint32_t v) {
     if (std::ranges::find(other, v) != other.end())
       return false;
-    const std::array before = {x[v], x[other[0]], x[other[1]], x[other[2]]},
-                     then = {end[v], end[other[0]], end[other[1]], end[other[2]]};
-    const auto above = over_triangle(before), above_then = over_triangle(then);
-    return (above && above_then && above->offset.dot(above_then->offset) <= 0) ||
-           closest_vertex_triangle(then).offset.norm() < kept_apart * closest_vertex_triangle(before).offset.norm();
+    const auto above = over_triangle({x[v], x[other[0]], x[other[1]], x[other[2]]});
+    const auto then = over_triangle({end[v], end[other[0]], end[other[1]], end[other[2]]});
+    return above && then && above->offset.dot(then->offset) <= 0;
   });
-}
-
-bool comes_to(const solid::Solids& solids, double time, const Vector3& from, const Vector3& to) {
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    if (const double before = solids.at(i, from, time).distance, then = solids.at(i, to, time).distance;
-        then < before && then < kept_apart * before)
-      return true;
-  return false;
 }
 
 } // namespace
 
 std::size_t keep_clear(const Connectivity& mesh, const std::vector<bool>& taken, std::span<const Vector3> x,
-                       std::span<const ContactSpring> welds, const solid::Solids& solids, double time,
-                       std::vector<Vector3>& ways) {
+                       std::span<const ContactSpring> welds, std::vector<Vector3>& ways) {
   std::size_t staying = 0;
   const auto moves = [&](std::uint32_t v) { return !ways[v].isZero(0); };
   for (;;) {
@@ -63,10 +49,8 @@ std::size_t keep_clear(const Connectivity& mesh, const std::vector<bool>& taken,
     for (std::size_t v = 0; v < end.size(); ++v)
       end[v] += ways[v];
     std::vector<bool> blocked(end.size(), false);
-    for (std::uint32_t v = 0; v < end.size(); ++v)
-      blocked[v] = moves(v) && comes_to(solids, time, x[v], end[v]);
     for (const ContactSpring& s : welds)
-      if (s.normal.dot(s.offset(end)) < kept_from_welds * s.normal.dot(s.offset(x)))
+      if (s.normal.dot(s.offset(end)) < 0.5 * s.normal.dot(s.offset(x)))
         for (const std::uint32_t v : s.vertices)
           blocked[v] = true;
     const TriangleGrid grid = grid_of(mesh, taken, x, end);
@@ -75,7 +59,7 @@ std::size_t keep_clear(const Connectivity& mesh, const std::vector<bool>& taken,
         grid.for_meeting(grid.box_of(t), [&](std::uint32_t other) {
           const Corners& its = mesh.triangles[other];
           if (other != t &&
-              (triangles_intersect(end, own, its) || comes_to(x, end, own, its) || comes_to(x, end, its, own)))
+              (triangles_intersect(end, own, its) || passes(x, end, own, its) || passes(x, end, its, own)))
             for (const Corners& c : {own, its})
               for (const std::uint32_t v : c)
                 blocked[v] = true;

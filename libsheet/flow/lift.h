@@ -7,16 +7,13 @@
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/types.h"
 #include "libsheet/sheet/contact_spring.h"
-#include "libsheet/solid/solids.h"
 
 namespace sheet::flow {
 
 // Lets vertices stay whose way would take their triangles into others, decided exactly (triangle_pair.h), or past them,
-// or to less than a quarter of the distance from them or a solid, or half of that from a border that is welded onto
-// them: folds leave no room there. Returns how many stay. x [m], ways [m]: of the mesh's vertices; taken: triangles
-// that go, and do not count; welds: where the borders are; solids: at the time [s].
+// or nearer than half way to a border that is welded onto them: folds leave no room there. Returns how many stay. x
+// [m], ways [m]: of the mesh's vertices; taken: triangles that go, and do not count; welds: where the borders are.
 std::size_t keep_clear(const Connectivity& mesh, const std::vector<bool>& taken, std::span<const Vector3> x,
-                       std::span<const ContactSpring> welds, const solid::Solids& solids, double time,
-                       std::vector<Vector3>& ways);
+                       std::span<const ContactSpring> welds, std::vector<Vector3>& ways);
 
 } // namespace sheet::flow

@@ -13,10 +13,8 @@
 #include "libsheet/flow/lift.h"
 #include "libsheet/flow/merge_patches.h"
 #include "libsheet/flow/put_fans.h"
-#include "libsheet/geometry/area.h"
 #include "libsheet/geometry/closest_points.h"
 #include "libsheet/geometry/vertex_shares.h"
-#include "libsheet/material/driven_rate.h"
 #include "libsheet/material/shifted_liquid.h"
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/sheet/account.h"
@@ -180,32 +178,9 @@ void take_away(Frame& frame, const Connectivity& mesh, const std::vector<bool>& 
   put_fans(frame, fans, taken, places);
 }
 
-// In which tension closes a gap as thick as the frame's sheet, by its first liquid [s]: about what a triangle without
-// `after` has to wait for (merge_patches.h). Infinite without tension, or of a liquid that yields and does not.
-double time_to_close(const Frame& frame, const Scene& scene) {
-  const auto x = positions(frame);
-  double volume = 0, area = 0;
-  for (std::size_t t = 0; t < frame.triangles; ++t) {
-    const Corners& c = triangles(frame)[t];
-    volume += volumes(frame)[t];
-    area += TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
-  }
-  const Liquid liquid = liquids_of(scene).front();
-  return 1 / driven_rate(liquid, liquid.surface_tension * area / volume);
-}
-
-// At each tenth of the time after which layers merge: whatever merges disturbs what lies on it.
-bool is_time_to_look(const Frame& frame, const Scene& scene) {
-  constexpr double part = 0.1;
-  const double interval = part * scene.merge->after.value_or(time_to_close(frame, scene));
-  const double before = number(frame, "start_time", frame.time);
-  return !(before < frame.time) || !(interval > 0 && interval < std::numeric_limits<double>::infinity()) ||
-         std::floor(before / interval) != std::floor(frame.time / interval);
-}
-
 } // namespace
 
-Merged merge(Frame& frame, const Scene& scene, const solid::Solids& solids) {
+Merged merge(Frame& frame, const Scene& scene) {
   Merged merged;
   if (!has_contacts(frame))
     return merged;
@@ -228,7 +203,7 @@ Merged merge(Frame& frame, const Scene& scene, const solid::Solids& solids) {
   springs.insert(springs.end(), welds.begin(), welds.end());
   write_springs(frame, springs);
   std::vector<Vector3> ways = deposit(frame, patches.lying);
-  merged.staying = keep_clear(mesh, patches.taken, positions(std::as_const(frame)), welds, solids, frame.time, ways);
+  merged.staying = keep_clear(mesh, patches.taken, positions(std::as_const(frame)), welds, ways);
   move(frame, ways);
   take_away(frame, mesh, patches.taken);
   merged.energy = before - kinetic_energy(frame, scene);
@@ -250,11 +225,9 @@ Merged& Merged::operator+=(const Merged& later) {
 void MergeStage::merge(Frame& frame) {
   check_magnitudes(frame);
   const Scene& scene = scenes_.of(frame);
-  if (!scene.merge || !is_time_to_look(frame, scene))
+  if (!scene.merge)
     return;
-  if (scenes_.changed() || !solids_)
-    solids_.emplace(scene);
-  const Merged merged = flow::merge(frame, scene, *solids_);
+  const Merged merged = flow::merge(frame, scene);
   if (merged.triangles > 0)
     log::detail("step {}: {} triangles taken up, {:.6g} m^3; {} welds, {} vertices had no room to move", frame.step,
                 merged.triangles, merged.volume, merged.welds, merged.staying);

@@ -11,11 +11,9 @@
 // nothing. Forty times as stiff, folds of honey took half as many steps again. SI units.
 #pragma once
 #include <cstdint>
-#include <optional>
 
 #include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/frame_scene.h"
-#include "libsheet/solid/solids.h"
 
 namespace sheet::flow {
 
@@ -32,11 +30,10 @@ struct Merged {
 
 // Merges the frame; bit for bit the same frame if nothing merges. What has merged is added to the frame's arrays
 // `merge.volume` [m³] and `merge.energy` [J] (account.h). Throws Error (bad_input) for a mesh that is no oriented
-// manifold. Precondition: the scene has a [merge] table; the solids are the scene's.
-Merged merge(formats::Frame& frame, const Scene& scene, const solid::Solids& solids);
+// manifold. Precondition: the scene has a [merge] table.
+Merged merge(formats::Frame& frame, const Scene& scene);
 
-// The stage. It merges at the end of the first step in each tenth of the time after which layers merge, and any frame
-// that no step has made. Without [merge] in the scene, frames pass unchanged.
+// The stage. Without [merge] in the scene, frames pass unchanged.
 class MergeStage {
 public:
   void merge(formats::Frame& frame);
@@ -44,7 +41,6 @@ public:
 
 private:
   FrameScene scenes_;
-  std::optional<solid::Solids> solids_; // of a scene with [merge]
   Merged total_;
 };
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "libsheet/flow/contact_dates.h"
-#include "libsheet/flow/tear_cuts.h"
 #include "libsheet/flow/whole_patches.h"
 #include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/material/driven_rate.h"
@@ -113,13 +112,6 @@ public:
   }
   [[nodiscard]] const std::vector<LyingOn>& on() const { return on_; }
   [[nodiscard]] double ripe() const { return ripe_; } // volume of all that would go, enough or not [m³]
-  // How thick what takes triangle t up becomes, over the most that is a sheet for its mesh.
-  [[nodiscard]] double crowding(std::uint32_t t) const {
-    double sum = 0;
-    for (const Lying& l : on_[t].parts)
-      sum += l.part * (thickness_[t] + thickness_[l.lower]) / (most_edges * mean_edge(areas_[l.lower]));
-    return sum;
-  }
 
 private:
   struct Law {
@@ -141,16 +133,13 @@ private:
     return areas;
   }
 
-  static double mean_edge(const TriangleArea& a) {
-    return (a.edge[0].norm() + a.edge[1].norm() + a.edge[2].norm()) / 3;
-  }
-
   // Where triangles are crushed that is beyond sense, so no more than two edges, as for contacts (collide_stage.cpp).
   static std::vector<double> thickness_of(const Frame& frame, std::span<const TriangleArea> areas) {
     std::vector<double> thickness;
     for (const double volume : volumes(frame)) {
       const TriangleArea& a = areas[thickness.size()];
-      thickness.push_back(std::min(volume / a.area, most_edges * mean_edge(a)));
+      const double around = a.edge[0].norm() + a.edge[1].norm() + a.edge[2].norm();
+      thickness.push_back(std::min(volume / a.area, most_edges * around / 3));
     }
     return thickness;
   }
@@ -238,55 +227,34 @@ private:
   double ripe_ = 0;
 };
 
-// Patches that hang together, so that nothing is taken up by what is taken up. What comes to no patch does not keep
-// others from going.
+// What is below is decided first, so that nothing is taken up by what is taken up.
 class Choice {
 public:
-  Choice(const Connectivity& mesh, const Candidates& candidates)
-      : mesh_(mesh), candidates_(candidates), takers_(mesh.triangles.size(), 0), taken_(mesh.triangles.size(), false) {
-    for (std::uint32_t t = 0; t < taken_.size(); ++t)
-      if (may_be_taken(t))
-        grow(t);
+  explicit Choice(const std::vector<LyingOn>& candidates)
+      : candidates_(candidates), decided_(candidates.size(), false), takes_(candidates.size(), false),
+        taken_(candidates.size(), false) {
+    for (std::uint32_t t = 0; t < candidates.size(); ++t)
+      decide(t);
   }
   [[nodiscard]] const std::vector<bool>& taken() const { return taken_; }
 
 private:
-  [[nodiscard]] bool may_be_taken(std::uint32_t t) const {
-    const std::vector<Lying>& on = candidates_.on()[t].parts;
-    return !on.empty() && !taken_[t] && takers_[t] == 0 &&
-           std::ranges::none_of(on, [&](const Lying& l) { return taken_[l.lower]; });
+  void decide(std::uint32_t t) {
+    const std::vector<Lying>& on = candidates_[t].parts;
+    if (decided_[t] || on.empty())
+      return;
+    decided_[t] = true;
+    for (const Lying& l : on)
+      decide(l.lower);
+    if (takes_[t] || std::ranges::any_of(on, [&](const Lying& l) { return taken_[l.lower]; }))
+      return;
+    taken_[t] = true;
+    for (const Lying& l : on)
+      takes_[l.lower] = true;
   }
 
-  void take(std::uint32_t t, bool so) {
-    taken_[t] = so;
-    for (const Lying& l : candidates_.on()[t].parts)
-      takers_[l.lower] += so ? 1 : -1;
-  }
-
-  // All that may be taken and hangs together with the seed goes, or nothing: of a crumb, or into what would become too
-  // thick in the mean.
-  void grow(std::uint32_t seed) {
-    std::vector<std::uint32_t> patch{seed};
-    double crowding = 0;
-    take(seed, true);
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      crowding += candidates_.crowding(patch[i]);
-      for (const std::uint32_t e : mesh_.triangle_edges[patch[i]])
-        for (const std::uint32_t s : mesh_.edge_triangles[e])
-          if (s != no_index && may_be_taken(s)) {
-            take(s, true);
-            patch.push_back(s);
-          }
-    }
-    if (patch.size() < crumb || crowding > static_cast<double>(patch.size()))
-      for (const std::uint32_t t : patch)
-        take(t, false);
-  }
-
-  const Connectivity& mesh_;
-  const Candidates& candidates_;
-  std::vector<std::uint32_t> takers_; // how many that are taken each triangle takes up parts of
-  std::vector<bool> taken_;
+  const std::vector<LyingOn>& candidates_;
+  std::vector<bool> decided_, takes_, taken_;
 };
 
 // Whether t juts out over what it lies on and is not the last thing before a rim or a bend down to that.
@@ -305,14 +273,14 @@ bool juts_out(const Connectivity& mesh, std::uint32_t t, const LyingOn& on, cons
 MergePatches find_patches(const Frame& frame, const Connectivity& mesh, const Scene& scene) {
   MergePatches found;
   const Candidates search(frame, mesh, scene);
-  const std::vector<LyingOn>& on = search.on();
+  const std::vector<LyingOn>& candidates = search.on();
   found.ripe = search.ripe();
-  found.taken = Choice(mesh, search).taken();
+  found.taken = Choice(candidates).taken();
   leave_whole_patches(
-      mesh, [&](std::uint32_t t) { return juts_out(mesh, t, on[t], found.taken); }, found.taken);
-  for (std::uint32_t t = 0; t < on.size(); ++t)
+      mesh, [&](std::uint32_t t) { return juts_out(mesh, t, candidates[t], found.taken); }, found.taken);
+  for (std::uint32_t t = 0; t < candidates.size(); ++t)
     if (found.taken[t])
-      found.lying.insert(found.lying.end(), on[t].parts.begin(), on[t].parts.end());
+      found.lying.insert(found.lying.end(), candidates[t].parts.begin(), candidates[t].parts.end());
   return found;
 }
 

@@ -5,15 +5,15 @@
 // longer than the scene's [merge] after, without which that is the viscosity times the thickness over the surface
 // tension: the time in which tension closes a gap of the thickness [Eggers, Lister and Stone 1999]. It may then be
 // taken up by the nearest layer there (lying.h), if nothing holds it (solids, [[hold]]s, inlets), its piece of the
-// sheet has a rim, and it lies on that layer with its whole area. Where a rim juts out a little over that of the
-// layer below, triangles go along that lie on it with half of their area at least, or are next to what lies on it and
-// wholly within 1.5 mean thicknesses of that, if nothing beyond them stays: their volume goes below, inwards by less
-// than that. What would become thicker than two of its edges takes nothing up: it would be no sheet for its mesh.
+// sheet has a rim, and it lies on that layer with its whole area. Where a rim juts out a little over that of the layer
+// below, triangles go along that lie on it with half of their area at least, or are next to what lies on it and wholly
+// within 1.5 mean thicknesses of that, if nothing beyond them stays: their volume goes below, inwards by less than
+// that.
 //
 // Which of two layers is taken up: the one that touches no solid, else the piece of the sheet with less volume, else,
-// within a piece, the one that is above by gravity, else the one with the higher number. Nothing is taken up by what is
-// taken up itself, so a pile takes several steps. Patches grow from their first triangle to all that may go with it, no
-// crumbs (tear_cuts.h), and are whole (whole_patches.h).
+// within a piece, the one that is above by gravity, else the one with the higher number. What is below is decided
+// first, and nothing is taken up by what is taken up itself, so a pile takes several steps. Patches are whole
+// (whole_patches.h).
 #pragma once
 #include <vector>
 

@@ -37,8 +37,6 @@ Scene merging_scene(const std::string& more = "", const std::string& on = "all")
                      "scene");
 }
 
-Merged merge_in(Frame& frame, const Scene& scene) { return merge(frame, scene, solid::Solids(scene)); }
-
 void shift(Frame& frame, const Vector3& by) {
   for (Vector3& x : positions(frame))
     x += by;
@@ -128,7 +126,7 @@ double total_of(const Frame& frame, std::string_view name) { return test::total(
 TEST(Merge, KeepsVolumeMomentumAndCentreOfMass) {
   const Frame before = stack();
   Frame frame = before;
-  const Merged merged = merge_in(frame, merging_scene());
+  const Merged merged = merge(frame, merging_scene());
   EXPECT_EQ(merged.triangles, 128u); // the whole upper sheet
   EXPECT_EQ(merged.staying, 0u);
   EXPECT_EQ(frame.triangles, 288u);
@@ -153,7 +151,7 @@ TEST(Merge, KeepsVolumeMomentumAndCentreOfMass) {
 // Inside, where the upper sheet covers all around, a layer of 0.05 at 0.08 above one of 0.1.
 TEST(Merge, LiftsTheLowerLayerToTheMiddleOfBoth) {
   Frame frame = stack();
-  (void)merge_in(frame, merging_scene());
+  (void)merge(frame, merging_scene());
   const auto x = positions(std::as_const(frame));
   for (std::size_t v = 0; v < frame.vertices; ++v)
     if (x[v].head<2>().cwiseAbs().maxCoeff() < 0.75 && x[v].head<2>().minCoeff() > 0.35) {
@@ -162,7 +160,7 @@ TEST(Merge, LiftsTheLowerLayerToTheMiddleOfBoth) {
 }
 
 TEST(Merge, NothingThatIsYoungOrAloneOrOff) {
-  const auto merges = [](Frame frame, const Scene& scene) { return merge_in(frame, scene).triangles; };
+  const auto merges = [](Frame frame, const Scene& scene) { return merge(frame, scene).triangles; };
   EXPECT_EQ(merges(stack(8, Vector3(0.13, 0.21, gap), 0.6), merging_scene()), 0u); // touches for 0.4 s
   EXPECT_EQ(merges(stack(8, Vector3(0.13, 0.21, 0.12), 0), merging_scene()), 0u);  // 1.6 thicknesses away
   EXPECT_EQ(merges(stack(1, Vector3(0.13, 0.21, gap), 0), merging_scene()), 0u);   // a crumb
@@ -177,7 +175,7 @@ TEST(Merge, NothingThatIsYoungOrAloneOrOff) {
     bits = 1;
   EXPECT_EQ(merges(held, merging_scene()), 0u);
   Frame nothing = held;
-  (void)merge_in(nothing, merging_scene());
+  (void)merge(nothing, merging_scene());
   EXPECT_EQ(nothing.arrays.size(), held.arrays.size());
 }
 
@@ -187,8 +185,7 @@ TEST(Merge, WhatThinsIsSoonDrawnTogether) {
     Frame frame = stack(8, Vector3(0.13, 0.21, gap), since);
     if (!moves)
       std::ranges::fill(velocities(frame), Vector3::Zero());
-    return merge_in(frame,
-                    parse_scene(of_material(material) + "[contact]\nself = true\n[merge]\non = \"all\"\n", "scene"))
+    return merge(frame, parse_scene(of_material(material) + "[contact]\nself = true\n[merge]\non = \"all\"\n", "scene"))
                .triangles > 0;
   };
   const std::string thins = "law = \"power\"\nflow_index = 0.5\n";
@@ -201,10 +198,10 @@ TEST(Merge, WhatThinsIsSoonDrawnTogether) {
 TEST(Merge, WeldsAreAsStiffAsTheirLiquidAtTheRateOfTheirMotion) {
   const auto stiffness = [](const std::string& material) {
     Frame frame = stack(8, Vector3(0.75, 0.21, gap));
-    merge_in(frame,
-             parse_scene(of_material(material) + "[model]\ninertia = false\n[environment]\ngravity = [0, 0, -9.81]\n"
-                                                 "[contact]\nself = true\n[merge]\nafter = 0.5\non = \"all\"\n",
-                         "scene"));
+    merge(frame,
+          parse_scene(of_material(material) + "[model]\ninertia = false\n[environment]\ngravity = [0, 0, -9.81]\n"
+                                              "[contact]\nself = true\n[merge]\nafter = 0.5\non = \"all\"\n",
+                      "scene"));
     for (const ContactSpring& s : read_springs(frame))
       if (s.welded())
         return s.stiffness[0];
@@ -218,7 +215,7 @@ TEST(Merge, WeldsAreAsStiffAsTheirLiquidAtTheRateOfTheirMotion) {
 TEST(Merge, WeldsTheBorderOfWhatStays) {
   const Frame before = stack(8, Vector3(0.75, 0.21, gap));
   Frame frame = before;
-  const Merged merged = merge_in(frame, merging_scene());
+  const Merged merged = merge(frame, merging_scene());
   EXPECT_THAT(merged.triangles, Gt(30u));
   EXPECT_LT(merged.triangles, 72u); // no more than lie over the lower sheet
   EXPECT_EQ(merged.welds, 9u);
@@ -240,7 +237,7 @@ TEST(Merge, WeldsTheBorderOfWhatStays) {
   for (std::uint32_t s = 0; s < mesh.triangles.size(); ++s)
     for (std::uint32_t t = 0; t < s; ++t)
       EXPECT_FALSE(triangles_intersect(x, mesh.triangles[s], mesh.triangles[t]));
-  const Merged again = merge_in(frame, merging_scene()); // what is left is not wholly on the lower one
+  const Merged again = merge(frame, merging_scene()); // what is left is not wholly on the lower one
   EXPECT_EQ(again.triangles, 0u);
 }
 
@@ -262,38 +259,9 @@ TEST(Merge, PilesGoFromBelow) {
   std::fill_n(touch.begin(), lower, 0);
   put_touched_solids(frame, touch, 1);
   write_springs(frame, springs);
-  const Merged merged = merge_in(frame, merging_scene());
+  const Merged merged = merge(frame, merging_scene());
   EXPECT_EQ(merged.triangles, 128u);
   EXPECT_EQ(frame.triangles, 288u + 72u);
-}
-
-// What would be thicker than two of its edges takes nothing up.
-TEST(Merge, NothingBecomesTooThickForItsMesh) {
-  Frame thick = stack();
-  for (double& volume : volumes(thick))
-    volume *= 1.5; // 0.15 and 0.075 on edges of 0.114 in the mean
-  EXPECT_THAT(merge_in(thick, merging_scene()).triangles, Gt(0u));
-  thick = stack();
-  for (double& volume : volumes(thick))
-    volume *= 1.7;
-  EXPECT_EQ(merge_in(thick, merging_scene()).triangles, 0u);
-}
-
-// The stage merges as the next tenth of the time after which layers merge begins, 0.05 s here.
-TEST(Merge, StageLooksFromTimeToTime) {
-  const auto merges = [](double time, double step) {
-    Frame frame = stack();
-    frame.put_text("scene", of_material("[environment]\ngravity = [0, 0, -9.81]\n[contact]\nself = true\n[merge]\n"
-                                        "after = 0.5\n"));
-    frame.time = time;
-    if (step > 0)
-      put_number(frame, "start_time", "s", time - step);
-    MergeStage().merge(frame);
-    return frame.triangles < 416;
-  };
-  EXPECT_TRUE(merges(1.02, 0)); // a frame that no step has made
-  EXPECT_TRUE(merges(1.02, 0.03));
-  EXPECT_FALSE(merges(1.02, 0.01));
 }
 
 // A strip that is folded over: the upper leg goes into the lower one, and the bend is its rim.
@@ -316,7 +284,7 @@ TEST(Merge, ClosesAFold) {
       }
   write_springs(frame, springs);
   const double volume = test::volume_of(frame);
-  const Merged merged = merge_in(frame, merging_scene());
+  const Merged merged = merge(frame, merging_scene());
   EXPECT_EQ(merged.triangles, 64u);
   EXPECT_EQ(merged.welds, 0u);
   EXPECT_EQ(frame.triangles, 64u);
@@ -335,35 +303,13 @@ TEST(Lift, StopsWhereThereIsNoRoom) {
   for (std::size_t v = 0; v < 16; ++v)
     ways[v] = Vector3(0, 0, v == 5 ? 0.2 : 0.01);
   const std::vector<bool> none(mesh.triangles.size(), false);
-  const solid::Solids nothing(merging_scene());
-  EXPECT_GE(keep_clear(mesh, none, x, {}, nothing, 0, ways), 1u);
+  EXPECT_GE(keep_clear(mesh, none, x, {}, ways), 1u);
   EXPECT_TRUE(ways[5].isZero(0));
   EXPECT_EQ(ways[15].z(), 0.01);
   std::vector<bool> taken = none;
   taken.back() = true;
   ways[5] = Vector3(0, 0, 0.2);
-  EXPECT_EQ(keep_clear(mesh, taken, x, {}, nothing, 0, ways), 0u);
-}
-
-// A quarter of the distance from a solid or another layer is left, and nothing that goes farther from a solid stays.
-TEST(Lift, KeepsADistance) {
-  Frame frame = test::grid(3, 3, 1, 0.1);
-  const std::vector<Vector3> more = {{1.3, 1.4, 0.4}, {1.6, 1.4, 0.4}, {1.4, 1.7, 0.4}};
-  append(make_frame(more, std::vector<Corners>{{0, 1, 2}}, std::vector<double>{1}), frame);
-  const Connectivity mesh = connect(frame.vertices, triangles(std::as_const(frame)));
-  const auto x = positions(std::as_const(frame));
-  const std::vector<bool> none(mesh.triangles.size(), false);
-  const solid::Solids floor(merging_scene("[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncenter = [0, 0, -0.2]\n"));
-  const auto stay = [&](std::uint32_t v, double way) {
-    std::vector<Vector3> ways(frame.vertices, Vector3::Zero());
-    ways[v].z() = way;
-    return keep_clear(mesh, none, x, {}, floor, 0, ways) == 1;
-  };
-  EXPECT_FALSE(stay(0, -0.14));
-  EXPECT_TRUE(stay(0, -0.16)); // 0.04 from the floor, of 0.2
-  EXPECT_FALSE(stay(0, 0.11));
-  EXPECT_FALSE(stay(18, -0.28));
-  EXPECT_TRUE(stay(18, -0.32)); // 0.08 from the sheet, of 0.4
+  EXPECT_EQ(keep_clear(mesh, taken, x, {}, ways), 0u);
 }
 
 } // namespace
