@@ -86,6 +86,13 @@ TEST(ContactSqueeze, AWaveIsFeltLessInAThickLayer) {
   EXPECT_NEAR(whole(thick), whole(thin), 1e-9 * whole(thin));
 }
 
+// A layer thinner than half an edge feels pressures as they are.
+TEST(ContactSqueeze, AThinLayerFeelsWhatPresses) {
+  const auto wave = [](const Vector3& x) { return mean_press * (1 + 0.5 * std::cos(4 * std::numbers::pi * x.x())); };
+  EXPECT_NEAR(roughness(squeezed(0.5 * side, wave)) / roughness(squeezed(0.001, wave)), 1, 1e-9);
+  EXPECT_LT(roughness(squeezed(0.8 * side, wave)) / roughness(squeezed(0.001, wave)), 0.999);
+}
+
 // What lands vertex by vertex does not drive a layer thicker than its edges asunder. The mean of what differs from
 // vertex to vertex over a spread of s is side/(2 √π s) of it, over a triangle 1/√3.
 TEST(ContactSqueeze, NoiseOfVerticesIsNotFelt) {
