@@ -32,6 +32,21 @@ template <class Real, class Body> void each_group(int t0, int t1, double product
             [&](int g) { body(t0 + g * size, std::min(t1, t0 + (g + 1) * size)); });
 }
 
+// Calls body(first, last) on groups of the child's rows from `first` on, no two of which come into one strip of the
+// parent.
+template <class Real, class Body>
+void each_group_of_child(const ChildUpdate<Real>& child, int first, double products, const Body& body) {
+  const auto strip = [&](int r) { return child.places[r - child.shape.pivots] / strip_rows<Real>; };
+  const int rows = child.shape.rows, groups = (rows - first + row_group - 1) / row_group;
+  const auto start = [&](int g) {
+    int r = std::min(rows, first + g * row_group);
+    while (r > first && r < rows && strip(r) == strip(r - 1))
+      ++r;
+    return r;
+  };
+  each_task(groups, products, [&](int g) { body(start(g), start(g + 1)); });
+}
+
 // Columns [j0, j1) of strips [t0, t1), less the products of columns [0, depth); columns right of the diagonal are left
 // out. end(t): columns that strip t has. start(t): its column 0.
 template <class Real, class End, class Start>
@@ -96,16 +111,17 @@ template <class Real> void form_update(const FrontShape<Real>& shape, const Real
 
 template <class Real>
 void add_child_to_panel(const ChildUpdate<Real>& child, const FrontShape<Real>& shape, Real* panel) {
-  const int first = child.shape.first_update_strip(), rows = child.shape.rows - child.shape.pivots;
-  each_group<Real>(first, child.shape.strips(), static_cast<double>(rows) * child.in_panel,
-                   [&](int t0, int t1) { front_kernels<Real>().add_to_panel(child, shape, panel, t0, t1); });
+  const int first = child.shape.pivots, rows = child.shape.rows - first;
+  each_group_of_child(child, first, static_cast<double>(rows) * child.in_panel,
+                      [&](int r0, int r1) { front_kernels<Real>().add_to_panel(child, shape, panel, r0, r1); });
 }
 
 template <class Real>
 void add_child_to_update(const ChildUpdate<Real>& child, const FrontShape<Real>& shape, Real* update) {
-  const double rows = child.shape.rows - child.shape.pivots - child.in_panel;
-  each_group<Real>(child.shape.first_update_strip(), child.shape.strips(), rows * rows,
-                   [&](int t0, int t1) { front_kernels<Real>().add_to_update(child, shape, update, t0, t1); });
+  const int first = child.shape.pivots + child.in_panel;
+  const double rows = child.shape.rows - first;
+  each_group_of_child(child, first, rows * rows,
+                      [&](int r0, int r1) { front_kernels<Real>().add_to_update(child, shape, update, r0, r1); });
 }
 
 template bool factor_panel(const FrontShape<float>&, float*);

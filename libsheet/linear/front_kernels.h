@@ -25,9 +25,11 @@ template <class Real> struct FrontKernels {
   // Eliminates the columns [p, q) in the strips t ... t + count - 1, which have had the columns before p subtracted
   // and stand below the strips in which these columns are done already, or are the next one (count = 1).
   bool (*eliminate)(const FrontShape<Real>& shape, Real* panel, int p, int q, int t, int count);
-  // Adds strips [t0, t1) of a child's update matrix to the panel, or to the update matrix.
-  void (*add_to_panel)(const ChildUpdate<Real>& child, const FrontShape<Real>& shape, Real* panel, int t0, int t1);
-  void (*add_to_update)(const ChildUpdate<Real>& child, const FrontShape<Real>& shape, Real* update, int t0, int t1);
+  // Adds rows [r0, r1) of a child's update matrix, none of them a pivot of the child, to the panel, or, of rows that
+  // are no pivots of the parent either, to its update matrix. Whole strips of the parent are read and written, so what
+  // is added at the same time must not meet in one.
+  void (*add_to_panel)(const ChildUpdate<Real>& child, const FrontShape<Real>& shape, Real* panel, int r0, int r1);
+  void (*add_to_update)(const ChildUpdate<Real>& child, const FrontShape<Real>& shape, Real* update, int r0, int r1);
   // x: all rows of the front, in whole strips. Solves for the pivots and takes them out of the other rows.
   void (*forward)(const FrontShape<Real>& shape, const Real* panel, Real* x);
   // Solves the transposed system for the pivots, the other rows being known. sums: a strip for each pivot.

@@ -12,6 +12,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
+#include <tbb/task_arena.h>
 
 #include "libsheet/linear/dense_front.h"
 #include "libsheet/linear/kept_buffer.h"
@@ -442,7 +443,8 @@ bool SupernodalFactor<Real>::factorize(const SparseLower& a, const Eigen::Vector
       own.reserve(impl_->stack_size[0] + impl_->stack_size[1]);
       stack = own.data();
     }
-    if (!impl_->eliminate(matrix, s, stack))
+    // A thread that waits for others to do parts of a front must not begin another subtree: its stack is in use.
+    if (!tbb::this_task_arena::isolate([&] { return impl_->eliminate(matrix, s, stack); }))
       good = false;
   });
   return good;

@@ -3,6 +3,7 @@
 #include "libsheet/linear/front_kernels.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <random>
 
@@ -117,9 +118,11 @@ TYPED_TEST(FrontKernelsTest, AddsChildren) {
       parent_panel.reserve(static_cast<std::size_t>(parent.panel_size())); // fresh memory is zero
       parent_update.reserve(static_cast<std::size_t>(parent.update_size()) + 1);
       const ChildUpdate<TypeParam> child{this->shape, this->update.data(), places.data(), in_panel};
-      kernels->add_to_panel(child, parent, parent_panel.data(), this->shape.first_update_strip(), this->shape.strips());
-      kernels->add_to_update(child, parent, parent_update.data(), this->shape.first_update_strip(),
-                             this->shape.strips());
+      for (const auto& [first, last] : {std::array{pivots, pivots + count / 3}, {pivots + count / 3, rows}}) {
+        const int later = pivots + in_panel;
+        kernels->add_to_panel(child, parent, parent_panel.data(), first, last);
+        kernels->add_to_update(child, parent, parent_update.data(), std::max(first, later), std::max(last, later));
+      }
       Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(parent.rows, parent.rows);
       for (int k = 0; k < count; ++k)
         for (int r = k; r < count; ++r)

@@ -122,6 +122,33 @@ Problem sheet_matrix(const test::Mesh& mesh, unsigned seed) {
   return {std::move(a), assembly.pattern().node_graph()};
 }
 
+// `arms` of 20 nodes of three unknowns each, every one of them coupled wholly within and with a hub of 270: a big front
+// with many children whose updates go to all of its rows, from places that are not those of whole strips. Diagonally
+// dominant.
+Problem star(int arms) {
+  constexpr int width = 3, arm = 20, hub = 270;
+  const int nodes = arms * arm + hub;
+  NodeGraph graph{{0}, {0}, {}};
+  SparseLower a{width * nodes, {0}, {}, {}};
+  for (int node = 0; node < nodes; ++node) {
+    const int own_end = node < arms * arm ? (node / arm + 1) * arm : nodes;
+    for (int other = node + 1; other < nodes; ++other)
+      if (other < own_end || other >= arms * arm)
+        graph.later.push_back(other);
+    graph.start.push_back(static_cast<int>(graph.later.size()));
+    graph.first.push_back(width * (node + 1));
+    for (int c = width * node; c < width * (node + 1); ++c) {
+      for (int r = c; r < width * nodes; ++r)
+        if (r < width * own_end || r >= width * arms * arm) {
+          a.rows.push_back(r);
+          a.values.push_back(r == c ? width * nodes : 1 / (1.0 + (r * 7 + c) % 11));
+        }
+      a.starts.push_back(static_cast<int>(a.rows.size()));
+    }
+  }
+  return {std::move(a), std::move(graph)};
+}
+
 Eigen::VectorXd no_scale(const SparseLower& a) { return Eigen::VectorXd::Ones(a.size); }
 
 template <class Real> double residual_bound() { return sizeof(Real) == 4 ? 3e-6 : 1e-14; }
@@ -302,6 +329,25 @@ TYPED_TEST(SupernodalFactorTest, SameBitsForAnyNumberOfThreads) {
           first = x;
         EXPECT_EQ(x, first) << threads << " threads";
       }
+    }
+  }
+}
+
+// Parts of a child's update that are added at the same time must not meet in a strip of the parent.
+TYPED_TEST(SupernodalFactorTest, SameBitsWhereChildrenAreAddedInParts) {
+  const Problem p = star(40);
+  const Eigen::VectorXd b = random_vector(p.a.size, 1);
+  Eigen::VectorXd first;
+  for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    SupernodalFactor<TypeParam> factor;
+    factor.analyze(p.graph);
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      ASSERT_TRUE(factor.factorize(p.a, no_scale(p.a), 0));
+      const Eigen::VectorXd x = factor.solve(b);
+      if (first.size() == 0)
+        first = x;
+      ASSERT_EQ(x, first) << threads << " threads";
     }
   }
 }
