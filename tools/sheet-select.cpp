@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sheet-select: picks frames of a stream.
+#include <utility>
+
 #include "formats/cpp/stream_reader.h"
 #include "formats/cpp/stream_writer.h"
 #include "libsheet/base/files.h"
@@ -65,7 +67,7 @@ int main(int argc, char** argv) {
         throw;
       }
     };
-    while (next() && selector.add(std::move(frame)))
+    while (next() && selector.add(std::exchange(frame, {})))
       continue;
     selector.end();
     end();

@@ -14,6 +14,7 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/contact_spring.h"
+#include "libsheet/sheet/sheet.h"
 
 namespace sheet::flow {
 

@@ -8,6 +8,7 @@
 
 #include "libsheet/base/units.h"
 #include "libsheet/render/codecs.h"
+#include "libsheet/render/material_option.h"
 #include "libsheet/render/render_stage.h"
 
 namespace sheet::render {
