@@ -34,6 +34,8 @@ constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what 
 constexpr int often = 3;          // in a row near enough, though the preconditioner is not trusted
 constexpr double far_away = 0.1;  // of an edge, or radians: if more remains at a start, there may be a better one,
 constexpr double much = 0.1;      // or if so much of the energies there can be gained
+constexpr double too_much = 0.01; // of the energies, that an earlier place's factor promises to gain
+constexpr double farther = 3;     // times what remained before the last step, what such a factor says remains after it
 
 // The greatest of the first `count` numbers of x, each in its own unit. Not a number if one of them is none.
 double greatest(const Eigen::VectorXd& x, const Eigen::VectorXd& units, Eigen::Index count) {
@@ -100,6 +102,10 @@ private:
       }
       if (!std::isfinite(remains_))
         return;
+      if (misled()) {
+        leave_factor();
+        continue;
+      }
       if (converged()) {
         if (near_ < often || trusted())
           take_remainder();
@@ -136,6 +142,22 @@ private:
       }
       full_ = length == 1;
     }
+  }
+
+  // By a factor that was made elsewhere: where layers meet or films buckle, stiffness may change by orders of magnitude
+  // between the stages of a step. Along motions that the potential does not see promises mean nothing.
+  [[nodiscard]] bool misled() const {
+    if (fresh_ || system_.floor() > 0)
+      return false;
+    const bool promises = !system_.factor_serves() && norm_ * norm_ > too_much * energy_.magnitude;
+    return promises || (steps() > 0 && norm_ > farther * previous_norm_);
+  }
+
+  // What remained before the last step stays known.
+  void leave_factor() {
+    norm_ = previous_norm_;
+    followed_ = false;
+    system_.forget_factor();
   }
 
   [[nodiscard]] int steps() const { return report_.iterations + report_.followed; }
