@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/read.h"
 
 namespace sheet {
 namespace {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/read.h"
 #include "tests/unit/scene/scenes.h"
 
 namespace sheet {

@@ -8,6 +8,7 @@
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/scene/layer_scales.h"
+#include "libsheet/scene/read.h"
 
 namespace sheet {
 namespace {

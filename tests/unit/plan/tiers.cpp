@@ -9,6 +9,7 @@
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/proposed_ring.h"
+#include "libsheet/scene/read.h"
 
 namespace sheet {
 namespace {
