@@ -92,6 +92,16 @@ Box3 falling_way(const Scene& scene, const formats::Frame& first) {
   return way_of_sheet(first, longest_fall(landings(scene, first)) * down_in(scene));
 }
 
+// Whether any of what flows in lands on nothing.
+bool flows_past(const formats::Frame& first, const solid::Solids& solids, const Vector3& down) {
+  const auto inlets = masks(first, "inlet");
+  for (std::size_t v = 0; v < inlets.size() && !down.isZero(0); ++v)
+    if (inlets[v] != 0 &&
+        !landing_below(solids, down, positions(first)[v], measured(first).length.value_or(0), first.time))
+      return true;
+  return false;
+}
+
 // In the world; that of a half-space is infinite.
 Box3 box_of(const solid::Solids& solids, std::size_t number, double t) {
   const Box3& bounds = solids.shape(number).bounds();
@@ -102,6 +112,19 @@ Box3 box_of(const solid::Solids& solids, std::size_t number, double t) {
 bool is_beyond(const Box3& box, const Box3& other, const Vector3& direction) {
   const double apart = direction.dot(box.center() - other.center());
   return apart >= direction.cwiseAbs().dot(box.sizes() + other.sizes()) / 2;
+}
+
+// The way of the sheet, and of what flows in and lands on nothing: that falls past all solids.
+Box3 whole_way(const Scene& scene, const formats::Frame& first, const solid::Solids& solids) {
+  Box3 way = falling_way(scene, first);
+  const Vector3 down = down_in(scene);
+  if (way.isEmpty() || !flows_past(first, solids, down))
+    return way;
+  double fall = 0; // to the lowest of all solids [m]
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    if (const Box3 box = box_of(solids, i, first.time); box.sizes().allFinite())
+      fall = std::max(fall, down.dot(box.center() - way.center()) + down.cwiseAbs().dot(box.sizes()) / 2);
+  return way.extend(way.translated(fall * down));
 }
 
 // Whether a corner of a box, or its middle, is nearer to a solid than that [m].
@@ -165,21 +188,32 @@ struct Held {
 
 } // namespace
 
+double coming_through_time(const Scene& scene, const formats::Frame& first) {
+  const solid::Solids solids(scene);
+  const Box3 way = whole_way(scene, first, solids);
+  double through = 0;
+  for (std::size_t i = 0; i < solids.size() && !way.isEmpty(); ++i) {
+    const Box3& bounds = solids.shape(i).bounds();
+    const auto motion = moving(scene.solids[i].motion, first.time);
+    if (!motion || !bounds.sizes().allFinite())
+      continue;
+    const auto& [velocity, start] = *motion;
+    const double time = leaves(bounds.transformed(solids.pose(i, start)), velocity, way);
+    if (time > 0)
+      through = std::max(through, start + std::max(time, middle_size(way) / velocity.norm()));
+  }
+  return through;
+}
+
 double passing_time(const Scene& scene, const formats::Frame& first) {
   const solid::Solids solids(scene);
-  const Box3 way = falling_way(scene, first);
-  if (way.isEmpty())
-    return 0;
-  double passed = 0;
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    const Box3& bounds = solids.shape(i).bounds();
-    if (const auto motion = moving(scene.solids[i].motion, first.time); motion && bounds.sizes().allFinite()) {
-      const auto& [velocity, start] = *motion;
-      const double time = leaves(bounds.transformed(solids.pose(i, start)), velocity, way);
-      if (time > 0)
-        passed = std::max(passed, start + std::max(time, middle_size(way) / velocity.norm()));
-    } else if (const auto turn = turning(scene.solids[i].motion, first.time);
-               turn && (!scene.inflows.empty() || sweeps(solids, i, turn->start, turn->time, way)))
+  const Box3 way = whole_way(scene, first, solids);
+  double passed = coming_through_time(scene, first);
+  for (std::size_t i = 0; i < solids.size() && !way.isEmpty(); ++i) {
+    const scene::Motion& motion = scene.solids[i].motion;
+    const auto turn = turning(motion, first.time);
+    if (turn && !(moving(motion, first.time) && solids.shape(i).bounds().sizes().allFinite()) &&
+        (!scene.inflows.empty() || sweeps(solids, i, turn->start, turn->time, way)))
       passed = std::max(passed, turn->start + turn->time);
   }
   return passed;

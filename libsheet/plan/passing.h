@@ -8,9 +8,13 @@
 
 namespace sheet {
 
-// When the last of them has left the box around the sheet as it lies at the start and all that it falls through, and
-// has gone at least as far as the second of the box's sides is long, or has turned once, if it comes to the box in that
-// turn or liquid flows in, which may come to it [s]; 0 if none does.
+// When the last of those that do not turn on the spot has left the box around the sheet as it lies at the start and all
+// that it falls through (what flows in and lands on nothing: down to the lowest solid), and has gone at least as far as
+// the second of the box's sides is long [s]; 0 if none comes through.
+[[nodiscard]] double coming_through_time(const Scene& scene, const formats::Frame& first);
+
+// The same, and when the last that turns on the spot has turned once, if it comes to the box in that turn or liquid
+// flows in, which may come to it [s]; 0 if there is none.
 [[nodiscard]] double passing_time(const Scene& scene, const formats::Frame& first);
 
 // When what lies at the start on a belt that rests, or falls on it, has been carried past the last of the solids that

@@ -12,6 +12,7 @@
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/proposed_ring.h"
+#include "libsheet/scene/read.h"
 
 namespace sheet {
 namespace {
@@ -49,6 +50,28 @@ TEST(Passing, OfASheetThatFallsPastIt) {
   const std::string ball = "center = [-0.2, 0.05, 0]\nvelocity = [0.1, 0, 0]\n";
   EXPECT_EQ(passing(ball, 0, 0.2), 0);
   EXPECT_GT(passing(ball, 9.81, 0.2), 0.28 / 0.1);
+}
+
+// A curtain of 80 by 20 mm, 2 mm thick, above nothing but what is carried through it later.
+TEST(Passing, OfABallThatComesToACurtainFarBelowItsInlet) {
+  const auto passing = [](const std::string& inflow, double height) {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.08, 0.02]\nplane = \"xy\"\nedge_length = 0.01\n"
+                    "thickness = 0.002\n[material]\nviscosity = 10\ndensity = 1400\n[environment]\n"
+                    "gravity = [0, -9.81, 0]\n[[solid]]\nshape = \"sphere\"\nradius = 0.02\n"
+                    "center = [0, {}, -0.1]\nvelocity = [0, 0, 0.1]\n{}",
+                    height, inflow),
+        "s");
+    const auto first = first_frame(scene);
+    const double time = passing_time(scene, first);
+    EXPECT_GE(proposed_ring(scene, first, {}).until, time);
+    return time;
+  };
+  const std::string inflow = "[inflow]\nregion = \"y_max\"\nvelocity = [0, -0.2, 0]\nthickness = 0.002\n";
+  EXPECT_NEAR(passing(inflow, -0.1), (0.12 + 0.001) / 0.1, 1e-9);
+  EXPECT_NEAR(passing(inflow, -0.2), (0.12 + 0.001) / 0.1, 1e-9);
+  EXPECT_EQ(passing(inflow, 0.1), 0); // above it
+  EXPECT_EQ(passing("", -0.1), 0);    // it has fallen past before
 }
 
 // Of what comes to the sheet in it: not of what turns above it, nor once it stands.
