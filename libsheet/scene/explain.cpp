@@ -247,6 +247,17 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
   return warnings;
 }
 
+// Of what is turned more than once round.
+std::optional<std::string> warning_of_angle(const std::optional<Rotation>& rotation, const std::string& what) {
+  constexpr double rounding = 1e-9;
+  if (!rotation || !(std::abs(rotation->angle) > 2 * std::numbers::pi * (1 + rounding)))
+    return std::nullopt;
+  return fmt::format("{} is turned by {} rad, {} times round: a plain number is in radians; degrees are written \"{} "
+                     "deg\"",
+                     what, brief(rotation->angle), brief(std::abs(rotation->angle) / (2 * std::numbers::pi)),
+                     brief(rotation->angle));
+}
+
 bool tense(const Scene& scene) {
   return std::ranges::any_of(liquids_of(scene), [](const Liquid& liquid) { return liquid.surface_tension > 0; });
 }
@@ -261,6 +272,8 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
     for (const std::string& warning :
          warnings_of_sheet(with_material_of(scene, scene.sheets[i]), scene.sheets[i], scales[i]))
       warn(name.empty() ? warning : name + ": " + warning);
+    if (const auto angle = warning_of_angle(scene.sheets[i].rotation, name.empty() ? "the sheet" : name))
+      warn(*angle);
   }
   for (std::size_t i = 0; i < scene.holds.size(); ++i)
     if (const auto jumps = warning_of_jumps(scene.holds[i].motion, fmt::format("hold {}", i)))
@@ -268,6 +281,9 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
   for (std::size_t i = 0; i < scene.solids.size(); ++i)
     if (const auto jumps = warning_of_jumps(scene.solids[i].motion, fmt::format("solid {}", i)))
       warn(*jumps);
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (const auto angle = warning_of_angle(scene.solids[i].rotation, fmt::format("solid {}", i)))
+      warn(*angle);
   for (std::size_t i = 0; i < scene.solids.size(); ++i)
     if (const auto level = level_plane_in_doubt(scene, i))
       warn(fmt::format("solid {} (plane): {}", i, *level));

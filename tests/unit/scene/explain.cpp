@@ -32,6 +32,23 @@ double scale(const Explanation& e, std::string_view symbol) {
 }
 Explanation of(const std::string& text) { return explain(parse_scene(text, "s")); }
 
+TEST(Explain, WarnsOfAnglesThatWereMeantInDegrees) {
+  const std::string turned = disk + "rotation = {axis = [1, 0, 0], angle = ",
+                    box = disk + liquid +
+                          "[[solid]]\nshape = \"box\"\nsize = [1, 1, 1]\nrotation = {axis = [0, 0, 1], angle = ";
+  EXPECT_THAT(
+      of(turned + "30}\n" + liquid).warnings,
+      testing::Contains("the sheet is turned by 30 rad, 4.77 times round: a plain number is in radians; degrees "
+                        "are written \"30 deg\""));
+  EXPECT_THAT(of(box + "-45}\n").warnings,
+              testing::Contains(testing::StartsWith("solid 0 is turned by -45 rad, 7.16 times round")));
+  for (const std::string angle : {"\"-30 deg\"", "\"360 deg\"", "1.5"}) {
+    EXPECT_THAT(of(turned + angle + "}\n" + liquid).warnings,
+                testing::Not(testing::Contains(testing::HasSubstr("radians"))));
+    EXPECT_THAT(of(box + angle + "}\n").warnings, testing::Not(testing::Contains(testing::HasSubstr("radians"))));
+  }
+}
+
 TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
   const auto warned = [](const Explanation& e, std::string_view words) {
     return std::ranges::any_of(e.warnings, [&](const std::string& w) { return w.find(words) != std::string::npos; });
