@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -36,6 +37,14 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
+// Nothing of a text that is not one number and no more.
+std::optional<double> number_in(std::string_view cell) {
+  double value = 0;
+  const char* end = cell.data() + cell.size();
+  const auto [stop, error] = std::from_chars(cell.data() + cell.starts_with('+'), end, value);
+  return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
 class RowReader {
 public:
   RowReader(const std::string& path, std::span<const RowColumn> columns, std::size_t most, std::string_view too_many)
@@ -53,7 +62,7 @@ public:
       if (content.empty() || content.front() == '#')
         continue;
       if (there_.empty())
-        read_header(content);
+        read_header(content, example);
       else
         read_row(content);
     }
@@ -103,8 +112,13 @@ private:
     return {index, value_of(1) - zero, zero};
   }
 
-  void read_header(std::string_view line) {
+  void read_header(std::string_view line, std::string_view example) {
     file_.header_line = line_;
+    if (line.find(',') == std::string_view::npos && line.find_first_of(";\t") != std::string_view::npos)
+      wrong("columns are separated by commas, not by {}; numbers have a decimal point",
+            line.find(';') != std::string_view::npos ? "semicolons" : "tabs");
+    if (number_in(cells_of(line).front()))
+      wrong("the first line names the columns, such as {}", example);
     for (const std::string_view cell : cells_of(line))
       there_.push_back(read_column(cell));
   }
@@ -115,11 +129,9 @@ private:
       wrong("{} values, but the first line names {} columns", cells.size(), there_.size());
     std::vector<double> values(file_.columns.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      double& value = values[there_[i].index];
-      const char* end = cells[i].data() + cells[i].size();
-      const auto [stop, error] = std::from_chars(cells[i].data() + cells[i].starts_with('+'), end, value);
-      value = value * there_[i].unit + there_[i].zero;
-      if (cells[i].empty() || error != std::errc{} || stop != end || !std::isfinite(value))
+      const auto value = number_in(cells[i]);
+      values[there_[i].index] = value.value_or(0) * there_[i].unit + there_[i].zero;
+      if (!value || !std::isfinite(values[there_[i].index]))
         wrong("column \"{}\": \"{}\" is not a finite number", file_.columns[there_[i].index].name,
               cells[i].substr(0, 60));
     }
