@@ -7,6 +7,8 @@
 
 #include "libsheet/flow/inlet.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/plan/inlet_width.h"
+#include "libsheet/scene/brief.h"
 #include "libsheet/scene/inlet_velocity.h"
 
 namespace sheet {
@@ -40,6 +42,13 @@ Part part_of(const Frame& first, const scene::InletVelocity& velocity, std::size
 std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first) {
   constexpr double most = 0.87; // sine of 60 degrees
   std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i)
+    if (const double width = width_of_inlet(first, i), thickness = scene.inflows[i].thickness;
+        width > 0 && thickness > width)
+      warnings.push_back(fmt::format(
+          "inflow {} is thicker ({} m) than wide ({} m): it is no sheet; if {} mm are meant, "
+          "thickness = \"{} mm\", as plain numbers are metres",
+          i, scene::brief(thickness), scene::brief(width), scene::brief(thickness), scene::brief(thickness)));
   const auto up = scene::up(scene.environment);
   for (std::size_t i = 0; i < scene.inflows.size() && up; ++i) {
     const scene::InletVelocity velocity = scene::inlet_velocity(scene, scene.inflows[i]);

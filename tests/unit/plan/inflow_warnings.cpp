@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,6 +30,22 @@ TEST(InflowWarnings, OfLiquidThatRisesAcrossTheSheet) {
   EXPECT_THAT(warnings("xz", "region = \"x_min\"\nvelocity = [1, 0.5, 0]\n"), testing::IsEmpty());
   EXPECT_THAT(warnings("xz", "region = \"x_min\"\nvelocity = [0, -1, 0]\n"), testing::IsEmpty()); // a curtain
   EXPECT_THAT(warnings("xy", "region = \"y_min\"\nvelocity = [0, 1, 0]\n"), testing::IsEmpty());  // a jet
+}
+
+// The inlet is 60 mm wide.
+TEST(InflowWarnings, OfOneThatIsThickerThanWide) {
+  const auto warnings_of = [](double thickness) {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.06, 0.06]\nedge_length = 0.01\nthickness = 0.003\n"
+                    "[material]\nviscosity = 10\ndensity = 1200\n[inflow]\nregion = \"x_min\"\n"
+                    "velocity = [1, 0, 0]\nthickness = {}\n",
+                    thickness),
+        "s");
+    return inflow_warnings(scene, first_frame(scene));
+  };
+  EXPECT_THAT(warnings_of(3), testing::ElementsAre(testing::StartsWith(
+                                  "inflow 0 is thicker (3 m) than wide (0.06 m): it is no sheet; if 3 mm are meant")));
+  EXPECT_THAT(warnings_of(0.05), testing::IsEmpty());
 }
 
 } // namespace
