@@ -139,9 +139,14 @@ std::vector<std::string> mesh_warnings(const Scene& scene, const Frame& first) {
   const solid::Solids solids(scene);
   std::vector<std::string> warnings{seam_warning(scene, first), warning_of_pieces(scene, first),
                                     warning_of_needles(first), warning_of_narrow_solids(scene, solids, first)};
+  constexpr double of_the_sheet = 50; // a landscape is not as much longer than what flows in it
+  Box sheet;
+  for (const Vector3& x : positions(first))
+    sheet.add(x);
   for (std::size_t i = 0; i < solids.size(); ++i)
-    if (is_mesh(scene.solids[i]))
-      warnings.push_back(hint_of_scale(solids.name(i), solids.shape(i).bounds().diagonal().norm()));
+    if (const double length = solids.shape(i).bounds().diagonal().norm();
+        is_mesh(scene.solids[i]) && length > of_the_sheet * sheet.diagonal())
+      warnings.push_back(hint_of_scale(solids.name(i), length));
   std::erase(warnings, "");
   return warnings;
 }

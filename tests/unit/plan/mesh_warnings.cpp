@@ -75,6 +75,19 @@ TEST(MeshWarnings, OfMeshesWithPartsNarrowerThanEdges) {
   EXPECT_THAT(stool[0], testing::HasSubstr("stool.obj) is in parts narrower (0.004 m) than edges"));
 }
 
+// Of 40 m, a sheet of 0.1 m lies on it, or one of 10 m.
+TEST(MeshWarnings, OfMeshesThatMayBeInMillimetres) {
+  const std::string solid =
+      "[[solid]]\nshape = \"mesh\"\nfile = " + file_with("hill.obj", obj_box(1, {-20, -30, -20}, {20, -10, 20})) + "\n";
+  EXPECT_THAT(warnings_of("0.001", solid),
+              testing::ElementsAre(testing::HasSubstr("hill.obj) is 60 m long: if its mesh is in millimetres")));
+  const Scene large = scene::parse_scene("[sheet]\nshape = \"disk\"\nradius = 5\nedge_length = 1\nthickness = 0.5\n"
+                                         "[material]\nviscosity = 1000\ndensity = 2000\n" +
+                                             solid,
+                                         "s");
+  EXPECT_TRUE(mesh_warnings(large, checked_first_frame(large)).empty());
+}
+
 // Each triangle has vertices of its own.
 TEST(MeshWarnings, ASheetWithSeamsIsRefusedWhereItIsToKeepApart) {
   const std::string soup = file_with("soup.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 1 0 0\nv 0 0 1\nv 1 0 1\n"
