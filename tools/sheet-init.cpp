@@ -22,6 +22,7 @@
 #include "libsheet/plan/face_warnings.h"
 #include "libsheet/plan/falling_past.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/held_whole.h"
 #include "libsheet/plan/hole_forecast.h"
 #include "libsheet/plan/idle_rolls.h"
 #include "libsheet/plan/inflow_warnings.h"
@@ -175,7 +176,8 @@ std::string explained(Source source, bool ring_alone) {
   for (const std::string& warning :
        {sheet::falling_past_warning(scene, frame), sheet::falling_on_warning(scene, frame, until),
         sheet::drawing_up_warning(scene, frame, until), sheet::thick_stream_warning(scene, frame, until),
-        sheet::wetting_warning(scene, frame, until), sheet::bath_crushing_warning(scene, frame)})
+        sheet::wetting_warning(scene, frame, until), sheet::bath_crushing_warning(scene, frame),
+        sheet::held_whole_warning(scene, frame)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :
