@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -221,14 +222,29 @@ double time_to_bath(const Scene& scene, const Frame& first) {
   return std::sqrt(2 * std::max(0.0, height) / scene.environment.gravity->norm());
 }
 
-// When the last has ended of what the scene prescribes: holds, inflows, rows, solids that come through, and what falls
-// into a bath has come there [s].
-double action_time(const Scene& scene, const Frame& first) {
-  double time = std::max(passing_time(scene, first), time_to_bath(scene, first));
-  for (const scene::Hold& hold : scene.holds)
+// When the last has ended, or come through: holds, inflows, keyframed motions, solids [s].
+double ended_time(const Scene& scene, const Frame& first) {
+  double time = coming_through_time(scene, first);
+  const auto ends = [&](const scene::Motion& motion) {
+    if (std::holds_alternative<scene::Keyframed>(motion))
+      for (const double row : scene::events(motion))
+        time = std::max(time, row);
+  };
+  for (const scene::Hold& hold : scene.holds) {
     time = std::max(time, hold.until.value_or(0));
+    ends(hold.motion);
+  }
+  for (const scene::Solid& solid : scene.solids)
+    ends(solid.motion);
   for (const scene::Inflow& inflow : scene.inflows)
     time = std::max(time, inflow.until.value_or(0));
+  return time;
+}
+
+// The same, and when the last has changed of what goes on for ever, what turns has turned once, and what falls into a
+// bath has come there [s].
+double action_time(const Scene& scene, const Frame& first) {
+  double time = std::max({ended_time(scene, first), passing_time(scene, first), time_to_bath(scene, first)});
   for (const double event : events_of(scene))
     time = std::max(time, event);
   return time;
@@ -285,6 +301,18 @@ ProposedRing proposed_ring(const Scene& with_heat, const Frame& first, const Rin
           .fps = wishes.fps.value_or(rate_of(until, action_time(with_heat, first))),
           .folds = folds,
           .stages = pipeline_at(scene, wishes.quality, folds)};
+}
+
+std::string few_frames_warning(const Scene& with_heat, const Frame& first, const RingWishes& wishes) {
+  constexpr double enough = 5, as_long_again = 1.5; // frames; times that
+  const double ended = ended_time(with_heat, first);
+  const ProposedRing ring = proposed_ring(with_heat, first, wishes);
+  if (wishes.fps || !(ended > 0) || ended * ring.fps >= enough || as_long_again * ended > ring.until)
+    return "";
+  const double until = rounded(as_long_again * ended);
+  return fmt::format("what moves has come through or ended by {:.2g} s, which {:.0f} of the frames show, as the run "
+                     "goes on to {} s: --until {} --fps {} shows it",
+                     ended, std::ceil(ended * ring.fps), ring.until, until, rate_of(until, ended));
 }
 
 std::string ring_text(const Scene& with_heat, const Frame& first, const RingWishes& wishes, const std::string& init) {

@@ -40,6 +40,12 @@ struct RingWishes {
 // warm.
 [[nodiscard]] ProposedRing proposed_ring(const Scene& with_heat, const formats::Frame& first, const RingWishes& wishes);
 
+// Of what a scene prescribes at the beginning of a long run, as of a squeegee that passes over paint, which then runs
+// down for minutes: that few frames show it, and the run that does. "" where five or more do, or the user has settled
+// how many.
+[[nodiscard]] std::string few_frames_warning(const Scene& with_heat, const formats::Frame& first,
+                                             const RingWishes& wishes);
+
 // The same as commands to paste, and what they compute with. `init` is the command that makes the first frame.
 [[nodiscard]] std::string ring_text(const Scene& with_heat, const formats::Frame& first, const RingWishes& wishes,
                                     const std::string& init);

@@ -3,9 +3,11 @@
 
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/scene/read.h"
 
 namespace sheet {
 namespace {
@@ -48,6 +50,27 @@ TEST(ProposedRing, FramesShowWhatEndsAtTheBeginning) {
   EXPECT_EQ(ring_of(slope + hold + "2\n").fps, 5);
   EXPECT_EQ(ring_of(slope + hold + "20\n").fps, 1);    // twenty frames
   EXPECT_EQ(ring_of(slope + hold + "0.001\n").fps, 5); // not more than 250 frames or so
+}
+
+// A layer on a steep wall for which ten times what a blade takes is nothing.
+TEST(ProposedRing, TellsOfWhatFewFramesShow) {
+  const auto warning = [](const std::string& blade, const RingWishes& wishes = {}) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.2, 0.3]\nplane = \"xy\"\nedge_length = 0.02\nthickness = 0.004\n"
+        "center = [0, 0, 0.002]\n[material]\nviscosity = 20\ndensity = 500\n[environment]\ngravity = [0, -9.81, 0]\n"
+        "[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncontact = \"flow\"\n"
+        "[[solid]]\nshape = \"box\"\nsize = [0.25, 0.006, 0.02]\ncenter = [0, 0.17, 0.012]\n" +
+            blade,
+        "s");
+    return few_frames_warning(scene, first_frame(scene), wishes);
+  };
+  const std::string moves = "velocity = [0, -0.2, 0]\n";
+  EXPECT_THAT(warning(moves), testing::HasSubstr("has come through or ended by 1.6 s, which 4 of the frames show"));
+  EXPECT_THAT(warning(moves), testing::EndsWith("--until 2.5 --fps 24 shows it"));
+  EXPECT_EQ(warning(""), "");
+  EXPECT_EQ(warning(moves, {Quality::normal, {}, 2}), "");
+  EXPECT_EQ(warning(moves, {Quality::normal, 2, {}}), "");
+  EXPECT_EQ(warning("velocity = [[0, 0, 0, 0], [0.1, 0, 0, 0.2]]\n"), ""); // which is away for ever
 }
 
 } // namespace
