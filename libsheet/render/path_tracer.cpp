@@ -143,7 +143,7 @@ PathTracer::PathTracer(const World& world, const Lighting& lighting, const std::
 // `number` of [0, 1) decides which gaps between layers the path bridges.
 PathTracer::Path PathTracer::start(const Ray& ray, float number) const {
   Path path;
-  path.ahead = {*world_, ray};
+  path.ahead = {*world_, ray, Looks::straight};
   path.within.bridged = Body::bridged(number);
   return path;
 }
@@ -156,7 +156,7 @@ Light PathTracer::radiance(const Ray& ray, Sampler& sampler, std::uint64_t& rays
 Light PathTracer::radiance(const Ray& ray, const Hit& first, Sampler& sampler, std::uint64_t& rays) const {
   Path path = start(ray, body_.has_layers_that_touch() ? sampler.number() : middle);
   if (first.anything())
-    path.ahead = {*world_, leave(first, ray.direction)};
+    path.ahead = {*world_, leave(first, ray.direction), Looks::straight};
   Light light;
   follow(path, first, sampler, rays, light);
   return light;

@@ -196,6 +196,10 @@ std::vector<Plane> make_planes(const Scene& scene, double time) {
                         motion.linear() * matrix(solid.rotation) * shape->normal.stableNormalized()});
     }
   }
+  constexpr double facing = -0.5; // cosine between normals
+  for (Plane& plane : planes)
+    plane.lets_light_in =
+        std::ranges::any_of(planes, [&](const Plane& other) { return plane.normal.dot(other.normal) < facing; });
   return planes;
 }
 

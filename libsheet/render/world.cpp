@@ -29,6 +29,7 @@ struct Corner {
 struct PlaneF {
   std::uint32_t id;
   Vec point, normal;
+  bool lets_light_in;
 };
 
 } // namespace
@@ -110,8 +111,10 @@ struct World::Impl {
     return hit;
   }
 
-  void planes_nearer(const Ray& ray, float beyond, Hit& hit) const {
+  void planes_nearer(const Ray& ray, float beyond, Hit& hit, Looks looks) const {
     for (const PlaneF& plane : planes) {
+      if (plane.lets_light_in && looks != Looks::straight)
+        continue;
       const float slope = ray.direction.dot(plane.normal);
       const float distance = (plane.point - ray.origin).dot(plane.normal) / slope;
       if (!(distance > beyond) || (hit.anything() && distance >= hit.distance) || distance > 1e6F)
@@ -162,8 +165,8 @@ World::World(const Surface& surface, const std::vector<SolidMesh>& meshes,
   // One thread builds, so that the tree, and with it who wins a tie between neighbours, is always the same.
   tbb::task_arena(1).execute([&] { rtcCommitScene(impl_->scene); });
   for (const Plane& plane : planes)
-    impl_->planes.push_back(
-        {plane.id, impl_->to_world(plane.point - inset * impl_->unit * plane.normal), plane.normal.cast<float>()});
+    impl_->planes.push_back({plane.id, impl_->to_world(plane.point - inset * impl_->unit * plane.normal),
+                             plane.normal.cast<float>(), plane.lets_light_in});
 }
 
 World::~World() = default;
@@ -239,7 +242,7 @@ Hit World::nearest(const Ray& ray) const { return nearest(ray, 0); }
 
 Hit World::nearest(const Ray& ray, float beyond) const {
   Hit hit = impl_->hit_of(shoot(impl_->scene, ray, beyond));
-  impl_->planes_nearer(ray, beyond, hit);
+  impl_->planes_nearer(ray, beyond, hit, Looks::straight);
   return hit;
 }
 
@@ -258,9 +261,9 @@ std::size_t World::faces(const Ray& ray, float beyond, float within, std::span<F
   return gathering.count;
 }
 
-Hit World::nearest_plane(const Ray& ray) const {
+Hit World::nearest_plane(const Ray& ray, Looks looks) const {
   Hit hit;
-  impl_->planes_nearer(ray, 0, hit);
+  impl_->planes_nearer(ray, 0, hit, looks);
   return hit;
 }
 
@@ -292,8 +295,8 @@ Face counted_from(float distance, Face face) {
 
 } // namespace
 
-FacesAhead::FacesAhead(const World& world, const Ray& ray)
-    : world_(&world), ray_(ray), plane_(world.nearest_plane(ray)) {}
+FacesAhead::FacesAhead(const World& world, const Ray& ray, Looks looks)
+    : world_(&world), ray_(ray), plane_(world.nearest_plane(ray, looks)) {}
 
 // Whether a ray that has left the last face would not hit it, since it starts beside that (leave()).
 bool FacesAhead::is_before(const Face& face) const {

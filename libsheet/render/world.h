@@ -19,6 +19,9 @@ struct Ray {
   Vec origin, direction; // direction of length 1
 };
 
+// Whether a ray goes straight on from the camera, or where light may come from: it passes planes that let light in.
+enum class Looks : std::uint8_t { straight, for_light };
+
 // Where a ray goes through a face.
 struct Face {
   std::uint32_t id = nothing_id; // of Layers
@@ -46,6 +49,7 @@ public:
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  // Of a straight look.
   [[nodiscard]] Hit nearest(const Ray& ray) const;
   // Only what is behind the distance `beyond`: to go on after a hit that is passed through.
   [[nodiscard]] Hit nearest(const Ray& ray, float beyond) const;
@@ -55,7 +59,7 @@ public:
   // their number.
   [[nodiscard]] std::size_t faces(const Ray& ray, float beyond, float within, std::span<Face> found) const;
   // The nearest plane.
-  [[nodiscard]] Hit nearest_plane(const Ray& ray) const;
+  [[nodiscard]] Hit nearest_plane(const Ray& ray, Looks looks) const;
   // Where a face of the sheet or of a solid is hit.
   [[nodiscard]] Hit hit_of(const Face& face) const;
   // Embree's bare answer, for measurements: the distance or infinity.
@@ -78,7 +82,7 @@ private:
 class FacesAhead {
 public:
   FacesAhead() = default;
-  FacesAhead(const World& world, const Ray& ray);
+  FacesAhead(const World& world, const Ray& ray, Looks looks = Looks::for_light);
   [[nodiscard]] const Ray& ray() const { return ray_; }
   // The next one, its distance counted from the one before; nothing if there is no more. A plane is the last. Adds the
   // rays that it took to `rays`.

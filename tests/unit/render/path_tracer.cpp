@@ -104,6 +104,35 @@ TEST(WhiteFurnace, AlsoRoughAndWithACoat) {
   }
 }
 
+// A wall, as the camera sees it between two that reflect all light: next to none would come in.
+TEST(WhiteFurnace, BetweenPlanes) {
+  const formats::Frame frame = test::flat(2, 0.01);
+  Scene scene;
+  for (const double side : {-1.0, 1.0}) {
+    scene::Solid& wall = scene.solids.emplace_back();
+    wall.shape = scene::HalfSpace{{-side, 0, 0}};
+    wall.center = {side, 0, 0};
+  }
+  const World world(make_surface(middle_of(frame), 1e-4), {}, {}, make_planes(scene, 0), test::box_of(frame));
+  const Lighting lighting = Lighting::uniform(1);
+  Surroundings around;
+  around.solids.assign(2, Colour::Ones());
+  Liquid liquid = preset(3);
+  liquid.absorption.setZero();
+  const PathTracer tracer(world, lighting, {liquid}, around);
+  const Ray ray{world.to_world({0, 0.1, 0}), Vec(0.8F, 0.6F, 0)};
+  EXPECT_TRUE(world.nearest(ray).plane);
+  constexpr std::uint32_t samples = 1024;
+  Colour mean = Colour::Zero();
+  std::uint64_t rays = 0;
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    Sampler sampler(0, i);
+    mean += tracer.radiance(ray, sampler, rays).sum() / samples;
+  }
+  for (const float c : mean)
+    EXPECT_NEAR(c, 1, 0.02);
+}
+
 TEST(BeerLambert, LightThroughAFlatSlab) {
   // Under even light what is seen of a clear slab is R + T; absorption 100 / m over 10 mm, straight and slanted.
   Liquid liquid{1.5F, {0, 100, 400}, Colour::Zero()};

@@ -54,6 +54,21 @@ TEST(Solids, PlanesMoveWithTheirMotion) {
   EXPECT_NEAR((planes[0].point - Vector3(0, -1, 0)).norm(), 0, 1e-12);
 }
 
+TEST(Solids, PlanesThatFaceEachOtherLetLightIn) {
+  const auto let_in = [](const std::vector<Vector3>& normals) {
+    Scene scene;
+    for (const Vector3& normal : normals)
+      scene.solids.emplace_back().shape = scene::HalfSpace{normal};
+    std::vector<bool> which;
+    for (const Plane& plane : make_planes(scene, 0))
+      which.push_back(plane.lets_light_in);
+    return which;
+  };
+  EXPECT_EQ(let_in({{0, 1, 0}}), std::vector{false});
+  EXPECT_EQ(let_in({{0, 1, 0}, {1, 0, 0}}), (std::vector{false, false})); // a wall on the ground
+  EXPECT_EQ(let_in({{0, 1, 0}, {1, 0.1, 0}, {-1, 0.1, 0}}), (std::vector{false, true, true}));
+}
+
 // A cube's faces are flat, what is only a facet of something round is smooth.
 TEST(Solids, MeshesHaveCreases) {
   const std::string file = testing::TempDir() + "creases.obj";
