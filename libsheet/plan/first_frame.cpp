@@ -122,10 +122,32 @@ void check_outside_solids(const Scene& scene, const Frame& frame) {
   }
 }
 
-// What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.)
+// Unit vectors.
+std::vector<Vector3> normals_at_vertices(const Frame& frame) {
+  const auto x = positions(frame);
+  std::vector<Vector3> normals(frame.vertices, Vector3::Zero());
+  for (const Corners& c : triangles(frame))
+    for (const std::uint32_t v : c)
+      normals[v] += TriangleArea(x[c[0]], x[c[1]], x[c[2]]).normal;
+  for (Vector3& n : normals)
+    n.normalize();
+  return normals;
+}
+
+// What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) What lies
+// along an upright wall at rest, closely beside it, counts, too: its weight would not press it on.
 void mark_touching(const Scene& scene, Frame& frame) {
-  constexpr double in_reach = 1 + 1e-3; // of half the thickness
+  constexpr double in_reach = 1 + 1e-3, beside_a_wall = 1.5; // of half the thickness
+  constexpr double upright = 0.1, along = 0.9;               // sine of the wall's lean; cosine between the normals
   const solid::Solids solids(scene);
+  const auto up = scene::up(scene.environment);
+  const std::vector<Vector3> normals = normals_at_vertices(frame);
+  const auto reach = [&](std::size_t i, std::size_t v, const Vector3& of_solid) {
+    return up && std::holds_alternative<scene::Fixed>(scene.solids[i].motion) &&
+                   std::abs(of_solid.dot(*up)) < upright && std::abs(of_solid.dot(normals[v])) > along
+               ? beside_a_wall
+               : in_reach;
+  };
   const auto x = positions(frame);
   const auto corners = triangles(frame);
   const std::vector<double> thickness = thickness_around(frame.vertices, corners, volumes(frame), [&](std::uint32_t t) {
@@ -134,7 +156,8 @@ void mark_touching(const Scene& scene, Frame& frame) {
   std::vector<std::int32_t> touch(frame.vertices, no_solid);
   for (std::size_t i = 0; i < solids.size(); ++i)
     for (std::size_t v = 0; v < x.size() && solids.scene(i).contact != SolidContact::stick; ++v)
-      if (touch[v] == no_solid && solids.at(i, x[v], frame.time).distance <= in_reach * thickness[v] / 2)
+      if (const solid::SolidPoint there = solids.at(i, x[v], frame.time);
+          touch[v] == no_solid && there.distance <= reach(i, v, there.normal) * thickness[v] / 2)
         touch[v] = static_cast<std::int32_t>(i);
   if (std::ranges::any_of(touch, [](std::int32_t solid) { return solid != no_solid; }))
     put_touched_solids(frame, touch, solids.size());

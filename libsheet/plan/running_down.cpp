@@ -127,8 +127,9 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
   for (std::size_t v = 0; v < x.size(); v += stride, ++all)
     for (std::size_t i = 0; i < solids.size(); ++i) {
       const solid::SolidPoint point = solids.at(i, x[v], first.time);
-      const double reach =
-          std::holds_alternative<scene::HalfSpace>(scene.solids[i].shape) ? above_a_plane : near_enough;
+      const bool comes_down = std::holds_alternative<scene::HalfSpace>(scene.solids[i].shape) &&
+                              -point.normal.dot(gravity) > least_slope * gravity.norm();
+      const double reach = comes_down ? above_a_plane : near_enough;
       if (scene.solids[i].contact != SolidContact::flow || std::abs(point.distance) > reach * *sheet.thickness)
         continue;
       const Vector3 normal =

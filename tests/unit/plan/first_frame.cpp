@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/plan/first_frame.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/scene/read.h"
+#include "libsheet/sheet/sheet.h"
 
 namespace sheet {
 namespace {
@@ -19,6 +23,32 @@ TEST(FirstFrame, KnowsNothingOfWhereSolidsHaveBeen) {
   testing::internal::CaptureStderr();
   const formats::Frame frame = checked_first_frame(scene);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// The part of a sheet of 4 mm that touches a solid from the start, with its middle so far from it [mm].
+double touching(double distance, const std::string& solid, const std::string& gravity = "0, -9.81, 0") {
+  const Scene scene = scene::parse_scene(
+      fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.2, 0.3]\nplane = \"xy\"\nedge_length = 0.05\n"
+                  "thickness = 0.004\ncenter = [0, 0, {}]\n[material]\nviscosity = 20\ndensity = 1000\n"
+                  "[environment]\ngravity = [{}]\n[[solid]]\nshape = \"plane\"\n{}",
+                  distance / 1000, gravity, solid),
+      "s");
+  const formats::Frame frame = first_frame(scene);
+  const auto touch = masks(frame, "touch");
+  return static_cast<double>(std::ranges::count_if(touch, [](std::uint64_t bits) { return bits != 0; })) /
+         static_cast<double>(frame.vertices);
+}
+
+TEST(FirstFrame, WhatLiesCloselyBesideAnUprightWallTouchesIt) {
+  const std::string wall = "normal = [0, 0, 1]\ncontact = \"flow\"\n";
+  EXPECT_EQ(touching(2, wall), 1);
+  EXPECT_EQ(touching(2.1, wall), 1);
+  EXPECT_EQ(touching(2.9, wall), 1);
+  EXPECT_EQ(touching(3.1, wall), 0);
+  EXPECT_EQ(touching(2.1, "normal = [0, 0, 1]\n"), 0); // what sticks would stick at once
+  EXPECT_EQ(touching(2.1, wall + "velocity = [0, 0, 0.01]\n"), 0);
+  EXPECT_EQ(touching(2.1, wall, "0, -9.4, -2.8"), 0); // its weight presses it on
+  EXPECT_EQ(touching(2.1, "normal = [1, 0, 0]\ncenter = [-0.1021, 0, 0]\ncontact = \"flow\"\n"), 0); // by its rim
 }
 
 } // namespace
