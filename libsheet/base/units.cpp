@@ -59,6 +59,10 @@ constexpr std::array units{
     NamedUnit{"cc", {{0, 3, 0}, -6}, false},
     NamedUnit{"in", {{0, 1, 0}, 0, 127, 5000}, false},
     NamedUnit{"inch", {{0, 1, 0}, 0, 127, 5000}, false},
+    NamedUnit{"ft", {{0, 1, 0}, 0, 381, 1250}, false},
+    NamedUnit{"lb", {{1, 0, 0}, -8, 45359237}, false},
+    NamedUnit{"lbf", {{1, 1, -2}, -13, 44482216152605}, false},
+    NamedUnit{"psi", {{1, -1, -2}, -4, 8896443230521, 129032}, false}, // pounds of force a square inch
     NamedUnit{"rad", {{0, 0, 0}}, true},
     NamedUnit{"deg", {{0, 0, 0}, 0, pi, 180}, false},
     NamedUnit{"°", {{0, 0, 0}, 0, pi, 180}, false},

@@ -65,6 +65,12 @@ TEST(Units, AsDataSheetsWriteThem) {
   EXPECT_EQ(read("1 g/cc", quantity::density), 1000);
   EXPECT_EQ(read("2 in", quantity::length), 0.0508);
   EXPECT_EQ(read("0.5 inch", quantity::length), 0.0127);
+  EXPECT_EQ(read("6 ft", quantity::length), 1.8288);
+  EXPECT_EQ(read("32 ft/s^2", quantity::acceleration), 9.7536);
+  EXPECT_DOUBLE_EQ(read("80 lb/ft^3", quantity::density), 80 * 0.45359237 / std::pow(0.3048, 3));
+  EXPECT_DOUBLE_EQ(read("1 lb/(ft*s)", quantity::viscosity), 0.45359237 / 0.3048);
+  EXPECT_DOUBLE_EQ(read("2 lbf/ft", quantity::surface_tension), 2 * 0.45359237 * 9.80665 / 0.3048);
+  EXPECT_DOUBLE_EQ(read("1 psi", quantity::pressure), 0.45359237 * 9.80665 / (0.0254 * 0.0254));
   EXPECT_EQ(read("2 min", quantity::time), 120);
   EXPECT_EQ(read("50 Pa\u22c5s", quantity::viscosity), 50);
   EXPECT_EQ(read("1300 kg·m\u207b³", quantity::density), 1300);
@@ -134,8 +140,9 @@ TEST(Units, ProblemsSayWhatWasExpected) {
   EXPECT_EQ(problem("3 N", quantity::pressure), "expected a pressure such as \"10 Pa\", got a force (N)");
   EXPECT_EQ(problem("3 deg", quantity::length), "expected a length such as \"2.5 mm\", got a plain number or angle");
   EXPECT_EQ(problem("3 kg^2 m", quantity::length), "expected a length such as \"2.5 mm\", got a quantity in kg^2*m");
-  EXPECT_EQ(problem("3 furlong", quantity::length),
-            "expected a length such as \"2.5 mm\": unknown unit \"furlong\"; known: m, in, inch, prefixes as in mm");
+  EXPECT_EQ(
+      problem("3 furlong", quantity::length),
+      "expected a length such as \"2.5 mm\": unknown unit \"furlong\"; known: m, in, inch, ft, prefixes as in mm");
   EXPECT_EQ(problem("3 hours", quantity::time),
             "expected a time such as \"0.5 s\": unknown unit \"hours\"; known: s, min, h, d, a, ka, Ma, yr, kyr, Myr, "
             "prefixes as in ms");
