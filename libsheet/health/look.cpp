@@ -272,10 +272,12 @@ void look_at_step(const Frame& frame, const Surface& surface, const Scene& scene
   double part = 0; // of the time of the flow: of the sheet that has the shortest one
   for (const scene::SheetTable& sheet : scene.sheets) {
     const scene::Scales scales = scene::scales_of(scene, sheet, whole);
-    if (!scales.length)
+    // what rests on a bath, or stands by its yield stress, may still bob
+    const bool stands = !(scales.speed > 0);
+    if (!scales.length || (stands && !scene.model.inertia))
       continue;
-    // what rests on a bath may still bob
-    const double bobs = scene.environment.bath && scene.model.inertia ? std::sqrt(scales.gravity * *scales.length) : 0;
+    const bool may_bob = scene.model.inertia && (scene.environment.bath || stands);
+    const double bobs = may_bob ? std::sqrt(scales.gravity * *scales.length) : 0;
     part = std::max(part, step * std::max({scales.speed, speed, bobs}) / *scales.length);
   }
   if (part > 0 && part < kind_of(Trouble::short_steps).noted.worst)

@@ -231,6 +231,16 @@ TEST(Health, FindsStepsFarBelowTheScenesTime) {
   EXPECT_TRUE(look(resting, &afloat).empty());
   put_number(resting, "step_size", 1e-4);
   EXPECT_EQ(only(look(resting, &afloat)).trouble, Trouble::short_steps);
+  // and of what stands by its yield stress
+  Scene standing = scene_with();
+  standing.material.law.kind = FlowLawKind::bingham;
+  standing.material.law.yield_stress = 1e5;
+  put_number(resting, "step_size", 1e-3);
+  EXPECT_TRUE(look(resting, &standing).empty());
+  put_number(resting, "step_size", 1e-4);
+  EXPECT_EQ(only(look(resting, &standing)).trouble, Trouble::short_steps);
+  standing.model.inertia = false;
+  EXPECT_TRUE(look(resting, &standing).empty());
   // gas may drive it a thousand times as fast as what else the scene says
   Scene blown = scene_with();
   blown.environment.pressure =
