@@ -19,9 +19,58 @@ constexpr double smooth_edges = 0.99;                       // of all
 constexpr int most_partings = 3;
 constexpr float tight_turn = 0.5F, tightest_turn = 1; // of folds whose radius is two edges, and one [rad]
 
+// For each vertex the length of the longest edge of the triangles around it [m].
+std::vector<double> longest_edges(std::span<const Vector3> x, std::span<const Corners> triangles) {
+  std::vector<double> longest(x.size(), 0);
+  for (const Corners& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double length = (x[t[(i + 1) % 3]] - x[t[i]]).norm();
+      for (const std::uint32_t v : t)
+        longest[v] = std::max(longest[v], length);
+    }
+  return longest;
+}
+
+// Single triangles that are crushed in corners of solids for a moment would stand out as spikes: what a vertex has
+// beyond half as much again as the mean around it, where it is twice as thick as edges are long, is drawn around it.
+// The volume stays.
+void lower_spikes(std::span<const Vector3> x, std::span<const Corners> triangles, std::span<const double> areas,
+                  std::vector<double>& thickness) {
+  constexpr double edges = 2, means = 1.5; // by which it is a spike
+  constexpr int rounds = 8;                // as what is drawn around may be too much there
+  const std::vector<double> longest = longest_edges(x, triangles);
+  const auto is_thick = [&](std::uint32_t v) { return thickness[v] > edges * longest[v]; };
+  if (std::ranges::none_of(triangles, [&](const Corners& t) { return std::ranges::any_of(t, is_thick); }))
+    return;
+  std::vector<std::vector<std::uint32_t>> around(x.size()); // each neighbour twice, or once along a rim
+  for (const Corners& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      around[t[i]].insert(around[t[i]].end(), {t[(i + 1) % 3], t[(i + 2) % 3]});
+  const std::vector<double> area = vertex_shares(x.size(), triangles, [&](std::uint32_t t) { return areas[t]; });
+  for (int round = 0; round < rounds; ++round)
+    for (std::uint32_t v = 0; v < x.size(); ++v) {
+      if (!is_thick(v))
+        continue;
+      double whole = 0, volume = 0;
+      for (const std::uint32_t w : around[v]) {
+        whole += area[w];
+        volume += area[w] * thickness[w];
+      }
+      const double excess = thickness[v] - means * volume / whole;
+      if (!(excess > 0))
+        continue;
+      thickness[v] -= excess;
+      for (const std::uint32_t w : around[v])
+        thickness[w] += excess * area[v] / whole;
+    }
+}
+
 std::vector<double> thickness_of(std::span<const Vector3> x, std::span<const Corners> triangles,
                                  std::span<const double> volumes, std::span<const double> areas) {
-  return thickness_around(x.size(), triangles, volumes, [&](std::uint32_t t) { return areas[t]; });
+  std::vector<double> thickness =
+      thickness_around(x.size(), triangles, volumes, [&](std::uint32_t t) { return areas[t]; });
+  lower_spikes(x, triangles, areas, thickness);
+  return thickness;
 }
 
 // Two ends in order, the corners opposite of them, and how many triangles have the edge.

@@ -12,7 +12,8 @@ namespace sheet::render {
 
 struct Middle {
   std::vector<Vector3> positions;             // [m]
-  std::vector<double> thickness;              // of each vertex: all volume around it / all area around it [m]
+  std::vector<double> thickness;              // of each vertex: all volume around it / all area around it [m], but for
+                                              // single ones that stand out: what they have beyond is around them
   std::vector<Corners> triangles;             // with area
   std::vector<std::uint32_t> source_triangle; // of the frame
   // The last vertices lie in the middles of edges of a coarser surface, with these ends,

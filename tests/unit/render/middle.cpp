@@ -45,6 +45,38 @@ formats::Frame coarse_ball() { // edges of 32 to 36 degrees
   return make_frame(x, mesh.triangles, std::vector<double>(mesh.triangles.size(), 1e-4));
 }
 
+// Of a square metre with edges of 0.1 to 0.14 m, of this thickness at x, z [m].
+template <class Thickness> formats::Frame square_of(Thickness&& thickness) {
+  formats::Frame frame = test::flat(10, 0.01);
+  for (std::size_t t = 0; t < frame.triangles; ++t) {
+    const Corners& c = triangles(frame)[t];
+    const Vector3 middle = (positions(frame)[c[0]] + positions(frame)[c[1]] + positions(frame)[c[2]]) / 3;
+    volumes(frame)[t] *= thickness(middle.x(), middle.z()) / 0.01;
+  }
+  return frame;
+}
+
+TEST(Middle, ASingleThickTriangleIsNoSpike) {
+  const formats::Frame crushed =
+      square_of([](double x, double z) { return x > 0 && x < 0.1 && z > -x && z < 0 ? 10 : 0.1; });
+  const Middle middle = middle_of(crushed);
+  double volume = 0;
+  for (const double v : volumes(crushed))
+    volume += v;
+  EXPECT_LT(std::ranges::max(middle.thickness), 0.9); // 1.8 m around one of its corners
+  EXPECT_NEAR(volume_of(middle), volume, 1e-12);
+}
+
+TEST(Middle, WhatIsThickAsAWholeStaysSo) {
+  for (const double thickness : {0.1, 2.0}) {
+    const Middle even = middle_of(square_of([&](double, double) { return thickness; }));
+    EXPECT_NEAR(std::ranges::min(even.thickness), thickness, 1e-12);
+    EXPECT_NEAR(std::ranges::max(even.thickness), thickness, 1e-12);
+  }
+  const Middle step = middle_of(square_of([&](double x, double) { return x < 0 ? 1 : 0.01; }));
+  EXPECT_NEAR(std::ranges::max(step.thickness), 1, 1e-12); // a lump beside a film
+}
+
 TEST(Middle, ACoarseBallBecomesRound) {
   const formats::Frame frame = coarse_ball();
   const Middle flat = middle_of(frame), smooth = smoothed(flat, volumes(frame), {plenty});
