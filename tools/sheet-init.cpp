@@ -28,6 +28,7 @@
 #include "libsheet/plan/inflow_warnings.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/modelled.h"
+#include "libsheet/plan/overlapping.h"
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/running_down.h"
@@ -177,7 +178,7 @@ std::string explained(Source source, bool ring_alone) {
        {sheet::falling_past_warning(scene, frame), sheet::falling_on_warning(scene, frame, until),
         sheet::drawing_up_warning(scene, frame, until), sheet::thick_stream_warning(scene, frame, until),
         sheet::wetting_warning(scene, frame, until), sheet::bath_crushing_warning(scene, frame),
-        sheet::held_whole_warning(scene, frame)})
+        sheet::held_whole_warning(scene, frame), sheet::overlapping_warning(scene)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :
