@@ -303,7 +303,8 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
 std::string what_air_lacks(const Scene& scene, const Scales& scales) {
   constexpr double much = 0.1, density = 1.2; // of the weight; of air [kg/m³]
   if (scene.environment.air)
-    return "air has no mass, and no flow of its own that a film would flap in";
+    return fmt::format("air has no mass, and no flow of its own that a film would flap in{}",
+                       scene.solids.empty() ? "" : ", and does not drive what touches a solid");
   const double V = scales.speed, h = scales.thickness.value_or(0);
   const double weight = scene.material.density * h * scales.gravity;
   const double part = Air().drag_coefficient * density * V * V / 2 / weight;

@@ -148,6 +148,9 @@ TEST(Explain, SaysWhereAirWouldBeFelt) {
             "0.36 of the weight (air = {density = \"1.2 kg/m^3\"} in [environment])");
   EXPECT_EQ(left_out("10", "air = {density = 1.2}\n"),
             "air has no mass, and no flow of its own that a film would flap in");
+  EXPECT_EQ(
+      left_out("10", "air = {density = 1.2}\n[[solid]]\nshape = \"plane\"\n"),
+      "air has no mass, and no flow of its own that a film would flap in, and does not drive what touches a solid");
 }
 
 TEST(Explain, NumbersByTheirFormulas) {
