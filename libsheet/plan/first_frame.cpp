@@ -134,8 +134,13 @@ std::vector<Vector3> normals_at_vertices(const Frame& frame) {
   return normals;
 }
 
+bool stays_in_place(const scene::Motion& motion) {
+  const auto* turning = std::get_if<scene::Rotating>(&motion);
+  return std::holds_alternative<scene::Fixed>(motion) || (turning != nullptr && turning->velocity.entries.empty());
+}
+
 // What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) What lies
-// along an upright wall at rest, closely beside it, counts, too: its weight would not press it on.
+// along an upright wall that stays in place, closely beside it, counts, too: its weight would not press it on.
 void mark_touching(const Scene& scene, Frame& frame) {
   constexpr double in_reach = 1 + 1e-3, beside_a_wall = 1.5; // of half the thickness
   constexpr double upright = 0.1, along = 0.9;               // sine of the wall's lean; cosine between the normals
@@ -143,8 +148,8 @@ void mark_touching(const Scene& scene, Frame& frame) {
   const auto up = scene::up(scene.environment);
   const std::vector<Vector3> normals = normals_at_vertices(frame);
   const auto reach = [&](std::size_t i, std::size_t v, const Vector3& of_solid) {
-    return up && std::holds_alternative<scene::Fixed>(scene.solids[i].motion) &&
-                   std::abs(of_solid.dot(*up)) < upright && std::abs(of_solid.dot(normals[v])) > along
+    return up && stays_in_place(scene.solids[i].motion) && std::abs(of_solid.dot(*up)) < upright &&
+                   std::abs(of_solid.dot(normals[v])) > along
                ? beside_a_wall
                : in_reach;
   };

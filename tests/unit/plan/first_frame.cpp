@@ -46,6 +46,7 @@ TEST(FirstFrame, WhatLiesCloselyBesideAnUprightWallTouchesIt) {
   EXPECT_EQ(touching(2.9, wall), 1);
   EXPECT_EQ(touching(3.1, wall), 0);
   EXPECT_EQ(touching(2.1, "normal = [0, 0, 1]\n"), 0); // what sticks would stick at once
+  EXPECT_EQ(touching(2.1, wall + "angular_velocity = [0, 0, 1]\n"), 1);
   EXPECT_EQ(touching(2.1, wall + "velocity = [0, 0, 0.01]\n"), 0);
   EXPECT_EQ(touching(2.1, wall, "0, -9.4, -2.8"), 0); // its weight presses it on
   EXPECT_EQ(touching(2.1, "normal = [1, 0, 0]\ncenter = [-0.1021, 0, 0]\ncontact = \"flow\"\n"), 0); // by its rim
