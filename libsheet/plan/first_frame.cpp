@@ -139,31 +139,39 @@ bool stays_in_place(const scene::Motion& motion) {
   return std::holds_alternative<scene::Fixed>(motion) || (turning != nullptr && turning->velocity.entries.empty());
 }
 
-// What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) What lies
-// along an upright wall that stays in place, closely beside it, counts, too: its weight would not press it on.
+// What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) Where all
+// that is near lies along upright walls that stay in place, what is closely beside them counts, too: its weight would
+// not press it on. (Of what is near and lies on top, a part alone would be held, into which the rest falls.)
 void mark_touching(const Scene& scene, Frame& frame) {
   constexpr double in_reach = 1 + 1e-3, beside_a_wall = 1.5; // of half the thickness
   constexpr double upright = 0.1, along = 0.9;               // sine of the wall's lean; cosine between the normals
   const solid::Solids solids(scene);
   const auto up = scene::up(scene.environment);
-  const std::vector<Vector3> normals = normals_at_vertices(frame);
-  const auto reach = [&](std::size_t i, std::size_t v, const Vector3& of_solid) {
-    return up && stays_in_place(scene.solids[i].motion) && std::abs(of_solid.dot(*up)) < upright &&
-                   std::abs(of_solid.dot(normals[v])) > along
-               ? beside_a_wall
-               : in_reach;
-  };
   const auto x = positions(frame);
   const auto corners = triangles(frame);
+  const std::vector<Vector3> normals = normals_at_vertices(frame);
   const std::vector<double> thickness = thickness_around(frame.vertices, corners, volumes(frame), [&](std::uint32_t t) {
     return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
   });
   std::vector<std::int32_t> touch(frame.vertices, no_solid);
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    for (std::size_t v = 0; v < x.size() && solids.scene(i).contact != SolidContact::stick; ++v)
-      if (const solid::SolidPoint there = solids.at(i, x[v], frame.time);
-          touch[v] == no_solid && there.distance <= reach(i, v, there.normal) * thickness[v] / 2)
-        touch[v] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (solids.scene(i).contact == SolidContact::stick)
+      continue;
+    bool beside = up && stays_in_place(scene.solids[i].motion);
+    std::vector<std::size_t> near, touching;
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      const solid::SolidPoint there = solids.at(i, x[v], frame.time);
+      const double distance = there.distance / (thickness[v] / 2);
+      if (touch[v] != no_solid || !(distance <= beside_a_wall))
+        continue;
+      near.push_back(v);
+      if (distance <= in_reach)
+        touching.push_back(v);
+      beside = beside && std::abs(there.normal.dot(*up)) < upright && std::abs(there.normal.dot(normals[v])) > along;
+    }
+    for (const std::size_t v : beside ? near : touching)
+      touch[v] = static_cast<std::int32_t>(i);
+  }
   if (std::ranges::any_of(touch, [](std::int32_t solid) { return solid != no_solid; }))
     put_touched_solids(frame, touch, solids.size());
 }

@@ -39,6 +39,16 @@ double touching(double distance, const std::string& solid, const std::string& gr
          static_cast<double>(frame.vertices);
 }
 
+// It falls on it as a whole.
+TEST(FirstFrame, ACapCloselyAboveABallDoesNotTouchItAtItsRimAlone) {
+  const Scene scene = scene::parse_scene(
+      "[sheet]\nshape = \"cap\"\nradius = 0.032\nangle = \"90 deg\"\nedge_length = 0.004\nthickness = 0.003\n"
+      "[material]\nviscosity = 5\ndensity = 1250\n[environment]\ngravity = [0, -9.81, 0]\n"
+      "[[solid]]\nshape = \"sphere\"\nradius = 0.03\ncontact = \"flow\"\n",
+      "s");
+  EXPECT_TRUE(masks(first_frame(scene), "touch").empty());
+}
+
 TEST(FirstFrame, WhatLiesCloselyBesideAnUprightWallTouchesIt) {
   const std::string wall = "normal = [0, 0, 1]\ncontact = \"flow\"\n";
   EXPECT_EQ(touching(2, wall), 1);
