@@ -380,15 +380,25 @@ struct CollideStage::Impl {
   }
 
   // How each solid moves in the step; none if all stand still.
-  [[nodiscard]] std::vector<RigidStep> solid_steps(const StepPath& path) const {
-    std::vector<RigidStep> steps;
+  [[nodiscard]] std::vector<SolidMotion> solid_motions(const StepPath& path) const {
+    std::vector<SolidMotion> motions;
     bool moving = false;
     for (std::size_t i = 0; solids && i < solids->size(); ++i) {
-      const Eigen::Isometry3d step = scene::motion_between(solids->scene(i).motion, path.start_time, path.end_time);
-      steps.push_back({step.linear(), step.translation()});
+      const scene::Motion& motion = solids->scene(i).motion;
+      const Eigen::Isometry3d step = scene::motion_between(motion, path.start_time, path.end_time);
+      motions.push_back({{step.linear(), step.translation()}, velocity_of(motion, path.end_time)});
       moving = moving || !step.isApprox(Eigen::Isometry3d::Identity(), 0);
     }
-    return moving ? steps : std::vector<RigidStep>{};
+    return moving ? motions : std::vector<SolidMotion>{};
+  }
+
+  [[nodiscard]] static RigidVelocity velocity_of(const scene::Motion& motion, double t) {
+    RigidVelocity velocity{.shift = scene::velocity_at(motion, t, Vector3::Zero())};
+    for (int k = 0; k < 3; ++k) { // Σ e_k × (ω × e_k) = 2 ω
+      const Vector3 unit = Vector3::Unit(k), about = scene::velocity_at(motion, t, unit) - velocity.shift;
+      velocity.turn += 0.5 * unit.cross(about);
+    }
+    return velocity;
   }
 
   // The one that holds the vertex, or else is nearest to it.
@@ -432,17 +442,21 @@ struct CollideStage::Impl {
   // Returns the kinetic energy that it took, less what it gave [J].
   double resolve_self_beside_solids(StepPath& path, std::span<const double> reach, Frame& frame) {
     const StepPath asked = path;
-    const std::vector<RigidStep> steps = solid_steps(path);
+    const std::vector<SolidMotion> motions = solid_motions(path);
+    std::vector<std::int32_t> kept_out_of(motions.empty() ? 0 : path.end.size(), no_solid);
     SelfReport report;
     for (int round = 1;; ++round) {
-      report = resolve_self(path, *search, reach, asked.fixed, steps);
+      report = resolve_self(path, *search, reach, asked.fixed, {motions, kept_out_of});
       if (!solids || report.hits == 0 || round == rounds_with_solids)
         break;
       std::vector<Axes> fixed = path.fixed;
       for (const std::uint32_t t : unsafe_triangles(path, *solids))
         for (const std::uint32_t v : path.triangles[t])
-          if (path.end[v] != asked.end[v])
+          if (path.end[v] != asked.end[v]) {
             fixed[v] = all_axes;
+            if (!motions.empty() && asked.fixed[v] == 0)
+              kept_out_of[v] = static_cast<std::int32_t>(solid_at(path, v));
+          }
       if (fixed == path.fixed)
         break;
       path = asked;
@@ -452,7 +466,7 @@ struct CollideStage::Impl {
       const std::vector<Axes> fixed = std::move(path.fixed);
       path = asked;
       path.fixed = fixed;
-      report = resolve_self(path, *search, reach, asked.fixed, steps, Means::pull_back);
+      report = resolve_self(path, *search, reach, asked.fixed, {motions, kept_out_of}, Means::pull_back);
     }
     if (report.held_back > 0)
       teller.tell(frame, health::Trouble::held_back, report.held_back, report.held_at,

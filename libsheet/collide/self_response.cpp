@@ -29,7 +29,7 @@ struct Inequality {
 class Response {
 public:
   Response(StepPath& path, SelfSearch& search, std::span<const double> reach, std::vector<Axes> prescribed,
-           std::span<const RigidStep> solids)
+           MovingSolids solids)
       : path_(path), search_(search), reach_(reach), prescribed_(std::move(prescribed)), solids_(solids),
         islands_(path.start.size()), mobility_(path.start.size()), shortened_(path.start.size(), 0) {
     for (std::size_t v = 0; v < mobility_.size(); ++v)
@@ -268,9 +268,9 @@ private:
     for (const auto& island : islands_.all()) {
       if (std::ranges::any_of(island, [&](std::uint32_t v) { return stays[v] != 0; }))
         continue;
-      if (const std::int32_t solid = solids_.empty() ? no_solid : solid_of(island); solid != no_solid)
+      if (const std::int32_t solid = solids_.motions.empty() ? no_solid : solid_of(island); solid != no_solid)
         for (const std::uint32_t v : island)
-          ends[v] = solids_[static_cast<std::size_t>(solid)](path_.start[v]);
+          ends[v] = solid_motion(solid).step(path_.start[v]);
       Axes fixed = 0;
       double mass = 0;
       Vector3 moment = Vector3::Zero();
@@ -365,17 +365,52 @@ private:
         path_.velocity[v] += free_part(fixed).cwiseProduct(lost.linear) / mass;
   }
 
-  // How the vertices of an island move whose velocity is prescribed, as one rigid body, where that led them; at rest
-  // without any, and along axes along which none is.
-  [[nodiscard]] RigidVelocity velocity_of_fixed(const std::vector<std::uint32_t>& island,
+  [[nodiscard]] const SolidMotion& solid_motion(std::int32_t solid) const {
+    return solids_.motions[static_cast<std::size_t>(solid)];
+  }
+
+  // The one moving solid that drives an island, if nothing else does.
+  [[nodiscard]] std::int32_t driven_by(const std::vector<std::uint32_t>& island) const {
+    std::int32_t solid = no_solid;
+    for (const std::uint32_t v : island) {
+      const std::int32_t beside = solids_.kept_out_of.empty() ? no_solid : solids_.kept_out_of[v];
+      const std::int32_t of = path_.touch[v] != no_solid ? path_.touch[v] : beside;
+      if ((of == no_solid && prescribed_[v] != 0) || (of != no_solid && solid != no_solid && of != solid))
+        return no_solid;
+      solid = of != no_solid ? of : solid;
+    }
+    return solid;
+  }
+
+  // How what drives an island moves, as one rigid body: the solid that does, with its belt's mean velocity, else the
+  // vertices whose velocity is prescribed, where that led them; at rest without any, and along axes along which none
+  // is.
+  [[nodiscard]] RigidVelocity velocity_of_drive(const std::vector<std::uint32_t>& island,
                                                 const std::vector<Vector3>& asked,
                                                 const std::vector<Vector3>& prescribed) const {
     std::vector<std::uint32_t> fixed;
     std::ranges::copy_if(island, std::back_inserter(fixed), [&](std::uint32_t v) { return prescribed_[v] != 0; });
+    if (const std::int32_t solid = solids_.motions.empty() ? no_solid : driven_by(island); solid != no_solid) {
+      RigidVelocity velocity = solid_motion(solid).velocity;
+      velocity.shift +=
+          mean_along_prescribed(fixed, [&](std::uint32_t v) -> Vector3 { return prescribed[v] - velocity(asked[v]); });
+      return velocity;
+    }
     if (fixed.empty())
       return {};
     const Vector3& center = asked[fixed.front()];
     return rigid_velocity(fixed, path_.mass, asked, momentum(fixed, path_.mass, asked, prescribed, center), center);
+  }
+
+  // Along each axis over the vertices whose velocity is prescribed along it; 0 without any.
+  template <class Velocity>
+  [[nodiscard]] Vector3 mean_along_prescribed(const std::vector<std::uint32_t>& vertices, Velocity&& velocity) const {
+    Vector3 sum = Vector3::Zero(), count = Vector3::Zero();
+    for (const std::uint32_t v : vertices) {
+      sum += with_fixed(prescribed_[v], velocity(v), Vector3::Zero());
+      count += with_fixed(prescribed_[v], Vector3::Ones(), Vector3::Zero());
+    }
+    return sum.cwiseQuotient(count.cwiseMax(1));
   }
 
   // Contacts take energy: where features are brought apart that were too near, in a short step at a high speed, or
@@ -385,7 +420,7 @@ private:
   // `before` along prescribed axes; how something slides along a solid drives nothing.
   void take_gained_energy(const std::vector<std::uint32_t>& island, const std::vector<Vector3>& asked,
                           const std::vector<Vector3>& before, const std::vector<Vector3>& prescribed) {
-    const RigidVelocity frame = velocity_of_fixed(island, asked, prescribed);
+    const RigidVelocity frame = velocity_of_drive(island, asked, prescribed);
     double mass = 0, along = 0, square = 0, fastest = 0;
     for (const std::uint32_t v : island) {
       const Vector3 change = path_.velocity[v] - before[v], seen = before[v] - frame(path_.end[v]);
@@ -410,7 +445,7 @@ private:
   std::optional<PairWatch> watch_; // of the path, once there are hits
   std::span<const double> reach_;
   std::vector<Axes> prescribed_; // velocities
-  std::span<const RigidStep> solids_;
+  MovingSolids solids_;
   Sets islands_;
   std::vector<Vector3> mobility_;       // inverse mass along each axis [1/kg]
   std::vector<std::uint8_t> shortened_; // vertices that go a part of their way, or none
@@ -434,7 +469,7 @@ SelfReport& SelfReport::operator+=(const SelfReport& later) {
 }
 
 SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
-                        std::optional<std::vector<Axes>> prescribed, std::span<const RigidStep> solids, Means means) {
+                        std::optional<std::vector<Axes>> prescribed, MovingSolids solids, Means means) {
   return Response(path, search, reach, std::move(prescribed).value_or(path.fixed), solids).run(means);
 }
 

@@ -39,7 +39,8 @@
 // others the momentum along the axes along which none is fixed.
 // Last, an island's changes are made less until they give it no kinetic energy, as seen by an observer who moves with
 // what is prescribed in it, along the axes along which it is, as far as that moves as one rigid body: impulses of what
-// rests do no work.
+// rests do no work. Where that is one moving solid, which a vertex or two of the island touch or are kept out of, he
+// moves and turns with it.
 #pragma once
 #include <optional>
 #include <span>
@@ -50,6 +51,19 @@
 #include "libsheet/collide/step_path.h"
 
 namespace sheet::collide {
+
+// How a moving solid goes on in the step, and its velocity at the end.
+struct SolidMotion {
+  RigidStep step;
+  RigidVelocity velocity;
+};
+
+// Solids that move: the motion of each that path.touch names, none if all stand still; and of each vertex that is fixed
+// though it touches none, since it must not come nearer to one, that one (else no_solid; empty: there is none).
+struct MovingSolids {
+  std::span<const SolidMotion> motions;
+  std::span<const std::int32_t> kept_out_of;
+};
 
 struct SelfReport {
   std::size_t hits = 0;              // pairs that hit on the way that was asked for
@@ -67,10 +81,9 @@ struct SelfReport {
 enum class Means { all, pull_back }; // the four above, or the last one alone, which brings nothing off its way
 
 // Corrects end and velocity of the path. `reach`: contact distance at each vertex [m]; `prescribed`: axes along which
-// each vertex has a prescribed velocity, those of path.fixed if not given; `solids`: how each solid that path.touch
-// names moves in the step, if any moves.
+// each vertex has a prescribed velocity, those of path.fixed if not given.
 SelfReport resolve_self(StepPath& path, SelfSearch& search, std::span<const double> reach,
-                        std::optional<std::vector<Axes>> prescribed = std::nullopt,
-                        std::span<const RigidStep> solids = {}, Means means = Means::all);
+                        std::optional<std::vector<Axes>> prescribed = std::nullopt, MovingSolids solids = {},
+                        Means means = Means::all);
 
 } // namespace sheet::collide

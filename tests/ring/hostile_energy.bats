@@ -77,7 +77,11 @@ held() {
 @test "stage by stage: a tube that falls on a box that spins faster, the other way, in shorter steps" {
   spinning_box
   sed -i 's/60 rad/-80 rad/' tube.toml
-  no_gain tube.toml 0.001 28 -80
+  local seed # with 2 and 7 islands are moved of which the box has one vertex, or none but what is kept out of it
+  for seed in 2 7; do
+    sed -i "s/seed = [0-9]*/seed = $seed/" tube.toml
+    no_gain tube.toml 0.001 28 -80
+  done
 }
 
 @test "stage by stage: a tube that falls on the ground, and a rod" {

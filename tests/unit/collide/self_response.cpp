@@ -50,7 +50,7 @@ struct Case {
     path.velocity[v] = way / path.length();
   }
 
-  SelfReport resolve(std::span<const RigidStep> solids = {}, Means means = Means::all) {
+  SelfReport resolve(MovingSolids solids = {}, Means means = Means::all) {
     path.triangles = triangles;
     path.start = start;
     const Connectivity mesh = connect(start.size(), triangles);
@@ -255,7 +255,8 @@ TEST(SelfResponse, WhatASolidBringsOutAndStaysBehindIsAtRest) {
 // Layers that stick to a solid which turns and goes far, and whose places on it are not to be had: they go on with it.
 TEST(SelfResponse, WhatSticksToAMovingSolidGoesOnWithIt) {
   const Matrix3 turn = Eigen::AngleAxisd(0.3, Vector3(1, 0.3, 0).normalized()).toRotationMatrix();
-  const std::vector<RigidStep> steps{{turn, Vector3(0.4, 0, -2)}};
+  const std::vector<SolidMotion> motions{{{turn, Vector3(0.4, 0, -2)}, {}}};
+  const RigidStep& step = motions[0].step;
   for (const bool told : {false, true}) {
     Case c(2, 4, 0.05);
     std::mt19937_64 random(7);
@@ -263,14 +264,14 @@ TEST(SelfResponse, WhatSticksToAMovingSolidGoesOnWithIt) {
     for (std::uint32_t v = 0; v < c.start.size(); ++v) {
       c.path.touch[v] = 0;
       c.path.fixed[v] = all_axes;
-      c.path.end[v] = steps[0](c.start[v]) + 0.2 * Vector3(uniform(random), uniform(random), uniform(random));
+      c.path.end[v] = step(c.start[v]) + 0.2 * Vector3(uniform(random), uniform(random), uniform(random));
     }
-    const SelfReport report = c.resolve(told ? steps : std::vector<RigidStep>{});
+    const SelfReport report = c.resolve({told ? motions : std::vector<SolidMotion>{}, {}});
     EXPECT_GT(report.pulled_back, 0u);
     c.expect_safe();
     double farthest = 0; // from where the solid takes them
     for (std::uint32_t v = 0; v < c.start.size(); ++v)
-      farthest = std::max(farthest, (c.path.end[v] - steps[0](c.start[v])).norm());
+      farthest = std::max(farthest, (c.path.end[v] - step(c.start[v])).norm());
     EXPECT_EQ(farthest < 0.35, told);
   }
 }
