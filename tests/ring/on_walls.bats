@@ -241,14 +241,20 @@ END
   awk -v h="$(median "${thickest[@]}")" 'BEGIN { exit !(h < 0.5) }'
 }
 
-# The rims beside the inlet's ends met, and pressed on each other: 456 steps, and none that helped from then on.
+# The rims beside the inlet's ends met, and pressed on each other: 456 steps, and none that helped from then on. Where
+# rims meet in the stairs' corners single triangles are thick for a moment: 23 to 27 mm at these tolerances, and 44 where
+# rims that meet rule no step.
 @test "honey poured onto stairs does not fold beside its inlet" {
   cp "$BATS_TEST_DIRNAME/../everyday/more/stairs.toml" .
-  run_scene stairs 3 24 'sheet-emit |'
-  echo "steps $(last stairs step), at most $(greatest stairs thickness_max) m thick, at least $(least stairs thickness_min)"
-  (($(last stairs step) <= 250))
-  awk -v h="$(greatest stairs thickness_max)" -v least="$(least stairs thickness_min)" \
-    'BEGIN { exit !(h < 0.025 && least > 0.0005) }'
+  local tolerance thickest=()
+  for tolerance in 0.0096 0.01 0.0104; do
+    TOLERANCE=$tolerance run_scene stairs 3 24 'sheet-emit |'
+    thickest+=("$(greatest stairs thickness_max)")
+    echo "steps $(last stairs step), at most ${thickest[-1]} m thick, at least $(least stairs thickness_min)"
+    (($(last stairs step) <= 200))
+    awk -v h="$(least stairs thickness_min)" 'BEGIN { exit !(h > 0.0005) }'
+  done
+  awk -v h="$(median "${thickest[@]}")" 'BEGIN { exit !(h < 0.03) }'
 }
 
 # usage: film FILE FROM TO: mean and greatest thickness [mm] along the middle of the last frame, between two x [mm]
