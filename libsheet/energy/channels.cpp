@@ -46,7 +46,9 @@ std::optional<Channel> find_channel(const std::vector<Wall>& walls, const Stage&
     const auto gap_at = [&](double time, const Vector3& place) {
       return gap_of(walls[site.wall], walls[w], time, place, longest_edge, least);
     };
-    const auto [gap, slope] = gap_at(t, x);
+    const auto there = gap_at(t, x);
+    const double gap = there.gap;
+    const Vector3 slope = there.slope;
     if (!(gap < near_touch * thickness) || (found && found->gap <= gap))
       continue;
     found.emplace();

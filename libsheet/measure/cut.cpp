@@ -93,7 +93,7 @@ private:
     if (up.norm() < 1e-6)
       up = within(Vector3::UnitX());
     const auto height = [&](const std::array<SurfacePoint, 2>& piece) { return up.dot(position_of(frame_, piece[0])); };
-    std::ranges::rotate(curve, std::ranges::min_element(curve, {}, height));
+    std::rotate(curve.begin(), std::ranges::min_element(curve, {}, height), curve.end());
     return curve;
   }
 

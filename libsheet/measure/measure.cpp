@@ -128,7 +128,8 @@ void measure_fields(const formats::Frame& frame, const Range& thickness, Measure
   for (const Field& field : fields()) {
     if (!field.in_figures)
       continue;
-    Range& range = m.fields.emplace_back(&field).range;
+    m.fields.push_back({&field, {}});
+    Range& range = m.fields.back().range;
     m.has[static_cast<std::size_t>(field.needs)] |= has(frame, field);
     if (field.name == "thickness") {
       range = thickness;

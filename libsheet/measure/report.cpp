@@ -213,7 +213,7 @@ public:
     nothing.frame = &frame;
     for (const Field& field : fields())
       if (field.in_figures)
-        nothing.measurements.fields.emplace_back(&field);
+        nothing.measurements.fields.push_back({&field, {}});
     return header(nothing, {});
   }
 

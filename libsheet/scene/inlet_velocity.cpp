@@ -25,7 +25,7 @@ std::vector<double> InletVelocity::times() const {
   for (const auto& entry : radial.entries)
     times.push_back(entry.time);
   std::ranges::sort(times);
-  times.erase(std::ranges::unique(times).begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 

@@ -152,8 +152,7 @@ std::vector<double> events(const Motion& motion) {
                                  std::vector<double> times = times_of(m.rate);
                                  std::ranges::copy(times_of(m.velocity), std::back_inserter(times));
                                  std::ranges::sort(times);
-                                 const auto twice = std::ranges::unique(times);
-                                 times.erase(twice.begin(), twice.end());
+                                 times.erase(std::unique(times.begin(), times.end()), times.end());
                                  return times;
                                },
                                [](const Keyframed& m) {

@@ -116,7 +116,7 @@ std::vector<std::uint32_t> rim_vertices(const Connectivity& mesh) {
     if (mesh.on_rim(e))
       vertices.insert(vertices.end(), mesh.edges[e].begin(), mesh.edges[e].end());
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 
