@@ -168,7 +168,7 @@ TEST_F(SeamTexture, IsLeftOutWithoutItsFileOrWithAnother) {
     return told;
   };
   EXPECT_EQ(added(scene_of(file_, 1), 0), "");
-  EXPECT_NE(added(scene_of("no/such/mesh.ply", 1), 0).find("is neither beside the stream nor above it"),
+  EXPECT_NE(added(scene_of("no/such/mesh-of-nowhere.ply", 1), 0).find("is neither beside the stream nor above it"),
             std::string::npos);
   EXPECT_NE(added(scene_of(file_, 1), 50).find("is not the mesh that the run began with"), std::string::npos);
   Scene plain = scene_of(file_, 1);
