@@ -34,7 +34,7 @@ constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what 
 constexpr int often = 3;          // in a row near enough, though the preconditioner is not trusted
 constexpr double far_away = 0.1;  // of an edge, or radians: if more remains at a start, there may be a better one,
 constexpr double much = 0.1;      // or if so much of the energies there can be gained
-constexpr double too_much = 0.01; // of the energies, that an earlier place's factor promises to gain
+constexpr double too_much = 0.01; // of the energies, that an earlier place's factor promises to gain, twice
 constexpr double farther = 3;     // times what remained before the last step, what such a factor says remains after it
 
 // The greatest of the first `count` numbers of x, each in its own unit. Not a number if one of them is none.
