@@ -132,10 +132,12 @@ void share_out(const EditableSheet& sheet, const std::vector<TriangleRates>& rat
     size[v] = std::min(size[v], length(v, high));
 }
 
-// At each vertex the length that the jumps of thickness to the neighbours of its triangles ask for.
+// At each vertex the length that the jumps of thickness to the neighbours of its triangles ask for, divided by the part
+// of a face that lies on no layer.
 void limit_by_thickness(const EditableSheet& sheet, const std::vector<TriangleRates>& rates,
-                        std::vector<double>& size) {
+                        const std::vector<double>& inner_faces, std::vector<double>& size) {
   const Mesh& mesh = sheet.mesh();
+  const auto open = [&](std::uint32_t v) { return inner_faces.empty() ? 1 : std::max(0.0, 1 - inner_faces[v]); };
   for (std::uint32_t side = 0; side < 3 * mesh.triangle_slots(); ++side) {
     const std::uint32_t twin = mesh.twin(side);
     if (twin == no_index || twin < side)
@@ -147,7 +149,8 @@ void limit_by_thickness(const EditableSheet& sheet, const std::vector<TriangleRa
     if (jump > jump_tolerance * value)
       for (const std::uint32_t t : {one, two})
         for (const std::uint32_t v : mesh.corners(t))
-          size[v] = std::min(size[v], length * jump_tolerance * value / jump);
+          if (const double share = open(v); share > 0)
+            size[v] = std::min(size[v], length * jump_tolerance * value / (share * jump));
   }
 }
 
@@ -309,7 +312,7 @@ void SizeField::adapt(const EditableSheet& sheet, const Scene* scene, const Size
   if (scene != nullptr)
     look_ahead(sheet, *scene, rates, error, size_);
   share_out(sheet, rates, error, options.edge_length, bounds, size_);
-  limit_by_thickness(sheet, rates, size_);
+  limit_by_thickness(sheet, rates, options.inner_faces, size_);
   for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t)
     for (const std::uint32_t v : sheet.mesh().corners(t))
       size_[v] = std::max(size_[v], std::min(thicknesses_an_edge * rates[t].thickness, bounds.high));

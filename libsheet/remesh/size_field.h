@@ -33,7 +33,8 @@ struct SizeOptions {
 // - proportional to g^-½, g how unevenly the sheet stretches and bends (flow_error.h), so that triangles, as many as
 //   there would be with edges of `edge_length` everywhere, stand where they make the flow's error least; at rest
 //   `edge_length`;
-// - l τ h / |Δh|: the jump of the thickness;
+// - l τ h / |Δh|: the jump of the thickness, where no layer that flows with it lies on either face: a pile moves as one
+//   body, however uneven its layers are;
 // - an eighth of a wave about to buckle (buckling.h), which also gets its share beforehand.
 // What has layers that flow with it on both faces needs no edges below `edge_length`: it moves as a part of the pile.
 //

@@ -124,29 +124,47 @@ TEST(SizeField, TrianglesStandWhereTheFlowVaries) {
   EXPECT_NEAR(count, 400, 80);
 }
 
+// The least and the greatest length with so many inner faces at every vertex.
+std::pair<double, double> sizes(const formats::Frame& frame, SizeOptions options, double inner_faces) {
+  const EditableSheet sheet(frame);
+  options.inner_faces.assign(frame.vertices, inner_faces);
+  const SizeField size(sheet, nullptr, options);
+  std::vector<double> at(frame.vertices);
+  for (std::uint32_t v = 0; v < at.size(); ++v)
+    at[v] = size.at(v);
+  return range(frame, at, [](const Vector3&) { return true; });
+}
+
 // A sphere's curvature asks for a tenth of its radius, and what is buried for no more than the edges that it has.
 TEST(SizeField, WhatLiesBetweenLayersNeedsNoFineEdges) {
   constexpr double edge = 0.2;
   const formats::Frame frame =
       moving(make_sphere(1, edges(edge)), 0.01, [](const Vector3&) { return Vector3::Zero(); });
-  const EditableSheet sheet(frame);
   SizeOptions options;
   options.edge_length = edge;
   options.chord_error = 0.1 * 0.1 / 8;
-  const auto sizes = [&](double of_vertices) {
-    options.inner_faces.assign(frame.vertices, of_vertices);
-    const SizeField size(sheet, nullptr, options);
-    std::vector<double> at(frame.vertices);
-    for (std::uint32_t v = 0; v < at.size(); ++v)
-      at[v] = size.at(v);
-    return range(frame, at, [](const Vector3&) { return true; });
-  };
-  const auto [low, high] = sizes(0);
+  const auto [low, high] = sizes(frame, options, 0);
   EXPECT_NEAR(low, 0.1, 0.01);
   EXPECT_NEAR(high, 0.1, 0.01);
-  EXPECT_EQ(sizes(1), std::pair(low, high)); // one face is outside
-  EXPECT_NEAR(sizes(1.5).first, (low + edge) / 2, 1e-12);
-  EXPECT_EQ(sizes(2), std::pair(edge, edge));
+  EXPECT_EQ(sizes(frame, options, 1), std::pair(low, high)); // one face is outside
+  EXPECT_NEAR(sizes(frame, options, 1.5).first, (low + edge) / 2, 1e-12);
+  EXPECT_EQ(sizes(frame, options, 2), std::pair(edge, edge));
+}
+
+// Jumps of thickness count as far as nothing lies on the sheet: there by half the thickness for a fifth.
+TEST(SizeField, WhatLiesOnALayerNeedsNoEvenThickness) {
+  constexpr double edge = 0.1;
+  formats::Frame frame = test::frame_of(make_rectangle(2, 2, edges(edge)), 0.01);
+  const auto volume = volumes(frame);
+  for (std::size_t t = 0; t < volume.size(); ++t)
+    if (positions(frame)[triangles(frame)[t][0]][0] > 0)
+      volume[t] *= 2;
+  const SizeOptions options = adaptive(edge);
+  const double low = sizes(frame, options, 0).first;
+  EXPECT_GT(low, 0.3 * edge);
+  EXPECT_LT(low, 0.5 * edge);
+  EXPECT_NEAR(sizes(frame, options, 0.25).first, low / 0.75, 1e-12);
+  EXPECT_EQ(sizes(frame, options, 1).first, edge);
 }
 
 // V15: k² = 2 ρ_b g / P, P = 4 μ h e, in the half that is compressed.
