@@ -32,9 +32,12 @@ constexpr double served = 0.3;    // of what remained, what a step by the factor
 constexpr double sharper = 1e-2;  // of the tolerance, after such a step: others leave the square of what remained
 constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what may remain at most
 constexpr int often = 3;          // in a row near enough, though the preconditioner is not trusted
+constexpr double a_few = 0.01;    // of the vertices, where the potential is not convex,
+constexpr double as_far = 10;     // may have so many times more left
 constexpr double far_away = 0.1;  // of an edge, or radians: if more remains at a start, there may be a better one,
 constexpr double much = 0.1;      // or if so much of the energies there can be gained
-constexpr double too_much = 0.01; // of the energies, that an earlier place's factor promises to gain, twice
+constexpr double too_much = 0.01; // of the energies, that an earlier place's factor promises to gain, twice;
+constexpr double nonsense = 1;    // or all of them twice, by a step of so many edges or radians
 constexpr double farther = 3;     // times what remained before the last step, what such a factor says remains after it
 
 // The greatest of the first `count` numbers of x, each in its own unit. Not a number if one of them is none.
@@ -149,7 +152,8 @@ private:
   [[nodiscard]] bool misled() const {
     if (fresh_ || system_.floor() > 0)
       return false;
-    const bool promises = !system_.factor_serves() && norm_ * norm_ > too_much * energy_.magnitude;
+    const double promised = norm_ * norm_ / energy_.magnitude;
+    const bool promises = system_.factor_serves() ? promised > 1 && remains_ > nonsense : promised > too_much;
     return promises || (steps() > 0 && norm_ > farther * previous_norm_);
   }
 
@@ -236,12 +240,12 @@ private:
 
   bool converged() {
     const bool strict = trusted() && remains_ <= (followed_ ? sharper : 1) * options_.tolerance;
-    const bool near =
-        options_.of_step_error > 0 && norm_ <= options_.of_step_error * first_norm_ &&
-        positions_remain_ <= std::min(largest, options_.of_step_error * std::max(way_, options_.step_error));
+    const bool near = options_.of_step_error > 0 && norm_ <= options_.of_step_error * first_norm_ && vertices_near();
     near_ = near ? near_ + 1 : 0;
-    // Slivers and films of no mass may have a curvature that is negative for ever, and move by next to nothing.
-    const bool lenient = near_ >= (trusted() ? 1 : often);
+    // Slivers and films of no mass may have a curvature that is negative for ever, and move by next to nothing. If the
+    // last step has gained no more than may remain, neither will the next.
+    const bool sure = trusted() || (steps() > 0 && gain_ <= std::pow(options_.of_step_error * first_norm_, 2));
+    const bool lenient = near_ >= (sure ? 1 : often);
     // A direction with the Hessian knows the soft modes too, of which the potential tells little.
     const bool nothing_to_gain =
         steps() > 0 && !followed_ && full_ && remains_ <= small_step && norm_ * norm_ <= energy_.noise();
@@ -250,6 +254,21 @@ private:
         (balanced(options_.force_left) && (remains_ <= lost_step || strict || lenient || nothing_to_gain)) ||
         (balanced(options_.force_left_by_error) && lenient);
     return report_.converged;
+  }
+
+  // By the step's error. Where the potential is not convex, a few vertices of films that buckle, or of crumpled lumps
+  // thicker than edges are long, come to rest much later than all others.
+  [[nodiscard]] bool vertices_near() const {
+    const double enough = std::min(largest, options_.of_step_error * std::max(way_, options_.step_error));
+    if (positions_remain_ <= enough)
+      return true;
+    if ((exact_ && !negative_) || !(positions_remain_ <= as_far * enough))
+      return false;
+    const auto count = static_cast<Eigen::Index>(system_.assembly().vertices());
+    Eigen::Index far = 0;
+    for (Eigen::Index v = 0; v < count; ++v)
+      far += !((remainder_.segment<3>(3 * v).array().abs() <= enough * scale_.segment<3>(3 * v).array()).all());
+    return static_cast<double>(far) <= a_few * static_cast<double>(count);
   }
 
   // What remains is known, so it costs nothing.
@@ -335,6 +354,7 @@ private:
         taken = length;
         report_.monotone = report_.monotone && (energy.value <= energy_.value + noise || !lower);
         u_ = there;
+        gain_ = energy_.value - energy.value;
         energy_ = energy;
         gradient_.swap(trial_);
         linearized_ = false;
@@ -360,7 +380,7 @@ private:
   const OtherStart& other_;
   NewtonReport report_;
   EnergySum energy_;
-  double start_ = 0; // of the potential
+  double start_ = 0, gain_ = 0; // of the potential: where it began, and what the last step lowered it by [J]
   Eigen::VectorXd gradient_, trial_, force_, preconditioned_, remainder_, step_;
   double slope_ = 0, norm_ = 0, previous_norm_ = 0, first_norm_ = 0, remains_ = 0, positions_remain_ = 0, way_ = 0;
   double greatest_force_ = 0, first_force_ = 0; // [N], where that is asked for
