@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace sheet::render {
 namespace {
@@ -62,7 +61,8 @@ Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up) {
   return std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside) + std::sin(elevation) * up;
 }
 
-ViewAngles view_before_planes(CameraOptions options, const Vector3& up, std::span<const Vector3> normals) {
+std::vector<ViewAngles> views_before_planes(CameraOptions options, const Vector3& up,
+                                            std::span<const Vector3> normals) {
   constexpr double grazing = 0.1; // sine of the angle at which next to nothing is seen of a plane
   constexpr std::array aside{0, -30, 30, -60, 60, -90, 90, -120, 120, -150, 150, 180}; // from the usual azimuth
   const CameraOptions asked = options;
@@ -79,7 +79,15 @@ ViewAngles view_before_planes(CameraOptions options, const Vector3& up, std::spa
   for (const double elevation : {usual_view.elevation, -usual_view.elevation, 0.0})
     for (const int degrees : aside)
       views.push_back({asked.azimuth.value_or(usual_view.azimuth + degrees), asked.elevation.value_or(elevation)});
-  return *std::ranges::min_element(views, {}, cost);
+  const ViewAngles best = *std::ranges::min_element(views, {}, cost);
+  views = {best};
+  for (const double azimuth : {0.0, 180.0, -90.0, 90.0})
+    for (const double elevation : {best.elevation, 50.0, 75.0}) {
+      const ViewAngles view{asked.azimuth.value_or(best.azimuth + azimuth), asked.elevation.value_or(elevation)};
+      if (cost(view) <= cost(best))
+        views.push_back(view);
+    }
+  return views;
 }
 
 ViewFit::ViewFit(const CameraOptions& options, const Vector3& up, double aspect, const Margins& margins)

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "libsheet/geometry/box.h"
 #include "libsheet/render/sampler.h"
@@ -60,9 +61,11 @@ struct ViewAngles {
 inline constexpr ViewAngles usual_view{30, 25};
 
 // The angles from which fewest planes hide what is before them and, of those, most are seen by their front, nearest to
-// the usual ones: azimuths every 30 degrees; from above, else from below, else level. Those that `options` has stay.
-// `normals`: unit vectors out of the planes.
-[[nodiscard]] ViewAngles view_before_planes(CameraOptions options, const Vector3& up, std::span<const Vector3> normals);
+// the usual ones: azimuths every 30 degrees; from above, else from below, else level. Then others of which the same is
+// true, from which solids may hide less: from higher above, likewise from the other sides. Those that `options` has
+// stay. `normals`: unit vectors out of the planes.
+[[nodiscard]] std::vector<ViewAngles> views_before_planes(CameraOptions options, const Vector3& up,
+                                                          std::span<const Vector3> normals);
 
 // Parts of the picture's width or height that stay free at each edge.
 struct Margins {

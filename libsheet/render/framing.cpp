@@ -12,12 +12,14 @@ namespace sheet::render {
 void Extent::add(const Vector3& center, double radius) {
   box.add(center - Vector3::Constant(radius));
   box.add(center + Vector3::Constant(radius));
-  view.add(center, radius);
+  for (ViewFit& view : views)
+    view.add(center, radius);
 }
 
 void Extent::add(const Extent& other) {
   box.add(other.box);
-  view.add(other.view);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    views[i].add(other.views[i]);
 }
 
 static double area_of(const formats::Frame& frame) {

@@ -9,17 +9,17 @@
 
 namespace sheet::render {
 
-// A box and the camera that sees all of some things.
+// A box and the cameras, each with a direction of its own, that see all of some things.
 struct Extent {
   Box box; // [m]
-  ViewFit view;
+  std::vector<ViewFit> views;
   void add(const Vector3& center, double radius);
   void add(const Extent& other);
 };
 
 class Survey {
 public:
-  explicit Survey(const ViewFit& empty) : sheet_{{}, empty}, solids_{{}, empty} {}
+  explicit Survey(const std::vector<ViewFit>& empty) : sheet_{{}, empty}, solids_{{}, empty} {}
   // `meshes`: of the frame's scene.
   void add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look);
   // What the picture is about: the sheet, with half its thickness to all sides, and the finite solids unless they are

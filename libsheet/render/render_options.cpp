@@ -181,7 +181,8 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
               "where the camera stands if it finds its place itself: angle about the upward axis, from z towards x "
               "(default 30, or the nearest to it from which planes are seen by their front)");
   tool.option("--elevation", o.camera.elevation, "DEGREES",
-              "likewise: angle above level (default 25, or -25 or 0 where planes would hide everything)");
+              "likewise: angle above level (default 25; -25 or 0 where planes would hide everything, 50 or 75 where "
+              "solids would)");
   tool.option(
       "--environment", o.environment, "FILE",
       "image of the surroundings to light the scene with instead of the studio, .hdr, .exr or .png, longitude across");
@@ -194,8 +195,9 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
               "contrast of film; true, and cut off at white");
   tool.choice("--ground", o.ground, {{"auto", true}, {"none", false}},
               "the ground below a scene that has no plane of its own");
-  tool.choice("--solids", o.solids, {{"all", true}, {"none", false}},
-              "the scene's solids; none, to see what is within a mould");
+  tool.choice("--solids", o.solids,
+              {{"auto", DrawnSolids::not_enclosing}, {"all", DrawnSolids::all}, {"none", DrawnSolids::none}},
+              "the scene's solids; auto: but those that hide the liquid from all sides, as a closed mould does");
   colour_option(tool, "--ground-colour", o.ground_colour, "reflectance of the ground, 0 to 1");
   colours_option(tool, "--solid-colour", o.solid_colours,
                  "reflectance of the solids, 0 to 1, the first, the second, ..., and again from the first");

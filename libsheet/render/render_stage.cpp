@@ -17,6 +17,7 @@
 #include "libsheet/render/path_tracer.h"
 #include "libsheet/render/picture_file.h"
 #include "libsheet/render/scale_bar.h"
+#include "libsheet/render/sights.h"
 #include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/frame_scene.h"
 
@@ -128,10 +129,12 @@ struct RenderStage::Impl {
   const Scene* scene = nullptr; // the frame's, if it has one
   std::vector<SolidMesh> meshes;
 
-  Vector3 up = Vector3::UnitY(); // in the first scene
-  std::optional<Survey> survey;
-  bool surveyed = false; // by survey()
-  struct Fixed {         // for all pictures
+  Vector3 up = Vector3::UnitY();      // in the first scene
+  std::optional<Survey> survey;       // from where the camera may look
+  std::optional<Sights> sights;       // from each of these places
+  std::vector<std::size_t> enclosing; // solids that are left out, by their number in the scene
+  bool surveyed = false;              // by survey()
+  struct Fixed {                      // for all pictures
     Box subject;
     Camera camera;
     Lighting lighting;
@@ -169,7 +172,14 @@ struct RenderStage::Impl {
   void read_scene_of(const formats::Frame& frame) {
     scene = scenes.find(frame);
     if (scenes.changed())
-      meshes = scene != nullptr && options.solids ? make_solids(*scene) : std::vector<SolidMesh>{};
+      meshes = draws_solids() ? make_solids(*scene) : std::vector<SolidMesh>{};
+    leave_out_enclosing();
+  }
+
+  [[nodiscard]] bool draws_solids() const { return scene != nullptr && options.solids != DrawnSolids::none; }
+
+  void leave_out_enclosing() {
+    std::erase_if(meshes, [&](const SolidMesh& mesh) { return std::ranges::count(enclosing, mesh.solid) > 0; });
   }
 
   // Around the subject; what is written on the picture stands beside it.
@@ -190,25 +200,47 @@ struct RenderStage::Impl {
     return widened(survey->scale(), *options.look.field);
   }
 
-  // Unless the user says from where.
-  void look_before_planes(double time) {
+  // From which the camera may look, the best first; where the user says from where, only that.
+  [[nodiscard]] std::vector<CameraOptions> views_at(double time) const {
     std::vector<Vector3> normals;
-    for (const Plane& plane : scene != nullptr && options.solids ? make_planes(*scene, time) : std::vector<Plane>{})
+    for (const Plane& plane : draws_solids() ? make_planes(*scene, time) : std::vector<Plane>{})
       normals.push_back(plane.normal);
-    const ViewAngles view = view_before_planes(options.camera, up, normals);
-    options.camera.azimuth = view.azimuth;
-    options.camera.elevation = view.elevation;
+    std::vector<CameraOptions> views;
+    for (const ViewAngles& view : views_before_planes(options.camera, up, normals)) {
+      CameraOptions& camera = views.emplace_back(options.camera);
+      camera.azimuth = view.azimuth;
+      camera.elevation = view.elevation;
+      if (options.camera.eye)
+        break;
+    }
+    return views;
   }
 
   void look_at(const formats::Frame& frame) {
     read_scene_of(frame);
     if (!survey) {
       up = up_of(scene);
-      look_before_planes(frame.time);
       const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
-      survey.emplace(ViewFit(options.camera, up, aspect, margins()));
+      std::vector<ViewFit> fits;
+      std::vector<Vector3> toward;
+      for (const CameraOptions& view : views_at(frame.time)) {
+        fits.emplace_back(view, up, aspect, margins());
+        toward.push_back(direction_to_camera(view, up));
+      }
+      survey.emplace(fits);
+      sights.emplace(options.camera.eye ? std::vector<Vector3>{} : toward);
     }
     survey->add(frame, scene, meshes, options.look);
+    sights->add(frame, scene, meshes);
+  }
+
+  void leave_out_what_encloses() {
+    if (options.solids != DrawnSolids::not_enclosing)
+      return;
+    enclosing = sights->enclosing();
+    for (const std::size_t solid : enclosing)
+      log::warning("[[solid]] {} hides the sheet from all sides and is not drawn (--solids all draws it)", solid);
+    leave_out_enclosing();
   }
 
   // Decides what stays the same in all pictures.
@@ -230,7 +262,8 @@ struct RenderStage::Impl {
     const double growth = surveyed ? 0 : unknown_growth;
     const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.middle();
     subject = {middle - reach, middle + reach};
-    Camera camera = extent.view.camera(middle, 2 * growth);
+    leave_out_what_encloses();
+    Camera camera = extent.views[sights->best(enclosing)].camera(middle, 2 * growth);
     check_reach(camera, extent.box);
     if (options.aperture > 0 && options.look.is_material())
       camera.set_lens({options.aperture / 2, std::min(focus_distance(camera, middle), farthest * subject.diagonal())});
@@ -355,7 +388,7 @@ struct RenderStage::Impl {
     std::vector<Eigen::Isometry3d> motions;
     for (const SolidMesh& mesh : meshes)
       motions.push_back(motion_of(scene->solids[mesh.solid], time));
-    std::vector<Plane> planes = scene && options.solids ? make_planes(*scene, time) : std::vector<Plane>{};
+    std::vector<Plane> planes = draws_solids() ? make_planes(*scene, time) : std::vector<Plane>{};
     if (fixed->ground)
       planes.push_back(*fixed->ground);
     const Middle middle = own_middle(frame);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stage sheet-render: a picture of each frame, as a file or as a part of a film.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,9 @@
 #include "libsheet/render/slab.h"
 
 namespace sheet::render {
+
+// not_enclosing: but those that hide the sheet from all sides (sights.h).
+enum class DrawnSolids : std::uint8_t { not_enclosing, all, none };
 
 struct RenderOptions {
   std::string output;            // name of the picture files (NumberedName), .png or .exr; "" with a video
@@ -41,8 +45,9 @@ struct RenderOptions {
   double environment_turn = 0;                     // [degrees]
   double environment_strength = 1;                 // factor on its light
   std::string environment;                         // image file; "": the studio
-  bool ground = true, solids = true;               // whether they are drawn
-  std::optional<Scale> range;                      // of false colours, in SI; absent: that of the frames
+  bool ground = true;                              // whether it is drawn
+  DrawnSolids solids = DrawnSolids::not_enclosing;
+  std::optional<Scale> range; // of false colours, in SI; absent: that of the frames
   double frames_per_second = 24;
 };
 

@@ -43,8 +43,12 @@ TEST(Camera, TheBoxIsInThePictureAndFillsIt) {
 
 TEST(Camera, StandsBeforePlanes) {
   const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
-  const auto azimuth = [&](std::vector<Vector3> normals) { return view_before_planes({}, y, normals).azimuth; };
-  const auto elevation = [&](std::vector<Vector3> normals) { return view_before_planes({}, y, normals).elevation; };
+  const auto azimuth = [&](std::vector<Vector3> normals) {
+    return views_before_planes({}, y, normals).front().azimuth;
+  };
+  const auto elevation = [&](std::vector<Vector3> normals) {
+    return views_before_planes({}, y, normals).front().elevation;
+  };
   EXPECT_EQ(azimuth({}), 30);
   EXPECT_EQ(azimuth({y}), 30);
   EXPECT_EQ(azimuth({y, x}), 30);
@@ -60,7 +64,7 @@ TEST(Camera, StandsBeforePlanes) {
   EXPECT_EQ(elevation({y, -y}), 0); // level, between both
   CameraOptions asked;
   asked.elevation = 40;
-  EXPECT_EQ(view_before_planes(asked, y, std::vector<Vector3>{-y}).elevation, 40);
+  EXPECT_EQ(views_before_planes(asked, y, std::vector<Vector3>{-y}).front().elevation, 40);
 }
 
 TEST(Camera, GrowsAboutTheMiddleAndLooksAtItsTarget) {
@@ -132,11 +136,11 @@ TEST(Survey, SolidsCountUnlessTheyAreLarge) {
   scene.solids[0].center = {0, -1, 0};
   for (const double radius : {0.2, 20.0}) {
     scene.solids[0].shape = scene::Sphere{radius};
-    Survey survey(any_view);
+    Survey survey({any_view});
     survey.add(frame, &scene, make_solids(scene), {});
     EXPECT_NEAR(survey.subject().box.low.y(), radius < 1 ? -1.2 : -0.005, 1e-3);
   }
-  Survey empty(any_view);
+  Survey empty({any_view});
   empty.add(make_frame({}, {}, {}), nullptr, {}, looks()[1].second);
   EXPECT_TRUE(empty.subject().box.empty());
   EXPECT_TRUE(empty.scale().empty());
@@ -151,7 +155,7 @@ TEST(Survey, WhatFallsForEverIsNotFollowed) {
     scene.solids[0].shape = scene::Sphere{0.2};
     scene.solids[0].center = {0, below, 0};
     change(scene);
-    Survey survey(any_view);
+    Survey survey({any_view});
     survey.add(test::flat(2, 0.01), &scene, make_solids(scene), {});
     return survey.subject().box.low.y();
   };
@@ -176,7 +180,7 @@ TEST(Survey, MovingSolidsAreSeenWhereTheyAre) {
   scene::Translating moving;
   moving.velocity.entries = {{0, Vector3(0, 0.5, 0)}};
   scene.solids[0].motion = moving;
-  Survey survey(any_view);
+  Survey survey({any_view});
   survey.add(frame, &scene, make_solids(scene), {});
   EXPECT_NEAR(survey.subject().box.high.y(), 1.1, 1e-4);
 }

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/render/sights.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/render/scenes.h"
+
+namespace sheet::render {
+namespace {
+
+// Boxes on all four sides of a sheet of 1 m² at the height 0, so high above it.
+Scene walls(double above) {
+  Scene scene;
+  const auto add = [&](const Vector3& center, const Vector3& size) {
+    scene.solids.emplace_back().shape = scene::SolidBox{size};
+    scene.solids.back().center = center;
+  };
+  for (const double side : {-0.6, 0.6}) {
+    add({side, above / 2 - 0.1, 0}, {0.1, above + 0.2, 1.3});
+    add({0, above / 2 - 0.1, side}, {1.3, above + 0.2, 0.1});
+  }
+  return scene;
+}
+
+// Of the best view of it [degrees].
+double best_elevation(const Scene& scene, const formats::Frame& frame) {
+  std::vector<Vector3> toward;
+  CameraOptions options;
+  const std::vector<ViewAngles> views = views_before_planes(options, Vector3::UnitY(), {});
+  for (const ViewAngles& view : views) {
+    options.azimuth = view.azimuth;
+    options.elevation = view.elevation;
+    toward.push_back(direction_to_camera(options, Vector3::UnitY()));
+  }
+  Sights sights(toward);
+  sights.add(frame, &scene, make_solids(scene));
+  return views[sights.best(sights.enclosing())].elevation;
+}
+
+TEST(Sights, WhatIsBetweenWallsIsSeenFromHighAbove) {
+  const formats::Frame frame = test::flat(8, 0.01);
+  EXPECT_EQ(best_elevation({}, frame), 25);
+  EXPECT_EQ(best_elevation(walls(0.1), frame), 25);
+  EXPECT_EQ(best_elevation(walls(0.4), frame), 50);
+  EXPECT_EQ(best_elevation(walls(2), frame), 75);
+}
+
+TEST(Sights, OneSolidEnclosesButNotTwoHalves) {
+  const formats::Frame frame = test::flat(8, 0.01);
+  Scene scene;
+  scene.solids.emplace_back().shape = scene::Sphere{1};
+  scene.solids.emplace_back().shape = scene::SolidBox{{3, 0.1, 3}};
+  scene.solids.back().center = {0, -2, 0};
+  const auto enclosing = [&] {
+    Sights sights({Vector3(0.6, 0.8, 0), Vector3(0, 0.6, 0.8)});
+    sights.add(frame, &scene, make_solids(scene));
+    return sights.enclosing();
+  };
+  EXPECT_EQ(enclosing(), std::vector<std::size_t>{0});
+  scene.solids[0].shape = scene::SolidBox{{3, 0.1, 3}}; // above and below: each hides it from its side
+  scene.solids[0].center = {0, 0.1, 0};
+  scene.solids[1].center = {0, -0.1, 0};
+  EXPECT_TRUE(enclosing().empty());
+  Sights none({});
+  none.add(frame, &scene, make_solids(scene));
+  EXPECT_TRUE(none.enclosing().empty());
+  EXPECT_EQ(none.best({}), 0);
+}
+
+} // namespace
+} // namespace sheet::render
