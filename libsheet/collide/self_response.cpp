@@ -246,15 +246,15 @@ private:
                          : common_motion(fixed, path_.start, wanted);
   }
 
-  // The solid that an island goes with where it cannot go its own way: the one that vertices of it touch, if there is
-  // only one and nothing else is prescribed to any.
+  // The solid that an island goes with where it cannot go its own way: the one that vertices of it touch or are kept
+  // out of, if there is only one and nothing else is prescribed to any.
   [[nodiscard]] std::int32_t solid_of(const std::vector<std::uint32_t>& island) const {
     std::int32_t solid = no_solid;
     for (const std::uint32_t v : island) {
-      const std::int32_t touch = path_.touch[v];
-      if ((touch == no_solid && path_.fixed[v] != 0) || (touch != no_solid && solid != no_solid && touch != solid))
+      const std::int32_t of = solid_beside(v);
+      if ((of == no_solid && path_.fixed[v] != 0) || (of != no_solid && solid != no_solid && of != solid))
         return no_solid;
-      solid = touch != no_solid ? touch : solid;
+      solid = of != no_solid ? of : solid;
     }
     return solid;
   }
@@ -369,12 +369,16 @@ private:
     return solids_.motions[static_cast<std::size_t>(solid)];
   }
 
+  // The solid that a vertex touches or is kept out of.
+  [[nodiscard]] std::int32_t solid_beside(std::uint32_t v) const {
+    return path_.touch[v] != no_solid || solids_.kept_out_of.empty() ? path_.touch[v] : solids_.kept_out_of[v];
+  }
+
   // The one moving solid that drives an island, if nothing else does.
   [[nodiscard]] std::int32_t driven_by(const std::vector<std::uint32_t>& island) const {
     std::int32_t solid = no_solid;
     for (const std::uint32_t v : island) {
-      const std::int32_t beside = solids_.kept_out_of.empty() ? no_solid : solids_.kept_out_of[v];
-      const std::int32_t of = path_.touch[v] != no_solid ? path_.touch[v] : beside;
+      const std::int32_t of = solid_beside(v);
       if ((of == no_solid && prescribed_[v] != 0) || (of != no_solid && solid != no_solid && of != solid))
         return no_solid;
       solid = of != no_solid ? of : solid;

@@ -252,21 +252,23 @@ TEST(SelfResponse, WhatASolidBringsOutAndStaysBehindIsAtRest) {
     EXPECT_EQ(velocity, Vector3::Zero());
 }
 
-// Layers that stick to a solid which turns and goes far, and whose places on it are not to be had: they go on with it.
+// Layers that stick to a solid which turns and goes far, or are kept out of it, and whose places on it are not to be
+// had: they go on with it.
 TEST(SelfResponse, WhatSticksToAMovingSolidGoesOnWithIt) {
   const Matrix3 turn = Eigen::AngleAxisd(0.3, Vector3(1, 0.3, 0).normalized()).toRotationMatrix();
   const std::vector<SolidMotion> motions{{{turn, Vector3(0.4, 0, -2)}, {}}};
   const RigidStep& step = motions[0].step;
-  for (const bool told : {false, true}) {
+  for (const auto& [told, one_in] : {std::pair(false, 1u), {true, 1u}, {true, 3u}}) { // of so many vertices one touches
     Case c(2, 4, 0.05);
+    const std::vector<std::int32_t> kept_out_of(c.start.size(), 0);
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (std::uint32_t v = 0; v < c.start.size(); ++v) {
-      c.path.touch[v] = 0;
+      c.path.touch[v] = v % one_in == 0 ? 0 : no_solid;
       c.path.fixed[v] = all_axes;
       c.path.end[v] = step(c.start[v]) + 0.2 * Vector3(uniform(random), uniform(random), uniform(random));
     }
-    const SelfReport report = c.resolve({told ? motions : std::vector<SolidMotion>{}, {}});
+    const SelfReport report = c.resolve({told ? motions : std::vector<SolidMotion>{}, kept_out_of});
     EXPECT_GT(report.pulled_back, 0u);
     c.expect_safe();
     double farthest = 0; // from where the solid takes them
