@@ -36,6 +36,7 @@
 #include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/symmetry.h"
 #include "libsheet/plan/thick_streams.h"
+#include "libsheet/plan/unlikely.h"
 #include "libsheet/plan/wetting.h"
 #include "libsheet/scene/document.h"
 #include "libsheet/scene/example.h"
@@ -151,6 +152,7 @@ std::string explained(Source source, bool ring_alone) {
                                       "fold. [[sheet]] perturbation lets it begin, as in the ring below");
     std::ranges::copy(sheet::small_noise(scene, sheets, measured), std::back_inserter(source.sets));
   }
+  std::ranges::copy(sheet::unlikely_values(with_heat), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::mesh_warnings(scene, frame), std::back_inserter(explanation.warnings));
   if (std::ranges::any_of(sheet::scene::scales_of_sheets(scene, measured), [&](const sheet::scene::Scales& scales) {
         return sheet::scene::warning_of_biot(with_heat, scales).has_value();

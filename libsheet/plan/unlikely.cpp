@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/plan/unlikely.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "libsheet/scene/inlet_velocity.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr double lightest = 10, heaviest = 25'000; // foam has 20, osmium 22,600 [kg/m³]
+constexpr double tightest = 3;                     // tungsten has 2.5 [N/m]
+constexpr double strongest = 100;                  // gravity, ten times that of the Earth [m/s²]
+constexpr double fastest = 50;                     // [m/s]
+
+} // namespace
+
+std::vector<std::string> unlikely_values(const Scene& scene) {
+  std::vector<std::string> found;
+  const auto tell = [&](const std::string& what) {
+    if (std::ranges::find(found, what) == found.end())
+      found.push_back(what);
+  };
+  for (const scene::SheetTable& sheet : scene.sheets) {
+    const Liquid liquid = scene::with_material_of(scene, sheet).material;
+    if (liquid.density > 0 && liquid.density < lightest)
+      tell(fmt::format("a density of {:.3g} kg/m^3 is less than that of any liquid: if it is in g/cm^3, write \"{:.3g} "
+                       "g/cm^3\"",
+                       liquid.density, liquid.density));
+    if (liquid.density > heaviest)
+      tell(fmt::format("a density of {:.3g} kg/m^3 is more than that of any matter on Earth: water has 1000 kg/m^3, "
+                       "which is 1 g/cm^3",
+                       liquid.density));
+    if (liquid.surface_tension > tightest)
+      tell(fmt::format("a surface tension of {:.3g} N/m is more than that of any liquid: water has 0.072 N/m, which is "
+                       "72 mN/m",
+                       liquid.surface_tension));
+    if (const double speed = sheet.velocity.norm(); speed > fastest)
+      tell(fmt::format("a sheet that starts with {:.3g} m/s: if that is in mm/s, write \"{:.3g} mm/s\"", speed, speed));
+  }
+  if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > strongest)
+    tell(fmt::format("a gravity of {:.3g} m/s^2 is {:.0f} times that of the Earth, 9.81 m/s^2", gravity,
+                     gravity / 9.81));
+  for (const scene::Inflow& inflow : scene.inflows)
+    if (const double speed = scene::inlet_velocity(scene, inflow).speed(0); speed > fastest)
+      tell(fmt::format("an inflow of {:.3g} m/s: if that is in mm/s, write \"{:.3g} mm/s\"", speed, speed));
+  return found;
+}
+
+} // namespace sheet

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Values that no liquid on Earth has, as where a number was written in other units than SI.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "libsheet/scene/scene.h"
+
+namespace sheet {
+
+// Of densities, surface tensions, gravity, and speeds at which liquid flows in or starts.
+[[nodiscard]] std::vector<std::string> unlikely_values(const Scene& scene);
+
+} // namespace sheet
