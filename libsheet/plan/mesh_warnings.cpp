@@ -29,6 +29,7 @@ using formats::Frame;
 constexpr double large = 20;                          // [m]
 constexpr double needle = 5 * std::numbers::pi / 180; // [rad]
 constexpr double close = 1e-6;                        // of the whole: what lies on each other
+constexpr double as_long = 0.9;                       // of edges, which are longer and shorter than the scene says
 
 std::string written(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z()); }
 
@@ -96,7 +97,7 @@ std::string warning_of_narrow_solids(const Scene& scene, const solid::Solids& so
   std::vector<double> width;
   for (std::size_t i = 0; i < solids.size(); ++i)
     width.push_back(is_mesh(scene.solids[i]) ? narrow_width(solids.shape(i)) : scene::width_of(scene.solids[i].shape));
-  const auto narrow = std::ranges::count_if(width, [&](double w) { return w < edge; });
+  const auto narrow = std::ranges::count_if(width, [&](double w) { return w < as_long * edge; });
   if (narrow == 0)
     return {};
   const auto least = static_cast<std::size_t>(std::ranges::min_element(width) - width.begin());

@@ -29,6 +29,7 @@ TEST(MeshWarnings, OfSolidsNarrowerThanEdges) {
   const std::string tooth = "[[solid]]\nshape = \"capsule\"\nradius = 0.002\nlength = 0.1\n",
                     ball = "[[solid]]\nshape = \"sphere\"\nradius = 0.03\n", thin = "0.001";
   EXPECT_TRUE(warnings_of(thin, ball).empty());
+  EXPECT_TRUE(warnings_of(thin, "[[solid]]\nshape = \"sphere\"\nradius = 0.0095\n").empty()); // about as wide
   const auto one = warnings_of(thin, ball + tooth);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_TRUE(one[0].starts_with("solid 1 (capsule) is narrower (0.002 m) than edges are long (")) << one[0];
