@@ -83,11 +83,11 @@ Vector3 way_to_edge(const solid::Box3& box, const Vector3& x, const Vector3& dow
   return way;
 }
 
-// Whether another solid stands in a way.
-bool is_walled(const solid::Solids& solids, std::size_t number, const Vector3& x, const Vector3& way, double t) {
-  constexpr int points = 32;
+// Whether a solid stands in a way, as a wall of the one below does where that is hollow.
+bool is_walled(const solid::Solids& solids, const Vector3& x, const Vector3& way, double t) {
+  constexpr int points = 100;
   for (std::size_t i = 0; i < solids.size(); ++i)
-    for (int k = 0; k <= points && i != number; ++k)
+    for (int k = 0; k <= points; ++k)
       if (solids.at(i, x + k * way / points, t).distance < 0)
         return true;
   return false;
@@ -213,7 +213,7 @@ std::string late_overrun_warning(const Scene& scene, const formats::Frame& first
   const auto beyond = landing_below(solids, down, above + over, *sheet.length, first.time);
   const double seen = scene.inflows.empty() ? *sheet.length / 2 : edge; // of the side
   const double side = std::min(beyond ? beyond->fall : edge, seen);
-  if (!what || side < 2 * h || is_walled(solids, number, above, over, first.time) ||
+  if (!what || side < 2 * h || is_walled(solids, above, over, first.time) ||
       !(what->volume > std::numbers::pi * edge * edge * resting_thickness(liquid, below, g)))
     return "";
   const double around = what->flux / (2 * std::numbers::pi * edge);

@@ -2,6 +2,7 @@
 #include "libsheet/plan/running_down.h"
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <string>
 
@@ -144,6 +145,33 @@ TEST(RunningDown, WhatLandsOnATopComesOverItsEdgeLater) {
   };
   EXPECT_EQ(late("", walls(0.048, 0.004), 1), ""); // that stand on it
   EXPECT_EQ(late("", walls(0.1, 0.1), 1), "");     // beside it
+}
+
+// A jar, 100 mm wide inside, with walls of 4 mm that are 60 mm high: what is poured into it stays there.
+TEST(RunningDown, WhatLandsInAVesselDoesNotComeOverItsEdge) {
+  const std::string file = testing::TempDir() + "jar.obj";
+  {
+    std::ofstream obj(file);
+    const auto ring = [&](double half, double y) { // four corners
+      for (const auto& [x, z] : {std::pair(-half, -half), {-half, half}, {half, half}, {half, -half}})
+        obj << fmt::format("v {} {} {}\n", x, y, z);
+    };
+    ring(0.054, 0), ring(0.054, 0.064), ring(0.05, 0.064), ring(0.05, 0.004);
+    obj << "f 4 3 2 1\nf 13 14 15 16\n";
+    for (int side = 0; side < 3; ++side)
+      for (int k = 0; k < 4; ++k) {
+        const int a = 4 * side + k + 1, b = 4 * side + (k + 1) % 4 + 1;
+        obj << fmt::format("f {} {} {} {}\n", a, b, b + 4, a + 4);
+      }
+  }
+  const Scene scene = scene::parse_scene(
+      fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.02, 0.02]\nplane = \"xy\"\nedge_length = 0.005\n"
+                  "thickness = 0.005\ncenter = [0, 0.1, 0]\n[material]\nviscosity = 10\ndensity = 1000\n"
+                  "[environment]\ngravity = [0, -10, 0]\n[inflow]\nregion = \"y_max\"\nvelocity = [0, -0.1, 0]\n"
+                  "[[solid]]\nshape = \"mesh\"\nfile = \"{}\"\ncontact = \"flow\"\n",
+                  file),
+      "s");
+  EXPECT_EQ(late_overrun_warning(scene, first_frame(scene), 1), "");
 }
 
 // Icing, 10 ml/s, that is poured on a cake 100 mm in diameter, 50 mm high.
