@@ -52,6 +52,14 @@ double leaves(const Box3& moving, const Vector3& velocity, const Box3& other) {
   return enters < leaves && leaves < std::numeric_limits<double>::infinity() ? leaves : 0;
 }
 
+// When a box that moves at this velocity from the time 0 on is wholly beyond a plane; 0 if it never is.
+double is_taken_up(const Box3& moving, const Vector3& velocity, const scene::Outflow& outflow) {
+  const double speed = velocity.dot(outflow.normal);
+  const double way =
+      outflow.normal.dot(outflow.point - moving.center()) + outflow.normal.cwiseAbs().dot(moving.sizes()) / 2;
+  return speed > 0 ? std::max(0.0, way / speed) : 0;
+}
+
 // At which it moves on, and from when; nothing if it does not.
 struct Moving {
   Vector3 velocity;
@@ -239,6 +247,8 @@ double carrying_time(const Scene& scene, const formats::Frame& first) {
         reached.extend(way.translated(std::max(0.0, down.dot(other.center() - way.center())) * down));
       carried = std::max(carried, leaves(reached, velocity, other));
     }
+    for (const scene::Outflow& outflow : scene.outflows)
+      carried = std::max(carried, is_taken_up(way, velocity, outflow));
   }
   return carried > 0 ? first.time + carried : 0;
 }

@@ -18,7 +18,7 @@ namespace sheet {
 [[nodiscard]] double passing_time(const Scene& scene, const formats::Frame& first);
 
 // When what lies at the start on a belt that rests, or falls on it, has been carried past the last of the solids that
-// rest in its way: a blade, a second belt [s]; 0 if there is none.
+// rest in its way, a blade, a second belt, and to the last outflow [s]; 0 if there is none.
 [[nodiscard]] double carrying_time(const Scene& scene, const formats::Frame& first);
 
 // When what flows in, and runs down a slope where it lands, has come past the last of the solids that rest in its way:

@@ -158,6 +158,20 @@ TEST(Passing, UntilABeltHasCarriedTheSheetPastABlade) {
   EXPECT_EQ(carrying(""), 0);
 }
 
+// And past the blade to an outflow, 0.5 m away.
+TEST(Passing, UntilABeltHasCarriedTheSheetToAnOutflow) {
+  const std::string end = "[[outflow]]\npoint = [0.5, 0, 0]\nnormal = [1, 0, 0]\n",
+                    behind = "[[outflow]]\npoint = [-0.5, 0, 0]\nnormal = [-1, 0, 0]\n",
+                    below = "[[outflow]]\npoint = [0, -0.5, 0]\nnormal = [0, -1, 0]\n";
+  constexpr double way = 0.5 + 0.04 + 0.002;
+  EXPECT_NEAR(carrying(end), way / 0.1, 1e-9);
+  EXPECT_NEAR(carrying(end + "[[solid]]\nshape = \"box\"\nsize = [0.004, 0.03, 0.1]\ncenter = [0.3, 0.018, 0]\n"),
+              way / 0.1, 1e-9);
+  EXPECT_NEAR(carrying(behind + end + below, 0.05), way / 0.1, 1e-9);
+  EXPECT_EQ(carrying(behind), 0);
+  EXPECT_EQ(carrying(below), 0);
+}
+
 // Two belts of 150 mm, of which the second one runs 15 mm lower, on a table under both.
 TEST(Passing, UntilABeltHasCarriedTheSheetPastASecondOne) {
   const auto belt = [](double x, double y) {
