@@ -4,7 +4,8 @@
 //   W = (c_n (n·e)² + c_t |P e|²)/(2 τ),   e = Σ w_i (x_i - x̄_i),
 //   c_n = μ h/2 + √(2 k_n A ρ h),   c_t = √(2 k_t A ρ h)   [N s/m],
 // n its normal, P along the layers, x̄ the start of the step, in a second stage extrapolated from the first. μ h/2
-// resists as the sheet itself does when it is stretched; the roots, with inertia only, damp two free layers critically.
+// resists as the sheet itself does when it is stretched, μ of two liquids 2/(1/μ + 1/μ'), as one is behind the other;
+// the roots, with inertia only, damp two free layers critically.
 // Neither depends on the step. Without adhesion, across the layers only approach is damped.
 #pragma once
 #include "libsheet/energy/contact.h"

@@ -54,6 +54,18 @@ spread() {
   awk -v one="$one" -v two="$two" 'BEGIN { print one, two > "/dev/stderr"; exit !(one > 5e-4 && two > 0.8 * one && two < 1.2 * one) }'
 }
 
+# Its rim is 3.7 mm thick after 0.4 s, on a plate 3.5 mm. On springs as stiff as the mean of both liquids it bounced, and
+# was pressed out to a film.
+@test "honey spreads on a layer of another liquid, a thousand times as viscous" {
+  layers 8 4 11 > on-dough.toml
+  sheet-init on-dough.toml --set sheet.1.thickness='4 mm' --set sheet.1.radius='30 mm' --set sheet.1.edge_length='4 mm' \
+    --set sheet.0.material.viscosity=10000 --set sheet.0.material.density=1000 |
+    sheet-loop -q --until 0.4 --keep last -- 'sheet-remesh --smooth | sheet-step --tolerance 0.01 | sheet-collide' > last.sheet
+  sheet-info --csv last.sheet > last.csv
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i }
+    END { print $at["step"], $at["thickness_min"]; exit !($at["step"] < 100 && $at["thickness_min"] > 2e-3) }' last.csv
+}
+
 @test "honey pours on a plate: it folds, and flows down in layers" {
   FILM=no OUT=$BATS_TEST_TMPDIR "$BATS_TEST_DIRNAME/../../pipelines/honey/pour" 0.005 1
   sheet-info --csv poured.sheet > poured.csv

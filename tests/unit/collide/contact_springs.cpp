@@ -114,6 +114,26 @@ TEST(ContactSprings, StiffnessIsThatOfTheFormula) {
     EXPECT_EQ(s.stiffness, (std::array<double, 2>{7, 7}));
 }
 
+// Two dashpots one behind the other: a layer does not bounce on one of a stiffer liquid.
+TEST(ContactSprings, OfTwoLiquidsAreSoftAsTheSofterOne) {
+  const Layers layers;
+  const Scene scene = scene_with("");
+  std::vector<Liquid> liquids(2, scene.material);
+  liquids[1].viscosity = 3000;
+  std::vector<std::uint32_t> numbers(layers.start.size(), 0);
+  std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2), numbers.end(), 1);
+  SpringSheet sheet = layers.sheet();
+  sheet.liquid = numbers;
+  sheet.liquids = liquids;
+  std::vector<ContactSpring> springs;
+  SelfSearch search(layers.mesh);
+  add_springs(springs, search, scene, sheet);
+  ASSERT_FALSE(springs.empty());
+  const double time = 0.1 * std::sqrt(0.02 / 10), viscosity = 2 / (1.0 / 3 + 1.0 / 3000);
+  for (const ContactSpring& s : springs)
+    EXPECT_NEAR(s.stiffness[0], 0.3 / (time * time) + 30000 + 0.5 * viscosity * 0.015 / time, 1e-9);
+}
+
 TEST(ContactSprings, FixedVerticesAloneGetNone) {
   Layers layers;
   layers.fixed.assign(layers.fixed.size(), all_axes);
