@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/plan/inflow_warnings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,6 +9,8 @@
 #include "libsheet/flow/inlet.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/plan/inlet_width.h"
+#include "libsheet/plan/landing.h"
+#include "libsheet/plan/proposed_ring.h"
 #include "libsheet/scene/brief.h"
 #include "libsheet/scene/inlet_velocity.h"
 
@@ -37,6 +40,26 @@ Part part_of(const Frame& first, const scene::InletVelocity& velocity, std::size
   return count > 0 ? Part{sum.across / count, sum.upward / count} : Part{};
 }
 
+// Of what a belt draws out where it lands. The way on which it does is about as long as the fall, or as the layer is
+// thick: if edges are much longer, each row of them is drawn by itself, by turns more and less.
+std::string warning_of_ribs(const Scene& scene, const Frame& first, std::size_t number) {
+  constexpr double drawn = 1.2, longer = 1.5; // times its speed; times that way
+  const auto landing = landing_of_inflow(scene, first, number);
+  if (!landing)
+    return {};
+  const double entering = scene::inlet_velocity(scene, scene.inflows[number]).speed(first.time);
+  const double speed = speed_after_fall(scene, entering, *landing), belt = landing->there.velocity.norm();
+  const double thickness = scene.inflows[number].thickness, edge = mean_edge(first);
+  const double way = std::max(landing->fall - thickness / 2, thickness);
+  if (!(belt > drawn * speed) || edge < longer * way)
+    return {};
+  return fmt::format(
+      "inflow {} is drawn by {} from {:.2g} to {:.2g} m/s on a way of some {:.2g} m, and edges are {:.2g} "
+      "m long: it comes out in ribs, by turns thick and thin. edge_length = {:.2g} in [sheet] draws it "
+      "evenly",
+      number, solid::Solids(scene).name(landing->solid), speed, belt, way, edge, way);
+}
+
 } // namespace
 
 std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first) {
@@ -59,6 +82,9 @@ std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first)
                                      "radial_velocity is along a disk",
                                      i));
   }
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i)
+    if (const std::string ribs = warning_of_ribs(scene, first, i); !ribs.empty())
+      warnings.push_back(ribs);
   return warnings;
 }
 

@@ -48,5 +48,27 @@ TEST(InflowWarnings, OfOneThatIsThickerThanWide) {
   EXPECT_THAT(warnings_of(0.05), testing::IsEmpty());
 }
 
+// 1 mm, 0.1 m/s, from a slot 1 mm above a belt.
+TEST(InflowWarnings, OfOneThatABeltDrawsWithinAnEdge) {
+  const auto warnings_of = [](double edge, double height, double belt) {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.02, 0.06]\nedge_length = {}\nthickness = 0.001\n"
+                    "center = [0, {}, 0]\n[material]\nviscosity = 1\ndensity = 1000\n[environment]\n"
+                    "gravity = [0, -9.81, 0]\n[inflow]\nregion = \"x_min\"\nvelocity = [0.1, 0, 0]\n"
+                    "[[solid]]\nshape = \"plane\"\nsurface_velocity = [{}, 0, 0]\n",
+                    edge, height, belt),
+        "s");
+    return inflow_warnings(scene, first_frame(scene));
+  };
+  EXPECT_THAT(
+      warnings_of(0.004, 0.001, 0.2),
+      testing::ElementsAre(testing::AllOf(
+          testing::StartsWith("inflow 0 is drawn by solid 0 (plane) from 0.1 to 0.2 m/s on a way of some 0.001 m"),
+          testing::HasSubstr("edge_length = 0.001"))));
+  EXPECT_THAT(warnings_of(0.001, 0.001, 0.2), testing::IsEmpty());
+  EXPECT_THAT(warnings_of(0.004, 0.005, 0.3), testing::IsEmpty()); // drawn as it falls
+  EXPECT_THAT(warnings_of(0.004, 0.001, 0.1), testing::IsEmpty());
+}
+
 } // namespace
 } // namespace sheet
