@@ -50,11 +50,14 @@ double wanted_edge(const Scene& scene, const Frame& first) {
   return shortest.value_or(mean_edge(first));
 }
 
-// Half as long as the scene's, where these are too long for the folds of a layer as thick as what lands. None for
-// drafts.
+// To three digits.
+double in_short(double value) { return std::stod(fmt::format("{:.3g}", value)); }
+
+// Half as long as the scene's, where these are too long for the folds of a layer as thick as what lands, and exactly
+// half of what the ring says of these: sheet-remesh has no room where it is a digit more. None for drafts.
 std::optional<EdgesInFolds> edges_in_folds(const Scene& scene, const Frame& first, Quality quality) {
   constexpr double fine_enough = 4; // thicknesses: folds have such edges when they lie on each other
-  const double thickness = landing_thickness(scene, first), longest = wanted_edge(scene, first);
+  const double thickness = landing_thickness(scene, first), longest = in_short(wanted_edge(scene, first));
   if (quality == Quality::draft || longest < fine_enough * thickness || !scene.contact || !scene.contact->self ||
       !what_piles_up(scene, first, landings(scene, first)))
     return std::nullopt;
@@ -67,7 +70,7 @@ std::string pipeline_at(const Scene& scene, Quality quality, const std::optional
   for (const scene::RingStage& stage : scene::ring_of(scene)) {
     pipeline += (pipeline.empty() ? "" : " | ") + stage.program;
     if (edges && stage.program.starts_with("sheet-remesh"))
-      pipeline += fmt::format(" --adaptive {:.1g} --min-edge {:.3g} --max-edge {:.3g}", edges->nearness,
+      pipeline += fmt::format(" --adaptive {:.1g} --min-edge {:.4g} --max-edge {:.3g}", edges->nearness,
                               edges->shortest, edges->longest);
     if (quality != Quality::normal && stage.program == "sheet-step")
       pipeline += fmt::format(" --tolerance {:g}", tolerance_at(quality));

@@ -73,5 +73,16 @@ TEST(ProposedRing, TellsOfWhatFewFramesShow) {
   EXPECT_EQ(warning("velocity = [[0, 0, 0, 0], [0.1, 0, 0, 0.2]]\n"), ""); // which is away for ever
 }
 
+// A curtain that folds where it lands, with edges of as many digits as the mean of a mesh's has.
+TEST(ProposedRing, LeavesRemeshingRoomWhateverTheEdges) {
+  const std::string stages =
+      ring_of("[sheet]\nshape = \"rectangle\"\nsize = [0.4, 0.2]\nplane = \"xy\"\nedge_length = 0.030925\n"
+              "thickness = 0.003\ncenter = [0, 0.2, 0]\n[material]\nviscosity = 100\ndensity = 1000\n"
+              "[environment]\ngravity = [0, -9.81, 0]\n[[inflow]]\nregion = \"y_max\"\nvelocity = [0, -0.1, 0]\n"
+              "[[solid]]\nshape = \"plane\"\n[contact]\n")
+          .stages;
+  EXPECT_THAT(stages, testing::HasSubstr(" --min-edge 0.01545 --max-edge 0.0309 ")); // 0.0155 would leave none
+}
+
 } // namespace
 } // namespace sheet
