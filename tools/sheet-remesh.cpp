@@ -22,9 +22,9 @@ int main(int argc, char** argv) {
   sheet::declare_filter_options(tool, filter);
   tool.option(
       "--edge-length", o.edge_length, "METRES",
-      "wanted length of edges; if not given the scene's (of several sheets the shortest; those with longer ones "
-      "get edges, and bounds of them, so many times as long), or else their "
-      "mean in the first frame; with --adaptive the middle of their range");
+      "wanted length of edges; if not given the scene's, or else their mean in the first frame (of several sheets the "
+      "shortest; those with longer ones get edges, and bounds of them, so many times as long); with --adaptive the "
+      "middle of their range");
   tool.option("--adaptive", o.remeshing.size.chord_error, "METRES",
               "shorter edges where the sheet needs them, such that its edges lie nearer to the curved sheet than this");
   tool.option("--min-edge", o.remeshing.size.min_edge, "METRES",

@@ -15,6 +15,7 @@
 #include "libsheet/plan/running_down.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/scales.h"
+#include "libsheet/scene/sheet_edges.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
@@ -134,7 +135,7 @@ Forecast forecast(const Scene& scene, const Frame& first, const ProposedRing& ri
   constexpr double of_a_frame = 2500;              // names of arrays, the scene, what made it [bytes]
   constexpr double on_one_thread = 2.5e-5;         // for a vertex, in a step [s]
   constexpr double with_a_law = 3, with_yield = 5; // more iterations a step
-  const double edge = mean_edge(first), start = static_cast<double>(first.vertices);
+  const double edge = scene::mean_edge(first), start = static_cast<double>(first.vertices);
   const double area = std::pow(*measured(first).length, 2), until = std::max(0.0, ring.until - first.time);
   constexpr double in_folds = 3; // times as many vertices
   const double entered = entered_area(scene, first, until, edge) / area * start * (ring.folds ? in_folds : 1);

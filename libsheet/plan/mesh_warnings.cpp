@@ -14,7 +14,7 @@
 #include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/mesh_width.h"
-#include "libsheet/plan/proposed_ring.h"
+#include "libsheet/scene/sheet_edges.h"
 #include "libsheet/scene/solid_width.h"
 #include "libsheet/shape/mesh_measure.h"
 #include "libsheet/sheet/sheet.h"
@@ -93,7 +93,7 @@ std::string warning_of_needles(const Frame& first) {
 
 // Of solids that are narrower than edges are long, meshes in parts; else "".
 std::string warning_of_narrow_solids(const Scene& scene, const solid::Solids& solids, const Frame& first) {
-  const double edge = mean_edge(first);
+  const double edge = scene::mean_edge(first);
   std::vector<double> width;
   for (std::size_t i = 0; i < solids.size(); ++i)
     width.push_back(is_mesh(scene.solids[i]) ? narrow_width(solids.shape(i)) : scene::width_of(scene.solids[i].shape));

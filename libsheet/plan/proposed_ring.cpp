@@ -25,6 +25,7 @@
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
+#include "libsheet/scene/sheet_edges.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -43,11 +44,7 @@ double thickness_after_fall(const Scene& scene, const Frame& first, std::size_t 
 
 // The edges that sheet-remesh wants if it is not told [m].
 double wanted_edge(const Scene& scene, const Frame& first) {
-  std::optional<double> shortest;
-  for (const scene::SheetTable& sheet : scene.sheets)
-    if (sheet.edge_length)
-      shortest = std::min(*sheet.edge_length, shortest.value_or(*sheet.edge_length));
-  return shortest.value_or(mean_edge(first));
+  return scene::shortest_stated_edge(scene).value_or(scene::shortest_own_edge(first));
 }
 
 // To three digits.
@@ -272,15 +269,6 @@ std::string word_of_edges(const ProposedRing& ring) {
 
 } // namespace
 
-double mean_edge(const Frame& frame) {
-  const auto x = positions(frame);
-  double sum = 0;
-  for (const Corners& c : triangles(frame))
-    for (std::size_t i = 0; i < 3; ++i)
-      sum += (x[c[(i + 1) % 3]] - x[c[i]]).norm();
-  return sum / (3.0 * static_cast<double>(frame.triangles));
-}
-
 double landing_thickness(const Scene& scene, const Frame& first) {
   const auto x = positions(first);
   double least = std::numeric_limits<double>::infinity();
@@ -325,7 +313,7 @@ std::string ring_text(const Scene& with_heat, const Frame& first, const RingWish
              "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:.10g} "
              "--fps {:.10g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
              "is below {:g} of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
-             init, ring.until, ring.fps, ring.stages, mean_edge(first), tolerance_at(wishes.quality)) +
+             init, ring.until, ring.fps, ring.stages, scene::mean_edge(first), tolerance_at(wishes.quality)) +
          forecast_text(scene, first, ring, tolerance_at(wishes.quality)) + word_of_blow_up(with_heat, first) +
          word_of_runaway(with_heat, first) + word_of_edges(ring);
 }

@@ -14,9 +14,6 @@ namespace sheet {
 // leaves, h v0/v, v as in landing.h; of what is there from the start, its thickness.
 [[nodiscard]] double landing_thickness(const Scene& scene, const formats::Frame& first);
 
-// The mean length of the sheet's edges, those between triangles counted twice [m].
-[[nodiscard]] double mean_edge(const formats::Frame& frame);
-
 // How to remesh what folds where it lands: edges that lie nearer to it than `nearness`, with lengths between these [m].
 struct EdgesInFolds {
   double nearness, shortest, longest;

@@ -25,37 +25,32 @@ RemeshStage::RemeshStage(const StageOptions& options) : options_(options) {
 
 namespace {
 
-// Of a mesh whose scene does not say how long edges are: as long as they were in the mean when it was first remeshed,
+// The shortest of a scene that does not say how long all edges are: those of its sheets when they were first remeshed,
 // which the frame keeps, so that a run that is resumed goes on with it.
 double own_edge_length(formats::Frame& frame) {
   constexpr const char* name = "remesh.edge_length";
   const double known = number(frame, name, 0);
   if (known > 0)
     return known;
-  const auto x = positions(std::as_const(frame));
-  double sum = 0;
-  for (const Corners& c : triangles(frame))
-    for (std::size_t i = 0; i < 3; ++i)
-      sum += (x[c[(i + 1) % 3]] - x[c[i]]).norm();
-  if (!(sum > 0))
+  const double own = scene::shortest_own_edge(frame);
+  if (!(own > 0))
     fail(ExitCode::usage, "--edge-length is needed: neither the scene nor the mesh says how long edges are");
-  const double mean = sum / (3.0 * static_cast<double>(frame.triangles));
-  put_number(frame, name, "m", mean);
-  return mean;
+  put_number(frame, name, "m", own);
+  return own;
 }
 
-// How much longer than the scene's shortest edges those of each vertex's sheet are; empty: all alike.
-std::vector<double> coarser_at_vertices(const formats::Frame& frame, double shortest) {
+// How many times as long as `edge_length` [m] the edges of each vertex's sheet are; empty: all alike.
+std::vector<double> scale_at_vertices(const formats::Frame& frame, double edge_length) {
   const std::span<const double> edges = scene::sheet_edges(frame);
   if (edges.empty())
     return {};
-  std::vector<double> coarser(frame.vertices, std::numeric_limits<double>::infinity());
+  std::vector<double> scale(frame.vertices, std::numeric_limits<double>::infinity());
   for (std::size_t t = 0; t < edges.size(); ++t)
     for (const std::uint32_t v : triangles(frame)[t])
-      coarser[v] = std::min(coarser[v], std::max(1.0, edges[t] / shortest));
-  for (double& factor : coarser)
+      scale[v] = std::min(scale[v], edges[t] / edge_length);
+  for (double& factor : scale)
     factor = std::isfinite(factor) ? factor : 1;
-  return coarser;
+  return scale;
 }
 
 } // namespace
@@ -66,7 +61,7 @@ void RemeshStage::remesh(formats::Frame& frame) {
   if (!options_.edge_length) {
     const auto stated = scene != nullptr ? scene::shortest_stated_edge(*scene) : std::nullopt;
     options_.remeshing.size.edge_length = stated ? *stated : own_edge_length(frame);
-    options_.remeshing.size.coarser = stated ? coarser_at_vertices(frame, *stated) : std::vector<double>{};
+    options_.remeshing.size.scale = scale_at_vertices(frame, options_.remeshing.size.edge_length);
   }
   if (scene != nullptr && options_.remeshing.size.chord_error)
     options_.remeshing.size.inner_faces = inner_faces(*scene, frame);

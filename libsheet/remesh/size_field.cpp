@@ -250,20 +250,20 @@ SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeO
     : uniform_(options.edge_length) {
   if (options.chord_error)
     adapt(sheet, scene, options);
-  make_coarser(sheet, options.coarser);
+  multiply(sheet, options.scale);
   note_thick(sheet, options.chord_error ? bounds_of(options).high : uniform_);
   fit_strips(sheet, options, scene != nullptr && scene->model.faces);
 }
 
 double SizeOptions::shortest_in_strips() const { return min_edge.value_or(finest_in_strips * edge_length); }
 
-void SizeField::make_coarser(const EditableSheet& sheet, const std::vector<double>& coarser) {
-  if (coarser.empty())
+void SizeField::multiply(const EditableSheet& sheet, const std::vector<double>& scale) {
+  if (scale.empty())
     return;
   if (size_.empty())
     size_.assign(sheet.mesh().vertex_slots(), uniform_);
-  for (std::size_t v = 0; v < coarser.size(); ++v)
-    size_[v] *= coarser[v];
+  for (std::size_t v = 0; v < scale.size(); ++v)
+    size_[v] *= scale[v];
 }
 
 void SizeField::note_thick(const EditableSheet& sheet, double longest) {

@@ -17,7 +17,7 @@ struct SizeOptions {
   double edge_length = 0;                   // [m], positive; with `chord_error` only the bounds' default
   std::optional<double> chord_error;        // adaptive: the distance that an edge may have from the curved sheet [m]
   std::optional<double> min_edge, max_edge; // bounds [m]; absent: edge_length; adaptive: a quarter, four times
-  std::vector<double> coarser;              // at vertices: factors on all these lengths; empty: 1
+  std::vector<double> scale;                // at vertices: factors on all these lengths; empty: 1
   std::vector<double> inner_faces;          // at vertices: how many of their faces, 0 to 2, lie on layers that flow
                                             // with them (scene/inner_faces.h); empty: none
   // Error(usage) if a value is not positive and finite, or the upper bound is below twice the lower one while adaptive.
@@ -26,7 +26,7 @@ struct SizeOptions {
   [[nodiscard]] double shortest_in_strips() const;
 };
 
-// Lengths are `edge_length`, or adaptive ones, times `coarser`. Adaptive length at a vertex, the least of these, but
+// Lengths are `edge_length`, or adaptive ones, times `scale`. Adaptive length at a vertex, the least of these, but
 // not below h, within the bounds, growing by at most 0.4 of the distance:
 // - sqrt(8 ε / |k|): chord error of the largest principal curvature k [Cohen-Steiner, Morvan 2003], at rims also of
 // theirs;
@@ -64,7 +64,7 @@ public:
 private:
   void adapt(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
   void fit_strips(const EditableSheet& sheet, const SizeOptions& options, bool round);
-  void make_coarser(const EditableSheet& sheet, const std::vector<double>& coarser);
+  void multiply(const EditableSheet& sheet, const std::vector<double>& scale);
   void note_thick(const EditableSheet& sheet, double longest);
 
   double uniform_;

@@ -7,6 +7,7 @@
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/scene/read.h"
+#include "libsheet/scene/sheet_edges.h"
 #include "tests/unit/scene/scenes.h"
 
 namespace sheet {
@@ -39,7 +40,7 @@ TEST(Forecast, WhatFlowsInOnASolidTakesStepsOfHalfAnEdge) {
         "s");
     const formats::Frame first = first_frame(scene);
     const Forecast run = forecast(scene, first, {.until = 1, .fps = 24, .stages = ""}, 0.01);
-    return (run.steps - 24) * mean_edge(first);
+    return (run.steps - 24) * scene::mean_edge(first);
   };
   EXPECT_NEAR(foretold("0.002", "flow"), 0.05 / 0.5, 1e-9);
   EXPECT_GT(foretold("0.1", "flow"), 1);

@@ -14,14 +14,14 @@
 namespace sheet::remesh {
 namespace {
 
-// Thin plates beside each other, with edges of that length and of 10 mm, of two liquids or of one.
-formats::Frame plates(bool two_liquids, const std::string& left = "0.03") {
-  const auto plate = [](const std::string& name, const std::string& edge, const std::string& x) {
-    return "[[sheet]]\nname = \"" + name +
-           "\"\nshape = \"rectangle\"\nsize = [0.3, 0.3]\nthickness = 0.001\nedge_length = " + edge + "\ncenter = [" +
-           x + ", 0, 0]\n";
+// Thin plates beside each other, with such edges and with some of 10 mm, of two liquids or of one.
+formats::Frame plates(bool two_liquids, const std::string& left = "edge_length = 0.03",
+                      const std::string& right = "edge_length = 0.01") {
+  const auto plate = [](const std::string& name, const std::string& edges, const std::string& x) {
+    return "[[sheet]]\nname = \"" + name + "\"\nshape = \"rectangle\"\nsize = [0.3, 0.3]\nthickness = 0.001\n" + edges +
+           "\ncenter = [" + x + ", 0, 0]\n";
   };
-  return build_frame(scene::parse_scene(plate("coarse", left, "0") + plate("fine", "0.01", "1") +
+  return build_frame(scene::parse_scene(plate("left", left, "0") + plate("right", right, "1") +
                                             (two_liquids ? "[sheet.material]\nviscosity = 1\ndensity = 1000\n" : "") +
                                             "[material]\nviscosity = 100\ndensity = 1000\n",
                                         "s"));
@@ -56,8 +56,21 @@ TEST(RemeshStage, EachSheetKeepsItsEdges) {
     }
 }
 
+// As a mesh has edges of its own, which nothing states, so do counts, of which these make edges of 11 mm in the mean.
+TEST(RemeshStage, ASheetThatStatesNoEdgesKeepsItsOwn) {
+  const std::string counts = "segments = [30, 30]";
+  formats::Frame beside_coarse = plates(true, "edge_length = 0.03", counts),
+                 beside_counts = plates(true, "segments = [10, 10]", counts);
+  for (formats::Frame* frame : {&beside_coarse, &beside_counts}) {
+    const double left = mean_edge(*frame, true), right = mean_edge(*frame, false);
+    RemeshStage({}).remesh(*frame);
+    EXPECT_NEAR(mean_edge(*frame, true), left, 0.1 * left);
+    EXPECT_NEAR(mean_edge(*frame, false), right, 0.1 * right);
+  }
+}
+
 TEST(RemeshStage, SheetsWithTheSameEdgesAreNotTold) {
-  EXPECT_EQ(plates(true, "0.01").find("remesh.sheet_edge"), nullptr);
+  EXPECT_EQ(plates(true, "edge_length = 0.01").find("remesh.sheet_edge"), nullptr);
   EXPECT_NE(plates(false).find("remesh.sheet_edge"), nullptr);
 }
 
