@@ -45,6 +45,15 @@ double fastest_prescribed(const Model& model, const State& end) {
   return squeezed(model, end) * fastest;
 }
 
+// Of what moves by no more than the last digits of where it is, in a sheet at rest that nothing drives [m/s].
+double speed_of_round_off(const State& start, const State& end) {
+  constexpr double digits = 1e-12; // of a coordinate: some thousand times its last one
+  double farthest = 0;             // [m]
+  for (const Vector3& x : start.positions)
+    farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  return digits * farthest / (end.time - start.time);
+}
+
 // Of gravity on all vertices, as if none had lost what another one gained, and of what the bath carries.
 double work_of_gravity(const Model& model, const State& start, const State& end, const std::vector<double>& mass) {
   double lightest = model.liquid.density;
@@ -116,7 +125,7 @@ std::optional<ImpossibleSpeed> impossible_speed(const Model& model, const State&
   }
   if (fastest.energy <= kinetic) // nearly always: no need to reckon
     return std::nullopt;
-  const double prescribed = fastest_prescribed(model, end);
+  const double prescribed = std::max(fastest_prescribed(model, end), speed_of_round_off(start, end));
   fastest.work = kinetic + 0.5 * whole * prescribed * prescribed + work_of_gravity(model, start, end, mass) +
                  work_on_area(model, start, end) + energy_of_contacts(model, start);
   return fastest.energy > fastest.work ? std::optional(fastest) : std::nullopt;

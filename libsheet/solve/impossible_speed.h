@@ -16,8 +16,9 @@ struct ImpossibleSpeed {
 
 // Of the vertex that exceeds its bound most, if any does. Counted are the kinetic energy at the start, gravity's work
 // on each vertex, the weight of layers that spread, the area that tension has drawn in, pressure, contact springs, and
-// half the sheet's mass times the square of the fastest prescribed speed. Without inertia, and where pressure depends
-// on the volume in ways that bound nothing (laws "inverse_square", "draining"), there is none.
+// half the sheet's mass times the square of the fastest prescribed speed, or of what round-off makes. Without inertia,
+// and where pressure depends on the volume in ways that bound nothing (laws "inverse_square", "draining"), there is
+// none.
 [[nodiscard]] std::optional<ImpossibleSpeed> impossible_speed(const Model& model, const State& start, const State& end);
 
 } // namespace sheet

@@ -72,5 +72,21 @@ TEST(ImpossibleSpeed, HoldsMoveAsTheyLike) {
   EXPECT_FALSE(impossible_speed(m, fall.start, fall.end)); // nothing has energy
 }
 
+// A sheet at rest on which nothing works, whose places have got other last digits in the step.
+TEST(ImpossibleSpeed, RoundOffFlies) {
+  Fall fall;
+  Model m = falling_liquid();
+  m.gravity.setZero();
+  fall.end = fall.start;
+  fall.end.time = fall_time;
+  const auto flies_by = [&](double way) {
+    fall.end.positions[14] = fall.start.positions[14] + Vector3(0, way, 0);
+    fall.end.velocities[14] = {0, way / fall_time, 0};
+    return impossible_speed(m, fall.start, fall.end).has_value();
+  };
+  EXPECT_FALSE(flies_by(1e-15));
+  EXPECT_TRUE(flies_by(1e-9));
+}
+
 } // namespace
 } // namespace sheet
