@@ -10,6 +10,8 @@
 #include "libsheet/collide/collide_stage.h"
 #include "libsheet/energy/gas.h"
 #include "libsheet/flow/emit.h"
+#include "libsheet/flow/inlet.h"
+#include "libsheet/flow/inlet_checks.h"
 #include "libsheet/flow/tear.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/box.h"
@@ -18,6 +20,7 @@
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/remesh/mesh.h"
 #include "libsheet/scene/level_planes.h"
+#include "libsheet/scene/prescribed.h"
 #include "libsheet/scene/write.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/drops.h"
@@ -119,6 +122,22 @@ void check_outside_solids(const Scene& scene, const Frame& frame) {
     for (std::size_t t = 0; t < frame.triangles; ++t)
       if (std::ranges::all_of(triangles(frame)[t], is_free))
         check_triangle_outside(scene, solids, i, frame, t);
+  }
+}
+
+// Of sheets that enter later, as they will be then: that they are outside solids, and what flows in at their inlets.
+void check_sheets_to_come(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i) {
+    const scene::SheetTable& sheet = scene.sheets[i];
+    if (!sheet.enters)
+      continue;
+    Frame frame = build_sheet(scene, i, Notes::silent);
+    frame.time = *sheet.enters;
+    check_outside_solids(scene, frame);
+    for (std::size_t number = 0; number < scene.inflows.size(); ++number)
+      if (const scene::Inflow& inflow = scene.inflows[number];
+          inflow.sheet == sheet.name && scene::in_force(inflow, frame.time))
+        flow::check_inlet(frame, scene, inflow, flow::find_inlet(frame, number));
   }
 }
 
@@ -245,6 +264,7 @@ Frame checked_first_frame(const Scene& scene) {
   }
   if (!scene.solids.empty())
     check_outside_solids(scene, frame);
+  check_sheets_to_come(scene);
   const bool keeps_apart = scene.contact && scene.contact->self;
   if (const std::string seam = keeps_apart ? seam_warning(scene, frame) : ""; !seam.empty())
     fail(ExitCode::bad_input, "{}", seam);

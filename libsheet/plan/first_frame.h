@@ -14,7 +14,7 @@ namespace sheet {
 
 // The same. Throws Error where sheet-init or a stage would refuse it: a hold or an inlet that is not
 // there, an inlet along which or out of which liquid would flow, a solid's mesh that cannot be read or is none, a sheet
-// that starts inside a solid or passes through itself.
+// that starts, or enters later, inside a solid, or passes through itself.
 [[nodiscard]] formats::Frame checked_first_frame(const Scene& scene);
 
 // Length (the root of its area) and mean thickness of the frame's sheets as one.

@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "libsheet/base/error.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/sheet/sheet.h"
 
@@ -60,6 +62,30 @@ TEST(FirstFrame, WhatLiesCloselyBesideAnUprightWallTouchesIt) {
   EXPECT_EQ(touching(2.1, wall + "velocity = [0, 0, 0.01]\n"), 0);
   EXPECT_EQ(touching(2.1, wall, "0, -9.4, -2.8"), 0); // its weight presses it on
   EXPECT_EQ(touching(2.1, "normal = [1, 0, 0]\ncenter = [-0.1021, 0, 0]\ncontact = \"flow\"\n"), 0); // by its rim
+}
+
+// A curtain that hangs in front of a plane from 1 s on, and flows in at its upper side.
+TEST(FirstFrame, TellsAtOnceOfWhatWouldEndARunWhenASheetEnters) {
+  const auto why_not = [](double height, double velocity) -> std::string {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[[sheet]]\nname = \"plate\"\nshape = \"disk\"\nradius = 0.1\nedge_length = 0.05\n"
+                    "thickness = 0.005\ncenter = [0, 0.1, 0]\n[[sheet]]\nname = \"curtain\"\nenters = 1\n"
+                    "shape = \"rectangle\"\nplane = \"xy\"\nsize = [0.2, 0.2]\nedge_length = 0.05\n"
+                    "thickness = 0.005\ncenter = [1, {}, 0]\n[material]\nviscosity = 50\ndensity = 1200\n"
+                    "[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\n"
+                    "[[inflow]]\nsheet = \"curtain\"\nregion = \"y_max\"\nvelocity = [0, {}, 0]\n",
+                    height, velocity),
+        "s");
+    try {
+      (void)checked_first_frame(scene);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why_not(0.15, -0.1), "");
+  EXPECT_THAT(why_not(0.15, 0.1), testing::HasSubstr("the inflow's velocity at 1 s, (0, 0.1, 0) m/s, points out"));
+  EXPECT_THAT(why_not(0.05, -0.1), testing::HasSubstr("the sheet starts inside solid 0 (plane)"));
 }
 
 } // namespace
