@@ -147,8 +147,8 @@ void read_mesh_size(TableReader& table, SheetTable& sheet) {
     return;
   const double edge = *sheet.edge_length;
   if (edge > size->smallest)
-    table.wrong("edge_length", fmt::format("{} m is larger than the shape, whose least measure is {} m", shortest(edge),
-                                           shortest(size->smallest)));
+    table.wrong("edge_length",
+                fmt::format("{} m is too large for the shape; at most {} m", shortest(edge), shortest(size->smallest)));
   else if (const double triangles = size->area / (edge * edge) * 4 / std::sqrt(3.0);
            !(triangles <= most_triangles) && !std::isnan(size->area))
     table.wrong("edge_length", fmt::format("{} m makes about {:.1e} triangles; at most {:.0e} are possible",

@@ -9,6 +9,7 @@ namespace sheet::scene {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double edge_of_rim = 1.05; // the longest of six edges around a rim, over its radius
 
 std::optional<ShapeSize> size(const Rectangle& s) {
   const double shortest = std::min(s.size_first, s.size_second);
@@ -17,12 +18,17 @@ std::optional<ShapeSize> size(const Rectangle& s) {
 std::optional<ShapeSize> size(const Disk& s) { return ShapeSize{s.radius, s.radius, pi * s.radius * s.radius}; }
 std::optional<ShapeSize> size(const Annulus& s) {
   const double width = s.outer_radius - s.inner_radius;
-  return ShapeSize{width, width, pi * width * (s.outer_radius + s.inner_radius)};
+  return ShapeSize{width, std::min(width, edge_of_rim * s.inner_radius),
+                   pi * width * (s.outer_radius + s.inner_radius)};
 }
 std::optional<ShapeSize> size(const Sphere& s) { return ShapeSize{s.radius, s.radius, 4 * pi * s.radius * s.radius}; }
 std::optional<ShapeSize> size(const Cap& s) {
   const double height = s.radius * (std::cos(s.opening) - std::cos(s.angle));
-  return ShapeSize{s.radius, s.radius * std::min(1.0, s.angle - s.opening), 2 * pi * s.radius * height};
+  double smallest = std::min(1.0, s.angle - s.opening);
+  for (const double rim : {s.opening, s.angle})
+    if (rim > 0 && rim < pi)
+      smallest = std::min(smallest, edge_of_rim * std::sin(rim));
+  return ShapeSize{s.radius, s.radius * smallest, 2 * pi * s.radius * height};
 }
 std::optional<ShapeSize> size(const Tube& s) {
   const double shortest = std::min(s.radius, s.height);

@@ -168,7 +168,7 @@ TEST(Read, ProblemsOfTheSheet) {
            {"shape = \"disk\"\nradius = 1\nheight = 2",
             "s:4:1: key \"height\" has no meaning in [sheet]: shape \"disk\" takes radius"},
            {"shape = \"disk\"\nradius = 0.001",
-            "s:5:15: edge_length: 0.01 m is larger than the shape, whose least measure is 0.001 m"},
+            "s:5:15: edge_length: 0.01 m is too large for the shape; at most 0.001 m"},
            {"shape = \"disk\"\nradius = 1e6",
             "s:5:15: edge_length: 0.01 m makes about 7.3e+16 triangles; at most 1e+09 are possible"},
            {"shape = \"rectangle\"", "s:1:1: missing key \"size\" in [sheet], such as size = [\"1 m\", \"0.5 m\"]"},
