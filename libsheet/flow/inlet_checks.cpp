@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include <Eigen/Geometry>
 
@@ -22,6 +23,17 @@ namespace {
 constexpr double most_outward = 0.1; // of the speed: a border that is a little uneven may lean so much
 constexpr double least_across = 1e-6;
 
+// Why an inflow points out of the sheet, and what to do.
+std::string_view why_outward(const Frame& frame, const InletChain& chain) {
+  if (!chain.row.empty())
+    return "what has flowed in was turned over there, as by a solid that comes to the inlet or by what piles up below "
+           "it; give it room";
+  if (frame.step > 0)
+    return "the sheet was turned over there before anything had entered; let it start at the inflow's velocity "
+           "(velocity in [sheet]), and give it room";
+  return "liquid cannot be drawn back; choose the border at the other side";
+}
+
 void check_velocity(const Frame& frame, const InletChain& chain, double time, const scene::InletVelocity& inlet) {
   if (!(inlet.speed(time) > 0))
     return;
@@ -36,12 +48,8 @@ void check_velocity(const Frame& frame, const InletChain& chain, double time, co
     if (velocity.dot(outward) > most_outward * speed * outward.norm())
       fail(ExitCode::bad_input,
            "the inflow's velocity at {} s, ({}, {}, {}) m/s, points out of the sheet at the inlet's edge ({}, {}): {}, "
-           "or "
-           "end the inflow with `until`",
-           time, velocity[0], velocity[1], velocity[2], a, b,
-           chain.row.empty() ? "liquid cannot be drawn back; choose the border at the other side"
-                             : "what has flowed in was turned over there, as by a solid that comes to the inlet or by "
-                               "what piles up below it; give it room");
+           "or end the inflow with `until`",
+           time, velocity[0], velocity[1], velocity[2], a, b, why_outward(frame, chain));
     if (!(edge.cross(velocity).norm() > least_across * edge.norm() * speed))
       fail(ExitCode::bad_input,
            "the inflow's velocity at {} s, ({}, {}, {}) m/s, runs along the inlet's edge ({}, {}): nothing would enter",

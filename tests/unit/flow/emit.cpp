@@ -599,17 +599,22 @@ TEST(Emit, WhatCannotFlowInIsRefused) {
 TEST(Emit, WhatIsTurnedOverAtTheInletIsSaidSo) {
   Frame frame = curtain();
   const Scene scene = scene_of("[0, -1, 0]");
+  const auto turned_over = [&](Frame sheet) {
+    double inlet = 0;
+    for (const Vector3& x : positions(sheet))
+      inlet = std::max(inlet, x.y());
+    for (Vector3& x : positions(sheet))
+      x.y() = 2 * inlet - x.y();
+    return error_of([&] { emit(sheet, scene); });
+  };
+  EXPECT_THAT(turned_over(frame), HasSubstr("choose the border at the other side"));
+  frame.step = 1;
+  EXPECT_THAT(turned_over(frame), HasSubstr("the sheet was turned over there before anything had entered"));
   for (int i = 0; i < 8; ++i) { // a row
     move(frame, scene, 0.125);
     emit(frame, scene);
   }
-  double inlet = 0;
-  for (const Vector3& x : positions(frame))
-    inlet = std::max(inlet, x.y());
-  for (Vector3& x : positions(frame))
-    x.y() = 2 * inlet - x.y();
-  EXPECT_THAT(error_of([&] { emit(frame, scene); }),
-              HasSubstr("what has flowed in was turned over there, as by a solid"));
+  EXPECT_THAT(turned_over(frame), HasSubstr("what has flowed in was turned over there, as by a solid"));
 }
 
 TEST(Emit, AnInletThatIsNotThereIsSaidSo) {
