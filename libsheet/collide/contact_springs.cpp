@@ -48,8 +48,10 @@ double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringShee
   const double inertia = scene.model.inertia ? mass / (time * time) : 0;
   const double shift = sheet.shift.empty() ? 1 : s.mean(sheet.shift);
   const StrainRate rate{shift * shift / (time * time)};
-  const double first = viscosity_of(one, rate), second = &one == &other ? first : viscosity_of(other, rate);
-  const double viscosity = shift * 2 * first * second / (first + second); // one behind the other
+  const auto one_behind_the_other = [](double a, double b) { return 2 * a * b / (a + b); };
+  const double viscosity =
+      shift * (&one == &other ? viscosity_of(one, rate)
+                              : one_behind_the_other(viscosity_of(one, rate), viscosity_of(other, rate)));
   return inertia + 200 * mass * g / d + 0.5 * viscosity * h / time;
 }
 

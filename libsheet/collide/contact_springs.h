@@ -16,10 +16,10 @@
 // with h the mean thickness, d the contact distance, v the speed of approach. Terms: inertia (if it is modelled): what
 // falls from a height of d is stopped within a tenth of it; weight: ten layers compress by a twentieth of d; viscosity:
 // as stiff as the sheet itself is against stretching within T, so that what a viscous sheet presses together does not
-// go through either; mu of two liquids is 2/(1/mu + 1/mu'), as one is behind the other. Where layers flow (layers_flow) the tangential part is 0 (contact_shear.h has it), and the rest
-// distance follows their mean thickness. The length of the step does not matter (where neither g nor v is, T is that),
-// nor, under gravity, how fast the features came, as impulses take that speed away, else the error of a step would not
-// fall with it.
+// go through either; mu of two liquids is 2/(1/mu + 1/mu'), as one is behind the other. Where layers flow (layers_flow)
+// the tangential part is 0 (contact_shear.h has it), and the rest distance follows their mean thickness. The length of
+// the step does not matter (where neither g nor v is, T is that), nor, under gravity, how fast the features came, as
+// impulses take that speed away, else the error of a step would not fall with it.
 #pragma once
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/sheet_layers.h"

@@ -13,6 +13,7 @@
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/scene/brief.h"
 #include "libsheet/scene/inlet_velocity.h"
+#include "libsheet/scene/sheet_edges.h"
 
 namespace sheet {
 
@@ -49,7 +50,7 @@ std::string warning_of_ribs(const Scene& scene, const Frame& first, std::size_t 
     return {};
   const double entering = scene::inlet_velocity(scene, scene.inflows[number]).speed(first.time);
   const double speed = speed_after_fall(scene, entering, *landing), belt = landing->there.velocity.norm();
-  const double thickness = scene.inflows[number].thickness, edge = mean_edge(first);
+  const double thickness = scene.inflows[number].thickness, edge = scene::mean_edge(first);
   const double way = std::max(landing->fall - thickness / 2, thickness);
   if (!(belt > drawn * speed) || edge < longer * way)
     return {};
