@@ -7,6 +7,9 @@
 #include <numbers>
 
 #include "libsheet/material/driven_rate.h"
+#include "libsheet/plan/landing.h"
+#include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet {
 
@@ -61,6 +64,32 @@ std::optional<double> blow_up_time_of(const scene::SheetTable& sheet, const Scen
 }
 
 } // namespace
+
+bool is_blown_into_mould(const Scene& scene, const formats::Frame& first) {
+  constexpr double farthest = 10, near = 0.01; // sizes of the sheet: from its middle; from a solid
+  constexpr int most = 200;                    // steps
+  const solid::Solids solids(scene);
+  const auto x = positions(first);
+  solid::Box3 box;
+  for (const Vector3& p : x)
+    box.extend(p);
+  const double size = box.diagonal().norm();
+  const std::vector<std::size_t> probes = probes_of(first);
+  const auto meets_solid = [&](std::size_t v) {
+    const Vector3 out = (x[v] - box.center()).normalized();
+    Vector3 place = x[v];
+    for (int i = 0; i < most && (place - box.center()).norm() < farthest * size; ++i) {
+      double distance = farthest * size;
+      for (std::size_t s = 0; s < solids.size(); ++s)
+        distance = std::min(distance, solids.at(s, place, first.time).distance);
+      if (distance < near * size)
+        return true;
+      place += distance * out;
+    }
+    return false;
+  };
+  return !probes.empty() && 4 * std::ranges::count_if(probes, meets_solid) >= 3 * std::ssize(probes);
+}
 
 std::optional<double> blow_up_time(const Scene& scene) {
   std::optional<double> first;

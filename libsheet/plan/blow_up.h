@@ -3,6 +3,7 @@
 #pragma once
 #include <optional>
 
+#include "formats/cpp/stream_frame.h"
 #include "libsheet/scene/scene.h"
 
 namespace sheet {
@@ -17,5 +18,9 @@ namespace sheet {
 // 2 sqrt(3), k = 3 or 1 for spheres and c = 2, k = 2 for tubes, and the time is the integral of c/rate over ln r. Where
 // tau is below a yield stress nothing is blown up.
 [[nodiscard]] std::optional<double> blow_up_time(const Scene& scene);
+
+// Whether solids stand around the first frame's sheet, as a mould does, and end that: three quarters of the ways out
+// from its middle through its vertices meet one.
+[[nodiscard]] bool is_blown_into_mould(const Scene& scene, const formats::Frame& first);
 
 } // namespace sheet

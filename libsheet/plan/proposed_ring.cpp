@@ -90,9 +90,11 @@ double rounded_down(double value) {
 
 constexpr double before_blow_up = 0.9; // of the time to it
 
-// Of what is warmed until it flows, counted from when it is warm.
+// Of what is warmed until it flows, counted from when it is warm; nothing of what is blown into a mould.
 std::optional<double> blow_up_time_with_heat(const Scene& scene, const Frame& first) {
   const auto as_it_starts = blow_up_time(scene::as_it_starts(scene));
+  if (as_it_starts && is_blown_into_mould(scene, first))
+    return std::nullopt;
   const auto warming = scene::warming_of(scene, measured(first).thickness.value_or(0));
   const auto warm = warming ? blow_up_time(warming->warm) : std::nullopt;
   return as_it_starts && warm ? std::min(*as_it_starts, warming->time + *warm) : as_it_starts;

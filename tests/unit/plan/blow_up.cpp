@@ -3,9 +3,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/proposed_ring.h"
 #include "libsheet/scene/read.h"
 
 namespace sheet {
@@ -38,6 +42,29 @@ TEST(BlowUp, NotOfWhatStands) {
   EXPECT_TRUE(blow_up_time(blown(spherical, bingham(0.99 * stands))));
   const double newtonian = *blow_up_time(blown(spherical, "viscosity = 400\n"));
   EXPECT_NEAR(*blow_up_time(blown(spherical, bingham(1e-6))), newtonian, 5e-3 * newtonian);
+}
+
+// A parison in a box of six planes, and above a floor.
+TEST(BlowUp, NotOfWhatIsInAMould) {
+  const auto proposed = [](const std::vector<std::string>& planes) {
+    std::string text = "viscosity = 4000\n[environment]\npressure = {law = \"constant\", value = 1000}\n";
+    for (const std::string& plane : planes)
+      text += "[[solid]]\nshape = \"plane\"\n" + plane;
+    const Scene scene = scene::parse_scene("[sheet]\nshape = \"tube\"\nheight = 0.2\nradius = 0.1\n"
+                                           "edge_length = 0.05\nthickness = 0.01\n[material]\ndensity = 1000\n" +
+                                               text,
+                                           "s");
+    const auto first = first_frame(scene);
+    EXPECT_EQ(is_blown_into_mould(scene, first), planes.size() == 6);
+    return proposed_ring(scene, first, {}).until;
+  };
+  const std::string floor = "center = [0, -0.2, 0]\nnormal = [0, 1, 0]\n";
+  const double free = 2 * 4000 * 0.01 / (1000 * 0.1);
+  EXPECT_LT(proposed({floor}), free);
+  EXPECT_GT(proposed({floor, "center = [0, 0.2, 0]\nnormal = [0, -1, 0]\n",
+                      "center = [0.2, 0, 0]\nnormal = [-1, 0, 0]\n", "center = [-0.2, 0, 0]\nnormal = [1, 0, 0]\n",
+                      "center = [0, 0, 0.2]\nnormal = [0, 0, -1]\n", "center = [0, 0, -0.2]\nnormal = [0, 0, 1]\n"}),
+            free);
 }
 
 } // namespace
