@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "libsheet/geometry/types.h"
 #include "libsheet/scene/inlet_velocity.h"
 
 namespace sheet {
