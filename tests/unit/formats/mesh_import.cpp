@@ -11,6 +11,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace sheet::formats {
 namespace {
@@ -306,7 +307,7 @@ TEST(MeshImport, RealMeshes) {
   const std::string archive = "/usr/share/doc/libcgal-dev/data.tar.gz";
   if (!std::filesystem::exists(archive))
     GTEST_SKIP() << archive << " is not installed";
-  const std::string folder = testing::TempDir() + "sheet_real_meshes";
+  const std::string folder = testing::TempDir() + "sheet_real_meshes_" + std::to_string(::getpid());
   std::filesystem::create_directories(folder);
   const auto extract = [&](const std::string& file) {
     return std::system(("tar xzf " + archive + " -C '" + folder + "' data/meshes/" + file).c_str()) == 0;
