@@ -36,8 +36,7 @@ constexpr double a_few = 0.01;    // of the vertices, where the potential is not
 constexpr double as_far = 10;     // may have so many times more left
 constexpr double far_away = 0.1;  // of an edge, or radians: if more remains at a start, there may be a better one,
 constexpr double much = 0.1;      // or if so much of the energies there can be gained
-constexpr double too_much = 0.01; // of the energies, that an earlier place's factor promises to gain, twice;
-constexpr double nonsense = 1;    // or all of them twice, by a step of so many edges or radians
+constexpr double too_much = 0.01; // of the energies, that an earlier place's factor promises to gain, twice
 constexpr double farther = 3;     // times what remained before the last step, what such a factor says remains after it
 
 // The greatest of the first `count` numbers of x, each in its own unit. Not a number if one of them is none.
@@ -152,8 +151,7 @@ private:
   [[nodiscard]] bool misled() const {
     if (fresh_ || system_.floor() > 0)
       return false;
-    const double promised = norm_ * norm_ / energy_.magnitude;
-    const bool promises = system_.factor_serves() ? promised > 1 && remains_ > nonsense : promised > too_much;
+    const bool promises = !system_.factor_serves() && norm_ * norm_ > too_much * energy_.magnitude;
     return promises || (steps() > 0 && norm_ > farther * previous_norm_);
   }
 
@@ -242,10 +240,8 @@ private:
     const bool strict = trusted() && remains_ <= (followed_ ? sharper : 1) * options_.tolerance;
     const bool near = options_.of_step_error > 0 && norm_ <= options_.of_step_error * first_norm_ && vertices_near();
     near_ = near ? near_ + 1 : 0;
-    // Slivers and films of no mass may have a curvature that is negative for ever, and move by next to nothing. If the
-    // last step has gained no more than may remain, neither will the next.
-    const bool sure = trusted() || (steps() > 0 && gain_ <= std::pow(options_.of_step_error * first_norm_, 2));
-    const bool lenient = near_ >= (sure ? 1 : often);
+    // Slivers and films of no mass may have a curvature that is negative for ever, and move by next to nothing.
+    const bool lenient = near_ >= (trusted() ? 1 : often);
     // A direction with the Hessian knows the soft modes too, of which the potential tells little.
     const bool nothing_to_gain =
         steps() > 0 && !followed_ && full_ && remains_ <= small_step && norm_ * norm_ <= energy_.noise();
@@ -354,7 +350,6 @@ private:
         taken = length;
         report_.monotone = report_.monotone && (energy.value <= energy_.value + noise || !lower);
         u_ = there;
-        gain_ = energy_.value - energy.value;
         energy_ = energy;
         gradient_.swap(trial_);
         linearized_ = false;
@@ -380,7 +375,7 @@ private:
   const OtherStart& other_;
   NewtonReport report_;
   EnergySum energy_;
-  double start_ = 0, gain_ = 0; // of the potential: where it began, and what the last step lowered it by [J]
+  double start_ = 0; // of the potential
   Eigen::VectorXd gradient_, trial_, force_, preconditioned_, remainder_, step_;
   double slope_ = 0, norm_ = 0, previous_norm_ = 0, first_norm_ = 0, remains_ = 0, positions_remain_ = 0, way_ = 0;
   double greatest_force_ = 0, first_force_ = 0; // [N], where that is asked for
