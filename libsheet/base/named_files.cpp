@@ -38,8 +38,11 @@ std::vector<fs::path> endings_of(const fs::path& name) {
 // Where streams are that are read, absolute.
 std::vector<fs::path>& stream_folders() {
   static std::vector<fs::path> folders = [] {
-    const char* told = std::getenv(stream_folder_variable);
-    return told == nullptr ? std::vector<fs::path>() : std::vector<fs::path>{told};
+    std::vector<fs::path> told;
+    for (const char* variable : {stream_folder_variable, scene_folder_variable})
+      if (const char* folder = std::getenv(variable); folder != nullptr)
+        told.emplace_back(folder);
+    return told;
   }();
   return folders;
 }

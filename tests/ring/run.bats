@@ -86,6 +86,23 @@ make_slow() {
   [[ $(stat -c %y run/{film.mp4,picture.png}) == "$made" ]]
 }
 
+@test "a scene that names a mesh goes on from any folder, and is another with another mesh" {
+  options=(--quality draft --fps 100 --film 64x36 -o "$BATS_TEST_TMPDIR/runs/run") # no folder of the run's has the mesh
+  mkdir -p "$BATS_TEST_TMPDIR/runs" meshes scenes
+  printf '%s\n' 'v 0 1 0' 'v 1 -1 -1' 'v -1 -1 -1' 'v 0 -1 1.5' 'f 1 2 3' 'f 1 3 4' 'f 1 4 2' 'f 2 4 3' > meshes/ball.obj
+  sed 's|^shape = "plane"|shape = "mesh"\nfile = "../meshes/ball.obj"\nscale = 0.01\nvoxel_size = "1 mm"|' 'my scene.toml' \
+    > scenes/ball.toml
+  sheet-run -q scenes/ball.toml "${options[@]}" --until 0.02
+  folder=$PWD
+  (cd / && sheet-run -q "$folder/scenes/ball.toml" "${options[@]}" --until 0.04)
+  (cd scenes && sheet-run -q ball.toml "${options[@]}" --until 0.06)
+  sheet-run -q scenes/ball.toml "${options[@]::4}" --until 0.06 -o straight
+  sheet-diff -q --ignore provenance straight/run.sheet "$BATS_TEST_TMPDIR/runs/run/run.sheet"
+  sed -i 's/^v 0 1 0$/v 0 1.1 0/' meshes/ball.obj
+  run -2 --separate-stderr sheet-run -q scenes/ball.toml "${options[@]}" --until 0.06
+  [[ $stderr == *'has the run of another scene'* ]]
+}
+
 @test "--limit ends a run, shows what there is, and the same command goes on" {
   options=(--quality draft --until 0.2 --fps 40 --film no)
   sheet-run -q 'my scene.toml' "${options[@]}" -o straight
