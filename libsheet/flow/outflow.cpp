@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "libsheet/base/error.h"
 #include "libsheet/flow/drop.h"
 #include "libsheet/flow/heat_account.h"
 #include "libsheet/geometry/area.h"
@@ -105,10 +104,6 @@ Dropped let_triangles_out(Frame& frame, const Scene& scene) {
   if (straight)
     add_overturned(frame, scene.outflows, leaves);
   Dropped out = sum_of(frame, leaves, scene);
-  if (out.triangles == frame.triangles)
-    fail(ExitCode::bad_input,
-         "all of the sheet is beyond an [[outflow]]: nothing is left at {:.6g} s; end the run before (--until)",
-         frame.time);
   if (out.triangles > 0)
     out = drop(frame, leaves, scene);
   const Dropped cut = straight ? pull_back(frame, scene) : Dropped{};

@@ -14,8 +14,8 @@ namespace sheet::flow {
 // each other would pass through each other: then the sheet ends ragged. Vertices at which what stays would only touch
 // itself come apart, as in tearing; springs of contact and directors go with their vertices. What has left so far is in
 // the frame's arrays `outflow.volume` [m³], `outflow.momentum` [kg m/s] and `outflow.energy` (kinetic) [J] (account.h).
-// Drops (sheet/drops.h) leave when their middles are beyond. Bit for bit the same frame if nothing is beyond. Throws
-// Error (bad_input) if nothing is left. `triangles`: those taken away.
+// Drops (sheet/drops.h) leave when their middles are beyond. Bit for bit the same frame if nothing is beyond; one
+// without triangles if all is. `triangles`: those taken away.
 Dropped let_out(formats::Frame& frame, const Scene& scene);
 
 } // namespace sheet::flow

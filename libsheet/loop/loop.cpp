@@ -34,6 +34,7 @@
 #include "libsheet/scene/change.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/ring.h"
+#include "libsheet/sheet/drops.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -141,7 +142,9 @@ public:
     finish(pipeline, sent, returned, rounds, elapsed);
     output_->end();
     progress.end(frame_.time, frame_.step, output_->frames(), "done");
-    if (stop_)
+    if (nothing_left_)
+      log::note("{}", all_has_left());
+    else if (stop_)
       log::note("stopped at step {}, t = {} s, as --stop-when says: {}", frame_.step, frame_.time, *stop_);
     else if (rounds == 0 && begins_beyond_end())
       log::note("nothing was left to do: it starts at step {}, t = {} s; give a later --until, or more --steps",
@@ -286,15 +289,37 @@ private:
     claim_checkpoint();
   }
 
-  // The first of the conditions that holds in the newest frame.
+  // The first of the conditions that holds in the newest frame, or that there is nothing more to follow.
   void find_stop() {
+    nothing_left_ = frame_.triangles == 0 && frame_.step > 0 && volume_of_drops(frame_) == 0 && !more_enters();
     for (StopCondition& condition : conditions_)
       if (!stop_)
         stop_ = condition.holds(frame_);
   }
 
+  // Whether a sheet of the scene is still to come.
+  [[nodiscard]] bool more_enters() const {
+    if (frame_.find("scene") == nullptr)
+      return false;
+    FrameScene scenes;
+    const auto come =
+        std::ranges::count_if(scenes.of(frame_).sheets, [](auto& sheet) { return sheet.enters.has_value(); });
+    return number(frame_, "entered", 0) < static_cast<double>(come);
+  }
+
+  [[nodiscard]] std::string all_has_left() const {
+    std::string text =
+        fmt::format("nothing is left of the sheet at step {}, t = {} s, so the run ends", frame_.step, frame_.time);
+    const std::pair<const char*, const char*> accounts[] = {{"outflow.volume", "have flowed out"},
+                                                            {"tear.volume", "have been torn away"}};
+    for (const auto& [account, way] : accounts)
+      if (const double volume = number(frame_, account, 0); volume > 0)
+        text += fmt::format("; {:.6g} m^3 {}", volume, way);
+    return text;
+  }
+
   [[nodiscard]] bool done() const {
-    return stop_ || (options_.until && frame_.time >= *options_.until) ||
+    return nothing_left_ || stop_ || (options_.until && frame_.time >= *options_.until) ||
            (options_.steps && frame_.step >= static_cast<std::uint64_t>(*options_.steps));
   }
 
@@ -490,6 +515,7 @@ private:
   HealthWatch health_;
   std::vector<StopCondition> conditions_;
   std::optional<std::string> stop_; // what ends the run
+  bool nothing_left_ = false;       // likewise
   bool told_of_silence_ = false;
   bool sent_ = false; // where a round was broken off: the stages have its whole frame
   bool kept_ = false; // the newest state is in the output

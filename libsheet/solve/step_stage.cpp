@@ -91,6 +91,9 @@ void check_bending(const Scene& scene, Bending bending) {
            i);
 }
 
+constexpr const char* how_far =
+    "without --dt the frame must say how far to go: let sheet-loop stamp it (--until, --fps), or give --dt";
+
 // The end of a fixed step from t: dt, or a little less so that equal steps land exactly on `until`.
 double fixed_step(double t, double until, double dt) {
   if (std::isinf(until))
@@ -138,7 +141,24 @@ struct StepStage::Impl {
     return model_of(scene, frame, *mesh.mesh(), options.bending, arcs, solids);
   }
 
+  // Where all of the sheet has left, time goes on, and drops fly.
+  void pass_time(Frame& frame) {
+    check_magnitudes(frame);
+    const Scene& scene = scenes.of(frame);
+    const double start = frame.time, until = end_of_step(scene, frame);
+    if (!options.dt && std::isinf(until))
+      fail(ExitCode::usage, how_far);
+    const double end = options.dt ? start + fixed_step(start, until, *options.dt) : until;
+    frame.put(formats::make_standard_array("start_position", 0));
+    put_number(frame, "start_time", start);
+    frame.time = end >= until * (1 - 1e-15) ? until : end;
+    ++frame.step;
+    fly_drops(frame, scene, start);
+  }
+
   void step(Frame& frame) {
+    if (frame.triangles == 0 && frame.step > 0)
+      return pass_time(frame);
     Model model = prepare(frame);
     const double until = end_of_step(scenes.of(frame), frame);
     if (stepper) {
@@ -171,9 +191,7 @@ struct StepStage::Impl {
       StepControl control{.tolerance = options.tolerance.value_or(default_tolerance),
                           .dt = number(frame, "step_size", 0)};
       if (std::isinf(until))
-        fail(ExitCode::usage,
-             "without --dt the frame must say how far to go: let sheet-loop stamp it (--until, --fps), "
-             "or give --dt");
+        fail(ExitCode::usage, how_far);
       report = stepper->step_within(state, until, control);
       put_number(frame, "step_size", control.dt);
     }

@@ -305,3 +305,21 @@ END
     cmp short.sheet same.sheet
   done
 }
+@test "a sheet that flows out wholly is a good end, with film, figures and the account of volume" {
+  for part in '' '[contact]\nself = true' '[tear]\nbelow = "0.1 mm"\ndrops = true' \
+    '[heat]\nconductivity = 0.3\nspecific_heat = 2000\ntemperature = 400' '[[solid]]\nshape = "sphere"\nradius = "5 mm"\ncenter = ["40 mm", 0, 0]'; do
+    printf "${part//%/%%}\n" > part
+    sed '/^\[\[solid\]\]/,$d' 'my scene.toml' > drains.toml
+    printf '%s\n' '[[outflow]]' 'point = [0, "-10 mm", 0]' 'normal = [0, -1, 0]' >> drains.toml
+    cat part >> drains.toml
+    rm -rf out
+    run -0 --separate-stderr sheet-run drains.toml --quality draft --until 0.2 --fps 40 --film 64x36 -o out
+    [[ $stderr == *'nothing is left of the sheet at step '*', so the run ends; 5.'*'e-07 m^3 have flowed out'* ]]
+    [[ $stderr != *'too early'* ]]
+    sheet-check -q out/run.sheet
+    [[ $(wc -l < out/run.csv) -lt 9 && -s out/film.mp4 && -s out/health.txt && -s out/picture.png ]]
+    sheet-info out/run.sheet > /dev/null
+    sheet-run -q drains.toml --quality draft --until 0.4 --fps 40 --film 64x36 -o out # nothing more to come
+    sheet-loop -q --resume out/run.sheet --until 1
+  done
+}
