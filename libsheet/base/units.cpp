@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/base/units.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -68,9 +69,24 @@ constexpr std::array units{
     NamedUnit{"°", {{0, 0, 0}, 0, pi, 180}, false},
     NamedUnit{"turn", {{0, 0, 0}, 0, 2 * pi}, false},
     NamedUnit{"rpm", {{0, 0, -1}, 0, pi, 30}, false},
+    NamedUnit{"rps", {{0, 0, -1}, 0, 2 * pi}, false},
     NamedUnit{"%", {{0, 0, 0}, -2}, false},
     NamedUnit{"1", {}, false},
 };
+
+// Other names of the same, which lists of what is known leave out.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spellings{{{"sec", "s"},
+                                                                                   {"second", "s"},
+                                                                                   {"seconds", "s"},
+                                                                                   {"msec", "ms"},
+                                                                                   {"minute", "min"},
+                                                                                   {"minutes", "min"},
+                                                                                   {"hr", "h"},
+                                                                                   {"hour", "h"},
+                                                                                   {"hours", "h"},
+                                                                                   {"Poise", "P"},
+                                                                                   {"poise", "P"},
+                                                                                   {"centipoise", "cP"}}};
 
 struct Prefix {
   std::string_view name;
@@ -82,6 +98,9 @@ constexpr std::array prefixes{Prefix{"n", -9}, Prefix{"u", -6}, Prefix{"\u00b5",
                               Prefix{"M", 6},  Prefix{"G", 9}};
 
 std::optional<Unit> find_unit(std::string_view name) {
+  if (const auto* other = std::ranges::find(spellings, name, &std::pair<std::string_view, std::string_view>::first);
+      other != spellings.end())
+    name = other->second;
   for (const NamedUnit& known : units)
     if (known.name == name)
       return known.unit;
@@ -98,6 +117,7 @@ std::optional<Unit> find_unit(std::string_view name) {
   return {};
 }
 
+constexpr Dimension kinematic_viscosity{0, 2, -1};
 constexpr double zero_celsius = 273.15; // [K], by definition
 
 bool is_celsius(std::string_view name) { return name == "°C" || name == "degC" || name == "\u2103"; }
@@ -367,7 +387,7 @@ std::string describe(const Dimension& dimension) {
                                     Named{"a force", {1, 1, -2}, "N"},
                                     Named{"an energy", {1, 2, -2}, "J"},
                                     Named{"a power", {1, 2, -3}, "W"},
-                                    Named{"a kinematic viscosity", {0, 2, -1}, "m^2/s"},
+                                    Named{"a kinematic viscosity", kinematic_viscosity, "m^2/s"},
                                     Named{"a flow rate", {0, 3, -1}, "m^3/s"},
                                     Named{"a mass per area", {1, -2, 0}, "kg/m^2"}};
   if (dimension == Dimension{})
@@ -440,6 +460,8 @@ std::optional<double> read_quantity(std::string_view text, const Quantity& expec
     unit = *parsed;
     if (unit.dimension != expected.dimension) {
       problem = mismatch(expected, describe(unit.dimension));
+      if (unit.dimension == kinematic_viscosity && expected.dimension == quantity::viscosity.dimension)
+        problem += ": multiply it by the density, as 1000 cSt * 1.4 g/cm^3 = 1400 mPa*s";
       return {};
     }
   }
