@@ -255,7 +255,8 @@ center = [0, "-0.3 m", 0]
 # "arm.csv", beside the scene: columns time [s], x [m], y [m], z [m], qw, qx, qy, qz, named in its first line. A solid that
 # does not say its center or rotation is where the rows have it at time 0. interpolation: "smooth" (the default; it never
 # goes beyond the two rows that it is between), "linear" (constant velocity, which jumps at the rows) or "step" (it rests
-# and jumps at the rows). For holds, too.
+# and jumps at the rows). Smooth rows keep their pace up to both ends: one that is repeated lets it start or stop gently.
+# For holds, too.
 #[[solid]]
 #shape = "box"
 #size = [0.2, 0.02, 0.1]

@@ -170,6 +170,36 @@ std::optional<std::string> warning_of_jumps(const Motion& motion, std::string_vi
                      thing);
 }
 
+// How fast rows lead at a time, "" where that is slow for them.
+std::string pace_at(const Keyframes& frames, double t) {
+  constexpr double slow = 0.05; // of the fastest
+  const auto [velocity, turning] = frames.rates(t);
+  const auto all = frames.bounds(frames.times().front(), frames.times().back());
+  const bool moves = velocity.norm() > slow * all.speed, turns = turning.norm() > slow * all.turning;
+  return fmt::format("{}{}{}", moves ? brief(velocity.norm()) + " m/s" : "", moves && turns ? " and " : "",
+                     turns ? brief(turning.norm()) + " rad/s" : "");
+}
+
+// Smooth rows keep their pace to the first and the last one, and at rest is the thing beyond.
+std::optional<std::string> warning_of_abrupt_ends(const Motion& motion, std::string_view thing) {
+  const auto* keyed = std::get_if<Keyframed>(&motion);
+  if (keyed == nullptr || keyed->frames->interpolation() != Interpolation::smooth)
+    return {};
+  const std::vector<double>& times = keyed->frames->times();
+  const double last = times.back();
+  const std::string start = times.front() < 0 ? "" : pace_at(*keyed->frames, times.front()),
+                    end = pace_at(*keyed->frames, std::nextafter(last, times.front()));
+  if (start.empty() && end.empty())
+    return {};
+  return fmt::format(
+      "{} {}{}{}, at once: smooth rows keep their pace up to both ends, and beyond it rests; another row "
+      "like the first one before it (times may be below 0), and one like the last one after it, let it "
+      "start and stop gently",
+      thing, start.empty() ? "" : fmt::format("sets off at {} at {} s", start, brief(times.front())),
+      start.empty() || end.empty() ? "" : " and ",
+      end.empty() ? "" : fmt::format("stops from {} at {} s", end, brief(last)));
+}
+
 // "sheet NAME", or its number from 0; "" where there is no other.
 std::string name_of_sheet(const Scene& scene, std::size_t number) {
   const std::string& name = scene.sheets[number].name;
@@ -275,12 +305,15 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
     if (const auto angle = warning_of_angle(scene.sheets[i].rotation, name.empty() ? "the sheet" : name))
       warn(*angle);
   }
+  const auto warn_of_motion = [&](const Motion& motion, const std::string& thing) {
+    for (const auto& warning : {warning_of_jumps(motion, thing), warning_of_abrupt_ends(motion, thing)})
+      if (warning)
+        warn(*warning);
+  };
   for (std::size_t i = 0; i < scene.holds.size(); ++i)
-    if (const auto jumps = warning_of_jumps(scene.holds[i].motion, fmt::format("hold {}", i)))
-      warn(*jumps);
+    warn_of_motion(scene.holds[i].motion, fmt::format("hold {}", i));
   for (std::size_t i = 0; i < scene.solids.size(); ++i)
-    if (const auto jumps = warning_of_jumps(scene.solids[i].motion, fmt::format("solid {}", i)))
-      warn(*jumps);
+    warn_of_motion(scene.solids[i].motion, fmt::format("solid {}", i));
   for (std::size_t i = 0; i < scene.solids.size(); ++i)
     if (const auto angle = warning_of_angle(scene.solids[i].rotation, fmt::format("solid {}", i)))
       warn(*angle);

@@ -61,6 +61,23 @@ TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
   EXPECT_TRUE(warned(of(led("step")), "solid 0 jumps at its rows"));
   EXPECT_FALSE(warned(of(led("smooth")), "jumps"));
   EXPECT_FALSE(warned(of(led("linear")), "jumps"));
+  EXPECT_TRUE(warned(of(led("smooth")), "solid 0 sets off at 1 m/s at 0 s and stops from 1 m/s at 1 s, at once"));
+  EXPECT_FALSE(warned(of(led("linear")), "sets off"));
+  const auto along = [](const std::string& rows) {
+    return disk + liquid + "[[solid]]\nshape = \"sphere\"\nradius = 0.1\nmotion = {kind = \"keyframed\", " + rows +
+           "}\n";
+  };
+  // 0.28 m/s at the start of a parabola with its top at 0.5 s, and the remedy that is told
+  EXPECT_TRUE(warned(of(along("times = [0, 0.5, 1], places = [[0, 0, 0], [0.07, 0, 0], [0, 0, 0]]")),
+                     "solid 0 sets off at 0.28 m/s at 0 s and stops from 0.28 m/s at 1 s"));
+  EXPECT_FALSE(warned(of(along("times = [-0.1, 0, 0.5, 1, 1.1], places = [[0, 0, 0], [0, 0, 0], [0.07, 0, 0], "
+                               "[0, 0, 0], [0, 0, 0]]")),
+                      "at once"));
+  const std::string q0 = "[1, 0, 0, 0]", q1 = "[0.8, 0.6, 0, 0]";
+  EXPECT_TRUE(warned(of(along("times = [-1, 2], rotations = [" + q0 + ", " + q1 + "]")),
+                     "solid 0 stops from 0.429 rad/s at 2 s, at once"));
+  EXPECT_FALSE(warned(of(along("times = [0, 1, 3, 4], rotations = [" + q0 + ", " + q0 + ", " + q1 + ", " + q1 + "]")),
+                      "at once"));
   const auto sized = [](const std::string& radius) {
     return "[sheet]\nshape = \"disk\"\nedge_length = 1\nthickness = 0.1\nradius = " + radius + "\n" + liquid;
   };
