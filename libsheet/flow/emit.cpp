@@ -405,6 +405,8 @@ private:
     springs.put(frame_);
     if (!made_.empty())
       directors.put(vertices_, frame_);
+    if (scene_.contact && scene_.contact->self)
+      check_room(frame_, scene_, number_);
   }
 
   void rebuild() {

@@ -10,6 +10,8 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/box.h"
+#include "libsheet/geometry/triangle_pair.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/prescribed.h"
 
@@ -127,6 +129,36 @@ void check_inlet(const Frame& frame, const Scene& scene, const scene::Inflow& in
              "[[hold]] number {} (from 0) holds the whole inlet along {}, so what flows in would hang there for ever: "
              "give it a region that leaves the inlet out",
              i, "xyz"[axis]);
+  }
+}
+
+void check_room(const Frame& frame, const Scene& scene, std::size_t number) {
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  const auto bits = masks(frame, "inlet");
+  const std::uint64_t own = of_inlet(~std::uint64_t{0}, 0) << (bits_of_an_inlet * number);
+  std::vector<std::uint32_t> mouth;
+  Box around;
+  for (std::uint32_t t = 0; t < corners.size(); ++t)
+    if (std::ranges::any_of(corners[t], [&](std::uint32_t v) { return (bits[v] & own) != 0; }) &&
+        !corners_collinear(x, corners[t])) {
+      mouth.push_back(t);
+      around.add(box_of(x, corners[t]));
+    }
+  for (std::uint32_t other = 0; other < corners.size(); ++other) {
+    const Box box = box_of(x, corners[other]);
+    if (!around.overlaps(box) || corners_collinear(x, corners[other]))
+      continue;
+    for (const std::uint32_t t : mouth)
+      if (t != other && box_of(x, corners[t]).overlaps(box) && triangles_intersect(x, corners[t], corners[other])) {
+        const Vector3 place = (x[corners[t][0]] + x[corners[t][1]] + x[corners[t][2]]) / 3;
+        fail(ExitCode::bad_input,
+             "the inlet{} has no room near ({:.4g}, {:.4g}, {:.4g}) m: something lies in its mouth, through which the "
+             "next row would come in (triangles {} and {}). Give it room: put it farther from what piles up there, let "
+             "that flow away, or end the inflow before, with `until`",
+             scene.inflows.size() > 1 ? fmt::format(" of [[inflow]] number {} (from 0)", number) : "", place.x(),
+             place.y(), place.z(), t, other);
+      }
   }
 }
 

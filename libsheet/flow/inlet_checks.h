@@ -14,4 +14,7 @@ namespace sheet::flow {
 void check_inlet(const formats::Frame& frame, const Scene& scene, const scene::Inflow& inflow,
                  std::span<const InletChain> chains);
 
+// Throws Error (bad_input) where triangles at this inlet pass through others: something lies in its mouth.
+void check_room(const formats::Frame& frame, const Scene& scene, std::size_t number);
+
 } // namespace sheet::flow

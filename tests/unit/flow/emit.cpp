@@ -21,6 +21,7 @@
 #include "libsheet/remesh/remesh.h"
 #include "libsheet/scene/inlet_depth.h"
 #include "libsheet/shape/build.h"
+#include "libsheet/sheet/append.h"
 #include "libsheet/sheet/transfer.h"
 #include "tests/unit/remesh/sheets.h"
 
@@ -95,6 +96,23 @@ using test::value_error;
 // Vertices that are in the inlet, by what they are.
 std::size_t count(const Frame& frame, std::uint64_t bits) {
   return static_cast<std::size_t>(std::ranges::count(masks(frame, "inlet"), bits));
+}
+
+// A triangle lies across the gap that has opened behind the border, 0.9 m wide.
+TEST(Emit, SaysWhichInletHasNoRoomAndWhatToDo) {
+  for (const bool self : {false, true}) {
+    const Scene scene = scene_of("[0, -1, 0]", self ? "[contact]\nself = true\n" : "");
+    Frame frame = curtain();
+    move(frame, scene, 0.9);
+    const std::vector<Vector3> x{{2, 1.6, -1}, {2.5, 1.6, 1}, {1.5, 1.6, 1}};
+    const std::vector<Corners> across{{0, 1, 2}};
+    append(make_frame(x, across, std::vector<double>{0.1}), frame);
+    if (self)
+      EXPECT_THAT(error_of([&] { (void)emit(frame, scene); }),
+                  AllOf(HasSubstr("the inlet has no room near"), HasSubstr("Give it room")));
+    else
+      EXPECT_GT(emit(frame, scene).volume, 0);
+  }
 }
 
 TEST(Emit, VolumeIsThicknessTimesWidthTimesWay) {
