@@ -72,7 +72,7 @@ std::string falling_past_warning(const Scene& scene, const Frame& first) {
 }
 
 std::string falling_on_warning(const Scene& scene, const Frame& first, double until) {
-  if (!scene::is_bottomless(scene) || first.vertices == 0)
+  if (scene.solids.empty() || !scene::is_bottomless(scene) || first.vertices == 0)
     return "";
   Scene parting = scene;
   if (parting.contact)

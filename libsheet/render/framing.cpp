@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "libsheet/geometry/area.h"
+#include "libsheet/geometry/disjoint_sets.h"
+#include "libsheet/scene/prescribed.h"
 
 namespace sheet::render {
 
@@ -30,29 +32,74 @@ static double area_of(const formats::Frame& frame) {
   return area;
 }
 
+// The vertices that a [[hold]] keeps from falling now; none if the frame has no holds.
+static std::vector<bool> borne_vertices(const formats::Frame& frame, const Scene& scene, const Vector3& up) {
+  const auto masks = holds(frame);
+  std::uint64_t bearing = 0;
+  for (std::size_t i = 0; i < scene.holds.size() && i < 64; ++i) {
+    bool bears = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      bears = bears && (std::abs(up[static_cast<Eigen::Index>(axis)]) < 1e-3 || has_axis(scene.holds[i].axes, axis));
+    bearing |= std::uint64_t{bears} << i;
+  }
+  bearing &= scene::holds_in_force(scene, frame.time);
+  std::vector<bool> borne(masks.size(), false);
+  for (std::size_t v = 0; v < masks.size(); ++v)
+    borne[v] = (masks[v] & bearing) != 0;
+  return borne;
+}
+
+// Those, and all that hangs from them along triangles.
+static std::vector<bool> hanging_from(std::vector<bool> borne, const formats::Frame& frame) {
+  DisjointSets pieces(borne.size());
+  if (!borne.empty())
+    for (const Corners& t : sheet::triangles(frame)) {
+      pieces.join(t[0], t[1]);
+      pieces.join(t[0], t[2]);
+    }
+  std::vector<bool> hangs(borne.size(), false);
+  for (std::size_t v = 0; v < borne.size(); ++v)
+    if (borne[v])
+      hangs[pieces.find(v)] = true;
+  for (std::size_t v = 0; v < borne.size(); ++v)
+    borne[v] = hangs[pieces.find(v)];
+  return borne;
+}
+
 void Survey::add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look) {
   const Vector3 upwards = up_of(scene);
   double lowest = std::numeric_limits<double>::infinity(); // of the solids [m]
-  Box solids;
+  Box bearers;                                             // solids, and what is or was held
   for (const SolidMesh& mesh : meshes) {
     const Eigen::Isometry3d motion = motion_of(scene->solids[mesh.solid], frame.time);
     for (const Vector3& p : mesh.positions) {
       solids_.add(motion * p, 0);
-      solids.add(motion * p);
+      bearers.add(motion * p);
       lowest = std::min(lowest, upwards.dot(motion * p));
     }
   }
-  const double lost = !meshes.empty() && scene::is_bottomless(*scene)
-                          ? lowest - solids.diagonal() - std::sqrt(area_of(frame))
-                          : -std::numeric_limits<double>::infinity();
   const auto x = positions(frame);
+  std::vector<bool> hangs;
+  if (scene != nullptr && scene::is_bottomless(*scene)) {
+    const std::vector<bool> borne = borne_vertices(frame, *scene, upwards);
+    for (std::size_t v = 0; v < borne.size(); ++v)
+      if (borne[v]) {
+        held_.add(x[v]);
+        lowest_held_ = std::min(lowest_held_, upwards.dot(x[v]));
+      }
+    hangs = hanging_from(borne, frame);
+    bearers.add(held_);
+  }
+  const double lost = !bearers.empty() && scene::is_bottomless(*scene)
+                          ? std::min(lowest, lowest_held_) - bearers.diagonal() - std::sqrt(area_of(frame))
+                          : -std::numeric_limits<double>::infinity();
   const std::vector<double> thickness = vertex_thickness(frame);
   std::vector<bool> used(x.size(), false);
   for (const Corners& t : sheet::triangles(frame))
     for (const std::uint32_t v : t)
       used[v] = true;
   for (std::size_t v = 0; v < x.size(); ++v)
-    if (used[v] && upwards.dot(x[v]) > lost)
+    if (used[v] && (upwards.dot(x[v]) > lost || (!hangs.empty() && hangs[v])))
       sheet_.add(x[v], thickness[v] / 2);
   if (look.has_scale())
     scale_.add(values_of(frame, *look.field));

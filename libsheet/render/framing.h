@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What there is to see in the frames that will be drawn, so that camera, ground and scale of a film stand still.
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "libsheet/geometry/box.h"
@@ -23,14 +24,16 @@ public:
   // `meshes`: of the frame's scene.
   void add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes, Look look);
   // What the picture is about: the sheet, with half its thickness to all sides, and the finite solids unless they are
-  // more than 4 times as large. Where nothing takes up what comes off the solids, liquid that has fallen farther below
-  // them than they and the sheet (the root of its area) are large does not count. Its box is empty if there is nothing
-  // at all.
+  // more than 4 times as large. Where nothing takes up what comes off the solids and [[hold]]s, liquid that has fallen
+  // farther below them than they and the sheet (the root of its area) are large does not count, unless it still hangs
+  // from what is held. Its box is empty if there is nothing at all.
   [[nodiscard]] Extent subject() const;
   [[nodiscard]] const Scale& scale() const { return scale_; } // of the look's values
 
 private:
   Extent sheet_, solids_;
+  Box held_;                                                     // what [[hold]]s have borne so far
+  double lowest_held_ = std::numeric_limits<double>::infinity(); // of that, upward [m]
   Scale scale_ = Scale::nothing();
 };
 

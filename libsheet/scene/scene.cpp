@@ -157,7 +157,7 @@ bool flows_on_solids(const Scene& scene) {
 }
 
 bool is_bottomless(const Scene& scene) {
-  return up(scene.environment) && !scene.solids.empty() && !scene.environment.bath && scene.outflows.empty() &&
+  return up(scene.environment) && !scene.environment.bath && scene.outflows.empty() &&
          std::ranges::none_of(scene.solids, [](const Solid& s) { return std::holds_alternative<HalfSpace>(s.shape); });
 }
 

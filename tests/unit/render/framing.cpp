@@ -171,6 +171,32 @@ TEST(Survey, WhatFallsForEverIsNotFollowed) {
   EXPECT_NEAR(lowest(4, with_floor), -0.005, 1e-9);
 }
 
+// A sheet hangs from a clip, then 4 m below it, torn off or not, then when the clip has opened.
+TEST(Survey, WhatFallsFromHoldsIsNotFollowed) {
+  Scene scene;
+  scene.environment.gravity = Vector3(0, -9.81, 0);
+  scene.holds.resize(1);
+  const auto lowest = [&](bool hangs, double held_until) {
+    scene.holds[0].until = held_until;
+    formats::Frame frame = test::flat(2, 0.01);
+    put_masks(frame, "hold")[0] = 1;
+    Survey survey({any_view});
+    survey.add(frame, &scene, {}, {});
+    for (std::size_t v = hangs ? 1 : 0; v < frame.vertices; ++v)
+      positions(frame)[v].y() -= 4;
+    if (!hangs)
+      put_masks(frame, "hold")[0] = held_until > 1 ? 0 : 1;
+    frame.time = 1;
+    survey.add(frame, &scene, {}, {});
+    return survey.subject().box.low.y();
+  };
+  EXPECT_NEAR(lowest(true, 2), -4.005, 0.01);
+  EXPECT_NEAR(lowest(false, 2), -0.005, 1e-9);
+  EXPECT_NEAR(lowest(false, 0.5), -0.005, 1e-9);
+  scene.holds[0].axes = 1; // it may slide down
+  EXPECT_NEAR(lowest(false, 2), -4.005, 1e-9);
+}
+
 TEST(Survey, MovingSolidsAreSeenWhereTheyAre) {
   formats::Frame frame = test::flat(2, 0.01);
   frame.time = 2;
