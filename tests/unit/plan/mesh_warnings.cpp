@@ -13,6 +13,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/scene/read.h"
+#include "tests/unit/own_path.h"
 
 namespace sheet {
 namespace {
@@ -59,7 +60,7 @@ std::string obj_box(int first, const Eigen::Vector3d& low, const Eigen::Vector3d
 
 // A file's path in quotes.
 std::string file_with(const std::string& name, const std::string& text) {
-  const std::string path = testing::TempDir() + name;
+  const std::string path = test::own_path(name);
   std::ofstream(path) << text;
   return "\"" + path + "\"";
 }

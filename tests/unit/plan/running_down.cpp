@@ -12,6 +12,7 @@
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/scene/read.h"
+#include "tests/unit/own_path.h"
 
 namespace sheet {
 namespace {
@@ -149,7 +150,7 @@ TEST(RunningDown, WhatLandsOnATopComesOverItsEdgeLater) {
 
 // A jar, 100 mm wide inside, with walls of 4 mm that are 60 mm high: what is poured into it stays there.
 TEST(RunningDown, WhatLandsInAVesselDoesNotComeOverItsEdge) {
-  const std::string file = testing::TempDir() + "jar.obj";
+  const std::string file = test::own_path("jar.obj");
   {
     std::ofstream obj(file);
     const auto ring = [&](double half, double y) { // four corners

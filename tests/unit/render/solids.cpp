@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/base/error.h"
+#include "tests/unit/own_path.h"
 
 namespace sheet::render {
 namespace {
@@ -71,7 +72,7 @@ TEST(Solids, PlanesThatFaceEachOtherLetLightIn) {
 
 // A cube's faces are flat, what is only a facet of something round is smooth.
 TEST(Solids, MeshesHaveCreases) {
-  const std::string file = testing::TempDir() + "creases.obj";
+  const std::string file = sheet::test::own_path("creases.obj");
   std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
                          "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\n"
                          "f 2 4 8\nf 2 8 6\n";

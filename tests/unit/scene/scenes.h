@@ -10,6 +10,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/scene/read.h"
+#include "tests/unit/own_path.h"
 
 namespace sheet::scene {
 
@@ -19,13 +20,7 @@ inline const std::string liquid = "[material]\nviscosity = 100\ndensity = 1000\n
 // A folder of the test's own, for a scene and the file that it names.
 class FolderOfScene : public testing::Test {
 protected:
-  FolderOfScene()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("sheet_scene_" +
-                 std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(folder_);
-  }
+  FolderOfScene() : folder_(test::own_path("scene")) { std::filesystem::create_directories(folder_); }
   ~FolderOfScene() override { std::filesystem::remove_all(folder_); }
   // scene.toml, as read, beside a file of this name and content.
   Scene read_beside(const std::string& name, const std::string& content, const std::string& scene) {

@@ -12,6 +12,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/shape/perturb.h"
 #include "libsheet/shape/shapes.h"
+#include "tests/unit/own_path.h"
 
 namespace sheet {
 namespace {
@@ -31,7 +32,7 @@ TEST(MeshFile, RoundTripWithThicknessAndVelocity) {
   mesh.triangle_thickness.assign(mesh.triangles.size(), 0.1 / 3.0);
   mesh.velocities.assign(mesh.positions.size(), {0.1, -2, 1e-9});
   for (const char* ending : {"ply", "vtu"}) {
-    const std::string path = testing::TempDir() + "mesh_file_test." + ending;
+    const std::string path = test::own_path(std::string("mesh_file.") + ending);
     save_mesh(path, mesh);
     const LoadedMesh back = load_mesh(path);
     EXPECT_EQ(back.mesh.positions, mesh.positions);
@@ -49,7 +50,7 @@ TEST(MeshFile, ErrorsHaveTheirExitCodes) {
   EXPECT_EQ(code_of("/nonexistent/a.xyz"), ExitCode::bad_input);
   TriangleMesh mesh = make_disk(1.0, {Pattern::irregular, 0.5, 1, {}});
   mesh.vertex_thickness.assign(mesh.positions.size(), -1.0);
-  const std::string path = testing::TempDir() + "mesh_file_test_negative.ply";
+  const std::string path = test::own_path("negative.ply");
   save_mesh(path, mesh);
   EXPECT_EQ(code_of(path), ExitCode::bad_input);
   std::remove(path.c_str());
@@ -57,7 +58,7 @@ TEST(MeshFile, ErrorsHaveTheirExitCodes) {
 }
 
 TEST(MeshFile, AnArrayThatIsAskedForMustBeThereAndFinite) {
-  const std::string path = testing::TempDir() + "mesh_file_test_arrays.ply";
+  const std::string path = test::own_path("arrays.ply");
   const auto write = [&](double value) {
     formats::ForeignMesh mesh;
     mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

@@ -9,6 +9,7 @@
 #include "libsheet/base/error.h"
 #include "libsheet/solid/check.h"
 #include "libsheet/solid/solids.h"
+#include "tests/unit/own_path.h"
 #include "tests/unit/solid/solid_support.h"
 
 namespace sheet::solid {
@@ -147,8 +148,7 @@ TEST(BadSolids, TooFewTriangles) { EXPECT_THAT(problem({}), HasSubstr("at least 
 class BadFiles : public testing::Test {
 protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("sheet_bad_solids_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = test::own_path("bad_solids");
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -13,6 +13,7 @@
 #include "libsheet/solid/distance_cache.h"
 #include "libsheet/solid/distance_field.h"
 #include "libsheet/solid/solids.h"
+#include "tests/unit/own_path.h"
 #include "tests/unit/solid/solid_support.h"
 
 namespace sheet::solid {
@@ -85,9 +86,7 @@ TEST(DistanceField, VoxelSizeDoesNotChangeTheResult) {
 class Cache : public testing::Test {
 protected:
   void SetUp() override {
-    // one for each test: they run side by side
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("sheet_cache_test_") + test->name());
+    folder_ = test::own_path("distance_fields");
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     std::ofstream off(folder_ / "box.off");
@@ -182,9 +181,7 @@ protected:
   void SetUp() override {
     setenv("SHEET_CACHE_DIR", "", 1);
     openvdb::initialize();
-    file_ = (fs::path(testing::TempDir()) /
-             (std::string("sheet_level_set_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".vdb"))
-                .string();
+    file_ = test::own_path("level_set.vdb");
   }
   void TearDown() override {
     unsetenv("SHEET_CACHE_DIR");

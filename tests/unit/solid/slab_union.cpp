@@ -19,6 +19,7 @@
 #include "libsheet/solid/distance_field.h"
 #include "libsheet/solid/slab_union.h"
 #include "libsheet/solid/triangle_distance.h"
+#include "tests/unit/own_path.h"
 #include "tests/unit/solid/solid_support.h"
 
 namespace sheet::solid {
@@ -377,7 +378,7 @@ TEST(SlabUnion, LevelSetIsThatOfTheSurface) {
   options.level_set = true;
   options.time = 1.25;
   const SlabUnion body = unite(layers.slabs(), options);
-  const std::string file = (std::filesystem::path(testing::TempDir()) / "sheet_slab_union.vdb").string();
+  const std::string file = test::own_path("slab_union.vdb");
   std::ofstream(file, std::ios::binary) << body.level_set;
   const SolidSurface surface = read_level_set(file);
   EXPECT_EQ(parts_of(surface).size(), parts_of(body.surface).size()); // the void of the ball is filled
