@@ -62,6 +62,12 @@ bool lies_on_solid(const Scene& scene, const Frame& first) {
 
 std::string falling_past_warning(const Scene& scene, const Frame& first) {
   const Vector3d gravity = scene.environment.gravity.value_or(Vector3d::Zero());
+  // What sticks to solids is told of without the frame (explain.h).
+  if (!scene.model.inertia && scene::flows_on_solids(scene) && !gravity.isZero(0) && !scene.environment.bath &&
+      !scene.environment.air && scene.holds.empty() && scene.inflows.empty() && first.vertices > 0 &&
+      !lies_on_solid(scene, first))
+    return "creeping flow under gravity of a sheet that touches no solid at its start: nothing resists the fall, there "
+           "is no solution; let it start on a solid, or with inertia (model.inertia = true)";
   const auto rests = [](const scene::Solid& solid) { return std::holds_alternative<scene::Fixed>(solid.motion); };
   if (scene.solids.empty() || gravity.isZero(0) || !std::ranges::all_of(scene.solids, rests) ||
       !falls_straight_down(scene, first, gravity.normalized()) || !landings(scene, first).empty() ||

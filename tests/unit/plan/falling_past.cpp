@@ -30,6 +30,17 @@ TEST(FallingPast, WhereGravityPointsAlongAnotherAxisOrUp) {
   EXPECT_THAT(warning("[0, 0, -9.81]"), testing::HasSubstr("gravity = [0, 0, -9.81]"));
 }
 
+// On a box along which the liquid would flow, which the disk does not touch yet.
+TEST(FallingPast, OfCreepingFlowThatTouchesNothing) {
+  const auto creeping = [](const std::string& more) {
+    return warning("[0, -9.81, 0]", "", "contact = \"flow\"\n[model]\ninertia = false\n" + more);
+  };
+  EXPECT_THAT(creeping(""), testing::HasSubstr("nothing resists the fall, there is no solution"));
+  EXPECT_EQ(creeping("[[hold]]\nregion = \"rim\"\n"), "");
+  EXPECT_EQ(creeping("[[solid]]\nshape = \"plane\"\ncenter = [0, 0.0485, 0]\n"), ""); // on which it lies
+  EXPECT_EQ(warning("[0, -9.81, 0]", "", "contact = \"flow\"\n"), "");
+}
+
 // Of a strip on a belt 0.4 m long, which ends 0.11 m ahead of it.
 TEST(FallingOn, FromABeltsEndWhereNothingIsBelow) {
   const auto warning = [](double until, const std::string& more) {
