@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inflows that begin with a fold, are no sheets, or come out in ribs.
+// Inflows that begin with a fold, are no sheets, come out in ribs, or run into a sheet at rest.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +11,8 @@ namespace sheet {
 
 // Of each inflow whose liquid moves across the sheet at the inlet (more than 60 degrees from its plane, in the mean),
 // and against gravity, so that it comes down on the sheet; and of each that is thicker than its inlet is wide.
-// Of those that a belt draws out within less than an edge.
+// Of those that a belt draws out within less than an edge, and those that flow in so much faster than the sheet starts
+// that it is compressed there.
 [[nodiscard]] std::vector<std::string> inflow_warnings(const Scene& scene, const formats::Frame& first);
 
 } // namespace sheet
