@@ -179,6 +179,22 @@ std::vector<double> events_of(const Scene& scene) {
   return events;
 }
 
+// Until what flows in lands [s]; 0 if it does on nothing. Viscosity holds back what hangs from the inlet: of a length L
+// that flows in at u and is drawn out by its weight, dL/dt = u + k L², k = ρ g/(8 μ), as if it stayed as thick. Thinner
+// above, it lands a little earlier: after 3.4 s in place of 3.7 s (200 Pa s, 103 mm, 10 mm/s).
+double landing_time(const Scene& scene, const Frame& first, std::size_t number) {
+  const auto landing = landing_of_inflow(scene, first, number);
+  const double u = scene::inlet_velocity(scene, scene.inflows[number]).speed(first.time);
+  if (!landing || !(u > 0))
+    return 0;
+  const Liquid& liquid = landing->liquid;
+  const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm();
+  if (!(liquid.viscosity > 0) || !(liquid.density > 0))
+    return 0;
+  const double k = liquid.density * gravity / (8 * liquid.viscosity);
+  return std::atan(landing->fall * std::sqrt(k / u)) / std::sqrt(k * u);
+}
+
 // Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
 // ends by the clock has ended, whatever moves on for ever has come through or round, and belts and slopes have carried
 // it past all.
@@ -201,6 +217,7 @@ double until_of(const Scene& scene, const Frame& first) {
   for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
     const scene::Inflow& inflow = scene.inflows[i];
     ends(inflow.until.value_or(0));
+    ends(landing_time(scene, first, i));
     if (const double speed = scene::inlet_velocity(scene, inflow).speed(first.time); speed > 0 && !inflow.until)
       until = std::max({until, 5 * length_of(scene, first) / speed, time_over_tiers(scene, first, i)});
   }

@@ -34,6 +34,16 @@ TEST(ProposedRing, FramesShowWhatFallsIntoABath) {
   EXPECT_EQ(over_bath("0.2").fps, 20);
 }
 
+// A slow pour of 200 Pa s from 103 mm up: in a run it landed after 3.4 s.
+TEST(ProposedRing, GoesOnPastTheLandingOfASlowPour) {
+  EXPECT_GT(ring_of("[sheet]\nshape = \"rectangle\"\nsize = [0.02, 0.006]\nedge_length = 0.003\nthickness = 0.004\n"
+                    "plane = \"xy\"\ncenter = [0, 0.1, 0]\nvelocity = [0, -0.01, 0]\n[material]\nviscosity = 200\n"
+                    "density = 1400\n[environment]\ngravity = [0, -9.81, 0]\n[inflow]\nregion = \"y_max\"\n"
+                    "velocity = [0, -0.01, 0]\nthickness = 0.004\n[[solid]]\nshape = \"plane\"\n")
+                .until,
+            1.3 * 3.4);
+}
+
 // A layer of honey that creeps down a slope for a minute, over which a ball may pass in two seconds.
 TEST(ProposedRing, FramesShowWhatEndsAtTheBeginning) {
   const std::string slope =
