@@ -180,8 +180,8 @@ std::vector<double> events_of(const Scene& scene) {
 }
 
 // Until what flows in lands [s]; 0 if it does on nothing. Viscosity holds back what hangs from the inlet: of a length L
-// that flows in at u and is drawn out by its weight, dL/dt = u + k L², k = ρ g/(8 μ), as if it stayed as thick. Thinner
-// above, it lands a little earlier: after 3.4 s in place of 3.7 s (200 Pa s, 103 mm, 10 mm/s).
+// that flows in at u and is drawn out by its weight, dL/dt = u + k L², k = ρ g/(8 μ), as if it stayed as thick: it
+// lands then at the latest, as it gets thinner where its weight is.
 double landing_time(const Scene& scene, const Frame& first, std::size_t number) {
   const auto landing = landing_of_inflow(scene, first, number);
   const double u = scene::inlet_velocity(scene, scene.inflows[number]).speed(first.time);
@@ -189,7 +189,7 @@ double landing_time(const Scene& scene, const Frame& first, std::size_t number) 
     return 0;
   const Liquid& liquid = landing->liquid;
   const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm();
-  if (!(liquid.viscosity > 0) || !(liquid.density > 0))
+  if (!(liquid.viscosity > 0) || !(liquid.density * gravity > 0))
     return 0;
   const double k = liquid.density * gravity / (8 * liquid.viscosity);
   return std::atan(landing->fall * std::sqrt(k / u)) / std::sqrt(k * u);
