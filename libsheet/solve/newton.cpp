@@ -32,8 +32,6 @@ constexpr double served = 0.3;    // of what remained, what a step by the factor
 constexpr double sharper = 1e-2;  // of the tolerance, after such a step: others leave the square of what remained
 constexpr double largest = 1e-2;  // of the step error's rule, of an edge, what may remain at most
 constexpr int often = 3;          // in a row near enough, though the preconditioner is not trusted
-constexpr double a_few = 0.01;    // of the vertices, where the potential is not convex,
-constexpr double as_far = 10;     // may have so many times more left
 constexpr double far_away = 0.1;  // of an edge, or radians: if more remains at a start, there may be a better one,
 constexpr double much = 0.1;      // or if so much of the energies there can be gained
 constexpr double too_much = 0.01; // of the energies, that an earlier place's factor promises to gain, twice
@@ -238,7 +236,9 @@ private:
 
   bool converged() {
     const bool strict = trusted() && remains_ <= (followed_ ? sharper : 1) * options_.tolerance;
-    const bool near = options_.of_step_error > 0 && norm_ <= options_.of_step_error * first_norm_ && vertices_near();
+    const bool near =
+        options_.of_step_error > 0 && norm_ <= options_.of_step_error * first_norm_ &&
+        positions_remain_ <= std::min(largest, options_.of_step_error * std::max(way_, options_.step_error));
     near_ = near ? near_ + 1 : 0;
     // Slivers and films of no mass may have a curvature that is negative for ever, and move by next to nothing.
     const bool lenient = near_ >= (trusted() ? 1 : often);
@@ -250,21 +250,6 @@ private:
         (balanced(options_.force_left) && (remains_ <= lost_step || strict || lenient || nothing_to_gain)) ||
         (balanced(options_.force_left_by_error) && lenient);
     return report_.converged;
-  }
-
-  // By the step's error. Where the potential is not convex, a few vertices of films that buckle, or of crumpled lumps
-  // thicker than edges are long, come to rest much later than all others.
-  [[nodiscard]] bool vertices_near() const {
-    const double enough = std::min(largest, options_.of_step_error * std::max(way_, options_.step_error));
-    if (positions_remain_ <= enough)
-      return true;
-    if ((exact_ && !negative_) || !(positions_remain_ <= as_far * enough))
-      return false;
-    const auto count = static_cast<Eigen::Index>(system_.assembly().vertices());
-    Eigen::Index far = 0;
-    for (Eigen::Index v = 0; v < count; ++v)
-      far += !((remainder_.segment<3>(3 * v).array().abs() <= enough * scale_.segment<3>(3 * v).array()).all());
-    return static_cast<double>(far) <= a_few * static_cast<double>(count);
   }
 
   // What remains is known, so it costs nothing.

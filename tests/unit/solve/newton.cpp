@@ -102,26 +102,5 @@ TEST(Newton, LeavesAFactorThatMisleads) {
   EXPECT_LE(all.products, 60);   // 111, 31
 }
 
-// Where such a film is pressed faster, a few directors go on buckling when all else has come to rest; a step's error
-// needs no more.
-TEST(Newton, EndsWhereOnlyAFewVerticesRemain) {
-  NewtonReport all;
-  for (const double dt : {0.005, 0.01, 0.02, 0.04})
-    for (const double wave : {0.01, 0.1}) {
-      State s = test::at_rest(test::rectangle(1, 1, 16, 16, 0.2), 0.002);
-      for (std::size_t v = 0; v < s.positions.size(); ++v)
-        s.velocities[v] = {-4 * s.positions[v].x(), 0,
-                           wave * std::sin(9 * s.positions[v].x() + 5 * s.positions[v].y())};
-      StepOptions options;
-      options.newton.of_step_error = 0.05;
-      options.newton.step_error = 0.01;
-      Stepper stepper(syrup(), options);
-      for (int i = 0; i < 8; ++i)
-        all += stepper.step(s, dt).newton;
-    }
-  EXPECT_LE(all.iterations, 515); // 536 if each vertex counts, 494 otherwise
-  EXPECT_LE(all.products, 1470);  // 1,530, 1,412
-}
-
 } // namespace
 } // namespace sheet
