@@ -260,8 +260,6 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   }
   if (turns_freely(model_))
     stop_turning(*state.mesh, end.positions, model_.gravity, end.velocities);
-  if (turns_about_holds(model_))
-    stop_turning_about(model_.holds, end.time, *state.mesh, end.positions, end.velocities);
   estimate_error(state, dt, stage, first, last, end, scale, estimate, report);
   if (heat != nullptr) {
     heat->put(end);
