@@ -20,7 +20,6 @@
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/directors.h"
-#include "libsheet/sheet/overshoot.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/bath_reach.h"
 #include "libsheet/solve/held_rims.h"
@@ -443,21 +442,21 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
   return state;
 }
 
-void make_up_for_overshoot(const Frame& frame, const Model& model, State& state) {
-  const std::vector<Overshoot> all = overshoots(frame);
-  if (all.empty())
+void put_back_overshoot(const Frame& frame, const Model& model, State& state) {
+  const Array* array = frame.find("touch_overshoot");
+  if (array == nullptr)
     return;
-  std::vector<Overshoot> held(frame.vertices);
+  std::vector<Vector3> overshoot(frame.vertices, Vector3::Zero());
   const auto touched = touched_solids(frame);
   for (const Hold& hold : model.holds)
     if (hold.axes == all_axes)
       for (const std::uint32_t v : hold.vertices)
         if (touched[v] != no_solid)
-          held[v] = all[v];
+          overshoot[v] = array->values<Vector3>()[v];
   for (const ContactSpring& spring : model.contacts)
     for (const std::uint32_t v : spring.vertices)
-      held[v] = {};
-  make_up_for(state, std::move(held));
+      overshoot[v].setZero();
+  put_back(state, overshoot);
 }
 
 void put_state(const State& state, Frame& frame) {
@@ -465,6 +464,7 @@ void put_state(const State& state, Frame& frame) {
   std::copy_n(positions(frame).begin(), frame.vertices, start.values<Vector3>().begin());
   frame.put(std::move(start));
   put_number(frame, "start_time", frame.time);
+  frame.erase("touch_overshoot");
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());
@@ -483,7 +483,6 @@ void put_state(const State& state, Frame& frame) {
   put_director_angles(state.director_angles, frame);
   put_gas(state.gas, frame);
   frame.time = state.time;
-  put_overshoots(state.to_make_up, frame);
   ++frame.step;
 }
 

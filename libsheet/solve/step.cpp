@@ -180,12 +180,6 @@ void Stepper::set_model(Model model) {
 
 Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate,
                                   State& end, StepReport& report) {
-  return state.to_make_up.empty() ? attempt_from(state, dt, scheme, demand, estimate, end, report)
-                                  : attempt_from(put_back(state, dt), dt, scheme, demand, estimate, end, report);
-}
-
-Stepper::Outcome Stepper::attempt_from(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate,
-                                       State& end, StepReport& report) {
   const bool two = scheme == Scheme::sdirk2;
   const double gamma = two ? sdirk_gamma : 1;
   report.room = std::numeric_limits<double>::infinity();

@@ -174,7 +174,7 @@ struct StepStage::Impl {
       stepper.emplace(std::move(model), step_options);
     }
     State state = state_of(frame, mesh.mesh());
-    make_up_for_overshoot(frame, stepper->model(), state);
+    put_back_overshoot(frame, stepper->model(), state);
     settle_gas(stepper->model().pressures, state.gas);
     const State start = state;
     ArcRest rest(frame);
