@@ -242,6 +242,8 @@ passed = {
                                          temperature_mode_rate=Array(np.array([[0, 0.125]]), "triangle", "K/s",
                                                                      "mean"))),
     "drops": stream(drops(drop_start_position=Array(np.zeros((2, 3)), "frame", "m", "drop"))),
+    "touch_overshoot_time": with_array("touch_overshoot_time", Array(np.array([0, 0.125, 0], "f8"), "vertex", "s",
+                                                                     "interpolate")),
 }
 
 failed = {

@@ -28,6 +28,7 @@
 #include "libsheet/scene/prescribed.h"
 #include "libsheet/sheet/drops.h"
 #include "libsheet/sheet/frame_mesh.h"
+#include "libsheet/sheet/overshoot.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::collide {
@@ -106,14 +107,16 @@ std::vector<double> thicknesses(std::span<const Corners> triangles, const Shares
   return thickness;
 }
 
-// None where nothing was caught.
-void put_overshoot(Frame& frame, const std::vector<Vector3>& overshoot) {
-  frame.erase("touch_overshoot");
-  if (std::ranges::all_of(overshoot, [](const Vector3& x) { return x.isZero(0); }))
-    return;
-  Array array = formats::make_standard_array("touch_overshoot", frame.vertices);
-  std::ranges::copy(overshoot, array.values<Vector3>().begin());
-  frame.put(std::move(array));
+// Of what was caught in this step, and what of earlier ones the sheet has not made up for, where solids hold it yet.
+void add_overshoots(const StepPath& path, Frame& frame) {
+  std::vector<Overshoot> all = overshoots(frame);
+  all.resize(frame.vertices);
+  for (std::size_t v = 0; v < all.size(); ++v)
+    if (!path.overshoot[v].isZero(0))
+      all[v] = {path.overshoot[v], time_to_make_up * path.length()};
+    else if (path.touch[v] == no_solid)
+      all[v] = {};
+  put_overshoots(all, frame);
 }
 
 // a_T at vertices, the mean of their triangles by volume; empty where viscosity does not depend on temperature.
@@ -335,7 +338,7 @@ struct CollideStage::Impl {
       for (const std::uint32_t v : off)
         path.touch[v] = no_solid;
       put_touched_solids(frame, path.touch, scene->solids.size());
-      put_overshoot(frame, path.overshoot);
+      add_overshoots(path, frame);
     }
     std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
     std::copy(path.velocity.begin(), path.velocity.end(), velocities(frame).begin());

@@ -11,6 +11,7 @@
 #include "libsheet/energy/heat_model.h"
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/geometry/types.h"
+#include "libsheet/sheet/overshoot.h"
 
 namespace sheet {
 
@@ -25,7 +26,8 @@ struct State {
   std::vector<double> temperature_modes, temperature_mode_rates; // likewise, across the thickness (heat/profile.h)
   HeatMoved heat_moved;                                          // since the step of the stream began [J]
   std::vector<double> director_angles;                           // none: all are 0
-  std::vector<Vector3> overshoot; // positions less where a solid holds them [m], see overshoot.h; none: all are 0
+  std::vector<Overshoot> to_make_up;                             // of each vertex; none: all are 0
+  std::vector<Vector3> overshoot; // positions less where a solid holds them [m], within a step; none: all are 0
   std::vector<Gas> gas;           // that it encloses, one an enclosure; without one: as its law starts
   double time = 0;                // [s]
 };

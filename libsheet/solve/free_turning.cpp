@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include <Eigen/Cholesky>
+
 namespace sheet {
 
 namespace {
@@ -35,6 +37,12 @@ bool turns_freely(const Model& model) {
          !model.air;
 }
 
+bool turns_about_holds(const Model& model) {
+  const auto pins = [](const Hold& hold) { return hold.axes == all_axes && hold.clamped_edges.empty(); };
+  return !model.has_inertia() && !model.has_weight() && !model.bath && !model.air && model.walls.empty() &&
+         model.contacts.empty() && !model.holds.empty() && std::ranges::all_of(model.holds, pins);
+}
+
 void stop_turning(const Connectivity& mesh, std::span<const Vector3> positions, const Vector3& axis,
                   std::span<Vector3> velocities) {
   struct Piece {
@@ -59,6 +67,48 @@ void stop_turning(const Connectivity& mesh, std::span<const Vector3> positions, 
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (const Piece& piece = pieces[piece_of[v]]; piece.moment > 0)
       velocities[v] -= piece.turning / piece.moment * tangent(v);
+}
+
+void stop_turning_about(const std::vector<Hold>& holds, double t, const Connectivity& mesh,
+                        std::span<const Vector3> positions, std::span<Vector3> velocities) {
+  struct Piece {
+    const Hold* hold = nullptr;
+    std::vector<std::uint32_t> held;
+    Matrix3 moment = Matrix3::Zero();  // sum over the vertices of r² - r rᵀ [m²]
+    Vector3 turning = Vector3::Zero(); // and of r x v [m²/s]
+    Vector3 rate = Vector3::Zero();    // [rad/s]
+  };
+  const std::vector<std::uint32_t> piece_of = pieces_of(mesh);
+  std::vector<Piece> pieces(positions.size());
+  for (const Hold& hold : holds)
+    for (const std::uint32_t v : hold.vertices) {
+      Piece& piece = pieces[piece_of[v]];
+      piece.hold = &hold;
+      if (std::ranges::find(piece.held, v) == piece.held.end())
+        piece.held.push_back(v);
+    }
+  const auto turns = [](const Piece& piece) { return !piece.held.empty() && piece.held.size() <= 2; };
+  const auto arm = [&](const Piece& piece, std::size_t v) -> Vector3 {
+    return positions[v] - positions[piece.held.front()];
+  };
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    if (Piece& piece = pieces[piece_of[v]]; turns(piece)) {
+      const Vector3 r = arm(piece, v);
+      piece.moment += r.squaredNorm() * Matrix3::Identity() - r * r.transpose();
+      piece.turning += r.cross(velocities[v] - piece.hold->velocity_at(t, positions[v]));
+    }
+  for (Piece& piece : pieces)
+    if (turns(piece)) {
+      if (piece.held.size() == 1) {
+        piece.rate = piece.moment.ldlt().solve(piece.turning);
+      } else {
+        const Vector3 axis = arm(piece, piece.held.back()).normalized();
+        piece.rate = axis.dot(piece.turning) / axis.dot(piece.moment * axis) * axis;
+      }
+    }
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    if (const Piece& piece = pieces[piece_of[v]]; turns(piece))
+      velocities[v] -= piece.rate.cross(arm(piece, v));
 }
 
 } // namespace sheet

@@ -20,6 +20,7 @@
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/account.h"
 #include "libsheet/sheet/directors.h"
+#include "libsheet/sheet/overshoot.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/bath_reach.h"
 #include "libsheet/solve/held_rims.h"
@@ -442,21 +443,21 @@ State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
   return state;
 }
 
-void put_back_overshoot(const Frame& frame, const Model& model, State& state) {
-  const Array* array = frame.find("touch_overshoot");
-  if (array == nullptr)
+void make_up_for_overshoot(const Frame& frame, const Model& model, State& state) {
+  const std::vector<Overshoot> all = overshoots(frame);
+  if (all.empty())
     return;
-  std::vector<Vector3> overshoot(frame.vertices, Vector3::Zero());
+  std::vector<Overshoot> held(frame.vertices);
   const auto touched = touched_solids(frame);
   for (const Hold& hold : model.holds)
     if (hold.axes == all_axes)
       for (const std::uint32_t v : hold.vertices)
         if (touched[v] != no_solid)
-          overshoot[v] = array->values<Vector3>()[v];
+          held[v] = all[v];
   for (const ContactSpring& spring : model.contacts)
     for (const std::uint32_t v : spring.vertices)
-      overshoot[v].setZero();
-  put_back(state, overshoot);
+      held[v] = {};
+  make_up_for(state, std::move(held));
 }
 
 void put_state(const State& state, Frame& frame) {
@@ -464,7 +465,6 @@ void put_state(const State& state, Frame& frame) {
   std::copy_n(positions(frame).begin(), frame.vertices, start.values<Vector3>().begin());
   frame.put(std::move(start));
   put_number(frame, "start_time", frame.time);
-  frame.erase("touch_overshoot");
   std::copy(state.positions.begin(), state.positions.end(), positions(frame).begin());
   std::copy(state.velocities.begin(), state.velocities.end(), velocities(frame).begin());
   std::copy(state.volumes.begin(), state.volumes.end(), volumes(frame).begin());
@@ -483,6 +483,7 @@ void put_state(const State& state, Frame& frame) {
   put_director_angles(state.director_angles, frame);
   put_gas(state.gas, frame);
   frame.time = state.time;
+  put_overshoots(state.to_make_up, frame);
   ++frame.step;
 }
 

@@ -21,10 +21,11 @@ void put_state(const State& state, formats::Frame& frame);
 // the lower face, lost to solids; nothing without temperatures.
 void put_heat_moved(const State& state, formats::Frame& frame);
 
-// Puts vertices that a solid caught in the last step back to where that step had taken them (array "touch_overshoot";
-// energy/overshoot.h), where the model holds them on it; but none of a contact spring, whose forces would be those of
-// another place.
-void put_back_overshoot(const formats::Frame& frame, const Model& model, State& state);
+// Lets the step make up for what vertices overshot that a solid caught (arrays "touch_overshoot", and
+// "touch_overshoot_time" where that was not in the last step; energy/overshoot.h), where the model holds them on it;
+// but none of a contact spring, whose forces would be those of another place.
+void make_up_for_overshoot(const formats::Frame& frame, const Model& model, State& state);
+
 // Writes the forces of solids on what touches them, [N] a vertex (array "touch_force"), and, if wanted, those of holds
 // ("hold_force"); takes the arrays away where there are none.
 void put_reactions(std::span<const Vector3> reactions, bool of_holds, formats::Frame& frame);

@@ -180,6 +180,12 @@ void Stepper::set_model(Model model) {
 
 Stepper::Outcome Stepper::attempt(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate,
                                   State& end, StepReport& report) {
+  return state.to_make_up.empty() ? attempt_from(state, dt, scheme, demand, estimate, end, report)
+                                  : attempt_from(put_back(state, dt), dt, scheme, demand, estimate, end, report);
+}
+
+Stepper::Outcome Stepper::attempt_from(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate,
+                                       State& end, StepReport& report) {
   const bool two = scheme == Scheme::sdirk2;
   const double gamma = two ? sdirk_gamma : 1;
   report.room = std::numeric_limits<double>::infinity();
@@ -254,6 +260,8 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   }
   if (turns_freely(model_))
     stop_turning(*state.mesh, end.positions, model_.gravity, end.velocities);
+  if (turns_about_holds(model_))
+    stop_turning_about(model_.holds, end.time, *state.mesh, end.positions, end.velocities);
   estimate_error(state, dt, stage, first, last, end, scale, estimate, report);
   if (heat != nullptr) {
     heat->put(end);

@@ -74,6 +74,9 @@ private:
   enum class Estimate { plain, filtered };
   Outcome attempt(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate, State& end,
                   StepReport& report);
+  // state: put back (energy/overshoot.h).
+  Outcome attempt_from(const State& state, double dt, Scheme scheme, Demand demand, Estimate estimate, State& end,
+                       StepReport& report);
   // heat: null without.
   Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
                       const Eigen::VectorXd& scale, Estimate estimate, const StepHeat* heat, State& end,

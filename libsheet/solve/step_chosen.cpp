@@ -114,7 +114,7 @@ private:
       report_.error = 0;
       if (stepper_.attempt_either(state_, trial.dt, trial.end, trial.flat, report_) != Outcome::done) {
         ++report_.failed;
-        if (state_.overshoot.empty())
+        if (state_.to_make_up.empty())
           trial.dt *= report_.room < 1 ? std::max(least_factor, safety * report_.room) : least_factor;
         else
           forget_overshoot(state_);
@@ -125,8 +125,9 @@ private:
         ++report_.rejected;
         shortest_ = std::min(shortest_, shortest_step(state_, trial.end, edge_, trial.dt));
       }
-      // What was overshot is the same in a shorter step: where it is more than the sheet can take, it is given up.
-      if (best_ && !state_.overshoot.empty() && trial.error > tolerance_ &&
+      // What was overshot is the same in a shorter step, down to that in which it was: where it is more than the sheet
+      // can take, it is given up.
+      if (best_ && !state_.to_make_up.empty() && trial.error > tolerance_ &&
           trial.error / trial.dt > best_->error / best_->dt) {
         forget_overshoot(state_);
         best_.reset();

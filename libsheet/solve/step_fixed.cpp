@@ -52,7 +52,7 @@ void Stepper::advance(State& state, double dt, int depth, Estimate estimate, Ste
     return;
   }
   ++report.failed;
-  if (!state.overshoot.empty()) {
+  if (!state.to_make_up.empty()) {
     forget_overshoot(state);
     advance(state, dt, depth, estimate, report);
     return;

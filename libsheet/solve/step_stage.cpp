@@ -156,44 +156,58 @@ struct StepStage::Impl {
     fly_drops(frame, scene, start);
   }
 
+  void set_model(Model model) {
+    if (stepper) {
+      stepper->set_model(std::move(model));
+      return;
+    }
+    StepOptions step_options;
+    step_options.scheme = options.scheme;
+    step_options.newton.of_step_error = part_of_step_error;
+    if (options.tolerance) // of a step's error Newton's iterations add a hundredth at most
+      step_options.newton.tolerance = std::min(step_options.newton.tolerance, 0.01 * *options.tolerance);
+    if (!options.dt)
+      step_options.newton.step_error = options.tolerance.value_or(default_tolerance);
+    stepper.emplace(std::move(model), step_options);
+  }
+
+  // By one step, until `until` at most; one that is chosen begins with `wanted` [s], and the frame is told of the next.
+  StepReport go_on(Frame& frame, double until, double wanted, State& state) {
+    if (options.dt) {
+      const double dt = fixed_step(frame.time, until, *options.dt);
+      const bool lands = frame.time + dt >= until * (1 - 1e-15);
+      StepReport report = stepper->step(state, dt);
+      if (lands)
+        state.time = until;
+      return report;
+    }
+    if (std::isinf(until))
+      fail(ExitCode::usage, how_far);
+    StepControl control{.tolerance = options.tolerance.value_or(default_tolerance), .dt = wanted};
+    StepReport report = stepper->step_within(state, until, control);
+    put_number(frame, "step_size", control.dt);
+    return report;
+  }
+
   void step(Frame& frame) {
     if (frame.triangles == 0 && frame.step > 0)
       return pass_time(frame);
     Model model = prepare(frame);
     const double until = end_of_step(scenes.of(frame), frame);
-    if (stepper) {
-      stepper->set_model(std::move(model));
-    } else {
-      StepOptions step_options;
-      step_options.scheme = options.scheme;
-      step_options.newton.of_step_error = part_of_step_error;
-      if (options.tolerance) // of a step's error Newton's iterations add a hundredth at most
-        step_options.newton.tolerance = std::min(step_options.newton.tolerance, 0.01 * *options.tolerance);
-      if (!options.dt)
-        step_options.newton.step_error = options.tolerance.value_or(default_tolerance);
-      stepper.emplace(std::move(model), step_options);
-    }
-    State state = state_of(frame, mesh.mesh());
-    put_back_overshoot(frame, stepper->model(), state);
-    settle_gas(stepper->model().pressures, state.gas);
-    const State start = state;
+    set_model(std::move(model));
+    State start = state_of(frame, mesh.mesh());
+    make_up_for_overshoot(frame, stepper->model(), start);
+    settle_gas(stepper->model().pressures, start.gas);
     ArcRest rest(frame);
     stepper->rest_arcs(rest.rests());
     Stopwatch watch;
-    StepReport report;
-    if (options.dt) {
-      const double dt = fixed_step(frame.time, until, *options.dt);
-      const bool lands = frame.time + dt >= until * (1 - 1e-15);
-      report = stepper->step(state, dt);
-      if (lands)
-        state.time = until;
-    } else {
-      StepControl control{.tolerance = options.tolerance.value_or(default_tolerance),
-                          .dt = number(frame, "step_size", 0)};
-      if (std::isinf(until))
-        fail(ExitCode::usage, how_far);
-      report = stepper->step_within(state, until, control);
-      put_number(frame, "step_size", control.dt);
+    State state = start;
+    const double wanted = number(frame, "step_size", 0);
+    StepReport report = go_on(frame, until, wanted, state);
+    if (!start.to_make_up.empty() && impossible_speed(stepper->model(), start, state)) { // more than the sheet can take
+      forget_overshoot(start);
+      state = start;
+      report = go_on(frame, until, wanted, state);
     }
     const double elapsed = watch.lap();
     totals.add(report, elapsed);

@@ -58,6 +58,7 @@ _STANDARD = {
     "hold_force": ("vertex", "float64", 3, "N", "conserve"),
     "touch_force": ("vertex", "float64", 3, "N", "conserve"),
     "touch_overshoot": ("vertex", "float64", 3, "m", "interpolate"),
+    "touch_overshoot_time": ("vertex", "float64", 1, "s", "interpolate"),
     "inlet": ("vertex", "uint64", 1, "1", "common"),
     "inlet_origin": ("vertex", "float64", 3, "m", "interpolate"),
     "swept_volume": ("vertex", "float64", 1, "m^3", "conserve"),

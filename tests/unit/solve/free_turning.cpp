@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/solve/step.h"
+#include "tests/support/holds.h"
 #include "tests/support/meshes.h"
 
 namespace sheet {
@@ -23,6 +24,38 @@ TEST(FreeTurning, EachPieceStopsAndKeepsTheRest) {
   stop_turning(mesh, x, {0, 0, -9.81}, v);
   for (std::size_t k = 0; k < x.size(); ++k)
     EXPECT_LT((v[k] - rest[k]).norm(), 1e-14);
+}
+
+// One piece is held at a point that moves, another one at two points, by something that turns about their axis: what
+// they turn beyond that goes, about the point, and about the axis only, along which it may shear. The third one is held
+// at three.
+TEST(FreeTurning, WhatIsHeldAtOneOrTwoPointsStopsAsSeenFromWhatHoldsIt) {
+  std::vector<Vector3> x, wanted, v;
+  for (int piece = 0; piece < 3; ++piece)
+    for (const Vector3& corner : {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0.2, 1, 0.1), Vector3(0.5, 0.3, 1)})
+      x.emplace_back(corner + Vector3(5 * piece, 0, 0));
+  std::vector<Corners> triangles;
+  for (std::uint32_t first : {0U, 4U, 8U})
+    for (const Corners& t : {Corners{0, 2, 1}, Corners{0, 1, 3}, Corners{1, 2, 3}, Corners{2, 0, 3}})
+      triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  const Connectivity mesh = connect(12, triangles);
+  Hold moving, turning, firm;
+  moving.vertices = {0};
+  test::move_steadily(moving, Vector3::Zero(), Vector3(0.3, -1, 2));
+  turning.vertices = {4, 5};
+  turning.velocity = [](double, const Vector3& at) { return Vector3(3 * Vector3::UnitX().cross(at)); };
+  firm.vertices = {8, 9, 10};
+  const Vector3 spins[] = {{4, -5, 6}, {-8, 0, 0}, Vector3::Zero()};
+  for (std::size_t k = 0; k < 12; ++k) {
+    const Vector3 r = x[k] - x[k / 4 * 4];
+    wanted.push_back(k < 4   ? moving.velocity(0.5, x[k])
+                     : k < 8 ? Vector3(turning.velocity(0.5, x[k]) + Vector3(3 * r.y() - r.z(), 0, 0))
+                             : Vector3(7 * Vector3::UnitZ().cross(r)));
+    v.push_back(wanted[k] + spins[k / 4].cross(r));
+  }
+  stop_turning_about({moving, turning, firm}, 0.5, mesh, x, v);
+  for (std::size_t k = 0; k < 12; ++k)
+    EXPECT_LT((v[k] - wanted[k]).norm(), 1e-13) << k;
 }
 
 // Without, it turned six times as fast after each step, the other way round, until steps were short.
