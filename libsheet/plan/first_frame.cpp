@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <variant>
 
@@ -287,12 +288,27 @@ scene::Measured measured(const Frame& frame) {
   return {.length = std::sqrt(area), .thickness = volume / area, .curvature = {}};
 }
 
+double height_above_bath(const Scene& scene, const Frame& frame) {
+  const auto up = scene::up(scene.environment);
+  if (!up || !scene.environment.bath || frame.vertices == 0)
+    return 0;
+  double height = std::numeric_limits<double>::infinity();
+  for (const Vector3& x : positions(frame))
+    height = std::min(height, up->dot(x) - scene.environment.bath->level);
+  return std::max(0.0, height);
+}
+
 std::vector<scene::Measured> measured_sheets(const Scene& scene, const Frame& first) {
+  const auto measure = [&](const Frame& frame) {
+    scene::Measured result = measured(frame);
+    result.above_bath = height_above_bath(scene, frame);
+    return result;
+  };
   if (scene.sheets.size() == 1)
-    return {measured(first)};
+    return {measure(first)};
   std::vector<scene::Measured> all;
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
-    all.push_back(measured(build_sheet(scene, i, Notes::silent)));
+    all.push_back(measure(build_sheet(scene, i, Notes::silent)));
   return all;
 }
 

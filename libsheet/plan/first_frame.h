@@ -19,6 +19,9 @@ namespace sheet {
 
 // Length (the root of its area) and mean thickness of the frame's sheets as one.
 [[nodiscard]] scene::Measured measured(const formats::Frame& frame);
+
+// From the lowest vertex down to the bath [m]; 0 where some of it is in the bath, or there is none.
+[[nodiscard]] double height_above_bath(const Scene& scene, const formats::Frame& frame);
 // Those of each of the scene's sheets, which starts so or enters later.
 [[nodiscard]] std::vector<scene::Measured> measured_sheets(const Scene& scene, const formats::Frame& first);
 

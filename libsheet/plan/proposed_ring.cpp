@@ -232,13 +232,8 @@ double until_of(const Scene& scene, const Frame& first) {
 
 // In which the first frame's sheet falls to the level of the bath [s].
 double time_to_bath(const Scene& scene, const Frame& first) {
-  if (!scene.environment.bath)
-    return 0;
-  const Vector3 up = -scene.environment.gravity->normalized();
-  double height = std::numeric_limits<double>::infinity();
-  for (const Vector3& x : positions(first))
-    height = std::min(height, up.dot(x) - scene.environment.bath->level);
-  return std::sqrt(2 * std::max(0.0, height) / scene.environment.gravity->norm());
+  const double height = height_above_bath(scene, first);
+  return height > 0 ? std::sqrt(2 * height / scene.environment.gravity->norm()) : 0;
 }
 
 // When the last has ended, or come through: holds, inflows, keyframed motions, solids [s].

@@ -208,9 +208,19 @@ std::string name_of_sheet(const Scene& scene, std::size_t number) {
                                   : fmt::format("sheet \"{}\"", name);
 }
 
+// By something, at some time.
 bool is_carried(const Scene& scene, const SheetTable& sheet) {
   const auto on_it = [&](const auto& thing) { return thing.sheet.empty() || thing.sheet == sheet.name; };
   return scene.environment.bath || std::ranges::any_of(scene.holds, on_it) || std::ranges::any_of(scene.inflows, on_it);
+}
+
+// Whether it never falls: what carries it does so from the start on, and for ever.
+bool is_always_carried(const Scene& scene, const SheetTable& sheet, double above_bath) {
+  const auto stays = [&](const auto& thing) {
+    return !thing.until && (thing.sheet.empty() || thing.sheet == sheet.name);
+  };
+  return (scene.environment.bath && above_bath == 0) || std::ranges::any_of(scene.holds, stays) ||
+         std::ranges::any_of(scene.inflows, stays);
 }
 
 // Whether solids may, or other sheets that are carried.
@@ -239,11 +249,11 @@ std::vector<std::string> warnings_of_edges(const Scene& scene, const SheetTable&
 std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable& sheet, const Scales& scales) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
-  const bool carried = is_carried(scene, sheet);
+  const bool carried = is_carried(scene, sheet), always = is_always_carried(scene, sheet, scales.above_bath);
   for (const auto& number : numbers_of(scene, scales)) {
     if (number.name != "Reynolds")
       continue;
-    if (scene.model.inertia && number.value < 1e-4 && (carried || !scene.environment.gravity))
+    if (scene.model.inertia && number.value < 1e-4 && (always || !scene.environment.gravity))
       warn(fmt::format("inertia is on, but the Reynolds number is {}: inertia = false gives the same motion",
                        brief(number.value)));
     if (!scene.model.inertia && number.value > 1)
@@ -272,6 +282,9 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
             : fmt::format("write \"{} mm\" if you mean that; numbers without unit are metres", brief(*scales.length))));
   if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
     warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
+  else if (scene.environment.gravity && !scene.model.inertia && !always && scene.solids.empty())
+    warn("creeping flow under gravity of a sheet that falls, onto the bath, or as its holds and inlets let it go: "
+         "nothing resists the fall, there is no solution then; model.inertia = true lets it fall");
   else if (scene.environment.gravity && !carried && !may_be_caught(scene))
     warn("nothing holds or catches the sheet: it falls for ever");
   return warnings;

@@ -78,6 +78,7 @@ Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& me
   scales.thickness = uniform ? std::optional(*uniform) : measured.thickness;
   scales.curvature = size ? curvature_of(sheet.shape) : measured.curvature.value_or(0);
   scales.along = measured.along;
+  scales.above_bath = measured.above_bath;
   if (scene.environment.gravity)
     scales.gravity = scene.environment.gravity->norm();
   if (scene.environment.pressure)

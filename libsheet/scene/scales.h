@@ -20,6 +20,7 @@ struct Scales {
   double speed = 0;                // V, the fastest that anything drives the sheet [m/s]
   std::string speed_source;
   std::vector<std::optional<double>> along; // gravity's part along each solid, or none, where the sheet lies [m/s²]
+  double above_bath = 0;                    // how far it falls to the bath [m]
   double viscosity = 0;                     // at the rate V/L; without length or speed that of the scene [Pa s]
 
   // Of the flow; nothing without length or speed [1/s].

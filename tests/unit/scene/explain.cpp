@@ -257,6 +257,30 @@ TEST(Explain, Warnings) {
                   "the sheet is thicker than a fifth of its length: the equations of thin sheets are doubtful"));
 }
 
+// Without inertia nothing resists a fall, onto a bath or when a hold lets go.
+TEST(Explain, LeavesInertiaToWhatFallsAtSomeTime) {
+  const auto warned = [](const std::string& more, double above_bath, std::string_view words) {
+    const Scene scene = parse_scene(disk + "[material]\nviscosity = 1e8\ndensity = 1000\n" + more, "s");
+    const std::array measured{Measured{.length = 2, .thickness = 0.01, .curvature = {}, .above_bath = above_bath}};
+    return std::ranges::any_of(explain(scene, measured).warnings,
+                               [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+  };
+  const std::string fall = "[environment]\ngravity = [0, -10, 0]\n",
+                    bath = fall + "bath = {density = 2000}\npressure = {law = \"constant\", value = 1}\n";
+  const std::string hold = "[[hold]]\nregion = \"rim\"\n", let_go = hold + "until = 1\n";
+  const std::string_view advice = "inertia = false gives the same motion";
+  EXPECT_TRUE(warned(bath, 0, advice));
+  EXPECT_FALSE(warned(bath, 0.1, advice));
+  EXPECT_TRUE(warned(fall + hold, 0, advice));
+  EXPECT_FALSE(warned(fall + let_go, 0, advice));
+  const std::string creep = "[model]\ninertia = false\n";
+  const std::string_view unsolvable = "there is no solution then";
+  EXPECT_FALSE(warned(bath + creep, 0, unsolvable));
+  EXPECT_TRUE(warned(bath + creep, 0.1, unsolvable));
+  EXPECT_FALSE(warned(fall + creep + hold, 0, unsolvable));
+  EXPECT_TRUE(warned(fall + creep + let_go, 0, unsolvable));
+}
+
 TEST(Explain, DoubtsThicknessesThatMayBeMillimetres) {
   const Scene scene = parse_scene("[sheet]\nshape = \"mesh\"\nfile = \"leaf.ply\"\nscale = 0.001\n"
                                   "thickness = {data = \"h\", place = \"vertex\"}\n" +
