@@ -162,7 +162,7 @@ std::string explained(Source source, bool ring_alone) {
   const double until = sheet::proposed_ring(with_heat, frame, wishes).until;
   // a first look, until sooner, begins as the run does that goes on with it
   const double whole = std::max(until, sheet::proposed_ring(with_heat, frame, {source.quality, {}, {}}).until);
-  if (const auto parting = sheet::must_part(scene, frame, whole)) {
+  if (const auto parting = sheet::must_part(with_heat, frame, whole)) {
     const std::string adhesion = fmt::format("\"{:.2g} Pa\"", parting->adhesion);
     explanation.warnings.push_back(fmt::format(
         "{}, but what touches a solid never comes off. adhesion = {} in [contact] lets it, as in the ring below",
@@ -177,7 +177,7 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::inflow_warnings(scene, frame), std::back_inserter(explanation.warnings));
   std::ranges::copy(sheet::idle_roll_warnings(scene, frame), std::back_inserter(explanation.warnings));
   for (const std::string& warning :
-       {sheet::falling_past_warning(scene, frame), sheet::falling_on_warning(scene, frame, until),
+       {sheet::falling_past_warning(scene, frame), sheet::falling_on_warning(with_heat, frame, until),
         sheet::drawing_up_warning(scene, frame, until), sheet::thick_stream_warning(scene, frame, until),
         sheet::wetting_warning(scene, frame, until), sheet::bath_crushing_warning(scene, frame),
         sheet::held_whole_warning(scene, frame), sheet::overlapping_warning(scene)})

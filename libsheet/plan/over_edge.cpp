@@ -157,7 +157,7 @@ struct OnSolid {
   const solid::Solids& solids;
   std::size_t number;
   std::vector<Landing> landings; // on it
-  double thickness, until;
+  double thickness, from, until;
 
   [[nodiscard]] const scene::Solid& solid() const { return solids.scene(number); }
   [[nodiscard]] Vector3 carried(const Vector3& x, double t) const {
@@ -177,7 +177,7 @@ std::optional<OverEdge> runs_over(const OnSolid& on) {
   for (std::size_t i = 0; i < on.landings.size(); i += stride) {
     const Landing& landing = on.landings[i];
     const double fall = std::max(0.0, landing.fall - on.thickness / 2);
-    const double starts = std::max(*turned_at, on.first.time + std::sqrt(2 * fall / gravity));
+    const double starts = std::max({*turned_at, on.from, on.first.time + std::sqrt(2 * fall / gravity)});
     const Way way(on.scene, on.solids, on.number, starts, on.thickness, on.carried(landing.place, starts));
     const auto takes = time_down(way, on.scene, on.solid(), landing.liquid, on.thickness);
     if (!way.taken_up() && is_turned_over(way.normal(), landing.liquid, *on.scene.environment.gravity, on.thickness))
@@ -238,7 +238,7 @@ std::optional<OverEdge> drawn_over(const OnSolid& on, std::size_t number) {
 } // namespace
 
 std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame& first, const std::vector<Landing>& all,
-                                       double until) {
+                                       double from, double until) {
   const solid::Solids solids(scene);
   const double thickness = *measured(first).thickness;
   std::optional<OverEdge> earliest;
@@ -249,7 +249,7 @@ std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame&
   for (std::size_t i = 0; i < solids.size(); ++i) {
     if (!has_edges(scene.solids[i]))
       continue;
-    OnSolid on{scene, first, solids, i, {}, thickness, until};
+    OnSolid on{scene, first, solids, i, {}, thickness, from, until};
     std::ranges::copy_if(all, std::back_inserter(on.landings), [&](const Landing& l) { return l.solid == i; });
     consider(runs_over(on));
     for (std::size_t k = 0; k < scene.holds.size(); ++k)

@@ -24,8 +24,9 @@ struct OverEdge {
 //   - to where a hold goes
 // and, before any way, where the solid has turned over with a layer too thick to hang.
 // An edge turns by more than 45 degrees within two thicknesses. It is in the open where the way down from it leads
-// under the solid before it comes to another one, a bath or an outflow. all: of the sheet's vertices.
+// under the solid before it comes to another one, a bath or an outflow. all: of the sheet's vertices. Nothing moves
+// before `from`, as what has to become warm first.
 [[nodiscard]] std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame& first,
-                                                     const std::vector<Landing>& all, double until);
+                                                     const std::vector<Landing>& all, double from, double until);
 
 } // namespace sheet

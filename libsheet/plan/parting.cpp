@@ -12,6 +12,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/over_edge.h"
+#include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/motion.h"
 #include "libsheet/solid/solids.h"
 
@@ -75,6 +76,15 @@ bool can_hang(const Liquid& liquid, double thickness, double g) {
   return thickness < 2 * std::sqrt(liquid.surface_tension / (liquid.density * g));
 }
 
+// As it starts, or else when it has become warm.
+std::optional<OverEdge> over_edge(const Scene& with_heat, const formats::Frame& first, double until) {
+  const Scene cold = scene::as_it_starts(with_heat);
+  const auto edge = goes_over_edge(cold, first, landings(cold, first), first.time, until);
+  const auto warming = scene::warming_of(with_heat, *measured(first).thickness);
+  return edge || !warming ? edge
+                          : goes_over_edge(warming->warm, first, landings(warming->warm, first), warming->time, until);
+}
+
 } // namespace
 
 std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first, double until) {
@@ -121,7 +131,7 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
   }
   const auto earliest = std::ranges::min_element(ends);
   const double end = earliest == ends.end() ? until : std::min(until, *earliest);
-  if (const auto edge = goes_over_edge(scene, first, all, end))
+  if (const auto edge = over_edge(scene, first, end))
     return parting(edge->why, edge->density, false);
   if (turned && turned->time < end)
     return parting(fmt::format("{} turns what lies on it under itself, from about {:.2g} s on",

@@ -21,7 +21,7 @@ struct Parting {
 //   - the solid turns it under itself, as a roll that a film runs over does; not of what lies wholly on the solid, in a
 //     layer that surface tension carries, 2 sqrt(gamma/(rho g)) thick
 //   - it slides, runs or is drawn over an edge in the open (over_edge.h)
-// Nothing where the scene has an adhesion, or no gravity.
+// Of what is warmed until it flows, as it is then. Nothing where the scene has an adhesion, or no gravity.
 [[nodiscard]] std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first, double until);
 
 } // namespace sheet

@@ -23,13 +23,16 @@ double start_temperature(const Scene& scene) {
   return uniform != nullptr ? *uniform : scene.heat->temperature;
 }
 
-// How what leaves a square metre through both faces rises with the temperature [W/(m² K)], at most.
-double loss_slope(const Heat& heat, double t) {
-  const auto of = [t](const HeatedFace& face) {
-    return range_of(face.transfer).second + 4 * face.emissivity * stefan_boltzmann * std::pow(t, 3);
-  };
+// What goes through a square metre of both faces at most, by the difference from the temperature t to that around,
+// which radiates as it is [W/(m² K)].
+double mean_slope(const Heat& heat, double t, double around) {
+  const double radiated = stefan_boltzmann * (t * t + around * around) * (t + around);
+  const auto of = [&](const HeatedFace& face) { return range_of(face.transfer).second + face.emissivity * radiated; };
   return of(heat.upper) + of(heat.lower);
 }
+
+// How what leaves through both rises with the temperature [W/(m² K)], at most.
+double loss_slope(const Heat& heat, double t) { return mean_slope(heat, t, t); }
 
 // The temperatures between which anything around, or its start, may bring the sheet.
 std::pair<double, double> temperatures_around(const Scene& scene) {
@@ -105,12 +108,14 @@ struct Source {
 
 std::vector<Source> sources_of_heat(const Scene& scene) {
   std::vector<Source> sources;
-  const double slope = loss_slope(*scene.heat, start_temperature(scene));
+  const auto add = [&](const Varying& temperature) {
+    sources.push_back({temperature, mean_slope(*scene.heat, start_temperature(scene), range_of(temperature).second)});
+  };
   for (const HeatedFace* face : {&scene.heat->upper, &scene.heat->lower}) {
     if (face->transfers())
-      sources.push_back({face->ambient, slope});
+      add(face->ambient);
     if (face->emissivity > 0)
-      sources.push_back({face->radiant, slope});
+      add(face->radiant);
   }
   for (const Solid& solid : scene.solids)
     if (solid.temperature && solid.contact_conductance > 0)

@@ -78,6 +78,27 @@ TEST(Parting, OfWhatSlidesOverAnEdge) {
   EXPECT_TRUE(slides("slip", "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncenter = [0, -0.2, 0]\n"));
 }
 
+// It has 1e5 Pa s, and 10 Pa s when it is 80 K warmer, which takes 3 rho c h/(2 H) = 6 s; then it runs the 120 mm, and
+// 2 mm round the edge, with 1000 4 0.004²/(3 10) m/s, within 57 s.
+TEST(Parting, OfWhatRunsOverAnEdgeWhenItIsWarm) {
+  const auto parting = [](const std::string& ambient, double until) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.06, 0.06]\nedge_length = 0.01\nthickness = 0.004\n"
+        "center = [0, 0.002, 0]\n[material]\nviscosity = 1e5\ndensity = 1000\nviscosity_law = \"exponential\"\n"
+        "reference_temperature = \"20 degC\"\ntemperature_coefficient = 0.11512925\n[heat]\nspecific_heat = 1000\n"
+        "temperature = \"20 degC\"\ntransfer = 1000\nambient = \"" +
+            ambient +
+            "\"\n[environment]\ngravity = [4, -9, 0]\n[[solid]]\nshape = \"box\"\nsize = [0.3, 0.1, 0.3]\n"
+            "center = [0, -0.05, 0]\ncontact = \"flow\"\n",
+        "s");
+    return must_part(scene, checked_first_frame(scene), until);
+  };
+  ASSERT_TRUE(parting("100 degC", 100));
+  EXPECT_EQ(parting("100 degC", 100)->why, "what lies on solid 0 (box) runs down over its edge, from about 63 s on");
+  EXPECT_FALSE(parting("100 degC", 50));
+  EXPECT_FALSE(parting("20 degC", 100));
+}
+
 TEST(Parting, OfWhatABoxThatTiltsLetsSlide) {
   const auto tilts = [](double degrees) {
     return parting_of(fmt::format("contact = \"slip\"\nmotion = {{kind = \"rotating\", axis = [0, 0, 1], rate = [[0, "
