@@ -184,8 +184,8 @@ std::string explained(Source source, bool ring_alone) {
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :
-       {sheet::late_running_warning(scene, frame, until), sheet::late_overrun_warning(scene, frame, until),
-        sheet::few_frames_warning(with_heat, frame, wishes)})
+       {sheet::late_running_warning(scene, frame, until), sheet::late_spreading_warning(scene, frame, until),
+        sheet::late_overrun_warning(scene, frame, until), sheet::few_frames_warning(with_heat, frame, wishes)})
     if (!source.until && !late.empty())
       explanation.warnings.push_back(late);
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));

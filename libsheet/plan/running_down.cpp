@@ -182,6 +182,39 @@ std::string late_running_warning(const Scene& scene, const formats::Frame& first
   return word_of_late(until, solid::Solids(scene).name(solid), "run down", time);
 }
 
+std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until) {
+  constexpr double wider = 1.1, much_later = 1000; // times as wide; times the run
+  const scene::Measured sheet = measured(first);
+  const std::vector<Landing> all = landings(scene, first);
+  const auto rests = [](const scene::Solid& solid) { return std::holds_alternative<scene::Fixed>(solid.motion); };
+  if (all.empty() || !is_free(scene) || !scene.inflows.empty() || scene.sheets.size() > 1 || !sheet.length ||
+      !sheet.thickness || !std::ranges::all_of(scene.solids, rests))
+    return "";
+  const Vector3 down = scene.environment.gravity->normalized();
+  std::optional<std::size_t> ground;
+  double lands = 0;
+  for (const Landing& landing : all) {
+    const scene::Solid& below = scene.solids[landing.solid];
+    if (below.contact == SolidContact::flow && std::holds_alternative<scene::HalfSpace>(below.shape) &&
+        landing.there.normal.cross(down).norm() < least_slope) {
+      ground = landing.solid;
+      ++lands;
+    }
+  }
+  const Liquid& liquid = all.front().liquid;
+  const double g = scene.environment.gravity->norm(), h = *sheet.thickness, L = *sheet.length;
+  if (!ground || lands < least_part * static_cast<double>(all.size()) || !liquid.law.newtonian() ||
+      h < resting_thickness(liquid, scene.solids[*ground], g))
+    return "";
+  const Coming what{.volume = L * L * h};
+  const double radius = L / std::sqrt(std::numbers::pi), nu = liquid.viscosity / liquid.density;
+  const double time = std::sqrt(2 * longest_fall(all) / g) + spreading_time(what, wider * radius, nu, g) -
+                      spreading_time(what, radius, nu, g);
+  if (!(time > late * until && time < much_later * until))
+    return "";
+  return word_of_late(until, solid::Solids(scene).name(*ground), "spread by a tenth", time);
+}
+
 std::string late_overrun_warning(const Scene& scene, const formats::Frame& first, double until) {
   constexpr double much_later = 30, most = 0.9; // times the run; part of the sheet that lands on the top
   const scene::Measured sheet = measured(first);

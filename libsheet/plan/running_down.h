@@ -25,6 +25,11 @@ struct RunningDown {
 // run's end at `until` [s], of which what happens while it falls asks for short times; else "".
 [[nodiscard]] std::string late_running_warning(const Scene& scene, const formats::Frame& first, double until);
 
+// Likewise of the only one, Newtonian and thicker than tension lets lie, that lands on level ground, and would spread
+// there by a tenth, in 3 nu/(g V³) (r/0.894)⁸ from a point [Huppert 1982], long after the end. "" where that is a
+// thousand runs, or a solid moves, which may be what there is to see.
+[[nodiscard]] std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until);
+
 // Likewise of one that lands on the level top of a solid at rest, Newtonian, and comes over its edge. In the time t it
 // spreads to the radius 0.894 (g V³ t/(3 nu))^(1/8) [Huppert 1982], V its volume, then runs down the side by half its
 // length, or all there is of that, in a layer half as thick as the sheet. Of what flows in straight down, Q, to the

@@ -65,6 +65,31 @@ TEST(RunningDown, WhatLandsRunsDownLater) {
   EXPECT_EQ(warning(box, "flow", 1), "");
 }
 
+// A disk with V = 11.3 ml of 0.0154 m²/s: from a radius of 30 to 33 mm in 3 nu/(g V³) (r/0.894)⁸ = 6.0 s.
+TEST(RunningDown, WhatLandsOnLevelGroundSpreadsLater) {
+  const auto warning = [](const std::string& solid, const std::string& of_liquid, double until) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"disk\"\nradius = 0.03\nedge_length = 0.005\nthickness = 0.004\ncenter = [0, 0.05, 0]\n"
+        "[material]\ndensity = 1300\n" +
+            of_liquid + "[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\n" + solid,
+        "s");
+    return late_spreading_warning(scene, first_frame(scene), until);
+  };
+  const std::string plane = "shape = \"plane\"\ncontact = \"flow\"\n", icing = "viscosity = 20\n";
+  EXPECT_THAT(warning(plane, icing, 1),
+              testing::StartsWith("the run ends, at 1 s, before what lands on solid 0 (plane) has spread by a tenth, "
+                                  "which takes some 6"));
+  EXPECT_EQ(warning(plane, icing, 5), "");
+  EXPECT_EQ(warning(plane, "viscosity = 2e5\n", 1), ""); // putty: 17 hours
+  EXPECT_EQ(warning(plane, icing + "surface_tension = 0.1\n", 1), "");
+  EXPECT_EQ(warning("shape = \"plane\"\n", icing, 1), "");
+  EXPECT_EQ(warning(plane + "[[solid]]\nshape = \"sphere\"\nradius = 0.01\ncenter = [0, 0.1, 0]\n"
+                            "velocity = [0, -0.1, 0]\n",
+                    icing, 1),
+            "");
+  EXPECT_EQ(warning("shape = \"sphere\"\nradius = 0.04\ncontact = \"flow\"\n", icing, 1), "");
+}
+
 // On a board that turns until it is steep.
 TEST(RunningDown, WhenTheSolidHasTurned) {
   const auto honey =
