@@ -178,9 +178,10 @@ std::string explained(Source source, bool ring_alone) {
   std::ranges::copy(sheet::idle_roll_warnings(scene, frame), std::back_inserter(explanation.warnings));
   for (const std::string& warning :
        {sheet::falling_past_warning(scene, frame), sheet::falling_on_warning(with_heat, frame, until),
-        sheet::drawing_up_warning(scene, frame, until), sheet::thick_stream_warning(scene, frame, until),
-        sheet::wetting_warning(scene, frame, until), sheet::bath_crushing_warning(scene, frame),
-        sheet::held_whole_warning(scene, frame), sheet::overlapping_warning(scene)})
+        sheet::falling_behind_rolls_warning(scene, frame), sheet::drawing_up_warning(scene, frame, until),
+        sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until),
+        sheet::bath_crushing_warning(scene, frame), sheet::held_whole_warning(scene, frame),
+        sheet::overlapping_warning(scene)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :

@@ -2,7 +2,9 @@
 #include "libsheet/plan/falling_past.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <variant>
 
 #include <fmt/format.h>
@@ -13,6 +15,8 @@
 #include "libsheet/plan/way_of_sheet.h"
 #include "libsheet/scene/brief.h"
 #include "libsheet/scene/inlet_velocity.h"
+#include "libsheet/scene/motion.h"
+#include "libsheet/scene/sheet_edges.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
 
@@ -56,6 +60,32 @@ bool lies_on_solid(const Scene& scene, const Frame& first) {
         return true;
     return false;
   });
+}
+
+// In which a roll draws on for ever, a unit vector; nothing of other holds.
+std::optional<Vector3d> way_of_roll(const scene::Hold& hold, double start) {
+  const auto* translating = std::get_if<scene::Translating>(&hold.motion);
+  if (!hold.roll || hold.until || translating == nullptr || translating->velocity.entries.empty())
+    return std::nullopt;
+  const Vector3d velocity =
+      scene::value_at(translating->velocity, std::max(start, translating->velocity.entries.back().time));
+  return velocity.isZero(0) ? std::nullopt : std::optional<Vector3d>(velocity.normalized());
+}
+
+// Where the region of a hold ends in a direction, behind what it holds at the start; nothing if it holds nothing.
+std::optional<Vector3d> end_of_hold(const Scene& scene, const Frame& first, std::size_t hold,
+                                    const Vector3d& direction) {
+  const auto held = holds(first);
+  std::optional<Vector3d> last;
+  for (std::size_t v = 0; v < held.size(); ++v)
+    if (const Vector3d& x = positions(first)[v];
+        (held[v] >> hold & 1) != 0 && (!last || x.dot(direction) > last->dot(direction)))
+      last = x;
+  if (const auto* box = std::get_if<scene::BoxRegion>(&scene.holds[hold].region); box != nullptr && last) {
+    const double end = direction.cwiseMax(0).dot(box->high) + direction.cwiseMin(0).dot(box->low);
+    *last += std::max(0.0, end - last->dot(direction)) * direction;
+  }
+  return last;
 }
 
 } // namespace
@@ -105,6 +135,33 @@ std::string falling_on_warning(const Scene& scene, const Frame& first, double un
                      "[{}, {}, {}], normal = [{}, {}, {}] ends it",
                      comes_off->why, scene::brief(point.x()), scene::brief(point.y()), scene::brief(point.z()),
                      scene::brief(-up.x()), scene::brief(-up.y()), scene::brief(-up.z()));
+}
+
+std::string falling_behind_rolls_warning(const Scene& scene, const Frame& first) {
+  constexpr double near_enough = 3; // edges behind the roll
+  const Vector3d gravity = scene.environment.gravity.value_or(Vector3d::Zero());
+  if (gravity.isZero(0) || scene.environment.bath)
+    return "";
+  const solid::Solids solids(scene);
+  const double edge = scene::mean_edge(first);
+  for (std::size_t i = 0; i < scene.holds.size(); ++i) {
+    const auto ahead = way_of_roll(scene.holds[i], first.time);
+    const auto last = ahead ? end_of_hold(scene, first, i, *ahead) : std::nullopt;
+    if (!last)
+      continue;
+    const Vector3d behind = *last + edge * *ahead;
+    const auto takes_up = [&](const scene::Outflow& outflow) {
+      return outflow.normal.dot(gravity) > 0 ||
+             (outflow.normal.dot(*ahead) > 0 && outflow.normal.dot(outflow.point - *last) < near_enough * edge);
+    };
+    if (std::ranges::none_of(scene.outflows, takes_up) &&
+        !landing_below(solids, gravity.normalized(), behind, measured(first).length.value_or(0), first.time))
+      return fmt::format("hold {}, a roll, lets go of what it draws where nothing is below: that falls for ever, in "
+                         "steps of its fall. [[outflow]] point = [{}, {}, {}], normal = [{}, {}, {}] ends it there",
+                         i, scene::brief(behind.x()), scene::brief(behind.y()), scene::brief(behind.z()),
+                         scene::brief(ahead->x()), scene::brief(ahead->y()), scene::brief(ahead->z()));
+  }
+  return "";
 }
 
 } // namespace sheet

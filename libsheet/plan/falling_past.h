@@ -18,4 +18,8 @@ namespace sheet {
 // lies lower and nothing else takes it up: with an outflow that would, below all by the sheet's length; else "".
 [[nodiscard]] std::string falling_on_warning(const Scene& scene, const formats::Frame& first, double until);
 
+// Of a roll that lets go of what it draws where nothing takes that up: below are no solid and no bath, and no outflow
+// is within three edges behind it, or looks down. That hangs from the roll and falls; else "".
+[[nodiscard]] std::string falling_behind_rolls_warning(const Scene& scene, const formats::Frame& first);
+
 } // namespace sheet

@@ -81,5 +81,30 @@ TEST(FallingPast, NotOfWhatMayComeToASolidOtherwise) {
   EXPECT_NE(warning("[0, 0, -9.81]", "", wall + "40, 0]\n"), "");
 }
 
+// Of a film, 0.3 m long, whose roll ends 10 mm behind it.
+TEST(FallingBehindRolls, WhereNothingTakesUpWhatTheyDraw) {
+  const auto warning = [](const std::string& more, const std::string& roll = "roll = true\n") {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.3, 0.1]\nedge_length = 0.02\nthickness = 0.001\n[material]\n"
+        "viscosity = 1e4\ndensity = 900\n[environment]\ngravity = [0, -9.81, 0]\n" +
+            more + "[[hold]]\nregion = {box = [[0.1, -1, -1], [0.16, 1, 1]]}\n" + roll +
+            "motion = {kind = \"translating\", velocity = [0.06, 0, 0]}\n",
+        "s");
+    return falling_behind_rolls_warning(scene, first_frame(scene));
+  };
+  EXPECT_THAT(warning(""), testing::AllOf(testing::StartsWith("hold 0, a roll, lets go of what it draws where nothing"),
+                                          testing::HasSubstr("[[outflow]] point = [0.18, 0, "),
+                                          testing::HasSubstr("normal = [1, 0, 0] ends it")));
+  const auto outflow = [](const std::string& x, const std::string& normal) {
+    return "[[outflow]]\npoint = [" + x + ", 0, 0]\nnormal = " + normal + "\n";
+  };
+  EXPECT_EQ(warning(outflow("0.18", "[1, 0, 0]")), "");
+  EXPECT_NE(warning(outflow("0.3", "[1, 0, 0]")), ""); // it hangs down before it gets there
+  EXPECT_EQ(warning(outflow("0.3", "[0, -1, 0]")), "");
+  EXPECT_EQ(warning("bath = {density = 1000, level = -1}\n"), "");
+  EXPECT_EQ(warning("[[solid]]\nshape = \"plane\"\ncenter = [0, -1, 0]\n"), "");
+  EXPECT_EQ(warning("", ""), ""); // what it holds stays held
+}
+
 } // namespace
 } // namespace sheet
