@@ -11,6 +11,7 @@ from sheetstream.fit import Parameter
 
 from sweeping.problem import BAD_INPUT, IO, Problem
 from sweeping.run import unit_of
+from sweeping.table import separators_are_wrong
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 _HEADER = re.compile(r"\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*")
@@ -124,6 +125,9 @@ def _read_measured(path, i, entry, wrong):
         wrong.append(f"{place}: {file}: {getattr(error, 'strerror', None) or error}")
         return None
     before = len(wrong)
+    if rows and (problem := separators_are_wrong(",".join(rows[0][1]))):
+        wrong.append(f"{file}:{rows[0][0]}: {problem}")
+        return None
     header = [_HEADER.fullmatch(cell) for cell in rows[0][1]] if rows else []
     names, factors = [cell[1] for cell in header], []
     for cell in header:

@@ -69,6 +69,12 @@ def read_table(path):
     return table
 
 
+def separators_are_wrong(header):
+    """What is wrong with a CSV file whose first line is this text, if it is not of commas; else ""."""
+    marks = [name for mark, name in ((";", "semicolons"), ("\t", "tabs")) if mark in header and "," not in header]
+    return f"columns are separated by commas, not by {marks[0]}; numbers have a decimal point" if marks else ""
+
+
 def duplicates(table):
     """A message for every row that says the same as one before it."""
     seen, found = {}, []
@@ -92,6 +98,8 @@ def _column(path, text, problems):
 def _from_csv(path, file):
     reader = csv.reader(file, skipinitialspace=True)
     header = next(reader, [])
+    if wrong := separators_are_wrong(",".join(header)):
+        raise Problem(BAD_INPUT, f"{path}:1: {wrong}")
     problems, rows, places = [], [], []
     columns = [_column(path, text, problems) for text in header]
     problems += _repeated(path, columns)

@@ -85,6 +85,7 @@ sys.exit(0 if $2 else f'{v} {e}')"
   wrong 's/^sigma.*//' fit.toml 'measured 1: sigma, the standard deviation'
   wrong 's/"y_min"/"lowest"/; s/$//' fit.toml 'sag.csv:2: unknown column "y_min"; known: time, lowest, sigma'
   wrong 's/\[mm\]/[kg]/' sag.csv 'column "y_min": [kg] is not [m], nor a part of it'
+  wrong 's/,/;/; s/[.]/,/g' sag.csv 'sag.csv:2: columns are separated by commas, not by semicolons; numbers have a decimal point'
   wrong 's/-8.241/high/' sag.csv 'sag.csv:4: expected 2 numbers'
   wrong 's/2000, /3000, /' sag.csv 'measured 1: times from 500 to 3000 s, but'
   wrong 's/material.viscosity/material.viskosity/' fit.toml 'did you mean "viscosity"?'

@@ -74,6 +74,11 @@ END
     printf '%s\n1\n' "$header" > "$t/table.csv"
     run -3 sweep bad --engine plain
   done
+  for mark in ';' '\t'; do # of spreadsheets in other languages
+    printf "sheet.thickness [mm]${mark}dt\n1,5${mark}0,1\n" > "$t/table.csv"
+    run -3 sweep bad
+    [[ $output == *"table.csv:1: columns are separated by commas, not by "*"; numbers have a decimal point" ]]
+  done
   printf 'sheet.thickness\n' > "$t/table.csv"
   run -3 sweep bad
   [[ $output == *"no rows"* ]]
