@@ -163,6 +163,22 @@ make_slow() {
   done
 }
 
+@test "names beyond ASCII are told as they are, and can be pasted; a folder that cannot be made is told with what to do" {
+  options=(--quality draft --until 0.05 --fps 40 --film no)
+  run --separate-stderr sheet-run 'my scene.toml' "${options[@]}" -o "Läufe und Bilder/größe's"
+  [[ $status == 0 && $stderr == *"  sheet-loop --resume 'Läufe und Bilder/größe'\\''s/run.sheet' --until 0.05"* ]]
+  [[ $stderr == *"sheet-view 'Läufe und Bilder/größe'\\''s/run.sheet' -o run.html"* ]]
+  run -6 --separate-stderr sheet-run 'my scene.toml' "${options[@]}" -o 'my scene.toml/run'
+  [[ $stderr == 'sheet-run: cannot make the folder my scene.toml/run (Not a directory): give one by -o where files can be written' ]]
+}
+
+@test "a film that is slower or faster than the run says by how much" {
+  film() { sheet-run 'my scene.toml' --quality draft --film 64x36 "$@" 2>&1; }
+  [[ $(film --until 0.02 --fps 250 -o slow) == *'film.mp4 is 10 times as slow as the run: 250 frames a second are shown at 25'* ]]
+  [[ $(film --until 0.4 --fps 5 -o fast) == *'film.mp4 is 5 times as fast as the run: 5 frames a second are shown at 25'* ]]
+  [[ $(film --until 0.05 --fps 40 -o life) != *'as the run'* ]]
+}
+
 @test "a folder is no scene" {
   run -6 --separate-stderr sheet-run .
   [[ $stderr == *'.: this is a folder; give a scene file in it'* ]]
@@ -200,6 +216,8 @@ make_slow() {
   sed -i 's/viscosity = .*/viscosity = 20/' 'my scene.toml'
   run -2 --separate-stderr sheet-run 'my scene.toml' --quality draft --until 0.05 --fps 40 -o run
   [[ $stderr == *'run has the run of another scene, or of another state of this one: move it away'* ]]
+  run -2 --separate-stderr sheet-run 'my scene.toml' --quality draft --until 0.05 -o run
+  [[ $stderr != *'goes on with as many'* ]] # what it does not do
   [[ $(cd run && sha256sum ./*) == "$before" ]]
   # what the scene says in other words is the same
   sed -i 's/viscosity = .*/viscosity = "100 P" # as before/' 'my scene.toml'
