@@ -104,6 +104,9 @@ def slurm(work, indices):
     """Job arrays, for time and memory that a trial run has taken. Waits for jobs that an earlier driver has left."""
     _require("sbatch", "slurm-wlm")
     name = f"sheet-{work.sweep.id}"
+    if (queue := _slurm_queue(name)).returncode != 0:
+        raise Problem(USAGE, f"Slurm does not answer here: {_last_line(queue.stderr)}: give the command on a machine of"
+                             " the cluster, or take --engine parallel, which needs none")
     _slurm_wait(work, name)
     indices = [i for i in indices if not (run_folder(work.folder, i) / "result.json").exists()]
     if indices and not work.needs():
@@ -139,13 +142,23 @@ def _submit(work, name, chunks, options):
 def _slurm_wait(work, name):
     said = time.monotonic()
     while True:
-        queue = subprocess.run(["squeue", "--noheader", "--name", name, "--format=%i"], capture_output=True, text=True)
+        queue = _slurm_queue(name)
         if queue.returncode == 0 and not queue.stdout.strip():
             return
         time.sleep(1)
         if time.monotonic() - said > _PATIENCE:
             work.say()
+            if queue.returncode != 0:  # its controller may come back
+                print(f"Slurm does not answer: {_last_line(queue.stderr)}", file=sys.stderr)
             said = time.monotonic()
+
+
+def _slurm_queue(name):
+    return subprocess.run(["squeue", "--noheader", "--name", name, "--format=%i"], capture_output=True, text=True)
+
+
+def _last_line(text):
+    return (text.strip().splitlines() or ["it says nothing"])[-1]
 
 
 def _array_size():

@@ -222,6 +222,16 @@ END
   grep -q 'environment.bath.drag \[Pa\*s/m\]' "$t/elsewhere/moved/results.csv"
 }
 
+@test "Slurm that does not answer is told at once" {
+  mkdir "$t/bin"
+  printf '#!/bin/sh\necho "squeue: error: nobody" >&2\necho "squeue: fatal: no controller" >&2\nexit 1\n' > "$t/bin/squeue"
+  printf '#!/bin/sh\nexit 1\n' > "$t/bin/sbatch"
+  chmod +x "$t"/bin/*
+  PATH=$t/bin:$PATH run -2 timeout 60 pipelines/sweep "$t/table.csv" --scene pipelines/catenary/scene.toml --until 0.1 \
+    --fps 20 -o "$t/slurm" --engine slurm -- 'sheet-step --dt {dt}'
+  [[ $output == *'Slurm does not answer here: squeue: fatal: no controller: give the command on a machine of the cluster, or take --engine parallel'* ]]
+}
+
 @test "a folder of another sweep is refused" {
   sweep run --plan
   ring='sheet-step --dt 0.02 --scheme sdirk2 | sheet-pass' run -2 sweep run --plan
