@@ -160,8 +160,8 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.choice("--look", o.look, looks(), "the material itself, or a quantity in false colours, or the mesh");
   declare_materials(
       tool, o.liquids,
-      "what the sheet is made of; of several liquids the first, the second, ..., and again from the first, "
-      "as the scene names them");
+      "what the sheet is made of; of several liquids the first, the second, ..., and again from the first, as the "
+      "scene names them");
   tool.option("--index", o.index, "N", "index of refraction, instead of the material's");
   colour_option(tool, "--absorption", o.absorption, "absorption coefficients [1/m], instead of the material's");
   colour_option(tool, "--scattering", o.scattering, "reduced scattering coefficients [1/m], instead of the material's");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/file_roles.h"
@@ -79,9 +80,11 @@ void check(const RenderOptions& o) {
     fail(ExitCode::usage, "--exposure: {} is not between -30 and 30 stops", o.exposure);
 }
 
-std::vector<Liquid> liquids_of(const RenderOptions& o) {
+// Those that the liquids of a scene are drawn as, which may be fewer than the options name.
+std::vector<Liquid> drawn_liquids(const RenderOptions& o, const Scene* scene) {
+  const std::size_t there = scene != nullptr ? liquids_of(*scene).size() : 1;
   std::vector<Liquid> liquids;
-  for (const std::size_t number : o.liquids) {
+  for (const std::size_t number : std::span(o.liquids).first(std::min(there, o.liquids.size()))) {
     Liquid liquid = preset(number);
     if (o.index)
       liquid.index = static_cast<float>(*o.index);
@@ -277,7 +280,7 @@ struct RenderStage::Impl {
       f.ground = bath_surface(bath->level, subject, up);
     else if (options.ground && options.look.is_material() && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
-    f.dark = std::ranges::all_of(liquids_of(options), [&](const Liquid& l) { return is_clear(l, frame); });
+    f.dark = std::ranges::all_of(drawn_liquids(options, scene), [&](const Liquid& l) { return is_clear(l, frame); });
     fixed.emplace(std::move(f));
     const Vector3 eye = camera.eye(), axis = camera.axis().cast<double>(),
                   target = options.camera.target.value_or(eye + (middle - eye).dot(axis) * axis);
@@ -372,7 +375,7 @@ struct RenderStage::Impl {
   }
 
   [[nodiscard]] PathTracer tracer_of(const World& world) const {
-    return {world, fixed->lighting, liquids_of(options), surroundings_of_liquid(),
+    return {world, fixed->lighting, drawn_liquids(options, scene), surroundings_of_liquid(),
             options.layers ? Body() : Body(world)};
   }
 

@@ -29,7 +29,7 @@ struct RenderOptions {
   bool facets = false;           // materials are drawn flat between the sheet's vertices, as false colours are
   CameraOptions camera;
   Look look;
-  std::vector<std::size_t> liquids{0}; // numbers of the presets, of the scene's liquids in turn
+  std::vector<std::size_t> liquids = liquids_told_apart(); // numbers of the presets, of the scene's liquids in turn
   std::optional<double> index;
   std::optional<Colour> absorption, scattering;    // [1/m]
   double optical_scale = 1;                        // factor on absorption and scattering

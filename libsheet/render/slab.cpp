@@ -107,6 +107,13 @@ Liquid preset(std::size_t which) {
   return {index, {a[0], a[1], a[2]}, {s[0], s[1], s[2]}};
 }
 
+std::vector<std::size_t> liquids_told_apart() {
+  std::vector<std::size_t> order;
+  for (const std::string_view name : {"chocolate", "batter", "honey", "glass", "caramel", "film"})
+    order.push_back(static_cast<std::size_t>(std::ranges::find(presets, name, &Preset::name) - presets.begin()));
+  return order;
+}
+
 std::string list_of_liquids() {
   std::string list;
   for (const auto& [name, index, absorption, scattering] : presets)

@@ -19,6 +19,7 @@
 //   f(mu_i, mu_o) = rho C(mu_i) C(mu_o) / (pi Cm),  Cm = 2 ∫ C mu dmu,
 // rho = rho_r on the side that the light came from and rho_t on the other.
 #pragma once
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct Liquid {
 // The presets, by their place among liquid_names.
 [[nodiscard]] const std::vector<std::string>& liquid_names();
 [[nodiscard]] Liquid preset(std::size_t which);
+// All presets, in an order in which the first few are easy to tell apart: what several liquids look like unless it is
+// said.
+[[nodiscard]] std::vector<std::size_t> liquids_told_apart();
 // One a line: name, index, absorption and reduced scattering of red, green and blue; separated by tabs, colours by
 // spaces.
 [[nodiscard]] std::string list_of_liquids();

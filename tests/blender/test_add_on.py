@@ -289,6 +289,13 @@ class AddOn(unittest.TestCase):
         bpy.ops.sheet.import_run(filepath="sauce.sheet", material="honey", further="chocolate,glass")
         names = [m.name for m in bpy.context.object.data.materials]
         self.assertEqual(names, ["Sheet honey", "Sheet chocolate", "Sheet glass"])
+        bpy.ops.sheet.import_run(filepath="sauce.sheet", material="honey")  # told apart, unless it is said otherwise
+        self.assertEqual([m.name for m in bpy.context.object.data.materials], ["Sheet honey", "Sheet caramel"])
+        self.assertEqual({face.material_index for face in bpy.context.object.data.polygons}, {0, 1})
+        apart = self.add_on.import_run("sauce.sheet")
+        self.assertEqual([m.name for m in apart.data.materials], ["Sheet caramel", "Sheet chocolate"])
+        bpy.ops.sheet.import_run(filepath="sauce.sheet", material="thickness")
+        self.assertEqual([m.name for m in bpy.context.object.data.materials], ["Sheet thickness"])
         alone = self.add_on.import_run("sauce.sheet", material="honey")
         self.assertEqual({face.material_index for face in alone.data.polygons}, {0})
         with self.assertRaisesRegex(self.add_on.SheetError, 'material "tar" is unknown'):

@@ -109,6 +109,27 @@ END
   done
 }
 
+@test "two liquids are told apart unless --material says what they are" {
+  cat > two.toml << 'END'
+[environment]
+gravity = [0, 0, -9.81]
+END
+  for x in -0.12 0.12; do
+    printf '[[sheet]]\nname = "at %s"\nshape = "disk"\nradius = 0.1\nedge_length = 0.03\nthickness = 0.004\ncenter = [%s, 0, 0.002]
+[sheet.material]\nviscosity = 1%s\ndensity = 1000\n' $x $x "${x#-0.}"
+  done >> two.toml
+  sed '/^viscosity/s/.*/viscosity = 10/' two.toml > one.toml # of two sheets
+  sed -i '0,/^viscosity.*/s//viscosity = 10/' two.toml
+  draw() { sheet-render "$1" "${small[@]}" --ppm "${@:2}" | sha256sum; }
+  for scene in one two; do sheet-init $scene.toml -o $scene.sheet; done
+  [[ $(draw two.sheet) == "$(draw two.sheet --material chocolate,batter)" ]]
+  [[ $(draw two.sheet) != "$(draw two.sheet --material chocolate)" ]]
+  [[ $(draw one.sheet) == "$(draw one.sheet --material chocolate)" ]]
+  sheet-run -q two.toml --until 0.001 --fps 1000 --film no --quality draft -o run
+  sheet-render run/run.sheet --frames -1 --size 320x180 --denoise --samples 8 -o told_apart.png
+  cmp run/picture.png told_apart.png
+}
+
 @test "18: the sheet fills what the scale leaves free, in pictures of every size and shape" {
   printf '[sheet]\nshape = "sphere"\nradius = 0.1\nedge_length = 0.03\nthickness = 0.004\n[material]\nviscosity = 1\ndensity = 1\n' > sphere.toml
   sed 's/shape = "sphere"/shape = "rectangle"\nsize = [1, 0.1]/; /^radius/d' sphere.toml > wide.toml

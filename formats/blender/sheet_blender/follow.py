@@ -147,7 +147,7 @@ def on_frame_change(scene: bpy.types.Scene, _depsgraph: Any = None) -> None:
             update_object(thing, scene)
 
 
-def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: int = 1, speed: float = 1.0,
+def import_run(path: str, material: str = "caramel,...", up: str = "AUTO", start: int = 1, speed: float = 1.0,
                between: bool = True, slab: bool = True, solids: bool = True, adapt_scene: bool = True,
                scene: bpy.types.Scene | None = None) -> bpy.types.Object:
     """Adds a run to the scene as an object whose mesh follows the time; returns it. Of a run of several sheets that was
@@ -156,11 +156,13 @@ def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: in
 
     Blender's frame `start` shows the run's first frame; `speed` seconds of the run pass in a second. up: the run's axis
     that points upwards (X, Y, Z, or AUTO: against the gravity of its scene). material: a preset; of several liquids
-    those of the first, the second, ..., with commas, and again from the first.
+    those of the first, the second, ..., with commas, and again from the first, or, where "..." is last, by others that
+    tell them apart.
     """
     scene = scene or bpy.context.scene
     run = open_run(path)
     described = scene_of(run)
+    liquids = _count_liquids(described)
     things = []
     for number, (name, mesh_file) in _sheets_in(described, run).items():
         thing = _add_object(path, _upright(described, up), run.times, start, speed, between, scene)
@@ -168,8 +170,8 @@ def import_run(path: str, material: str = "caramel", up: str = "AUTO", start: in
         thing.sheet.mesh_file, thing.sheet.number = mesh_file, number
         if slab:
             add_slab(thing)
-        set_materials(thing, material, scene)
-        thing.sheet.by_liquid = "," in material
+        set_materials(thing, material, scene, liquids)
+        thing.sheet.by_liquid = len(thing.data.materials) > 1
         things.append(thing)
     if has_drops(described):
         add_drops(things[0])
@@ -235,6 +237,16 @@ def _sheets_in(described: dict[str, Any], run: sheetstream.Run) -> dict[int, tup
     if isinstance(sheets, list) and carried.SHEET in run[0]:
         return {number: (str(sheet.get("name", number)), _mesh_file_of(sheet)) for number, sheet in enumerate(sheets)}
     return {-1: ("", _mesh_file_of(sheets))}
+
+
+def _count_liquids(described: dict[str, Any]) -> int:
+    """As the array "liquid" counts: that of [material], then those of [sheet.material], each once."""
+    sheets = described.get("sheet")
+    liquids = [described.get("material")]
+    for sheet in sheets if isinstance(sheets, list) else []:
+        if "material" in sheet and sheet["material"] not in liquids:
+            liquids.append(sheet["material"])
+    return len(liquids)
 
 
 def _mesh_file_of(sheet: Any) -> str:

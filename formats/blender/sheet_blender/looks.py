@@ -13,6 +13,7 @@ from .programs import LIQUIDS
 
 OPAQUE = 1000  # scattering [1/m] from which a few millimetres hide what is behind
 THICKNESS_LOOK = "thickness"
+TOLD_APART = ("caramel", "chocolate", "batter", "honey", "glass", "film")  # the first few are easy to tell apart
 
 
 def body_colour(absorption: tuple[float, ...], scattering: tuple[float, ...]) -> list[float]:
@@ -95,10 +96,15 @@ def _false_colours(tree: bpy.types.NodeTree) -> Any:
     return matte.outputs["BSDF"]
 
 
-def set_materials(thing: bpy.types.Object, names: str, scene: bpy.types.Scene) -> None:
-    """Gives the object materials of presets, of which `names` has one or, with commas, those of the scene's liquids in
-    turn; and Cycles enough bounces to see through them."""
+def set_materials(thing: bpy.types.Object, names: str, scene: bpy.types.Scene, liquids: int = 1) -> None:
+    """Gives the object materials of presets, of which `names` has one or, with commas, those of so many liquids in
+    turn, and Cycles enough bounces to see through them. Where the last name is "...", further liquids are told apart by
+    others."""
     kinds = [name.strip() for name in names.split(",")]
+    if kinds[-1] == "...":
+        kinds.pop()
+        further = [] if THICKNESS_LOOK in kinds else [kind for kind in TOLD_APART if kind not in kinds]
+        kinds += further[:max(0, liquids - len(kinds))]
     for kind in kinds:
         if kind not in (*LIQUIDS, THICKNESS_LOOK):
             raise SheetError(f'material "{kind}" is unknown: choose {", ".join((*LIQUIDS, THICKNESS_LOOK))}')

@@ -37,8 +37,8 @@ class SHEET_OT_import(bpy.types.Operator, ImportHelper):
     material: bpy.props.EnumProperty(name="Material", items=_material_items(),
                                      default="caramel")  # type: ignore[valid-type]
     further: bpy.props.StringProperty(  # type: ignore[valid-type]
-        name="Further", description="Materials of the scene's second liquid, its third, ..., with commas; empty: all of"
-                                    " them look the same")
+        name="Further", description="Materials of the scene's second liquid, its third, ..., with commas; empty: others"
+                                    " that tell them apart")
     up: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Up", items=[("AUTO", "As gravity says", ""), *((a, a, "") for a in "XYZ")], default="AUTO")
     start: bpy.props.IntProperty(name="First frame", default=1)  # type: ignore[valid-type]
@@ -52,7 +52,7 @@ class SHEET_OT_import(bpy.types.Operator, ImportHelper):
 
     def execute(self, context: Any) -> set[str]:
         try:
-            material = ",".join([self.material, *([self.further] if self.further else [])])
+            material = f"{self.material},{self.further or '...'}"
             thing = import_run(self.filepath, material, self.up, self.start, self.speed, self.between, self.slab,
                                self.solids, self.adapt_scene, context.scene)
         except SheetError as error:
