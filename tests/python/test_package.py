@@ -173,7 +173,10 @@ class Runs(WithRun):
         for wrong, message in (((square[:, :2], [[0, 1, 2]], 1), r"position has shape \(4, 2\)"),
                                ((square, [[0, 1, -1]], 1), "integers from 0"),
                                ((square, [[0, 1, 1]], 1), "names vertex 1 twice"),
-                               ((square, [[0, 1, 2]], 1), "it must be positive"),
+                               ((square, [[0, 1, 2]], 1), "triangle 0 has no area: its corners lie on a line"),
+                               ((np.eye(3), [[0, 1, 2]], 0), "the thickness of triangle 0 is 0 m, it must be positive"),
+                               ((np.eye(3), [[0, 1, 2]], np.nan), "the thickness of triangle 0 is nan m"),
+                               ((np.eye(3), [[0, 1, 2]], [1, 1, 1]), r"thickness has shape \(3,\), .* of 1 triangles"),
                                ((square * np.nan, [[0, 1, 2]], 1), "not finite")):
             with self.assertRaisesRegex(StreamError, "cannot make frame: .*" + message):
                 make_frame(*wrong)

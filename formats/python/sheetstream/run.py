@@ -134,16 +134,33 @@ def make_frame(position: npt.ArrayLike, triangle: npt.ArrayLike, thickness: npt.
             raise StreamError(BAD_INPUT, f"cannot make frame: {name} has shape {array.shape}, it must be (any, 3)")
     if corners.size and (corners.dtype.kind not in "iu" or corners.min() < 0 or corners.max() >= 1 << 32):
         raise StreamError(BAD_INPUT, "cannot make frame: triangle must have integers from 0 to 2^32 - 1")
+    h = np.asarray(thickness, np.float64)
+    if h.shape not in ((), (1,), (len(corners),)):
+        raise StreamError(BAD_INPUT, f"cannot make frame: thickness has shape {h.shape}, it must be one number, or one"
+                                     f" for each of {len(corners)} triangles (where vertices have it:"
+                                     " thickness[triangle].mean(axis=1))")
     frame = Frame(time, step, {"position": Array(x, "vertex", "m", "interpolate"),
                                "triangle": Array(corners.astype(np.uint32), "triangle", "1", "drop"),
                                "volume": Array(np.ones(len(corners)), "triangle", "m^3", "conserve")})
     error = find_value_error(frame)
     if not error:
-        frame["volume"] = np.broadcast_to(thickness, len(corners)) * frame.area()
+        h = np.broadcast_to(h, len(corners))
+        error = _find_flat_error(frame.area(), h)
+    if not error:
+        frame["volume"] = h * frame.area()
         error = find_value_error(frame)
     if error:
         raise StreamError(BAD_INPUT, f"cannot make frame: {error}")
     return frame
+
+
+def _find_flat_error(area: Floats, thickness: Floats) -> str:
+    """Which triangle can have no volume, and why; "" if all can."""
+    for triangle in np.flatnonzero(~(thickness > 0))[:1]:
+        return f"the thickness of triangle {triangle} is {thickness[triangle]:g} m, it must be positive"
+    for triangle in np.flatnonzero(~(area > 0))[:1]:
+        return f"triangle {triangle} has no area: its corners lie on a line; leave it out, or move one"
+    return ""
 
 
 def write(path: str | os.PathLike[str], frames: Iterable[Frame]) -> None:
