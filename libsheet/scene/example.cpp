@@ -58,7 +58,8 @@ thickness = "10 mm"?
 
 #thickness = {along = "x", rows = [["-0.5 m", "8 mm"], ["0.5 m", "12 mm"]]}
 
-# Or any mesh file (.obj .off .ply .stl .vtu); also its thickness, from an array at each vertex or face.
+# Or any mesh file (.obj .off .ply .stl .vtu), or the last frame of a stream (.sheet), with its velocity; also its
+# thickness, from an array at each vertex or face (of a stream: place = "face").
 #shape = "mesh"
 #file = "leaf.ply"?
 #scale = 0.001?

@@ -22,7 +22,9 @@ const Scene* FrameScene::find(const formats::Frame& frame) {
 const Scene& FrameScene::of(const formats::Frame& frame) {
   const Scene* scene = find(frame);
   if (scene == nullptr)
-    fail(ExitCode::bad_input, "the frame has no scene, so nothing is known of its material: make it with sheet-init");
+    fail(ExitCode::bad_input, "the frame has no scene, so nothing is known of its material: make it with sheet-init, "
+                              "of a scene whose [sheet] "
+                              "has shape = \"mesh\" and this stream as its file");
   return *scene;
 }
 

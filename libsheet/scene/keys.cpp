@@ -124,7 +124,7 @@ constexpr std::array perturbation_keys{
     number_key("phase", quantity::angle, "of the wave at the center (default 0)")};
 constexpr KeyTable perturbation_table{"perturbation", perturbation_keys};
 
-constexpr std::array<std::string_view, 5> sheet_files{".obj", ".off", ".ply", ".stl", ".vtu"};
+constexpr std::array<std::string_view, 6> sheet_files{".obj", ".off", ".ply", ".stl", ".vtu", ".sheet"};
 constexpr std::array sheet_keys{
     text_key("name", "by which holds, inflows and pressure speak of one of several sheets"),
     word_key("shape", words::sheet_shapes, "its shape at the start"),
@@ -135,7 +135,8 @@ constexpr std::array sheet_keys{
     number_key("angle", quantity::angle, "of a cap, from its pole (90 deg: a hemisphere)"),
     number_key("opening", quantity::angle, "angle of a hole around a cap's pole (default 0)"),
     number_key("height", quantity::length, "of a tube"),
-    file_key(sheet_files, "mesh, taken as it is; names start in the folder of the scene"),
+    file_key(sheet_files,
+             "mesh, or a stream for its last frame, taken as it is; names start in the folder of the scene"),
     number_key("scale", quantity::number, "metres per unit of the mesh file (default 1)"),
     number_key("edge_length", quantity::length, "of the triangles to begin with"),
     integer_key("segments", "[2]", "along both sides, or around and along: a structured pattern"),

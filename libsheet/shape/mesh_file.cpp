@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/shape/mesh_file.h"
 
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "formats/cpp/mesh_export.h"
+#include "formats/cpp/stream_reader.h"
 #include "libsheet/base/error.h"
+#include "libsheet/base/files.h"
 #include "libsheet/base/named_files.h"
+#include "libsheet/shape/export.h"
+#include "libsheet/sheet/drops.h"
 
 namespace sheet {
 
@@ -27,11 +35,38 @@ std::vector<double> thickness_of(const formats::ForeignMesh& mesh, MeshPlace pla
   return array->values;
 }
 
+bool is_stream(const std::string& path) { return path.ends_with(".sheet"); }
+
+// The mesh of the last frame.
+formats::MeshImport import_stream(const std::string& path) try {
+  check_named_file(path);
+  const InputFile file(path);
+  formats::StreamReader reader(file.descriptor(), path);
+  formats::Frame next, last;
+  while (reader.read(next))
+    std::swap(next, last);
+  if (reader.frames() == 0)
+    fail(ExitCode::bad_input, "{}: the stream has no frames", path);
+  formats::MeshImport import{to_foreign_mesh(last), {}};
+  for (MeshArray& array : import.mesh.arrays)
+    if (const formats::Array* kept = last.find(array.name); kept != nullptr)
+      array.whole = kept->type != formats::Type::float32 && kept->type != formats::Type::float64;
+  if (const std::size_t drops = read_drops(last).size(); drops > 0)
+    import.notes.push_back(fmt::format("{}: its {} drops are passed over", path, drops));
+  return import;
+} catch (const formats::StreamError& error) {
+  fail(error.kind() == formats::StreamError::Kind::io ? ExitCode::io : ExitCode::bad_input,
+       "{}; of a stream that was cut short sheet-select --last takes the last whole frame", error.what());
+}
+
 // An array that was asked for, at vertices or else at triangles.
 MeshArray array_of(const formats::ForeignMesh& mesh, const std::string& name, const std::string& path) {
   const MeshArray* array = mesh.find(name, MeshPlace::point);
   if (!array)
     array = mesh.find(name, MeshPlace::cell);
+  if (!array && is_stream(path))
+    fail(ExitCode::bad_input, "{}: there is no array \"{}\" of numbers at vertices or triangles; sheet-info lists them",
+         path, name);
   if (!array)
     fail(
         ExitCode::bad_input,
@@ -49,7 +84,7 @@ void add_thickness(formats::ForeignMesh& mesh, MeshPlace place, const std::vecto
 } // namespace
 
 LoadedMesh load_mesh(const std::string& path, formats::WantedArrays arrays) {
-  formats::MeshImport import = import_named_mesh(path, arrays);
+  formats::MeshImport import = is_stream(path) ? import_stream(path) : import_named_mesh(path, arrays);
   LoadedMesh loaded;
   loaded.notes = std::move(import.notes);
   for (const auto& p : import.mesh.points)

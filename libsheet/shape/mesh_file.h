@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mesh files as TriangleMesh: formats/cpp's importers and exporters with this library's errors.
+// Mesh files as TriangleMesh: formats/cpp's importers and exporters with this library's errors; and streams.
 #pragma once
 #include <string>
 #include <vector>
@@ -14,9 +14,9 @@ struct LoadedMesh {
   std::vector<std::string> notes; // what was dropped, merged or passed over
 };
 
-// Reads OBJ, OFF, PLY, STL or VTU with thickness and velocity where the file has them, and the arrays of these names.
-// Throws Error: io if the file cannot be read, bad_input if its content is wrong, a thickness is not positive, or it
-// has not all of the arrays, a finite number everywhere.
+// Reads OBJ, OFF, PLY, STL or VTU with thickness and velocity where the file has them, and the arrays of these names;
+// of a stream the last frame. Throws Error: io if the file cannot be read, bad_input if its content is wrong, a
+// thickness is not positive, or it has not all of the arrays, a finite number everywhere.
 [[nodiscard]] LoadedMesh load_mesh(const std::string& path, formats::WantedArrays arrays = {});
 
 // Arrays "thickness" (per vertex, per triangle) and "velocity", as far as the mesh has them.

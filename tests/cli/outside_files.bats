@@ -155,6 +155,47 @@ full() {
   sheet-export large.sheet --format obj -o - | cmp - out/real.obj
 }
 
+@test "a sheet starts from the last frame of a stream, of another run or out of numpy" {
+  export PYTHONPATH=$SHEET_SOURCE/formats/python
+  /usr/bin/python3 - << 'END'
+import numpy, sheetstream
+a = numpy.arange(24) * numpy.pi / 12
+ring = [(numpy.cos(x) * r, numpy.sin(x) * r, h) for x in a for r, h in ((0.1, 0.0), (0.1, 0.05))]  # a tube
+faces = [f for i in range(0, 48, 2) for f in ((i, (i + 2) % 48, (i + 3) % 48), (i, (i + 3) % 48, i + 1))]
+frame = sheetstream.make_frame(ring, faces, thickness=numpy.linspace(0.001, 0.002, 48))
+frame.arrays["lab.dye"] = sheetstream.Array(numpy.linspace(0, 1, 48), "vertex", "1", "interpolate")
+sheetstream.write("tube.sheet", [frame])
+END
+  start() { # STREAM [ARRAY]
+    printf '[sheet]\nshape = "mesh"\nfile = "%s"\nthickness = {data = "thickness", place = "face"}\narrays = ["%s"]
+[material]\nviscosity = 1\ndensity = 1000\n[environment]\ngravity = [0, 0, -9.81]\n' "$1" "${2:-lab.dye}"
+  }
+  run -3 sheet-step --dt 0.001 tube.sheet -o none.sheet
+  [[ $output == *'has no scene'*'of a scene whose [sheet] has shape = "mesh" and this stream as its file' ]]
+  start tube.sheet > first.toml
+  sheet-init first.toml | sheet-loop -q --steps 3 -o ended.sheet -- 'sheet-step --dt 0.001'
+  start ended.sheet > second.toml
+  sheet-init second.toml -o second.sheet
+  /usr/bin/python3 - << 'END'
+import numpy, sheetstream
+old, new = sheetstream.Run("ended.sheet")[-1], sheetstream.Run("second.sheet")[0]
+for name in ("position", "velocity", "triangle", "lab.dye"):
+    numpy.testing.assert_array_equal(old[name], new[name])
+numpy.testing.assert_allclose(new["volume"], old["volume"], rtol=1e-14)
+assert (new.time, new.step) == (0, 0) and abs(new["velocity"]).max() > 0.02
+END
+  start ended.sheet lab.die > third.toml
+  run -3 sheet-init third.toml
+  [[ $output == *'ended.sheet: there is no array "lab.die"'*'sheet-info lists them'* ]]
+  head -c -100 ended.sheet > cut.sheet
+  start cut.sheet > fourth.toml
+  run -3 sheet-init fourth.toml
+  [[ $output == *cut.sheet*'sheet-select --last takes the last whole frame'* ]]
+  start fourth.sheet > fifth.toml
+  run -3 sheet-init fifth.toml
+  [[ $output == *'there is no "fourth.sheet"'* ]]
+}
+
 @test "sheet-loop -o keeps an earlier run beside it, once the ring runs" {
   sheet-loop -q -i a.sheet --steps 1 -o run.sheet -- sheet-pass
   cp run.sheet earlier.sheet

@@ -254,7 +254,7 @@ TEST(Read, ThicknessByRows) {
 TEST(Read, ProblemsOfMeshesAndCounts) {
   for (const auto& [text, expected] : std::vector<Case>{
            {"shape = \"mesh\"\nfile = \"a.step\"\nthickness = 1",
-            "s:3:8: file: \"a.step\" is of no known kind; known: .obj, .off, .ply, .stl, .vtu"},
+            "s:3:8: file: \"a.step\" is of no known kind; known: .obj, .off, .ply, .stl, .vtu, .sheet"},
            {"shape = \"mesh\"\nfile = \"\"\nthickness = 1", "s:3:8: file: must not be empty"},
            {"shape = \"mesh\"\nfile = \"a\\nb.off\"\nthickness = 1", "s:3:8: file: must not hold control characters"},
            {"shape = \"mesh\"\nfile = \"a.off\"\nthickness = {place = \"edge\"}",
