@@ -18,7 +18,7 @@ export PATH=${SHEET_BIN:+$SHEET_BIN:}$PWD/build/bin:$PATH
 export PYTHONPATH=$PWD/pipelines${PYTHONPATH:+:$PYTHONPATH} # columns.py
 name=$(dirname "${BASH_SOURCE[1]}") # the folder of the script that sources this
 out=${OUT:-out/${name##*/}}
-mkdir -p "$out"
+mkdir -p "$out" || { echo "the results go to $out, which cannot be made: give another folder by OUT=" >&2; exit 6; }
 FILM=${FILM:-640x360}
 
 # ring NAME UNTIL FPS STAGES SCENE [OPTION...]: runs the ring from the scene (options: sheet-init's) until that time;

@@ -49,6 +49,16 @@ END
   [[ $(reached disk-sphere) == 0.4 ]]
 }
 
+@test "two liquids are told apart; a folder for results that cannot be made is told with what to do" {
+  FILM=32x18 run -0 "$own" --quality draft --until 0.02 --fps 50 "$everyday/more/sauce.toml"
+  [[ $output == *'sheet-render '*'--y4m'* && $output != *--material* ]]
+  sheet-render own/sauce/run.sheet --frames -1 --view-of 0- --size 32x18 --samples 4 --denoise --material chocolate,batter -o apart.png
+  cmp own/sauce/late.png apart.png
+  touch file
+  OUT=$PWD/file/none run -6 "$own" "$everyday/more/sauce.toml"
+  [[ $output == *"the results go to $PWD/file/none, which cannot be made: give another folder by OUT="* ]]
+}
+
 @test "a scene that is refused does not keep others from running; its code is the last word" {
   mkdir scenes
   sed 's/viscosity/viscocity/' "$everyday/honey-drop.toml" > scenes/a.toml
