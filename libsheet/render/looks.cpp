@@ -81,6 +81,8 @@ Scale widened(const Scale& scale, const Field& field) {
   // Thickness that differs by roundings alone is one thickness.
   if (scale.high - scale.low > 1e-6 * std::abs(scale.high))
     return scale;
+  if (scale.low == 0 && scale.high == 0) // of what rests: nothing has a negative speed
+    return {0, 1};
   const double width = scale.high > 0 ? 0.1 * scale.high : 1;
   return {scale.low - width, scale.high + width};
 }

@@ -78,6 +78,12 @@ TEST(Scale, IsNeverWithoutWidth) {
     }
 }
 
+TEST(Scale, OfASheetAtRestHasNoNegativeSpeeds) {
+  const Scale wide = widened({0, 0}, field_named("speed"));
+  EXPECT_EQ(wide.low, 0);
+  EXPECT_EQ(wide.high, 1);
+}
+
 TEST(ScaleBar, StandsBesideTheSubject) {
   for (const auto& [w, h] : {std::pair{320, 180}, {640, 360}, {1280, 720}, {500, 900}}) {
     Bitmap bitmap(w, h);
