@@ -56,10 +56,10 @@ void propose_split(const EditableSheet& sheet, std::uint32_t side, Edit& edit);
 // corner is held by more than a solid that it touches.
 [[nodiscard]] bool propose_trim(const EditableSheet& sheet, std::uint32_t triangle, Edit& edit);
 
-// A notch in the rim beside an inlet gets a triangle, between a rim vertex and its two neighbours on the rim; its
-// liquid comes from the triangles around that vertex, which stay as they are. False where the two are neighbours
-// already, where not all three flow along the same wall, or none is the end of an inlet's strip. (Elsewhere something
-// may stand in it: a tooth of a comb, a post.)
+// A notch in the rim on a wall gets a triangle, between a rim vertex and its two neighbours on the rim; its liquid
+// comes from the triangles around that vertex, which stay as they are. False where the two are neighbours already,
+// where not all three flow along the same wall and touch nothing else (a tooth of a comb, a post that stands in it), or
+// where the two do not come nearer to each other and none is the end of an inlet's strip.
 [[nodiscard]] bool propose_fill(const EditableSheet& sheet, std::uint32_t v, Edit& edit);
 
 } // namespace sheet::remesh

@@ -189,8 +189,8 @@ private:
         ++report_.collapses;
   }
 
-  // Where two parts of a rim that flow along a wall beside an inlet have come nearer than edges are long, from a vertex
-  // on, the liquid between them has met: what is left is no shape of the liquid, and would fold and be crushed.
+  // Where two parts of a rim that flow along a wall have come nearer than edges are long, from a vertex on, the liquid
+  // between them has met: what is left is no shape of the liquid, and would fold and be crushed.
   void fill_notches() {
     for (std::uint32_t v = 0; v < mesh_.vertex_slots() && within_budget(); ++v) {
       if (!mesh_.has_vertex(v) || !propose_fill(sheet_, v, edit_))

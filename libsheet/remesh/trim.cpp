@@ -69,9 +69,10 @@ bool propose_fill(const EditableSheet& sheet, std::uint32_t v, Edit& edit) {
   if (mesh.side_at(v) == no_index || !mesh.on_rim(v))
     return false;
   const auto [before, after] = rim_neighbours(mesh, v);
+  const bool closes = (sheet.at(after) - sheet.at(before)).dot(sheet.velocity(after) - sheet.velocity(before)) < 0;
   if (sheet.wall(v) == no_index || sheet.wall(before) != sheet.wall(v) || sheet.wall(after) != sheet.wall(v) ||
       before == after || mesh.adjacent(before, after) ||
-      !(sheet.at_inlet(v) || sheet.at_inlet(before) || sheet.at_inlet(after)))
+      !(closes || sheet.at_inlet(v) || sheet.at_inlet(before) || sheet.at_inlet(after)))
     return false;
   edit.clear();
   edit.kind = Edit::Kind::flip;

@@ -195,8 +195,9 @@ formats::Frame open_fan(double degrees) {
   return frame;
 }
 
-// Beside an inlet where the liquid flows along a wall, if it is narrower than edges are long, and no blunt corner.
-TEST(CornerCase, ANotchOfARimBesideAnInletIsFilled) {
+// Where the liquid flows along a wall, beside an inlet or as its ends come together, if it is narrower than edges are
+// long, and no blunt corner.
+TEST(CornerCase, ANotchOfARimOnAWallIsFilled) {
   Scene scene;
   scene.solids.resize(1);
   scene.solids[0].shape = scene::HalfSpace{{0, 0, 1}};
@@ -214,6 +215,13 @@ TEST(CornerCase, ANotchOfARimBesideAnInletIsFilled) {
   Edit edit;
   formats::Frame away = open_fan(50);
   put_masks(away, "inlet")[1] = 0;
+  EXPECT_FALSE(propose_fill(EditableSheet(away, &scene), 0, edit)); // at rest
+  const std::span<Vector3> velocity = velocities(away);
+  velocity[1] = {0, 0.1, 0}; // its ends part
+  EXPECT_FALSE(propose_fill(EditableSheet(away, &scene), 0, edit));
+  velocity[1] = {0, -0.1, 0}; // they meet
+  EXPECT_TRUE(propose_fill(EditableSheet(away, &scene), 0, edit));
+  put_masks(away, "touch")[6] = 2; // something stands between them
   EXPECT_FALSE(propose_fill(EditableSheet(away, &scene), 0, edit));
   EditableSheet sheet(open_fan(50), &scene);
   ASSERT_TRUE(propose_fill(sheet, 0, edit));
