@@ -299,3 +299,32 @@ END
   echo "$behind $most $ahead"
   awk -v b="$behind" -v m="$most" -v a="$ahead" 'BEGIN { exit !(b > 0.5 && b < 0.8 && m < 1 && a > 5 && a < 10) }'
 }
+
+@test "the rim of a puddle that swings does not spurt where its parts meet" {
+  cat > puddle.toml << 'END'
+[sheet]
+shape = "disk"
+radius = "20 mm"
+center = [0, "2 mm", 0]
+edge_length = "2 mm"
+thickness = "2 mm"
+[material]
+viscosity = "0.003 Pa*s"
+density = "1000 kg/m^3"
+surface_tension = "0.072 N/m"
+[environment]
+gravity = [0, -9.81, 0]
+[[solid]]
+shape = "plane"
+contact = "flow"
+contact_angle = "30 deg"
+[contact]
+self = true
+END
+  sheet-init puddle.toml -o start.sheet
+  sheet-loop -q -i start.sheet --until 0.225 --fps 200 --keep last -o run.sheet -- \
+    'sheet-remesh --smooth | sheet-step | sheet-collide'
+  # Without notches that are filled, films of 8 um at 0.225 s; with them 0.76 mm.
+  sheet-info --csv run.sheet | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "thickness_min") h = i }
+    END { exit !($h > 3e-4) }'
+}
