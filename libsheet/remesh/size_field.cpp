@@ -34,6 +34,7 @@ constexpr double thicknesses_an_edge_of_threads = 0.5;
 constexpr double least_wedge_of_threads = pi / 9; // a thread ends in no wedge, but tension shortens it
 constexpr double widths_long = 6;                 // a thread, at least
 constexpr double finest_in_strips = 1.0 / 16;     // of edge_length
+constexpr double carries_enough = 0.01;           // of what triangles carry in the mean, one of a neck
 
 void check_length(const char* option, double value) {
   if (!(value > 0 && std::isfinite(value)))
@@ -173,6 +174,18 @@ std::vector<double> thickness_at_vertices(const EditableSheet& sheet) {
                           [&](std::uint32_t t) { return sheet.shape(t).area; });
 }
 
+// Of the triangles [m³].
+double mean_volume(const EditableSheet& sheet) {
+  double volume = 0;
+  std::size_t triangles = 0;
+  for (std::uint32_t t = 0; t < sheet.mesh().triangle_slots(); ++t)
+    if (sheet.mesh().has_triangle(t)) {
+      volume += sheet.volume(t);
+      ++triangles;
+    }
+  return triangles > 0 ? volume / static_cast<double>(triangles) : 0;
+}
+
 // Vertices of long strands that are as thick as they are wide, or thicker.
 std::vector<bool> round_threads(const EditableSheet& sheet, const std::vector<double>& width,
                                 const std::vector<double>& thickness) {
@@ -284,11 +297,14 @@ void SizeField::fit_strips(const EditableSheet& sheet, const SizeOptions& option
                             thickness = thickness_at_vertices(sheet);
   const std::vector<bool> threads =
       round && !options.chord_error ? round_threads(sheet, strip, thickness) : std::vector<bool>(strip.size(), false);
+  const double enough = carries_enough * mean_volume(sheet);
   std::vector<double> fitted(strip.size());
   bool any = false;
   for (std::uint32_t v = 0; v < fitted.size(); ++v) {
-    const double width = std::min(strip[v], neck[v]);
-    const double own = std::max({widths * width, thicknesses * thickness[v], floor});
+    const double least = std::max(thicknesses * thickness[v], floor);
+    const double in_strip = std::max(widths * strip[v], least);
+    const double in_neck = std::max({widths * neck[v], least, 2 * enough / (neck[v] * thickness[v])});
+    const double own = std::min(in_strip, in_neck);
     fitted[v] = threads[v] ? own : std::min(at(v), own);
     any = any || fitted[v] != at(v);
     if (round && !thick_.empty() && fitted[v] < at(v))

@@ -44,7 +44,8 @@ struct SizeOptions {
 // and get good triangles: edges of 1.5 times the width, down to h/2. A strand of two rows that is as thick as it is
 // wide, and six times as long, gets such edges also where shorter ones are asked for, unless lengths are adaptive: of
 // one row it has no noise of its mesh, of two, between uneven triangles, it thins twice as fast as it should (V47).
-// Likewise a neck (necks.h), its width that of the least of the edges round it.
+// Likewise a neck (necks.h), its width that of the least of the edges round it; but as long edges as its triangles need
+// to carry a hundredth of what triangles do in the mean.
 //
 // Where some of the sheet is thicker than the longest wanted length, no edge is split that is not too long for h, too,
 // where nothing holds the sheet and no solid carries it: a shell model says nothing about what is shorter.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include <fmt/core.h>
@@ -13,8 +14,10 @@
 
 #include "libsheet/geometry/connectivity.h"
 #include "libsheet/remesh/necks.h"
+#include "libsheet/remesh/size_field.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/shape/shapes.h"
+#include "libsheet/sheet/sheet.h"
 #include "tests/support/remesh/flows.h"
 #include "tests/support/remesh/options.h"
 
@@ -207,26 +210,28 @@ TEST(StripWidth, TrianglesOfAdaptiveLengthsAreNoFinerThanTheSheetIsThick) {
   EXPECT_GT(thin.vertices, 2 * before);
 }
 
+// A tube of three edges around, narrowest in the middle, of which its ring number k has the vertices 3k to 3k + 2.
+formats::Frame narrowing_tube(int rings) {
+  TriangleMesh mesh;
+  for (int k = 0; k < rings; ++k)
+    for (int i = 0; i < 3; ++i) {
+      const double angle = 2 * std::numbers::pi / 3 * i, radius = 0.02 * (1 + std::pow(2.0 * k / (rings - 1) - 1, 2));
+      mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.1 * k);
+    }
+  for (std::uint32_t k = 0; k + 1 < static_cast<std::uint32_t>(rings); ++k)
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = 3 * k + i, b = 3 * k + (i + 1) % 3;
+      mesh.triangles.push_back({a, b, b + 3});
+      mesh.triangles.push_back({a, b + 3, a + 3});
+    }
+  return test::frame_of(mesh, 0.001);
+}
+
 // A tube of three edges around: a neck is where enough of it is on either side; none where it is wider than asked for,
 // or where its ends are near.
 TEST(StripWidth, ANeckIsAsWideAsTheEdgesRoundIt) {
   constexpr int rings = 13;
-  const auto tube = [](int count) {
-    TriangleMesh mesh;
-    for (int k = 0; k < count; ++k)
-      for (int i = 0; i < 3; ++i) {
-        const double angle = 2 * std::numbers::pi / 3 * i, radius = 0.02 * (1 + std::pow(2.0 * k / (count - 1) - 1, 2));
-        mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.1 * k);
-      }
-    for (std::uint32_t k = 0; k + 1 < static_cast<std::uint32_t>(count); ++k)
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const std::uint32_t a = 3 * k + i, b = 3 * k + (i + 1) % 3;
-        mesh.triangles.push_back({a, b, b + 3});
-        mesh.triangles.push_back({a, b + 3, a + 3});
-      }
-    return test::frame_of(mesh, 0.001);
-  };
-  formats::Frame frame = tube(rings);
+  formats::Frame frame = narrowing_tube(rings);
   const std::vector<double> width = neck_widths(EditableSheet(frame), 0.05);
   for (std::uint32_t k = 0; k < rings; ++k) // 36 triangles on either side of the sixth alone
     for (std::uint32_t v = 3 * k; v < 3 * k + 3; ++v)
@@ -236,8 +241,34 @@ TEST(StripWidth, ANeckIsAsWideAsTheEdgesRoundIt) {
         EXPECT_EQ(width[v], std::numeric_limits<double>::infinity());
   for (const double w : neck_widths(EditableSheet(frame), 0.03))
     EXPECT_EQ(w, std::numeric_limits<double>::infinity());
-  for (const double w : neck_widths(EditableSheet(tube(10)), 0.05))
+  for (const double w : neck_widths(EditableSheet(narrowing_tube(10)), 0.05))
     EXPECT_EQ(w, std::numeric_limits<double>::infinity());
+}
+
+// Edges of twice a neck's width; where it carries next to nothing longer ones: a triangle of half its width by an edge
+// carries a hundredth of the mean then.
+TEST(StripWidth, ANeckThatCarriesNothingGetsLongEdges) {
+  formats::Frame frame = narrowing_tube(13);
+  const auto wanted = [&] {
+    EditableSheet sheet(frame);
+    SizeOptions options;
+    options.edge_length = 0.1;
+    return SizeField(sheet, nullptr, options).at(3 * 6);
+  };
+  const double width = 0.02 * std::sqrt(3.0);
+  EXPECT_NEAR(wanted(), 2 * width, 1e-12);
+  const auto volume = volumes(frame);
+  const auto thin_middle = [&](double part) {
+    for (std::size_t t = 6 * 5; t < 6 * 7; ++t) // before and behind ring 6
+      volume[t] *= part;
+  };
+  thin_middle(0.02);
+  EXPECT_NEAR(wanted(), 2 * width, 1e-12);
+  thin_middle(0.7);
+  const double mean = std::accumulate(volume.begin(), volume.end(), 0.0) / static_cast<double>(volume.size());
+  EXPECT_NEAR(wanted(), 2 * 0.01 * mean / (width * 1.4e-5), 0.01 * wanted());
+  EXPECT_GT(wanted(), 2.2 * width);
+  EXPECT_LT(wanted(), 0.1);
 }
 
 } // namespace
