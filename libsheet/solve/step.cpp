@@ -61,9 +61,11 @@ bool slides_too_far(const Stage& stage, const Unknowns& last, double dt, const E
 }
 
 // How much each vertex counts: wholly, but less in films, the thinner they are, or as the vertex carries less than
-// three hundredths of the mean volume: strands of next to no mass shall rule neither steps nor iterations, either.
-Eigen::VectorXd vertex_weights(const Stage& stage) {
-  constexpr double carries_enough = 0.03;
+// three hundredths of the mean volume: strands of next to no mass shall rule neither steps nor iterations, either. Of
+// these, what is thicker than its edges are long is no sheet whose shape the model knows, unless rims are `round`, and
+// counts for nothing.
+Eigen::VectorXd vertex_weights(const Stage& stage, const Eigen::VectorXd& lengths, bool round) {
+  constexpr double carries_enough = 0.03, least_weight = 1e-6;
   const auto& triangles = stage.start->mesh->triangles;
   const std::vector<double> shares =
       vertex_shares(stage.vertices(), triangles, [&](std::uint32_t t) { return stage.raised[t].area(); });
@@ -77,14 +79,16 @@ Eigen::VectorXd vertex_weights(const Stage& stage) {
   for (Eigen::Index v = 0; v < area.size(); ++v) {
     const double own = stage.vertex_volumes[static_cast<std::size_t>(v)];
     weight[v] = std::min({1.0, own / (thickness * area[v]), own / carried});
+    if (!round && own < carried)
+      weight[v] *= std::clamp(2 - 2 * own / (area[v] * lengths[3 * v]), least_weight, 1.0);
   }
   return weight;
 }
 
 // What errors and remainders are measured in: the mean length of a vertex' edges, radians, more where little is
 // carried.
-Eigen::VectorXd measures(const Stage& stage, const Eigen::VectorXd& lengths) {
-  const Eigen::VectorXd weight = vertex_weights(stage);
+Eigen::VectorXd measures(const Stage& stage, const Eigen::VectorXd& lengths, bool round) {
+  const Eigen::VectorXd weight = vertex_weights(stage, lengths, round);
   Eigen::VectorXd result = lengths;
   for (Eigen::Index v = 0; v < weight.size(); ++v)
     result.segment<3>(3 * v) /= weight[v];
@@ -107,7 +111,7 @@ Beginning begin_step(const Model& model, const State& state, double duration) {
       first_stage(state, model.liquids(), duration, state.time + duration, model.has_angles(), profile), {}, {}, {}};
   Stage& stage = result.stage;
   result.lengths = step_scale(state, stage.begin.size());
-  result.scale = measures(stage, result.lengths);
+  result.scale = measures(stage, result.lengths, model.faces.has_value());
   stage.stiffened = stiffened_films(stage, model.has_inertia());
   set_clamped(model.holds, stage);
   set_wall_sites(model.walls, stage);

@@ -115,5 +115,38 @@ TEST(Films, StepsLongerThanTheyTakeToContractNeedFewIterations) {
     }
 }
 
+// A crumb beside a square, thicker than its edges are long, whose corners move against each other. With rims that tension
+// makes round it is a thread, and its motion is followed.
+TEST(Films, CrumbsRuleNoStepUnlessRimsAreRound) {
+  const auto first_step = [](bool crumb, bool round) {
+    test::Mesh mesh = test::rectangle(0.04, 0.04, 10, 10, 0.2);
+    const std::size_t own = mesh.positions.size();
+    if (crumb) {
+      const auto first = static_cast<std::uint32_t>(own);
+      const test::Mesh strip = test::rectangle(2e-3, 5e-4, 4, 1, 0);
+      for (const Vector3& x : strip.positions)
+        mesh.positions.emplace_back(x + Vector3(0.1, 0, 0));
+      for (const Corners& c : strip.triangles)
+        mesh.triangles.push_back({first + c[0], first + c[1], first + c[2]});
+    }
+    State s = test::at_rest(mesh, 0.002);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> any(-0.05, 0.05);
+    for (std::size_t v = own; v < s.velocities.size(); ++v)
+      s.velocities[v] = {any(random), any(random), any(random)};
+    Model m = liquid();
+    m.gravity = {0, 0, -9.81};
+    if (round)
+      m.faces.emplace();
+    StepControl control{1e-2, 0};
+    const StepReport r = Stepper(m, {}).step_within(s, 0.1, control);
+    EXPECT_EQ(r.inaccurate + r.unfinished, 0);
+    return s.time;
+  };
+  const double without = first_step(false, false);
+  EXPECT_NEAR(first_step(true, false), without, 0.01 * without);
+  EXPECT_LT(first_step(true, true), 0.9 * without);
+}
+
 } // namespace
 } // namespace sheet
