@@ -107,9 +107,13 @@ void Survey::add(const formats::Frame& frame, const Scene* scene, const std::vec
 
 Extent Survey::subject() const {
   Extent all = sheet_;
-  if (sheet_.box.empty() || solids_.box.diagonal() <= 4 * sheet_.box.diagonal())
+  if (has_solids_in_picture())
     all.add(solids_);
   return all;
+}
+
+bool Survey::has_solids_in_picture() const {
+  return sheet_.box.empty() || solids_.box.diagonal() <= 4 * sheet_.box.diagonal();
 }
 
 Vector3 up_of(const Scene* scene) {

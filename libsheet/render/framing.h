@@ -28,6 +28,7 @@ public:
   // farther below them than they and the sheet (the root of its area) are large does not count, unless it still hangs
   // from what is held. Its box is empty if there is nothing at all.
   [[nodiscard]] Extent subject() const;
+  [[nodiscard]] bool has_solids_in_picture() const;           // it is about these, too, or there are none
   [[nodiscard]] const Scale& scale() const { return scale_; } // of the look's values
 
 private:

@@ -240,7 +240,7 @@ struct RenderStage::Impl {
   void leave_out_what_encloses() {
     if (options.solids != DrawnSolids::not_enclosing)
       return;
-    enclosing = sights->enclosing();
+    enclosing = sights->enclosing(survey->has_solids_in_picture());
     for (const std::size_t solid : enclosing)
       log::warning("[[solid]] {} hides the sheet from all sides and is not drawn (--solids all draws it)", solid);
     leave_out_enclosing();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "libsheet/render/framing.h"
 #include "libsheet/render/world.h"
@@ -47,10 +48,11 @@ void Sights::add(const formats::Frame& frame, const Scene* scene, const std::vec
   }
 }
 
-std::vector<std::size_t> Sights::enclosing() const {
+std::vector<std::size_t> Sights::enclosing(bool in_picture) const {
   std::vector<std::size_t> result;
+  const auto places = std::span(hidden_by_).first(in_picture ? toward_.size() : toward_.size() / 2);
   for (std::size_t solid = 0; !hidden_by_.empty() && solid < hidden_by_[0].size(); ++solid)
-    if (std::ranges::all_of(hidden_by_, [&](const std::vector<std::size_t>& hidden) {
+    if (std::ranges::all_of(places, [&](const std::vector<std::size_t>& hidden) {
           return solid < hidden.size() && hidden[solid] > 0 && 3 * hidden[solid] >= 2 * points_;
         }))
       result.push_back(solid);

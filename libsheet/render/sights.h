@@ -15,9 +15,9 @@ public:
   explicit Sights(std::vector<Vector3> toward);
   // `meshes`: of the frame's scene.
   void add(const formats::Frame& frame, const Scene* scene, const std::vector<SolidMesh>& meshes);
-  // Numbers in the scene of those that hide at least two thirds of the sheet from each camera, and from as far on the
-  // other side.
-  [[nodiscard]] std::vector<std::size_t> enclosing() const;
+  // Numbers in the scene of those that hide at least two thirds of the sheet from each camera, and, if they are in the
+  // picture with it, from as far on the other side. Where they are not, cameras may be within them.
+  [[nodiscard]] std::vector<std::size_t> enclosing(bool in_picture) const;
   // The first camera that sees at least half as much of the sheet as the one that sees most, without those solids.
   [[nodiscard]] std::size_t best(const std::vector<std::size_t>& left_out) const;
 

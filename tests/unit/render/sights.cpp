@@ -36,7 +36,7 @@ double best_elevation(const Scene& scene, const formats::Frame& frame) {
   }
   Sights sights(toward);
   sights.add(frame, &scene, make_solids(scene));
-  return views[sights.best(sights.enclosing())].elevation;
+  return views[sights.best(sights.enclosing(true))].elevation;
 }
 
 TEST(Sights, WhatIsBetweenWallsIsSeenFromHighAbove) {
@@ -53,19 +53,20 @@ TEST(Sights, OneSolidEnclosesButNotTwoHalves) {
   scene.solids.emplace_back().shape = scene::Sphere{1};
   scene.solids.emplace_back().shape = scene::SolidBox{{3, 0.1, 3}};
   scene.solids.back().center = {0, -2, 0};
-  const auto enclosing = [&] {
+  const auto enclosing = [&](bool in_picture = true) {
     Sights sights({Vector3(0.6, 0.8, 0), Vector3(0, 0.6, 0.8)});
     sights.add(frame, &scene, make_solids(scene));
-    return sights.enclosing();
+    return sights.enclosing(in_picture);
   };
   EXPECT_EQ(enclosing(), std::vector<std::size_t>{0});
   scene.solids[0].shape = scene::SolidBox{{3, 0.1, 3}}; // above and below: each hides it from its side
   scene.solids[0].center = {0, 0.1, 0};
   scene.solids[1].center = {0, -0.1, 0};
   EXPECT_TRUE(enclosing().empty());
+  EXPECT_EQ(enclosing(false), std::vector<std::size_t>{0}); // so large that the cameras are within it, or behind
   Sights none({});
   none.add(frame, &scene, make_solids(scene));
-  EXPECT_TRUE(none.enclosing().empty());
+  EXPECT_TRUE(none.enclosing(true).empty());
   EXPECT_EQ(none.best({}), 0);
 }
 
