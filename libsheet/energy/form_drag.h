@@ -4,7 +4,8 @@
 // C_t ρ |w_t| w_t/2 [Pa], C_t for both faces together. For each corner of a triangle
 //   W = (Â/3) τ (ρ/6) (C_n |w_n|³ + C_t |w_t|³),   w = (x - x̄)/τ - wind,
 // Â and the normal predicted for the end of the stage, x̄ the start of the step, in a second stage extrapolated from the
-// first, wind at the stage's end. A corner that is sheltered has none of it, one that slides no friction.
+// first, wind at the stage's end. A corner that is sheltered has none of it, one that slides no friction, one that is
+// reached on one face half the friction, and nothing across.
 #pragma once
 #include <functional>
 #include <vector>
@@ -21,6 +22,7 @@ struct OuterFlow {
   std::function<Vector3(double)> wind = [](double) -> Vector3 { return Vector3::Zero(); }; // at a time [m/s]
   std::vector<char> sheltered = {}; // of each vertex, whether it is not reached; empty: all are
   std::vector<char> slides = {};    // of each vertex, whether it has no friction; empty: all have
+  std::vector<char> one_face = {};  // of each vertex, whether only one of its faces is reached; empty: of none
 };
 
 class FormDrag {
@@ -47,8 +49,8 @@ public:
 
   [[nodiscard]] double value(std::size_t i, const VectorN<9>& u) const {
     double sum = 0;
-    each_corner(i, u, [&](int, const Vector3& across, const Vector3& along) {
-      sum += potential(triangles_[i].weight, across.norm(), along.norm());
+    each_corner(i, u, [&](int, const Vector3& across, const Vector3& along, double friction) {
+      sum += potential(triangles_[i].weight, across.norm(), along.norm(), friction);
     });
     return sum;
   }
@@ -56,8 +58,8 @@ public:
   double gradient(std::size_t i, const VectorN<9>& u, VectorN<9>& gradient) const {
     double sum = 0;
     gradient.setZero();
-    each_corner(i, u, [&](int c, const Vector3& across, const Vector3& along) {
-      sum += add_corner(triangles_[i].weight, across, along, gradient.segment<3>(3 * c));
+    each_corner(i, u, [&](int c, const Vector3& across, const Vector3& along, double friction) {
+      sum += add_corner(triangles_[i].weight, across, along, friction, gradient.segment<3>(3 * c));
     });
     return sum;
   }
@@ -68,14 +70,13 @@ public:
     hessian.setZero();
     const Vector3& normal = triangles_[i].normal;
     const Matrix3 nn = normal * normal.transpose();
-    each_corner(i, u, [&](int c, const Vector3& across, const Vector3& along) {
+    each_corner(i, u, [&](int c, const Vector3& across, const Vector3& along, double friction) {
       const double weight = 3 * triangles_[i].weight, slid = along.norm();
-      sum += add_corner(triangles_[i].weight, across, along, gradient.segment<3>(3 * c));
+      sum += add_corner(triangles_[i].weight, across, along, friction, gradient.segment<3>(3 * c));
       auto block = hessian.block<3, 3>(3 * c, 3 * c);
-      block =
-          2 * weight * flow_.drag * across.norm() * nn + weight * flow_.friction * slid * (Matrix3::Identity() - nn);
+      block = 2 * weight * flow_.drag * across.norm() * nn + weight * friction * slid * (Matrix3::Identity() - nn);
       if (slid > 0)
-        block += weight * flow_.friction / slid * along * along.transpose();
+        block += weight * friction / slid * along * along.transpose();
     });
     return sum;
   }
@@ -87,16 +88,17 @@ private:
   };
 
   static double cube(double x) { return x * x * x; }
-  [[nodiscard]] double potential(double weight, double across, double along) const {
-    return weight * (flow_.drag * cube(across) + flow_.friction * cube(along));
+  [[nodiscard]] double potential(double weight, double across, double along, double friction) const {
+    return weight * (flow_.drag * cube(across) + friction * cube(along));
   }
   // Adds a corner's to the gradient and returns its potential.
-  double add_corner(double weight, const Vector3& across, const Vector3& along, Eigen::Ref<Vector3> gradient) const {
+  double add_corner(double weight, const Vector3& across, const Vector3& along, double friction,
+                    Eigen::Ref<Vector3> gradient) const {
     const double a = across.norm(), l = along.norm();
-    gradient += 3 * weight * (flow_.drag * a * across + flow_.friction * l * along);
-    return potential(weight, a, l);
+    gradient += 3 * weight * (flow_.drag * a * across + friction * l * along);
+    return potential(weight, a, l, friction);
   }
-  // Of each corner that is reached what it has moved against the flow, across the triangle and along it [m].
+  // Of each corner that is reached what it has moved against the flow, across the triangle and along it [m], and C_t.
   template <class Visit> void each_corner(std::size_t i, const VectorN<9>& u, Visit&& visit) const {
     const Vector3& normal = triangles_[i].normal;
     for (int c = 0; c < 3; ++c) {
@@ -105,7 +107,9 @@ private:
         continue;
       const Vector3 moved = u.segment<3>(3 * c) - still_[v], across = normal.dot(moved) * normal;
       const bool rubs = flow_.slides.empty() || flow_.slides[v] == 0;
-      visit(c, across, rubs ? Vector3(moved - across) : Vector3::Zero());
+      const bool on_one = !flow_.one_face.empty() && flow_.one_face[v] != 0;
+      visit(c, on_one ? Vector3(Vector3::Zero()) : across, rubs ? Vector3(moved - across) : Vector3::Zero(),
+            on_one ? flow_.friction / 2 : flow_.friction);
     }
   }
 

@@ -170,7 +170,7 @@ gravity = [0, "-9.81 m/s^2", 0]
 
 # Air drags on what moves through it, across itself as on a plate, along itself by friction: it holds back films that are
 # thinner than some 0.2 mm. It moves everywhere at `wind`; what touches a solid or another layer, or is under a bath, it
-# does not reach.
+# does not reach. On what floats it rubs from above.
 #air = {density = "1.2 kg/m^3", drag_coefficient = 1.2, friction_coefficient = 0.01, wind = ["3 m/s", 0, 0]}
 
 [model] # ---------------------------------------------------------------- what to leave out; may be absent

@@ -59,10 +59,14 @@ void offer_forces(Scales& scales, const Scene& scene) {
     return;
   offer(scales, least(2 * tension / h, 2, std::sqrt(2 * tension / (density * h))), "surface tension");
   const bool free = scene.holds.empty() && scene.inflows.empty(); // wind takes it along, however viscous it is
+  const auto& bath = scene.environment.bath;
+  const bool floats = bath && scales.above_bath == 0; // then wind rubs on its upper face
   if (const auto& air = scene.environment.air)
     for (const auto& entry : air->wind.entries) {
-      const double stress = air->drag_coefficient * air->density * entry.value.squaredNorm() / 2 * L / h;
-      const double flying = inertia ? std::sqrt(stress / density) : unlimited;
+      const double drag = floats ? air->friction_coefficient / 2 : air->drag_coefficient;
+      const double force = drag * air->density * entry.value.squaredNorm() / 2, stress = force * L / h;
+      const double sliding = floats && bath->drag > 0 ? force / bath->drag : unlimited;
+      const double flying = std::min(sliding, inertia ? std::sqrt(stress / density) : unlimited);
       offer(scales, std::min(entry.value.norm(), free ? flying : least(stress, 2, flying)), "wind");
     }
   offer(scales, least(scales.pressure * L / h, 2, std::sqrt(scales.pressure * L / (density * h))), "pressure");

@@ -34,6 +34,7 @@ struct Scales {
 //   gravity          rho g L²/mu        sqrt(g L)          not on a bath, which carries the weight
 //   surface tension  2 gamma L/(mu h)   sqrt(2 gamma/(rho h))  [Taylor 1959, Culick 1960]
 //   pressure         p L²/(mu h)        sqrt(p L/(rho h))
+//   wind             likewise, its pressure; on what floats its friction on one face, over the bath's drag at most
 // Of a liquid that is not Newtonian the rate of each balance, V/L, is that of its stress, rho g L, 2 gamma/h or p L/h
 // (material/driven_rate.h): none where it is borne by the yield stress.
 [[nodiscard]] Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& measured);

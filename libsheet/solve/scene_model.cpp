@@ -334,17 +334,27 @@ std::vector<char> covered(const Scene& scene, const Frame& frame, const Model& m
   return covered;
 }
 
-// What air does not reach, or is under the bath's surface.
-std::vector<char> sheltered_from_air(const Scene& scene, const Frame& frame, const Model& model) {
-  std::vector<char> sheltered = covered(scene, frame, model);
-  if (const auto& bath = scene.environment.bath) {
-    const auto x = positions(frame);
-    const Vector3 up = -scene.environment.gravity->normalized();
-    for (std::size_t v = 0; v < x.size(); ++v)
-      if (up.dot(x[v]) < bath->level)
-        sheltered[v] = 1;
+// What air does not reach: it is covered, or the bath stands above it. What floats, up to its thickness under the
+// level, it reaches on the upper face alone.
+void put_shelter_from_air(const Scene& scene, const Frame& frame, const Connectivity& mesh, Model& model) {
+  OuterFlow& air = *model.air;
+  air.sheltered = covered(scene, frame, model);
+  if (!scene.environment.bath)
+    return;
+  const auto x = positions(frame);
+  const Vector3 up = -scene.environment.gravity->normalized();
+  const std::vector<double> h = thickness_around(x.size(), mesh.triangles, volumes(frame), [&](std::uint32_t t) {
+    const Corners& c = mesh.triangles[t];
+    return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
+  });
+  air.one_face.assign(x.size(), 0);
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const double height = up.dot(x[v]) - scene.environment.bath->level;
+    if (height < -h[v])
+      air.sheltered[v] = 1;
+    else if (height < 0)
+      air.one_face[v] = 1;
   }
-  return sheltered;
 }
 
 // What a bath does not resist, as it is not there, or something else is in between.
@@ -536,7 +546,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   if (model.bath_flow)
     put_bath_flow(scene, frame, model);
   if (model.air)
-    model.air->sheltered = sheltered_from_air(scene, frame, model);
+    put_shelter_from_air(scene, frame, mesh, model);
   // Between two steps what has come to a roll is not held by it: there the end of a step is no better than its middle.
   if (scene.model.forces && !scene::has_rolls(scene))
     model.reactions = Reactions::at_end;

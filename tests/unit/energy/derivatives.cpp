@@ -339,17 +339,22 @@ TEST(Derivatives, FormDrag) {
   // So strong that no difference crosses where the velocity against it is 0.
   const auto wind = [](double t) { return Vector3(20, 200 * t, -30); };
   check(FormDrag({.density = 2, .drag = 1.2, .friction = 0.3, .wind = wind}), {false, false});
+  const std::vector<char> afloat(test::at_rest(test::icosphere(1), 0.3).mesh->vertices, 1);
+  check(FormDrag({.density = 2, .drag = 1.2, .friction = 0.3, .wind = wind, .one_face = afloat}), {false, false});
 }
-// The whole force on a triangle is that of its area, and what nothing reaches has none.
+// The whole force on a triangle is that of its area, what nothing reaches has none, and what is reached on one face
+// half the friction.
 TEST(Derivatives, AirPressesAndRubs) {
   const test::Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, {{0, 1, 2}}};
   const State s = test::at_rest(mesh, 0.1);
   const Liquid liquid{.viscosity = 1, .density = 3};
   const double dt = 0.5;
-  FormDrag all({.density = 2, .drag = 1.2, .friction = 0.1}), part({.density = 2, .drag = 1.2, .sheltered = {0, 1, 1}});
+  FormDrag all({.density = 2, .drag = 1.2, .friction = 0.1}), part({.density = 2, .drag = 1.2, .sheltered = {0, 1, 1}}),
+      above({.density = 2, .drag = 1.2, .friction = 0.1, .one_face = {1, 1, 1}});
   Stage stage = first_stage(s, liquid, dt, dt, false);
   all.begin(stage);
   part.begin(stage);
+  above.begin(stage);
   const Vector3 velocity(0, 3, -4);
   VectorN<9> u, gradient;
   MatrixN<9> hessian;
@@ -361,6 +366,7 @@ TEST(Derivatives, AirPressesAndRubs) {
   };
   EXPECT_NEAR((force(all) - Vector3(0, -0.1 * 2 * 9.0 / 2, 1.2 * 2 * 16.0 / 2)).norm(), 0, 1e-12);
   EXPECT_NEAR((force(part) - Vector3(0, 0, 1.2 * 2 * 16.0 / 2 / 3)).norm(), 0, 1e-12);
+  EXPECT_NEAR((force(above) - Vector3(0, -0.05 * 2 * 9.0 / 2, 0)).norm(), 0, 1e-12);
 }
 // A sphere has no rim: every third edge counts as one, in part.
 TEST(Derivatives, RimTension) {

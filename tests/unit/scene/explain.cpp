@@ -220,6 +220,10 @@ TEST(Explain, WindTakesAlongWhatIsFree) {
                                    "air = {density = 1.2, drag_coefficient = 1.2, wind = [0, 0, 3]}\n";
   EXPECT_DOUBLE_EQ(scale(of(windy), "V"), std::sqrt(6.48 / (1000 * 0.02)));
   EXPECT_LT(scale(of(windy + "[[hold]]\nregion = \"rim\"\n"), "V"), 1e-3);
+  // On what floats it rubs on one face, 0.5 ct rho_a v²/2 = 0.027 Pa.
+  const std::string afloat = windy + "gravity = [0, -10, 0]\nbath = {density = 2000, level = 0";
+  EXPECT_DOUBLE_EQ(scale(of(afloat + "}\n"), "V"), std::sqrt(0.027 / (1000 * 0.02)));
+  EXPECT_DOUBLE_EQ(scale(of(afloat + ", drag = 27}\n"), "V"), 0.001);
 }
 
 TEST(Explain, MeshesAreAsTheyAreMeasured) {

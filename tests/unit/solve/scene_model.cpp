@@ -277,6 +277,24 @@ TEST(SceneModel, AirDoesNotReachWhatTouchesOrIsUnderABath) {
   EXPECT_EQ(model.air->wind(1), Vector3(2, 0, 0));
 }
 
+TEST(SceneModel, AirRubsOnTheUpperFaceOfWhatFloats) {
+  const Frame frame = two_squares();
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
+  const auto air_over = [&](double level) {
+    const std::string text = std::string(scene_text) + fmt::format("[environment]\ngravity = [0, 0, -9.81]\n"
+                                                                   "bath = {{density = 2000, level = {}}}\n"
+                                                                   "air = {{density = 1.2}}\n",
+                                                                   level);
+    return *model_of(parse_scene(text, "test"), frame, mesh, Bending::mid_edge, false).air;
+  };
+  const OuterFlow afloat = air_over(1e-9); // the first three lie in it, the others far below
+  EXPECT_EQ(afloat.sheltered, (std::vector<char>{0, 0, 0, 1, 1, 1}));
+  EXPECT_EQ(afloat.one_face, (std::vector<char>{1, 1, 1, 0, 0, 0}));
+  const OuterFlow above = air_over(-100);
+  EXPECT_EQ(above.sheltered, std::vector<char>(6, 0));
+  EXPECT_EQ(above.one_face, std::vector<char>(6, 0));
+}
+
 TEST(SceneModel, ABathHoldsBackWhatMovesInIt) {
   Frame frame = two_squares();
   put_masks(frame, "touch", {0, 1, 0, 0, 0, 0});
