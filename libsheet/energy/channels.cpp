@@ -71,11 +71,14 @@ std::optional<Channel> find_channel(const std::vector<Wall>& walls, const Stage&
   return found;
 }
 
-// Of how the two walls close on what is between them, and slide past each other [1/s].
+// Of how the two walls close on what is between them, and slide past each other [1/s]; not of how they part.
 double rate_at(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site, const Channel& channel) {
-  const Vector3 own = velocity_at(walls[site.wall], stage, site.vertex);
-  const Vector3 past = velocity_at(walls[channel.facing], stage, site.vertex) - own;
-  const Vector3 normal = walls[site.wall].nearest(stage.end_time, channel.place).normal;
+  const Wall &wall = walls[site.wall], &facing = walls[channel.facing];
+  const Vector3 normal = wall.nearest(stage.end_time, channel.place).normal;
+  const Vector3 facing_normal = facing.nearest(stage.end_time, channel.place).normal;
+  Vector3 past = velocity_at(facing, stage, site.vertex) - velocity_at(wall, stage, site.vertex);
+  past -= std::max(0.0, past.dot(normal)) * normal;
+  past -= std::min(0.0, past.dot(facing_normal)) * facing_normal;
   return std::abs(past.dot(normal)) / channel.gap + past.norm() / std::sqrt(stage.channel_area);
 }
 

@@ -8,8 +8,9 @@
 // What lies in the gap is in its middle, and no thicker than it is wide (channel_pressure.h).
 //
 // What is too thick for its gap at once, as where a solid stands in the sheet at the start, gives way at ten times the
-// rate at which the walls move there: the speed of closing over the gap, that of sliding over the root of the area. (A
-// rate that knew of the liquid's own speed would feed on itself.)
+// rate at which the walls move there: the speed of closing over the gap, that of sliding over the root of the area, and
+// nothing of how they part: a gate that is lifted presses nothing out. (A rate that knew of the liquid's own speed
+// would feed on itself.)
 //
 // A layer comes to fill a gap as its face touches: from 1.1 thicknesses to 1.05, in proportion, so that forces do not
 // jump.
