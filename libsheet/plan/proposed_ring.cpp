@@ -149,6 +149,13 @@ double time_down(const Scene& scene, const Frame& first, double at_rest) {
   return down ? at_rest + down->time : 0;
 }
 
+// Until what lies on level ground has spread by more than a tenth; 0 where nothing does.
+double time_spread(const Scene& scene, const Frame& first) {
+  constexpr double times = 2;
+  const auto spreading = spreads(scene, first);
+  return spreading && spreading->lies ? times * spreading->time : 0;
+}
+
 // That of the scene as it starts; of what is warmed until it flows, counted from when it is warm.
 double with_heat(const Scene& scene, const Frame& first, const std::function<double(const Scene&)>& time_of) {
   const double as_it_starts = time_of(scene::as_it_starts(scene));
@@ -196,8 +203,8 @@ double landing_time(const Scene& scene, const Frame& first, std::size_t number) 
 }
 
 // Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
-// ends by the clock has ended, whatever moves on for ever has come through or round, and belts and slopes have carried
-// it past all.
+// ends by the clock has ended, whatever moves on for ever has come through or round, belts and slopes have carried
+// it past all, and what lies on level ground has spread.
 double until_of(const Scene& scene, const Frame& first) {
   double at_rest = first.time; // all solids
   for (const scene::Solid& solid : scene.solids)
@@ -209,6 +216,7 @@ double until_of(const Scene& scene, const Frame& first) {
   if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > 0)
     until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / gravity);
   until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_down(of, first, at_rest); }));
+  until = std::max(until, time_spread(scene, first));
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
   for (const scene::Hold& hold : scene.holds)
     ends(hold.until.value_or(0));

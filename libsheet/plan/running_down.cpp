@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "libsheet/material/driven_rate.h"
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/inlet_width.h"
 #include "libsheet/plan/landing.h"
@@ -31,6 +32,7 @@ constexpr double above_a_plane = 2.5;  // likewise, of what comes down on all of
 constexpr double least_part = 0.5;     // of the sheet that lies
 constexpr double least_slope = 0.1;    // part of gravity along the solid
 constexpr double late = 2;             // times the run
+constexpr double wider = 1.1;          // times as wide: what has spread
 
 std::string word_of_late(double until, std::string_view solid, std::string_view what, double time) {
   const double about = std::stod(fmt::format("{:.2g}", time));
@@ -65,10 +67,22 @@ std::optional<Coming> coming(const Scene& scene, const formats::Frame& first, co
   return Coming{.volume = inflow.until ? flux * *inflow.until : std::numeric_limits<double>::infinity(), .flux = flux};
 }
 
-// In which it has spread from a point to a radius r: a volume V in (r/0.894)⁸ 3 nu/(g V³), a flux Q in
-// (r/0.715)² (3 nu/(g Q³))^¼ [Huppert 1982]; what flows in and has ended takes no less than either [s].
-double spreading_time(const Coming& what, double r, double nu, double g) {
-  const double of_volume = std::pow(r / 0.894, 8) * 3 * nu / (g * std::pow(what.volume, 3));
+// In which a volume V has spread from a point to a radius r on level ground, of a liquid whose rate of strain goes as
+// the stress^m [Halfar 1983; Bueler et al. 2005, J. Glaciol. 51]. With the height h in the middle,
+//   V = 2 pi r² h m/(m+1) B(2 m/(m+1), (3 m+1)/(2 m+1)),   t = ((2 m+1)/(m+1))^m r/((5 m+3) u),   u = e h/(m+2),
+// e the rate of strain at the stress rho g h²/r: 3 nu/(g V³) (r/0.894)⁸ of a Newtonian one [Huppert 1982].
+double spreading_time(const Liquid& liquid, double volume, double r, double g) {
+  const double m = liquid.law.kind == FlowLawKind::power ? 1 / liquid.law.flow_index : 1;
+  const double filled = m / (m + 1) * std::beta(2 * m / (m + 1), (3 * m + 1) / (2 * m + 1));
+  const double h = volume / (2 * std::numbers::pi * r * r * filled);
+  const double speed = driven_rate(liquid, liquid.density * g * h * h / r) * h / (m + 2);
+  return std::pow((2 * m + 1) / (m + 1), m) * r / ((5 * m + 3) * speed);
+}
+
+// Likewise of what comes: a flux Q takes (r/0.715)² (3 nu/(g Q³))^¼ [Huppert 1982]; what flows in and has ended takes
+// no less than either [s].
+double spreading_time(const Coming& what, double r, const Liquid& liquid, double g) {
+  const double of_volume = spreading_time(liquid, what.volume, r, g), nu = liquid.viscosity / liquid.density;
   const double of_flux = std::pow(r / 0.715, 2) * std::pow(3 * nu / (g * std::pow(what.flux, 3)), 0.25);
   return what.flux > 0 ? std::max(of_volume, of_flux) : of_volume;
 }
@@ -182,14 +196,13 @@ std::string late_running_warning(const Scene& scene, const formats::Frame& first
   return word_of_late(until, solid::Solids(scene).name(solid), "run down", time);
 }
 
-std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until) {
-  constexpr double wider = 1.1, much_later = 1000; // times as wide; times the run
+std::optional<Spreading> spreads(const Scene& scene, const formats::Frame& first) {
   const scene::Measured sheet = measured(first);
   const std::vector<Landing> all = landings(scene, first);
   const auto rests = [](const scene::Solid& solid) { return std::holds_alternative<scene::Fixed>(solid.motion); };
   if (all.empty() || !is_free(scene) || !scene.inflows.empty() || scene.sheets.size() > 1 || !sheet.length ||
       !sheet.thickness || !std::ranges::all_of(scene.solids, rests))
-    return "";
+    return std::nullopt;
   const Vector3 down = scene.environment.gravity->normalized();
   std::optional<std::size_t> ground;
   double lands = 0;
@@ -203,16 +216,23 @@ std::string late_spreading_warning(const Scene& scene, const formats::Frame& fir
   }
   const Liquid& liquid = all.front().liquid;
   const double g = scene.environment.gravity->norm(), h = *sheet.thickness, L = *sheet.length;
-  if (!ground || lands < least_part * static_cast<double>(all.size()) || !liquid.law.newtonian() ||
+  if (!ground || lands < least_part * static_cast<double>(all.size()) ||
+      !(liquid.law.newtonian() || liquid.law.kind == FlowLawKind::power) ||
       h < resting_thickness(liquid, scene.solids[*ground], g))
+    return std::nullopt;
+  const double fall = longest_fall(all), radius = L / std::sqrt(std::numbers::pi);
+  const auto from_point = [&](double r) { return spreading_time(liquid, L * L * h, r, g); };
+  return Spreading{.ground = *ground,
+                   .lies = fall < near_enough * h && lands == static_cast<double>(all.size()),
+                   .time = std::sqrt(2 * fall / g) + from_point(wider * radius) - from_point(radius)};
+}
+
+std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until) {
+  constexpr double much_later = 1000; // times the run
+  const auto spreading = spreads(scene, first);
+  if (!spreading || !(spreading->time > late * until && spreading->time < much_later * until))
     return "";
-  const Coming what{.volume = L * L * h};
-  const double radius = L / std::sqrt(std::numbers::pi), nu = liquid.viscosity / liquid.density;
-  const double time = std::sqrt(2 * longest_fall(all) / g) + spreading_time(what, wider * radius, nu, g) -
-                      spreading_time(what, radius, nu, g);
-  if (!(time > late * until && time < much_later * until))
-    return "";
-  return word_of_late(until, solid::Solids(scene).name(*ground), "spread by a tenth", time);
+  return word_of_late(until, solid::Solids(scene).name(spreading->ground), "spread by a tenth", spreading->time);
 }
 
 std::string late_overrun_warning(const Scene& scene, const formats::Frame& first, double until) {
@@ -252,7 +272,7 @@ std::string late_overrun_warning(const Scene& scene, const formats::Frame& first
   const double around = what->flux / (2 * std::numbers::pi * edge);
   const double speed = around > 0 ? std::cbrt(g * around * around / (3 * nu))
                                   : scene::speed_of_layer(liquid, liquid.density * g * h / 2, h / 2, below.slip_length);
-  const double time = std::sqrt(2 * longest_fall(all) / g) + spreading_time(*what, edge, nu, g) + side / speed;
+  const double time = std::sqrt(2 * longest_fall(all) / g) + spreading_time(*what, edge, liquid, g) + side / speed;
   if (!(time > late * until && time < much_later * until))
     return "";
   return word_of_late(until, solids.name(number), "come over its edge and run down it", time);

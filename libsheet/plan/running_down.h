@@ -2,6 +2,7 @@
 // Sheets that start as layers on slopes along which they flow, or close above: they creep, and there is something to
 // see only after a time that their weight and viscosity say.
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -25,9 +26,17 @@ struct RunningDown {
 // run's end at `until` [s], of which what happens while it falls asks for short times; else "".
 [[nodiscard]] std::string late_running_warning(const Scene& scene, const formats::Frame& first, double until);
 
-// Likewise of the only one, Newtonian and thicker than tension lets lie, that lands on level ground, and would spread
-// there by a tenth, in 3 nu/(g V³) (r/0.894)⁸ from a point [Huppert 1982], long after the end. "" where that is a
-// thousand runs, or a solid moves, which may be what there is to see.
+struct Spreading {
+  std::size_t ground; // the solid's number
+  bool lies;          // on it from the start
+  double time;        // in which it lands and spreads by a tenth of its radius [s]
+};
+
+// Of a free sheet without heat, the only one, Newtonian or of a power law and thicker than tension lets lie, that lands
+// or lies on level ground; nothing where a solid moves, which may be what there is to see.
+[[nodiscard]] std::optional<Spreading> spreads(const Scene& scene, const formats::Frame& first);
+
+// Where it has spread by a tenth long after the run's end; "" where that is a thousand runs.
 [[nodiscard]] std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until);
 
 // Likewise of one that lands on the level top of a solid at rest, Newtonian, and comes over its edge. In the time t it

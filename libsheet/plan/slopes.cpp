@@ -27,6 +27,16 @@ std::optional<Vector3> normal_below(const solid::Solids& solids, std::size_t sol
   return landing != nullptr && landing->solid == solid ? std::optional(landing->there.normal) : std::nullopt;
 }
 
+// Whether each probe lies on one of those along which it flows.
+bool lies(const Scene& scene, const solid::Solids& solids, const Frame& sheet, double thickness) {
+  return std::ranges::all_of(probes_of(sheet), [&](std::size_t v) {
+    for (std::size_t s = 0; s < solids.size(); ++s)
+      if (scene.solids[s].contact == SolidContact::flow && normal_below(solids, s, sheet, thickness, v, nullptr))
+        return true;
+    return false;
+  });
+}
+
 std::optional<double> along(const solid::Solids& solids, std::size_t solid, const Frame& sheet, double thickness,
                             const Vector3& gravity, const std::vector<Landing>& landings) {
   double most = 0;
@@ -56,6 +66,7 @@ std::vector<scene::Measured> measured_on_solids(const Scene& scene, const Frame&
       continue;
     const Frame sheet = scene.sheets.size() == 1 ? first : build_sheet(scene, i, Notes::silent);
     const std::vector<Landing> lands = landings(scene, sheet);
+    all[i].lies = lies(scene, solids, sheet, *all[i].thickness);
     for (std::size_t s = 0; s < solids.size(); ++s)
       all[i].along.push_back(scene.solids[s].contact == SolidContact::flow
                                  ? along(solids, s, sheet, *all[i].thickness, *scene.environment.gravity, lands)

@@ -9,8 +9,8 @@
 namespace sheet {
 
 // Those of each of the scene's sheets (first_frame.h), with the part of gravity along each solid where the sheet is
-// steepest on it (`along`), if all of the sheet lies or lands there and liquid flows along it. Not known where liquid
-// flows in, which may run anywhere.
+// steepest on it (`along`), if all of the sheet lies or lands there and liquid flows along it, and whether all of
+// it lies on such solids. Not known where liquid flows in, which may run anywhere.
 [[nodiscard]] std::vector<scene::Measured> measured_on_solids(const Scene& scene, const formats::Frame& first);
 
 } // namespace sheet

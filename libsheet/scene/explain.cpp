@@ -274,7 +274,7 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
                      hint_of_thickness(sheet, *scales.thickness, *scales.length)));
   constexpr double large = 20;    // [m]
   constexpr double of_rock = 1e8; // ice and rock are that large [Pa s]
-  if (scales.length && *scales.length > large && scales.viscosity < of_rock)
+  if (scales.length && *scales.length > large && std::max(scales.viscosity, scene.material.viscosity) < of_rock)
     warn(fmt::format(
         "the sheet is {} m long: {}", brief(*scales.length),
         std::holds_alternative<SheetMesh>(sheet.shape)

@@ -46,6 +46,7 @@ struct Measured {
   std::optional<double> length, thickness, curvature; // [m], [m], [1/m]
   // Of each solid, or of none: the part of gravity along it where the sheet is steepest on it [m/s²].
   std::vector<std::optional<double>> along = {};
+  bool lies = false;     // all of it, on solids along which it flows
   double above_bath = 0; // its lowest vertex; 0 where some of it is in the bath, or there is none [m]
 };
 

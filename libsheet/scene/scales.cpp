@@ -10,6 +10,7 @@
 #include "libsheet/material/driven_rate.h"
 #include "libsheet/material/flow_curve.h"
 #include "libsheet/scene/inlet_velocity.h"
+#include "libsheet/scene/layer_scales.h"
 
 namespace sheet::scene {
 namespace {
@@ -53,7 +54,7 @@ void offer_forces(Scales& scales, const Scene& scene) {
   };
   if (L <= 0)
     return;
-  if (!scene.environment.bath) // which carries the weight
+  if (!scene.environment.bath && !scales.lies)
     offer(scales, least(density * scales.gravity * L, std::numbers::sqrt3, std::sqrt(scales.gravity * L)), "gravity");
   if (h <= 0)
     return;
@@ -82,6 +83,7 @@ Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& me
   scales.thickness = uniform ? std::optional(*uniform) : measured.thickness;
   scales.curvature = size ? curvature_of(sheet.shape) : measured.curvature.value_or(0);
   scales.along = measured.along;
+  scales.lies = measured.lies;
   scales.above_bath = measured.above_bath;
   if (scene.environment.gravity)
     scales.gravity = scene.environment.gravity->norm();
@@ -104,6 +106,8 @@ Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& me
     offer(scales, solid.surface_velocity.norm(), "a belt");
   }
   offer_forces(scales, scene);
+  if (const auto layer = scales.lies ? layer_scales_of(scene, scales) : std::nullopt)
+    offer(scales, layer->speed, "its weight on the solid");
   const auto rate = scales.rate();
   scales.viscosity = rate ? viscosity_of(scene.material, {*rate * *rate}) : scene.material.viscosity;
   return scales;

@@ -20,6 +20,7 @@ struct Scales {
   double speed = 0;                // V, the fastest that anything drives the sheet [m/s]
   std::string speed_source;
   std::vector<std::optional<double>> along; // gravity's part along each solid, or none, where the sheet lies [m/s²]
+  bool lies = false;                        // on solids along which it flows, which carry its weight
   double above_bath = 0;                    // how far it falls to the bath [m]
   double viscosity = 0;                     // at the rate V/L; without length or speed that of the scene [Pa s]
 
@@ -31,7 +32,7 @@ struct Scales {
 
 // V is the largest of: inflow, start, holds, solids and belts as the scene states them, and what the forces can drive,
 // a balance with viscosity and, with inertia, not more than the balance with inertia:
-//   gravity          rho g L²/mu        sqrt(g L)          not on a bath, which carries the weight
+//   gravity          rho g L²/mu        sqrt(g L)          not on a bath or a solid, which carry the weight
 //   surface tension  2 gamma L/(mu h)   sqrt(2 gamma/(rho h))  [Taylor 1959, Culick 1960]
 //   pressure         p L²/(mu h)        sqrt(p L/(rho h))
 //   wind             likewise, its pressure; on what floats its friction on one face, over the bath's drag at most

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/proposed_ring.h"
+#include "libsheet/plan/slopes.h"
 #include "libsheet/scene/read.h"
 #include "tests/unit/own_path.h"
 
@@ -88,6 +90,34 @@ TEST(RunningDown, WhatLandsOnLevelGroundSpreadsLater) {
                     icing, 1),
             "");
   EXPECT_EQ(warning("shape = \"sphere\"\nradius = 0.04\ncontact = \"flow\"\n", icing, 1), "");
+}
+
+// An ice cap: by Halfar's solution from a radius of 100 to 110 km in 9.90e8 s. One that lies there has nothing else to
+// do, so that the run goes on until it has.
+TEST(RunningDown, WhatLiesOnLevelGroundSpreadsByItsLaw) {
+  const auto scene = [](double height, const std::string& law) {
+    return scene::parse_scene(fmt::format("[sheet]\nshape = \"disk\"\nradius = 1e5\nsegments = [16, 48]\n"
+                                          "thickness = 2000\ncenter = [0, {}, 0]\n[material]\ndensity = 910\n"
+                                          "viscosity = 7e14\n{}[environment]\ngravity = [0, -9.81, 0]\n[model]\n"
+                                          "inertia = false\n[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n",
+                                          height, law),
+                              "s");
+  };
+  const std::string ice = "law = \"power\"\nflow_index = 0.3333333333333333\nreference_rate = 1e-10\n";
+  const Scene lying = scene(1000, ice), above = scene(5000, ice);
+  const auto first = first_frame(lying);
+  const auto spreading = spreads(lying, first);
+  ASSERT_TRUE(spreading);
+  EXPECT_TRUE(spreading->lies);
+  const double radius = *measured(first).length / std::sqrt(std::numbers::pi); // of a circle of the polygon's area
+  EXPECT_NEAR(spreading->time, 9.898e8 * std::pow(radius / 1e5, 4), 1e5);
+  EXPECT_GE(proposed_ring(lying, first, {}).until, 2 * spreading->time);
+  EXPECT_TRUE(measured_on_solids(lying, first)[0].lies);
+  ASSERT_TRUE(spreads(above, first_frame(above)));
+  EXPECT_FALSE(spreads(above, first_frame(above))->lies);
+  EXPECT_LT(proposed_ring(above, first_frame(above), {}).until, 1000);
+  EXPECT_FALSE(measured_on_solids(above, first_frame(above))[0].lies);
+  EXPECT_FALSE(spreads(scene(1000, "law = \"bingham\"\nyield_stress = 1e5\n"), first));
 }
 
 // On a board that turns until it is steep.

@@ -214,6 +214,22 @@ TEST(Explain, TheFastestDriveGivesTheSpeed) {
       0.6);
 }
 
+// What lies on ground is not drawn out by its weight, at 100 m/s, but spreads, at rho g h³/(3 mu L) = 0.27 mm/s.
+TEST(Explain, TheGroundCarriesWhatLiesOnIt) {
+  const Scene scene = parse_scene(disk + "[material]\nviscosity = 1e4\ndensity = 1e5\n[environment]\n"
+                                         "gravity = [0, -10, 0]\n[model]\ninertia = false\n"
+                                         "[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n",
+                                  "s");
+  const auto warned = [](const Explanation& e, std::string_view words) {
+    return std::ranges::any_of(e.warnings, [&](const std::string& w) { return w.find(words) != w.npos; });
+  };
+  Measured lies{.length = 1, .thickness = 0.02, .curvature = {}};
+  EXPECT_TRUE(warned(explain(scene, std::array{lies}), "inertia is off"));
+  lies.lies = true;
+  EXPECT_DOUBLE_EQ(scale(explain(scene, std::array{lies}), "V"), scale(explain(scene, std::array{lies}), "U"));
+  EXPECT_FALSE(warned(explain(scene, std::array{lies}), "inertia is off"));
+}
+
 // p = cd rho_a v²/2 = 6.48 Pa. What is held creeps in the wind; what is free goes along with it.
 TEST(Explain, WindTakesAlongWhatIsFree) {
   const std::string windy = disk + "[material]\nviscosity = 1e6\ndensity = 1000\n[environment]\n"
