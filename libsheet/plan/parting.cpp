@@ -13,6 +13,7 @@
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/over_edge.h"
 #include "libsheet/scene/explain_heat.h"
+#include "libsheet/scene/layer_scales.h"
 #include "libsheet/scene/motion.h"
 #include "libsheet/solid/solids.h"
 
@@ -76,6 +77,20 @@ bool can_hang(const Liquid& liquid, double thickness, double g) {
   return thickness < 2 * std::sqrt(liquid.surface_tension / (liquid.density * g));
 }
 
+// Whether a solid that turns on for ever carries such a layer round with it, before it can gather and fall: it does so
+// to a mean thickness of 0.705 (nu U/g)^½ on a roll, or in a drum [Moffatt 1977], U the speed of its surface there. A
+// layer of that thickness would run down a wall at U/6.
+bool is_carried_round(const scene::Motion& motion, const Landing& landing, double thickness, double g, double until) {
+  constexpr double part = 1. / 6;
+  const auto* turning = std::get_if<scene::Rotating>(&motion);
+  if (turning == nullptr || turning->rate.entries.empty() || !(landing.liquid.viscosity > 0))
+    return false;
+  const Vector3d arm = landing.place - turning->center;
+  const double speed = std::abs(scene::value_at(turning->rate, until)) * turning->axis.normalized().cross(arm).norm();
+  const double down = scene::speed_of_layer(landing.liquid, landing.liquid.density * g * thickness, thickness, 0);
+  return down < part * speed;
+}
+
 // As it starts, or else when it has become warm.
 std::optional<OverEdge> over_edge(const Scene& with_heat, const formats::Frame& first, double until) {
   const Scene cold = scene::as_it_starts(with_heat);
@@ -125,8 +140,11 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
                      landing.liquid.density, true);
     const double under =
         time_turned_under(solids.scene(number).motion, landing.there.normal, t, until, gravity.normalized());
-    if (under < (turned ? turned->time : until) &&
-        !(lies_wholly_on(number) && can_hang(landing.liquid, thickness, gravity.norm())))
+    const bool stays =
+        lies_wholly_on(number) &&
+        (can_hang(landing.liquid, thickness, gravity.norm()) ||
+         (!scene.heat && is_carried_round(solids.scene(number).motion, landing, thickness, gravity.norm(), until)));
+    if (under < (turned ? turned->time : until) && !stays)
       turned = Turned{number, under, landing.liquid.density};
   }
   const auto earliest = std::ranges::min_element(ends);

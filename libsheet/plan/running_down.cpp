@@ -178,7 +178,7 @@ std::string late_running_warning(const Scene& scene, const formats::Frame& first
   double along = 0, slip = 0;
   for (const Landing& landing : all) {
     const scene::Solid& below = scene.solids[landing.solid];
-    if (below.contact != SolidContact::flow)
+    if (below.contact != SolidContact::flow || scene::turns(below.motion))
       continue;
     const Vector3& normal = landing.there.normal;
     along += (gravity - gravity.dot(normal) * normal).norm();

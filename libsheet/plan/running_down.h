@@ -23,7 +23,7 @@ struct RunningDown {
 [[nodiscard]] std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t);
 
 // Of a free sheet without heat that lands on such solids, and would run down them by half its length long after the
-// run's end at `until` [s], of which what happens while it falls asks for short times; else "".
+// run's end at `until` [s], of which what happens while it falls asks for short times; else "", and of what turns.
 [[nodiscard]] std::string late_running_warning(const Scene& scene, const formats::Frame& first, double until);
 
 struct Spreading {

@@ -62,6 +62,7 @@ TEST(RunningDown, WhatLandsRunsDownLater) {
       warning(ball, "flow", 1),
       testing::StartsWith("the run ends, at 1 s, before what lands on solid 0 (sphere) has run down, which takes "
                           "some "));
+  EXPECT_EQ(warning(ball + "angular_velocity = [0, 0, 1]\n", "flow", 1), ""); // it is carried round
   EXPECT_EQ(warning(ball, "flow", 60), "");
   EXPECT_EQ(warning(ball, "stick", 1), "");
   EXPECT_EQ(warning(box, "flow", 1), "");
