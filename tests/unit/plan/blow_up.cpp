@@ -94,7 +94,7 @@ TEST(BlowUp, OfAFlatSheetThatIsHeldAtItsRim) {
   EXPECT_LT(proposed_ring(above, first_frame(above), {}).until, creeping + thrown);
   std::string walls;
   for (const std::string plane : {"[0.16, 0, 0]\nnormal = [-1, 0, 0]", "[-0.16, 0, 0]\nnormal = [1, 0, 0]",
-                                   "[0, 0, 0.16]\nnormal = [0, 0, -1]", "[0, 0, -0.16]\nnormal = [0, 0, 1]"})
+                                  "[0, 0, 0.16]\nnormal = [0, 0, -1]", "[0, 0, -0.16]\nnormal = [0, 0, 1]"})
     walls += "[[solid]]\nshape = \"plane\"\ncenter = " + plane + "\n";
   const Scene mould = film(held + floor + walls, liquid);
   EXPECT_TRUE(is_blown_into_mould(mould, first_frame(mould)));
