@@ -201,8 +201,10 @@ make_slow() {
 
 @test "a first look goes on for longer, though only later its solid turns what lies on it under itself" {
   sed -i 's/^shape = "plane"/shape = "cylinder"\nradius = "30 mm"\nheight = "80 mm"\ncenter = [0, "-30 mm", 0]/' 'my scene.toml'
-  printf '%s\n' 'rotation = {axis = [1, 0, 0], angle = "90 deg"}' 'angular_velocity = [0, 0, "-60 rpm"]' >> 'my scene.toml'
-  sheet-init --ring 'my scene.toml' | grep -q 'contact.adhesion'
+  # A roll that turns on for ever would carry the sheet round.
+  printf '%s\n' 'rotation = {axis = [1, 0, 0], angle = "90 deg"}' \
+    'motion = {kind = "rotating", axis = [0, 0, 1], rate = [[0, -6], [0.4, -6], [0.41, 0]]}' >> 'my scene.toml'
+  sheet-init --ring --until 0.5 'my scene.toml' | grep -q 'contact.adhesion'
   sheet-run -q 'my scene.toml' --until 0.01 --fps 100 --film no -o run
   sheet-run -q 'my scene.toml' --until 0.5 --fps 100 --film no -o run
 }
