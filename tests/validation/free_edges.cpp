@@ -306,7 +306,7 @@ Result hole(const Settings& s, double over_thickness) {
 
 // Half of a film that retracts to t u/h = 15, u = √(2 γ/(ρ h)), as V10, remeshed with edges of h. Oh = μ/√(γ ρ h).
 // Value: the greatest thickness around a vertex over h, over that of a resolved solution in one dimension: 4.70 (Oh
-// 0.05), 3.78 (Oh 1).
+// 0.05), 3.58 (Oh 1).
 Result retracting_rim(const Settings& s, double ohnesorge, double thickest) {
   constexpr double rho = 1000, h = 1e-3, tension = 0.05, length = 0.035;
   const double width = 4 * s.edge * h, speed = std::sqrt(2 * tension / (rho * h)), until = 15 * h / speed;
