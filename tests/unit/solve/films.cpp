@@ -115,8 +115,8 @@ TEST(Films, StepsLongerThanTheyTakeToContractNeedFewIterations) {
     }
 }
 
-// A crumb beside a square, thicker than its edges are long, whose corners move against each other. With rims that tension
-// makes round it is a thread, and its motion is followed.
+// A crumb beside a square, thicker than its edges are long, whose corners move against each other. With rims that
+// tension makes round it is a thread, and its motion is followed.
 TEST(Films, CrumbsRuleNoStepUnlessRimsAreRound) {
   const auto first_step = [](bool crumb, bool round) {
     test::Mesh mesh = test::rectangle(0.04, 0.04, 10, 10, 0.2);
