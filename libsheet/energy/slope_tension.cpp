@@ -19,11 +19,17 @@ TriangleArea triangle(const VectorN<12>& u, int side) {
   return {u.segment<3>(3 * c[0]), u.segment<3>(3 * c[1]), u.segment<3>(3 * c[2])};
 }
 
+// ∇∇A of a triangle times a factor (geometry/area.h).
 void add_area_hessian(const TriangleArea& a, int side, double factor, MatrixN<12>& hessian) {
-  const MatrixN<9> h = factor * a.hessian(true);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      hessian.block<3, 3>(3 * corners[side][i], 3 * corners[side][j]) += h.block<3, 3>(3 * i, 3 * j);
+  const Matrix3 along_normal = factor / (4 * a.area) * a.normal * a.normal.transpose();
+  const Matrix3 turn = factor / 2 * skew(a.normal);
+  for (int i = 0; i < 3; ++i) {
+    const int at = 3 * corners[side][i], next = 3 * corners[side][(i + 1) % 3];
+    hessian.block<3, 3>(at, at) += a.edge[i].squaredNorm() * along_normal;
+    const Matrix3 mixed = a.edge[i].dot(a.edge[(i + 1) % 3]) * along_normal;
+    hessian.block<3, 3>(at, next) += mixed - turn;
+    hessian.block<3, 3>(next, at) += mixed + turn;
+  }
 }
 
 // ∇∇l times a factor, of the edge from the first vertex to the second, `along` its direction.
@@ -44,6 +50,19 @@ struct Pair {
     for (const int side : {0, 1})
       falls[side] = (side == 0 ? 1 : -1) * volumes[static_cast<std::size_t>(side)] /
                     (triangles[side].area * triangles[side].area);
+  }
+
+  // Of the two areas and the length, by the vertices.
+  [[nodiscard]] Eigen::Matrix<double, 12, 3> derivatives() const {
+    Eigen::Matrix<double, 12, 3> of;
+    for (int side = 0; side < 2; ++side) {
+      for (int k = 0; k < 3; ++k)
+        of.block<3, 1>(3 * corners[side][k], side) = triangles[side].gradient(k);
+      of.block<3, 1>(3 * (side == 0 ? 3 : 2), side).setZero(); // the other one's apex
+    }
+    const Vector3 along = edge / length;
+    of.col(2) << -along, along, Vector3::Zero(), Vector3::Zero();
+    return of;
   }
 
   TriangleArea triangles[2];
@@ -135,42 +154,37 @@ double SlopeTension::derivatives(std::size_t i, const VectorN<12>& u, VectorN<12
                                  bool definite) const {
   const Pair pair(u, loads_[i].volumes);
   const Energy energy(pair.p, pair.q, loads_[i].tensions);
-  VectorN<12> of_area[2] = {VectorN<12>::Zero(), VectorN<12>::Zero()};
-  for (int side = 0; side < 2; ++side)
-    for (int k = 0; k < 3; ++k)
-      of_area[side].segment<3>(3 * corners[side][k]) = pair.triangles[side].gradient(k);
-  const Vector3 along = pair.edge / pair.length;
-  VectorN<12> of_length;
-  of_length << -along, along, Vector3::Zero(), Vector3::Zero();
-  const VectorN<12> of_p = 2.0 / 3 * (of_area[0] + of_area[1]);
-  const VectorN<12> of_jump = -pair.falls[0] * of_area[0] - pair.falls[1] * of_area[1];
-  const VectorN<12> of_q = (pair.jump * of_length + pair.length * of_jump) / 2;
   const ThreadFactor factor(pair, loads_[i].thread);
-  const VectorN<12> of_slopes = energy.by_p * of_p + energy.by_q * of_q;
-  const VectorN<12> of_factor =
-      factor.by_area[0] * of_area[0] + factor.by_area[1] * of_area[1] + factor.by_length * of_length;
-  gradient = factor.value * of_slopes + energy.value * of_factor;
-  const VectorN<12> across = pair.q * of_p - pair.p * of_q;
-  hessian.noalias() = (factor.value * energy.curvature * across) * across.transpose();
-  if (definite)
+  const Eigen::Matrix<double, 12, 3> of = pair.derivatives();
+  const Vector3 of_p(2.0 / 3, 2.0 / 3, 0),
+      of_q(-pair.length * pair.falls[0] / 2, -pair.length * pair.falls[1] / 2, pair.jump / 2);
+  const Vector3 of_factor(factor.by_area[0], factor.by_area[1], factor.by_length);
+  const Vector3 of_slopes = energy.by_p * of_p + energy.by_q * of_q;
+  const Vector3 first = factor.value * of_slopes + energy.value * of_factor;
+  gradient.noalias() = of * first;
+  const Vector3 across = pair.q * of_p - pair.p * of_q;
+  const double curvature = factor.value * energy.curvature;
+  if (definite) {
+    const VectorN<12> of_across = of * across;
+    hessian.noalias() = (curvature * of_across) * of_across.transpose();
     return factor.value * energy.value;
-  for (int side = 0; side < 2; ++side) { // f by_p ∇∇p, of f by_q ∇∇q and W ∇∇f what is of one area
-    const double by_jump = factor.value * energy.by_q * pair.length * pair.falls[side];
-    add_area_hessian(pair.triangles[side], side,
-                     2 * factor.value * energy.by_p / 3 - by_jump / 2 + energy.value * factor.by_area[side], hessian);
-    hessian.noalias() += ((by_jump / pair.triangles[side].area + energy.value * factor.area2[side]) * of_area[side]) *
-                         of_area[side].transpose();
   }
-  // With the length, and of the factor with the slopes.
-  const VectorN<12> half = factor.value * energy.by_q / 2 * of_jump +
-                           energy.value * (factor.mixed[0] * of_area[0] + factor.mixed[1] * of_area[1]);
-  hessian.topRows<6>().noalias() += of_length.head<6>() * half.transpose();
-  hessian.leftCols<6>().noalias() += half * of_length.head<6>().transpose();
-  add_length_hessian(along, pair.length, factor.value * energy.by_q * pair.jump / 2 + energy.value * factor.by_length,
-                     hessian);
-  hessian.noalias() += (energy.value * factor.length2 * of_length) * of_length.transpose();
-  hessian.noalias() += of_factor * of_slopes.transpose();
-  hessian.noalias() += of_slopes * of_factor.transpose();
+  Matrix3 second =
+      curvature * across * across.transpose() + of_factor * of_slopes.transpose() + of_slopes * of_factor.transpose();
+  for (int side = 0; side < 2; ++side) {
+    const double by_jump = factor.value * energy.by_q * pair.falls[side];
+    second(side, side) += by_jump * pair.length / pair.triangles[side].area + energy.value * factor.area2[side];
+    const double mixed = energy.value * factor.mixed[side] - by_jump / 2;
+    second(side, 2) += mixed;
+    second(2, side) += mixed;
+  }
+  second(2, 2) += energy.value * factor.length2;
+  const Eigen::Matrix<double, 12, 3> weighted = of.lazyProduct(second);
+  for (int c = 0; c < 12; ++c)
+    hessian.col(c).noalias() = weighted.col(0) * of(c, 0) + weighted.col(1) * of(c, 1) + weighted.col(2) * of(c, 2);
+  for (int side = 0; side < 2; ++side)
+    add_area_hessian(pair.triangles[side], side, first[side], hessian);
+  add_length_hessian(of.block<3, 1>(3, 2), pair.length, first[2], hessian);
   return factor.value * energy.value;
 }
 
