@@ -11,8 +11,7 @@ namespace sheet {
 
 namespace {
 
-constexpr double longest_rise = 0.1;   // of a layer in a step, as part of its edges
-constexpr double greatest_slope = 0.3; // of a layer's middle over its wall
+constexpr double longest_rise = 0.1; // of a layer in a step, as part of its edges
 constexpr int most_passes = 20;
 constexpr int most_layers = 100; // that lie on each other
 

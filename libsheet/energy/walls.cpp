@@ -130,12 +130,22 @@ double wall_shift(const Stage& stage, std::size_t triangle, const WallSite& site
   return stage.wall_shifts[triangle][upwards.dot(site.normal) > 0 ? heat::lower : heat::upper];
 }
 
-double lying(const Stage& stage, std::size_t triangle, const WallSite& site) {
+namespace {
+
+// Of the angle between a triangle, at the start of the step, and the wall of a site.
+double squared_cosine(const Stage& stage, std::size_t triangle, const WallSite& site) {
   const Corners& c = stage.start->mesh->triangles[triangle];
   const auto& x = stage.start->positions;
   const Vector3 normal = (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
   const double across = normal.dot(site.normal);
   return across * across / normal.squaredNorm();
+}
+
+} // namespace
+
+double lying(const Stage& stage, std::size_t triangle, const WallSite& site) {
+  constexpr double least = 1 / (1 + greatest_slope * greatest_slope);
+  return std::min(1.0, squared_cosine(stage, triangle, site) / least);
 }
 
 namespace {
@@ -147,7 +157,7 @@ int side_on_wall(const Stage& stage, std::size_t triangle) {
   if (common_wall(stage, c) == no_index)
     return 0;
   const WallSite& site = *site_at(stage, c[0]);
-  if (!(lying(stage, triangle, site) > least_lying_cosine * least_lying_cosine))
+  if (!(squared_cosine(stage, triangle, site) > least_lying_cosine * least_lying_cosine))
     return 0;
   const auto& x = stage.start->positions;
   return (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).dot(site.normal) > 0 ? 1 : -1;

@@ -86,8 +86,13 @@ void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage,
 // Between a wall and what lies on it: 60 degrees.
 inline constexpr double least_lying_cosine = 0.5;
 
-// The squared cosine of the angle between a triangle, at the start of the step, and the wall of one of its corners: 1
-// where it lies on the wall, 0 where it stands on it edge-on.
+// Of the middle of a layer over its wall: what slopes less lies on it, however its thickness slopes.
+inline constexpr double greatest_slope = 0.3;
+
+// The part in which a triangle, at the start of the step, lies on the wall of one of its corners: 1 up to the greatest
+// slope of a layer's middle, from there on in proportion to the squared cosine of the angle between them, 0 where it
+// stands on the wall edge-on. (With the squared cosine alone the rim of a layer thicker than its edges are long counts
+// as standing, dragged on a foot as wide as it is thick, and spreads ever more slowly the shorter edges are.)
 [[nodiscard]] double lying(const Stage& stage, std::size_t triangle, const WallSite& site);
 
 } // namespace sheet

@@ -328,3 +328,31 @@ END
   sheet-info --csv run.sheet | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "thickness_min") h = i }
     END { exit !($h > 3e-4) }'
 }
+
+@test "a layer thicker than its edges spreads as a puddle does, with whatever edges" {
+  cat > puddle.toml << 'END'
+[sheet]
+shape = "disk"
+radius = "30 mm"
+center = [0, "8 mm", 0]
+edge_length = "4 mm"
+thickness = "16 mm"
+[material]
+viscosity = "10 Pa*s"
+density = "1250 kg/m^3"
+[environment]
+gravity = [0, -9.81, 0]
+[[solid]]
+shape = "plane"
+contact = "flow"
+END
+  for edge in 4 1.6; do
+    sed "s/4 mm/$edge mm/" puddle.toml > "edges$edge.toml"
+    run_scene "edges$edge" 2 10
+    # By 0.894 (g V^3 t/(3 nu))^(1/8) 48.55 mm [Huppert 1982]. When the rim counted as standing in part, 45.3 with edges
+    # of 1.6 mm.
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i }
+      END { r = 250 * ($at["x_max"] - $at["x_min"] + $at["z_max"] - $at["z_min"]); print r
+            exit !(r > 0.98 * 48.55 && r < 1.02 * 48.55) }' "edges$edge.csv"
+  done
+}
