@@ -39,6 +39,8 @@ int main(int argc, char** argv) {
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look thickness", "where the sheet is thin at the end");
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look deviation --wanted 2mm",
                "where it is thicker and thinner than that");
+  tool.example("sheet-render run.sheet --frames -1 --turntable 120 --denoise --samples 4 --y4m | ffmpeg -i - turn.mp4",
+               "round the last frame in 5 s");
   tool.example("sheet-render run.sheet --frames -1 -o end.exr --noise 1 --samples 4096",
                "light, depth, normals, thickness for other programs");
   return tool.run(argc, argv, [&] {
@@ -66,6 +68,7 @@ int main(int argc, char** argv) {
                          report.file.empty() ? "" : ", ", report.file);
     };
     try {
+      film.least = static_cast<std::uint64_t>(o.turntable);
       sheet::run_film(film, survey, draw);
     } catch (const sheet::formats::StreamError&) { // of a run that has failed: what is whole is drawn
       stage.finish();

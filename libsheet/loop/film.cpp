@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -149,16 +150,24 @@ void run_film(
     fail(ExitCode::usage, "--frames {}: the end of {} is not known; give a file to count from its end", options.frames,
          input.name());
   }
-  FilmProgress progress(total);
+  FilmProgress progress(total ? std::max(*total, options.least) : total);
   std::uint64_t drawn = 0;
+  std::optional<std::pair<formats::Frame, std::uint64_t>> last;
+  const auto draw_one = [&](const formats::Frame& frame, std::uint64_t index) {
+    const auto start = Clock::now();
+    const std::string line = draw(frame, index, [&](double part) { progress.show(part); });
+    progress.finish_picture();
+    log::detail("frame {}: {}, {:.3g} s", index, line, std::chrono::duration<double>(Clock::now() - start).count());
+    ++drawn;
+  };
   const std::uint64_t frames =
       for_each_frame(input.descriptor(), input.name(), wanted, [&](const formats::Frame& frame, std::uint64_t index) {
-        const auto start = Clock::now();
-        const std::string line = draw(frame, index, [&](double part) { progress.show(part); });
-        progress.finish_picture();
-        log::detail("frame {}: {}, {:.3g} s", index, line, std::chrono::duration<double>(Clock::now() - start).count());
-        ++drawn;
+        draw_one(frame, index);
+        if (drawn < options.least)
+          last.emplace(frame, index);
       });
+  while (last && drawn < options.least)
+    draw_one(last->first, last->second);
   if (frames == 0)
     log::warning("{} has no frames: nothing is drawn", input.name());
   else if (drawn == 0)

@@ -13,6 +13,7 @@ struct FilmOptions {
   std::string input = "-"; // a stream's file, "-" for standard input
   std::string frames;      // ranges as parse_indices reads them; "": all
   std::string view;        // likewise: frames to survey; "": those to draw
+  std::uint64_t least = 0; // pictures: the last frame is drawn again until there are so many
 };
 
 // Calls `survey` with each frame to survey if the input is a file, then `draw` with each one to draw and its number in

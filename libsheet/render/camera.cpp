@@ -47,6 +47,15 @@ std::optional<Eigen::Vector2d> Camera::place(const Vector3& from_eye) const {
                          0.5 - from_eye.dot(up_) / (2 * depth * tangent_y_));
 }
 
+Camera Camera::turned(const Vector3& pivot, const Vector3& axis, double angle) const {
+  const Eigen::AngleAxisd turn(angle, axis);
+  Camera camera = *this;
+  camera.eye_ = pivot + turn * (eye_ - pivot);
+  for (Vector3* direction : {&camera.ahead_, &camera.right_, &camera.up_})
+    *direction = turn * *direction;
+  return camera;
+}
+
 bool Camera::sees(const Vector3& x) const {
   const Vector3 d = x - eye_;
   const double depth = d.dot(ahead_);
@@ -114,23 +123,35 @@ Camera ViewFit::camera(const Vector3& middle, double growth) const {
   const Vector3 target = options_.target.value_or(middle);
   if (options_.eye)
     return {*options_.eye, target, up_, options_.field_of_view, aspect_};
+  if (options_.target) {
+    const Vector3 eye = target + distance(target, middle, growth) * toward_;
+    return {eye, eye - toward_, up_, options_.field_of_view, aspect_};
+  }
+  const std::array<double, 4> most = grown(middle, growth);
+  // As near as both pairs of sides allow, and in the middle between those of the other pair.
+  double distance = -std::numeric_limits<double>::infinity();
+  for (const std::size_t i : {0, 2})
+    distance = std::max(distance, (most[i] + most[i + 1]) / (tangent_[i] + tangent_[i + 1]));
+  Vector3 across = Vector3::Zero(); // where the eye is in the plane across its line of sight
+  for (const std::size_t i : {0, 2})
+    across += 0.5 * (most[i] - most[i + 1] + distance * (tangent_[i + 1] - tangent_[i])) * side_[i];
+  const Vector3 eye = across + distance * toward_;
+  return {eye, eye - toward_, up_, options_.field_of_view, aspect_};
+}
+
+std::array<double, 4> ViewFit::grown(const Vector3& middle, double growth) const {
   std::array<double, 4> most = most_;
   for (std::size_t i = 0; i < 4; ++i)
     most[i] += growth * (most[i] - (tangent_[i] * toward_ + side_[i]).dot(middle));
-  Vector3 across = Vector3::Zero(); // where the eye is in the plane across its line of sight
+  return most;
+}
+
+double ViewFit::distance(const Vector3& target, const Vector3& middle, double growth) const {
+  const std::array<double, 4> most = grown(middle, growth);
   double distance = -std::numeric_limits<double>::infinity();
-  if (options_.target) {
-    across = target - target.dot(toward_) * toward_;
-    for (std::size_t i = 0; i < 4; ++i)
-      distance = std::max(distance, (most[i] - side_[i].dot(across)) / tangent_[i]);
-  } else { // as near as both pairs of sides allow, and in the middle between those of the other pair
-    for (const std::size_t i : {0, 2})
-      distance = std::max(distance, (most[i] + most[i + 1]) / (tangent_[i] + tangent_[i + 1]));
-    for (const std::size_t i : {0, 2})
-      across += 0.5 * (most[i] - most[i + 1] + distance * (tangent_[i + 1] - tangent_[i])) * side_[i];
-  }
-  const Vector3 eye = across + distance * toward_;
-  return {eye, eye - toward_, up_, options_.field_of_view, aspect_};
+  for (std::size_t i = 0; i < 4; ++i)
+    distance = std::max(distance, (most[i] - (tangent_[i] * toward_ + side_[i]).dot(target)) / tangent_[i]);
+  return distance;
 }
 
 } // namespace sheet::render

@@ -37,6 +37,8 @@ public:
   [[nodiscard]] Vec axis() const { return ahead_.cast<float>(); } // where it looks
   [[nodiscard]] Vec right() const { return right_.cast<float>(); }
   [[nodiscard]] Vec above() const { return up_.cast<float>(); }
+  // The same, turned about a line through `pivot` along the unit vector `axis` [rad].
+  [[nodiscard]] Camera turned(const Vector3& pivot, const Vector3& axis, double angle) const;
   [[nodiscard]] double aspect() const { return tangent_x_ / tangent_y_; }
   // Where a point is in the picture, if it lies before the camera; `from_eye` in any unit.
   [[nodiscard]] std::optional<Eigen::Vector2d> place(const Vector3& from_eye) const;
@@ -84,8 +86,11 @@ public:
   // With a target, on the line through it. `growth`: as if all points were so many times their distance farther from
   // `middle`. At least one point must have been added.
   [[nodiscard]] Camera camera(const Vector3& middle, double growth) const;
+  // How far from `target` the eye must be to see all of them, if it looks at that. `middle`, `growth`: as above.
+  [[nodiscard]] double distance(const Vector3& target, const Vector3& middle, double growth) const;
 
 private:
+  [[nodiscard]] std::array<double, 4> grown(const Vector3& middle, double growth) const;
   CameraOptions options_;
   Vector3 up_, toward_;
   std::array<Vector3, 4> side_; // right, left, above, below

@@ -30,6 +30,16 @@ constexpr float least_likeness_behind = 0.2F; // likewise, if it sees the surfac
 constexpr float plain_likeness = 0.2F;        // of neighbours that see one thing, and
 constexpr float plain_levels = 6;             // their greatest difference, of 255
 
+// The light of a pixel or ray, and PathTracer::coverage.
+struct Seen {
+  Halves light;
+  float covered = 0;
+  void add(float weight, const Seen& other) {
+    light.add(Colour::Constant(weight), other.light);
+    covered += weight * other.covered;
+  }
+};
+
 class Painter {
 public:
   Painter(const World& world, const Camera& camera, const PathTracer& tracer, const DrawOptions& options,
@@ -39,6 +49,7 @@ public:
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     first_.resize(pixels);
     certain_.resize(pixels);
+    covered_.resize(pixels);
     near_edge_.resize(pixels);
     samples_.assign(pixels, options.samples);
     whole_.resize(pixels);
@@ -60,11 +71,15 @@ public:
     for (std::size_t i = 0; i < whole_.size(); ++i)
       whole_[i] = whole(i, 1);
     picture_.light = Image(options_.width, options_.height);
+    if (tracer_->cuts_out())
+      picture_.alpha.resize(whole_.size());
     std::vector<float> noise(whole_.size());
     each_row([&](int x, int y, std::uint64_t& rays) {
-      const Halves halves = plain(x, y) ? blend(x, y) : gather(x, y, rays);
+      const auto [halves, covered] = plain(x, y) ? blend(x, y) : gather(x, y, rays);
       noise[index(x, y)] = (level(halves.a) - level(halves.b)) / 2;
       picture_.light.at(x, y) = options_.exposure * halves.mean();
+      if (tracer_->cuts_out())
+        picture_.alpha[index(x, y)] = covered;
     });
     state_noise(noise);
     picture_.samples = std::accumulate(samples_.begin(), samples_.end(), 0.0) / static_cast<double>(samples_.size());
@@ -98,10 +113,15 @@ private:
     const Sight sight = tracer_->look(middle_ray(x, y), rays);
     first_[i] = sight.first;
     certain_[i] = sight.certain;
+    covered_[i] = coverage(middle_ray(x, y), rays);
     for (std::size_t l = 0; l < layers_.size(); ++l) {
       layers_[l].points[i] = point_of(sight.layers[l]);
       layers_[l].weights[i] = divisor(sight.layers[l]);
     }
+  }
+
+  [[nodiscard]] float coverage(const Ray& ray, std::uint64_t& rays) const {
+    return tracer_->cuts_out() ? tracer_->coverage(ray, rays) : 0;
   }
 
   // Points that are smoothed over others share the sequence of the picture with them.
@@ -231,38 +251,42 @@ private:
   }
 
   // The middles of pixels with weights that have the second moments of the tent, 1/6.
-  [[nodiscard]] Halves blend(int x, int y) const {
+  [[nodiscard]] Seen blend(int x, int y) const {
     constexpr std::array<float, 3> weights{1 / 12.0F, 10 / 12.0F, 1 / 12.0F};
-    Halves sum;
+    Seen sum;
     for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 3; ++i)
-        sum.add(Colour::Constant(weights[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(j)]),
-                whole_[nearest_index(x + i - 1, y + j - 1)]);
+      for (int i = 0; i < 3; ++i) {
+        const std::size_t there = nearest_index(x + i - 1, y + j - 1);
+        sum.add(weights[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(j)],
+                {whole_[there], covered_[there]});
+      }
     return sum;
   }
 
-  [[nodiscard]] Halves gather(int x, int y, std::uint64_t& rays) const {
-    Halves sum;
+  [[nodiscard]] Seen gather(int x, int y, std::uint64_t& rays) const {
+    Seen sum;
     auto [low, high] = levels_around(x, y);
     int done = 0;
     const bool is_blurred = blurred(x, y);
     const int most = is_blurred ? most_blurred_rays : most_edge_rays;
     for (int end = is_blurred ? most_edge_rays : fewest_edge_rays; end <= most; end *= 2) {
       for (; done < end; ++done) {
-        const Halves light = light_near(x, y, done, rays);
-        const float brightness = level(light.mean());
+        const Seen seen = seen_near(x, y, done, rays);
+        const float brightness = level(seen.light.mean());
         low = std::min(low, brightness);
         high = std::max(high, brightness);
-        sum.add(Colour::Ones(), light);
+        sum.add(1, seen);
       }
       if (high - low <= levels_a_ray * static_cast<float>(done))
         break;
     }
-    return {sum.a / static_cast<float>(done), sum.b / static_cast<float>(done)};
+    Seen mean;
+    mean.add(1 / static_cast<float>(done), sum);
+    return mean;
   }
 
   // Along one of the rays of a pixel.
-  [[nodiscard]] Halves light_near(int x, int y, int number, std::uint64_t& rays) const {
+  [[nodiscard]] Seen seen_near(int x, int y, int number, std::uint64_t& rays) const {
     Sampler sampler(static_cast<std::uint32_t>(index(x, y) + whole_.size()),
                     static_cast<std::uint32_t>(most_blurred_rays * options_.first_sample + number));
     const Point2 p = sampler.point();
@@ -283,7 +307,7 @@ private:
       found = borrow(fx, fy, sight.layers[l], layers_[l], light);
     if (!found)
       light.a = light.b = tracer_->radiance(ray, sight.first, sampler, rays).sum();
-    return light;
+    return {light, coverage(ray, rays)};
   }
 
   // Adds the light of the points around a place of the picture that see what is seen there, most of it from the nearest
@@ -367,6 +391,7 @@ private:
   float pixel_angle_;
   std::vector<Hit> first_;
   std::vector<Colour> certain_; // in the middles of the pixels
+  std::vector<float> covered_;  // likewise
   std::vector<char> near_edge_; // by pixel
   std::vector<int> samples_;
   std::array<Layer, 2> layers_;

@@ -20,7 +20,8 @@
 
 namespace sheet::render {
 
-// DrawOptions::noise is not used. Picture::noise is that of the two halves of the samples, smoothed alike.
+// DrawOptions::noise is not used. With alpha if the tracer cuts out. Picture::noise is that of the two halves of the
+// samples, smoothed alike.
 [[nodiscard]] Picture draw_denoised(const World& world, const Camera& camera, const PathTracer& tracer,
                                     const DrawOptions& options, const Progress& progress);
 

@@ -26,15 +26,23 @@ float decode_srgb(float x) { return x <= 0.04045F ? x / 12.92F : std::pow((x + 0
 
 float display_level(float x) { return 255 * encode_srgb(shoulder(x)); }
 
-Bitmap to_bitmap(const Image& image, Tone tone) {
+Bitmap to_bitmap(const Picture& picture, Tone tone) {
+  const Image& image = picture.light;
   Bitmap bitmap(image.width, image.height);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const Colour& light = image.pixels[i];
+    float covered = 1;
+    if (!picture.alpha.empty()) {
+      covered = std::clamp(light.maxCoeff(), std::clamp(picture.alpha[i], 0.0F, 1.0F), 1.0F);
+      bitmap.alpha.push_back(static_cast<std::uint8_t>(std::lround(255 * covered)));
+    }
     for (int c = 0; c < 3; ++c) {
-      const float x = image.pixels[i][c];
+      const float x = covered > 0 ? light[c] / covered : 0;
       const float shown = tone == Tone::shoulder ? shoulder(x) : tone == Tone::filmic ? filmic(x) : x;
       bitmap.bytes[3 * i + static_cast<std::size_t>(c)] =
           static_cast<std::uint8_t>(std::lround(255 * encode_srgb(shown)));
     }
+  }
   return bitmap;
 }
 

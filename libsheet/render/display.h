@@ -27,6 +27,8 @@ enum class Tone {
   filmic,
   linear, // clipped at 1
 };
-[[nodiscard]] Bitmap to_bitmap(const Image& image, Tone tone);
+// The curve of tones is that of what covers a pixel; where that throws back more light than its part of the pixel can
+// show, as a highlight on glass does, the part grows.
+[[nodiscard]] Bitmap to_bitmap(const Picture& picture, Tone tone);
 
 } // namespace sheet::render

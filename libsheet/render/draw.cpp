@@ -32,58 +32,75 @@ struct TileResult {
   std::uint64_t rays = 0, samples = 0;
 };
 
+// Sums over the samples of a pixel.
+struct Sum {
+  Colour light = Colour::Zero();
+  float covered = 0;
+  void add(const Sum& other) {
+    light += other.light;
+    covered += other.covered;
+  }
+};
+
 class TilePainter {
 public:
-  TilePainter(const World& world, const Camera& camera, const Shader& shader, const DrawOptions& options, Image& image)
-      : rays_(world, camera), shader_(&shader), options_(options), image_(&image) {}
+  // `picture` has its size, and alpha if there is a coverage.
+  TilePainter(const World& world, const Camera& camera, const Shader& shader, const Coverage& coverage,
+              const DrawOptions& options, Picture& picture)
+      : rays_(world, camera), shader_(&shader), coverage_(&coverage), options_(options), picture_(&picture) {}
 
   TileResult paint(const Tile& tile) const {
     TileResult result;
     const int width = tile.x1 - tile.x0, pixels = width * (tile.y1 - tile.y0);
-    std::vector<Colour> before(static_cast<std::size_t>(pixels), Colour::Zero()), added = before;
+    std::vector<Sum> before(static_cast<std::size_t>(pixels)), added = before;
     // The first half of the samples against the second: each is a well-spread set of its own.
     int done = options_.noise > 0 ? std::min(8, options_.samples / 2) : options_.samples / 2;
     add_samples(tile, 0, done, before, result.rays);
     do {
-      std::fill(added.begin(), added.end(), Colour::Zero());
+      std::fill(added.begin(), added.end(), Sum());
       add_samples(tile, done, 2 * done, added, result.rays);
       result.squared_noise = squared_noise(before, added, done);
       for (std::size_t p = 0; p < before.size(); ++p)
-        before[p] += added[p];
+        before[p].add(added[p]);
       done *= 2;
     } while (2 * done <= options_.samples &&
              result.squared_noise > static_cast<double>(options_.noise) * static_cast<double>(options_.noise) * pixels);
-    for (int p = 0; p < pixels; ++p)
-      image_->at(tile.x0 + p % width, tile.y0 + p / width) =
-          before[static_cast<std::size_t>(p)] / static_cast<float>(done);
+    for (int p = 0; p < pixels; ++p) {
+      const std::size_t i = picture_->light.index(tile.x0 + p % width, tile.y0 + p / width);
+      const Sum& sum = before[static_cast<std::size_t>(p)];
+      picture_->light.pixels[i] = sum.light / static_cast<float>(done);
+      if (*coverage_)
+        picture_->alpha[i] = sum.covered / static_cast<float>(done);
+    }
     result.samples = static_cast<std::uint64_t>(done) * static_cast<std::uint64_t>(pixels);
     return result;
   }
 
 private:
-  void add_samples(const Tile& tile, int first, int end, std::vector<Colour>& sums, std::uint64_t& rays) const {
+  void add_samples(const Tile& tile, int first, int end, std::vector<Sum>& sums, std::uint64_t& rays) const {
     const int width = tile.x1 - tile.x0;
     for (std::size_t p = 0; p < sums.size(); ++p)
       for (int s = first; s < end; ++s)
-        sums[p] += sample(tile.x0 + static_cast<int>(p) % width, tile.y0 + static_cast<int>(p) / width, s, rays);
+        sums[p].add(sample(tile.x0 + static_cast<int>(p) % width, tile.y0 + static_cast<int>(p) / width, s, rays));
   }
 
-  [[nodiscard]] Colour sample(int x, int y, int number, std::uint64_t& rays) const {
-    Sampler sampler(static_cast<std::uint32_t>(image_->index(x, y)),
+  [[nodiscard]] Sum sample(int x, int y, int number, std::uint64_t& rays) const {
+    const Image& image = picture_->light;
+    Sampler sampler(static_cast<std::uint32_t>(image.index(x, y)),
                     static_cast<std::uint32_t>(options_.first_sample + number));
     const Point2 p = sampler.point();
-    const double fx = (x + 0.5 + static_cast<double>(tent(p.x))) / image_->width,
-                 fy = (y + 0.5 + static_cast<double>(tent(p.y))) / image_->height;
+    const double fx = (x + 0.5 + static_cast<double>(tent(p.x))) / image.width,
+                 fy = (y + 0.5 + static_cast<double>(tent(p.y))) / image.height;
     const Ray ray = rays_.has_lens() ? rays_.through(fx, fy, sampler.point()) : rays_.middle(fx, fy);
-    return options_.exposure * (*shader_)(ray, sampler, rays);
+    return {options_.exposure * (*shader_)(ray, sampler, rays), *coverage_ ? (*coverage_)(ray, rays) : 0};
   }
 
   // Of the mean of two pictures of so many samples each: half of their difference.
-  static double squared_noise(const std::vector<Colour>& a, const std::vector<Colour>& b, int samples) {
+  static double squared_noise(const std::vector<Sum>& a, const std::vector<Sum>& b, int samples) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-      const double difference = static_cast<double>(display_level(luminance(a[i] / static_cast<float>(samples))) -
-                                                    display_level(luminance(b[i] / static_cast<float>(samples))));
+      const double difference = static_cast<double>(display_level(luminance(a[i].light / static_cast<float>(samples))) -
+                                                    display_level(luminance(b[i].light / static_cast<float>(samples))));
       sum += difference * difference / 4;
     }
     return sum;
@@ -91,8 +108,9 @@ private:
 
   CameraRays rays_;
   const Shader* shader_;
+  const Coverage* coverage_;
   DrawOptions options_;
-  Image* image_;
+  Picture* picture_;
 };
 
 } // namespace
@@ -100,12 +118,14 @@ private:
 float tent(float u) { return u < 0.5F ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
 
 Picture draw(const World& world, const Camera& camera, const Shader& shader, const DrawOptions& options,
-             const Progress& progress) {
+             const Progress& progress, const Coverage& coverage) {
   Picture picture;
   picture.light = Image(options.width, options.height);
+  if (coverage)
+    picture.alpha.resize(picture.light.pixels.size());
   const std::vector<Tile> tiles = tiles_of(options.width, options.height);
   std::vector<TileResult> results(tiles.size());
-  const TilePainter painter(world, camera, shader, options, picture.light);
+  const TilePainter painter(world, camera, shader, coverage, options, picture);
   std::atomic<std::size_t> finished = 0;
   std::mutex telling;
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {

@@ -13,6 +13,8 @@ namespace sheet::render {
 
 // The light along a camera ray; counts its rays.
 using Shader = std::function<Colour(const Ray&, Sampler&, std::uint64_t&)>;
+// How far a background is covered along a camera ray, 0 to 1; counts its rays.
+using Coverage = std::function<float(const Ray&, std::uint64_t&)>;
 // Told now and then, by one thread at a time, what part of the picture is done.
 using Progress = std::function<void(double)>;
 
@@ -25,9 +27,10 @@ struct DrawOptions {
 };
 
 // Noise is measured by comparing the pictures that the two halves of the samples make. With a noise target, the samples
-// of a tile are doubled from 16 until it is met.
+// of a tile are doubled from 16 until it is met. With `coverage` the picture has alpha: the shader's light is then
+// that of what covers the background alone.
 [[nodiscard]] Picture draw(const World& world, const Camera& camera, const Shader& shader, const DrawOptions& options,
-                           const Progress& progress);
+                           const Progress& progress, const Coverage& coverage = {});
 
 inline constexpr int tile_edge = 16; // [pixels]; of the tiles whose noise is looked at
 

@@ -56,6 +56,9 @@ std::string encode_exr(const Picture& picture) {
   const char* const colours[] = {"R", "G", "B"};
   for (std::size_t c = 0; c < 3; ++c)
     channel(colours[c], Imf::HALF, half.data() + c, 3 * sizeof(Imath::half), Imf::HALF);
+  const std::vector<Imath::half> alpha(picture.alpha.begin(), picture.alpha.end());
+  if (!alpha.empty())
+    channel("A", Imf::HALF, alpha.data(), sizeof(Imath::half), Imf::HALF);
   const Layers& layers = picture.layers;
   if (!layers.depth.empty()) {
     channel("Z", Imf::FLOAT, layers.depth.data(), sizeof(float), Imf::FLOAT);

@@ -81,8 +81,11 @@ void write_text(Bitmap& bitmap, int x, int y, std::string_view text, int scale, 
 
 void fill(Bitmap& bitmap, int x, int y, int width, int height, const Ink& ink) {
   for (int j = std::max(y, 0); j < std::min(y + height, bitmap.height); ++j)
-    for (int i = std::max(x, 0); i < std::min(x + width, bitmap.width); ++i)
+    for (int i = std::max(x, 0); i < std::min(x + width, bitmap.width); ++i) {
       std::copy(ink.begin(), ink.end(), bitmap.pixel(i, j));
+      if (!bitmap.alpha.empty())
+        bitmap.alpha[static_cast<std::size_t>(j * bitmap.width + i)] = 255;
+    }
 }
 
 } // namespace sheet::render

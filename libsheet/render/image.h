@@ -33,7 +33,8 @@ struct Layers {
 inline constexpr std::uint32_t nothing_id = 0, sheet_id = 1, ground_id = 2, first_solid_id = 3;
 
 struct Picture {
-  Image light; // linear radiance
+  Image light;              // linear radiance
+  std::vector<float> alpha; // of each pixel the part that is covered, for which alone `light` is; empty: all of it
   Layers layers;
   float noise = 0;       // standard error of a pixel's luminance as displayed, root mean square, of 255
   float worst_noise = 0; // the same of the worst tile
@@ -45,6 +46,7 @@ struct Picture {
 struct Bitmap {
   int width = 0, height = 0;
   std::vector<std::uint8_t> bytes;
+  std::vector<std::uint8_t> alpha; // straight: the bytes are not multiplied with it; empty: opaque
   Bitmap(int w, int h) : width(w), height(h), bytes(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
   [[nodiscard]] std::uint8_t* pixel(int x, int y) {
     return bytes.data() +

@@ -16,6 +16,8 @@ Colour linear(const Colour& displayed) {
   return {decode_srgb(displayed[0]), decode_srgb(displayed[1]), decode_srgb(displayed[2])};
 }
 
+bool shows_paper(const Hit& hit) { return !hit.anything() || hit.plane; }
+
 // Where a ray meets the sheet, lit from the camera.
 struct LitHit {
   Hit hit;
@@ -26,8 +28,8 @@ struct LitHit {
 // The colour of what is not the sheet, or nothing; then `lit` is where the ray meets it.
 std::optional<Colour> colour_beside(const World& world, const Ray& ray, LitHit& lit) {
   lit.hit = world.nearest(ray);
-  if (!lit.hit.anything() || lit.hit.plane)
-    return Colour::Constant(decode_srgb(0.97F));
+  if (shows_paper(lit.hit))
+    return paper();
   lit.facing = std::abs(ray.direction.dot(lit.hit.normal));
   if (lit.hit.id != sheet_id)
     return linear(Colour::Constant(0.35F + 0.45F * lit.facing));
@@ -90,6 +92,15 @@ Scale widened(const Scale& scale, const Field& field) {
 Colour false_colour(float place, const Palette& palette) {
   const DisplayedColour colour = palette.at(place);
   return {colour[0], colour[1], colour[2]};
+}
+
+Colour paper() { return Colour::Constant(decode_srgb(0.97F)); }
+
+Coverage covers_paper(const World& world) {
+  return [&world](const Ray& ray, std::uint64_t& rays) {
+    ++rays;
+    return shows_paper(world.nearest(ray)) ? 0.0F : 1.0F;
+  };
 }
 
 Shader field_shader(const World& world, const Field& field, std::vector<double> values, const Scale& scale) {

@@ -38,6 +38,10 @@ struct Scale {
 // The colour of a palette at a place of the scale, 0 to 1: sRGB as displayed, 0 to 1.
 [[nodiscard]] Colour false_colour(float place, const Palette& palette);
 
+// What both of these draw where there is nothing but planes; and whether that is covered. The world must outlive it.
+[[nodiscard]] Colour paper();
+[[nodiscard]] Coverage covers_paper(const World& world);
+
 // Draws the field's `values` (of the frame that the world was made of). The world must outlive the shader.
 [[nodiscard]] Shader field_shader(const World& world, const Field& field, std::vector<double> values,
                                   const Scale& scale);

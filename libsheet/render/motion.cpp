@@ -86,6 +86,12 @@ Picture mean_of(const std::vector<Picture>& pictures) {
       sum += picture.light.pixels[i];
     mean.light.pixels[i] = sum / count;
   }
+  for (std::size_t i = 0; i < mean.alpha.size(); ++i) {
+    float sum = 0;
+    for (const Picture& picture : pictures)
+      sum += picture.alpha[i];
+    mean.alpha[i] = sum / count;
+  }
   float squares = 0, worst = 0;
   mean.samples = 0;
   mean.rays = 0;

@@ -162,9 +162,16 @@ Light PathTracer::radiance(const Ray& ray, const Hit& first, Sampler& sampler, s
   return light;
 }
 
+// Takes that out of a path which another background will bring.
+void PathTracer::uncover(Path& path) const {
+  if (surroundings_.cut_out && path.straight)
+    path.weight -= path.weight.minCoeff();
+}
+
 // The light from infinity at the end of a path.
-Colour PathTracer::from_afar(const Path& path) const {
+Colour PathTracer::from_afar(Path& path) const {
   const Vec& direction = path.ahead.ray().direction;
+  uncover(path);
   if (path.straight)
     return path.weight * lighting_->backdrop(direction);
   if (!path.density && path.indirect)
@@ -402,6 +409,7 @@ Colour PathTracer::arriving(const Hit& hit, const Lighting::Sample& lamp, const 
 Colour PathTracer::fade(const Hit& hit, Path& path) const {
   if (!path.straight || !hit.plane)
     return Colour::Zero();
+  uncover(path);
   const float gone = smooth_step(surroundings_.fade_from, surroundings_.fade_to, hit.position.norm());
   const Colour seen = path.weight * gone * lighting_->backdrop(path.ahead.ray().direction);
   path.weight *= 1 - gone;
@@ -525,6 +533,23 @@ void PathTracer::look(Path path, Sight& sight, std::uint64_t& rays) const {
     path.weight *= crossing.part[through];
     go_on(hit, meeting, path);
   }
+}
+
+float PathTracer::coverage(const Ray& ray, std::uint64_t& rays) const {
+  Path path = start(ray, middle);
+  for (int meetings = 0; meetings < longest_path; ++meetings) {
+    const Hit hit = next_met(path, rays);
+    if (!hit.anything() || hit.plane)
+      return 1 - path.weight.minCoeff();
+    if (hit.id != sheet_id)
+      return 1;
+    const Crossing crossing = cross(hit, path, rays);
+    path.weight *= crossing.part[through];
+    if (path.weight.minCoeff() < darkness)
+      return 1;
+    go_on(hit, crossing.meeting, path);
+  }
+  return 1;
 }
 
 // What a ray that leaves `hit` brings of the light from infinity: all layers of sheet passed straight.

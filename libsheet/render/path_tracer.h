@@ -28,6 +28,8 @@ struct Surroundings {
   std::vector<Colour> solids; // reflectance of the scene's solids, matte
   Colour ground{0.68F, 0.66F, 0.63F};
   std::optional<float> solid_gloss{}, ground_gloss{}; // roughness of a clear coat on it; absent: there is none
+  // Planes and what lies behind everything are left to another picture where they are seen straight (coverage).
+  bool cut_out = false;
   float fade_from = 2,
         fade_to = 9; // planes seen directly blend into the backdrop between these distances, in the world's unit
 };
@@ -71,6 +73,11 @@ public:
   // What comes back of even light from all sides, of what a ray of that direction hits.
   [[nodiscard]] Colour reflectance(const Hit& hit, const Vec& direction) const;
   [[nodiscard]] Sight look(const Ray& ray, std::uint64_t& rays) const;
+  [[nodiscard]] bool cuts_out() const { return surroundings_.cut_out; }
+  // With cut_out, the part of another background that is not seen along a ray: of red, green and blue that of the
+  // colour of which the slabs let least pass. What they let pass of the others beyond that has the radiance of the
+  // picture's own background. So honey is yellow before any other, too, which one part for all three would make grey.
+  [[nodiscard]] float coverage(const Ray& ray, std::uint64_t& rays) const;
 
 private:
   struct Path;
@@ -95,10 +102,11 @@ private:
                        float chance, Sampler& sampler, std::uint64_t& rays) const;
   Colour arriving(const Hit& hit, const Lighting::Sample& lamp, const Colour& share, const Within& within, float number,
                   std::uint64_t& rays) const;
+  void uncover(Path& path) const;
   Colour visible(const Hit& hit, const Vec& direction, Within within, std::uint64_t& rays) const;
   [[nodiscard]] bool passes(const Face& face, Path& path) const;
   [[nodiscard]] Colour bounded(const Colour& light) const;
-  [[nodiscard]] Colour from_afar(const Path& path) const;
+  [[nodiscard]] Colour from_afar(Path& path) const;
   [[nodiscard]] Colour fade(const Hit& hit, Path& path) const;
   [[nodiscard]] const Colour& albedo(const Hit& hit) const;
   [[nodiscard]] const std::optional<float>& gloss(const Hit& hit) const;

@@ -7,11 +7,12 @@
 
 namespace sheet::render {
 
-// RGB, 8 bits, marked as sRGB.
+// RGB, or RGBA with straight alpha, 8 bits, marked as sRGB.
 [[nodiscard]] std::string encode_png(const Bitmap& bitmap);
 
-// R, G, B linear as half floats; the layers as floats, if the picture has them: Z [m], normal.X, .Y, .Z, thickness [m],
-// velocity.X, .Y, .Z [m/s], albedo.R, .G, .B and id (unsigned; image.h).
+// R, G, B linear as half floats, with A those of the part that is covered, as EXR files have it; the layers as floats,
+// if the picture has them: Z [m], normal.X, .Y, .Z, thickness [m], velocity.X, .Y, .Z [m/s], albedo.R, .G, .B and id
+// (unsigned; image.h).
 [[nodiscard]] std::string encode_exr(const Picture& picture);
 
 // One picture of a binary PPM stream.

@@ -29,10 +29,16 @@ std::string encode_png(const Bitmap& bitmap) {
   Png png;
   png.image.width = static_cast<png_uint_32>(bitmap.width);
   png.image.height = static_cast<png_uint_32>(bitmap.height);
-  png.image.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> with_alpha;
+  for (std::size_t i = 0; i < bitmap.alpha.size(); ++i) {
+    with_alpha.insert(with_alpha.end(), &bitmap.bytes[3 * i], &bitmap.bytes[3 * i] + 3);
+    with_alpha.push_back(bitmap.alpha[i]);
+  }
+  png.image.format = with_alpha.empty() ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.image);
   std::string bytes(size, '\0');
-  if (png_image_write_to_memory(&png.image, bytes.data(), &size, 0, bitmap.bytes.data(), 0, nullptr) == 0)
+  const std::vector<std::uint8_t>& values = with_alpha.empty() ? bitmap.bytes : with_alpha;
+  if (png_image_write_to_memory(&png.image, bytes.data(), &size, 0, values.data(), 0, nullptr) == 0)
     fail(ExitCode::internal, "libpng: {}", png.image.message);
   bytes.resize(size);
   return bytes;

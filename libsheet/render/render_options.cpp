@@ -184,6 +184,12 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
               "likewise: angle above level (default 25; -25 or 0 where planes would hide everything, 50 or 75 where "
               "solids would)");
   tool.option(
+      "--turntable", o.turntable, "PICTURES",
+      "once round what there is to see in so many pictures, anticlockwise as seen from above, its axis through "
+      "what is looked at: of a single frame, or a picture of each while the run plays, the last of them until "
+      "the round is complete. %04d in -o is then the picture's number; the studio's light goes round too. 0: not "
+      "at all");
+  tool.option(
       "--environment", o.environment, "FILE",
       "image of the surroundings to light the scene with instead of the studio, .hdr, .exr or .png, longitude across");
   tool.option("--environment-turn", o.environment_turn, "DEGREES",
@@ -198,6 +204,9 @@ void declare_render_options(Tool& tool, RenderOptions& o) {
   tool.choice("--solids", o.solids,
               {{"auto", DrawnSolids::not_enclosing}, {"all", DrawnSolids::all}, {"none", DrawnSolids::none}},
               "the scene's solids; auto: but those that hide the liquid from all sides, as a closed mould does");
+  tool.flag("--transparent", o.transparent,
+            "leave the background out, and the ground, planes and baths with the shadows on them: .png with straight "
+            "alpha, .exr with alpha, to lay over another picture");
   colour_option(tool, "--ground-colour", o.ground_colour, "reflectance of the ground, 0 to 1");
   colours_option(tool, "--solid-colour", o.solid_colours,
                  "reflectance of the solids, 0 to 1, the first, the second, ..., and again from the first");

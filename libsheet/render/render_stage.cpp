@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
 #include <span>
 
 #include "libsheet/base/error.h"
@@ -30,6 +33,7 @@ constexpr double largest = 1e30;                // subject, far from where singl
 constexpr double unknown_growth = 0.25;         // of a subject of which only the first frame is known
 constexpr double farthest = 1e9;                // eye, in sizes of the subject
 constexpr double thinnest = 1e-4;               // of the subject: a sheet below it is drawn as its mid-surface
+constexpr int ring_size = 24;                   // of directions in which what a turntable shows is measured
 constexpr int most_times = 32;                  // at which what moves is drawn while the shutter is open
 constexpr std::size_t most_to_smooth = 200'000; // triangles of the middle surface
 constexpr double flat_enough = 0.7;             // pixels that the chords of its sharpest edges may be off
@@ -40,6 +44,11 @@ void check(const RenderOptions& o) {
     fail(ExitCode::usage, "give -o FILE, such as -o frames/%04d.png, or --y4m and pipe it on");
   if ((o.y4m ? 1 : 0) + (o.ppm ? 1 : 0) + (o.output.empty() ? 0 : 1) > 1)
     fail(ExitCode::usage, "-o, --y4m and --ppm exclude each other");
+  if (o.transparent && o.output.empty())
+    fail(ExitCode::usage, "--transparent: {} has no alpha: write pictures, such as -o frames/%04d.png",
+         o.y4m ? "a y4m video" : "PPM");
+  if (o.turntable < 0 || o.turntable == 1)
+    fail(ExitCode::usage, "--turntable: {} pictures do not go round: give 2 or more, or 0", o.turntable);
   if (o.denoise && o.draw.noise > 0)
     fail(ExitCode::usage, "--denoise and --noise exclude each other");
   if (!o.output.empty() && !o.output.ends_with(".png") && !o.output.ends_with(".exr"))
@@ -132,20 +141,24 @@ struct RenderStage::Impl {
   const Scene* scene = nullptr; // the frame's, if it has one
   std::vector<SolidMesh> meshes;
 
-  Vector3 up = Vector3::UnitY();      // in the first scene
-  std::optional<Survey> survey;       // from where the camera may look
-  std::optional<Sights> sights;       // from each of these places
-  std::vector<std::size_t> enclosing; // solids that are left out, by their number in the scene
-  bool surveyed = false;              // by survey()
-  struct Fixed {                      // for all pictures
+  Vector3 up = Vector3::UnitY();       // in the first scene
+  std::optional<Survey> survey;        // from where the camera may look
+  std::optional<Sights> sights;        // from each of these places
+  std::vector<std::size_t> enclosing;  // solids that are left out, by their number in the scene
+  std::vector<double> elevations;      // of them
+  std::map<double, std::size_t> rings; // by elevation, the first of the views all round (add_rings)
+  bool surveyed = false;               // by survey()
+  struct Fixed {                       // for all pictures
     Box subject;
     Camera camera;
     Lighting lighting;
     Scale scale;
+    Vector3 pivot; // of a turntable
     std::optional<Plane> ground;
     bool dark = false; // the ground
   };
   std::optional<Fixed> fixed;
+  std::optional<Camera> first_camera;
   bool told_out_of_sight = false, told_empty = false, told_noisy = false;
   std::uint64_t pictures = 0;
 
@@ -159,6 +172,9 @@ struct RenderStage::Impl {
       files.emplace(options.output, "--frames");
     if (!options.environment.empty())
       surroundings = environment();
+    if (files && options.turntable > 0 && !files->names().has_number())
+      fail(ExitCode::usage, "-o {} names one file and --turntable makes {}: number them, as in turn_%04d{}",
+           options.output, options.turntable, std::filesystem::path(options.output).extension().string());
     if (files) { // refused before anything is drawn
       claim_file(files->names().of(0), FileRole::output);
       release_file(files->names().of(0), FileRole::output);
@@ -229,12 +245,57 @@ struct RenderStage::Impl {
       for (const CameraOptions& view : views_at(frame.time)) {
         fits.emplace_back(view, up, aspect, margins());
         toward.push_back(direction_to_camera(view, up));
+        elevations.push_back(view.elevation.value_or(usual_view.elevation));
       }
+      add_rings(aspect, fits);
       survey.emplace(fits);
       sights.emplace(options.camera.eye ? std::vector<Vector3>{} : toward);
     }
     survey->add(frame, scene, meshes, options.look);
     sights->add(frame, scene, meshes);
+  }
+
+  // For a turntable, behind the views: of each of their elevations, as many all round.
+  void add_rings(double aspect, std::vector<ViewFit>& fits) {
+    for (const double elevation : elevations)
+      if (options.turntable > 0 && rings.try_emplace(elevation, fits.size()).second)
+        for (int i = 0; i < ring_size; ++i) {
+          CameraOptions view = options.camera;
+          view.azimuth = 360.0 * i / ring_size;
+          view.elevation = elevation;
+          fits.emplace_back(view, up, aspect, margins());
+        }
+  }
+
+  // The first camera, of that view of the survey.
+  [[nodiscard]] Camera camera_of(const Extent& extent, std::size_t view, const Vector3& middle, double growth) const {
+    const Camera camera = extent.views[view].camera(middle, growth);
+    if (options.turntable == 0 || options.camera.eye)
+      return camera;
+    const Vector3 target = options.camera.target.value_or(middle), toward = -camera.axis().cast<double>();
+    double distance = 0;
+    for (std::size_t i = 0; i < ring_size; ++i)
+      distance = std::max(distance, extent.views[rings.at(elevations[view]) + i].distance(target, middle, growth));
+    return {target + distance * toward, target, up, options.camera.field_of_view, camera.aspect()};
+  }
+
+  // Where the next picture is taken from, and its light.
+  void turn() {
+    if (options.turntable == 0)
+      return;
+    const double part = static_cast<double>(pictures) / static_cast<double>(options.turntable);
+    fixed->camera = first_camera->turned(fixed->pivot, up, 2 * std::numbers::pi * (part - std::floor(part)));
+    if (!surroundings)
+      fixed->lighting = Lighting::studio(-fixed->camera.axis(), up.cast<float>());
+  }
+
+  void warn_of_walls(double time) const {
+    constexpr double upright = 0.1; // the sine of its angle with the upward axis, at least
+    if (options.turntable > 0 && draws_solids())
+      for (const Plane& plane : make_planes(*scene, time))
+        if (plane.normal.cross(up).norm() > upright)
+          log::warning("[[solid]] {} is an upright plane: --turntable goes behind it too (--solids none leaves it out)",
+                       plane.id - first_solid_id);
   }
 
   void leave_out_what_encloses() {
@@ -266,22 +327,27 @@ struct RenderStage::Impl {
     const Vector3 reach = (0.5 + growth) * (subject.high - subject.low), middle = subject.middle();
     subject = {middle - reach, middle + reach};
     leave_out_what_encloses();
-    Camera camera = extent.views[sights->best(enclosing)].camera(middle, 2 * growth);
+    Camera camera = camera_of(extent, sights->best(enclosing), middle, 2 * growth);
+    warn_of_walls(frame.time);
     check_reach(camera, extent.box);
     if (options.aperture > 0 && options.look.is_material())
       camera.set_lens({options.aperture / 2, std::min(focus_distance(camera, middle), farthest * subject.diagonal())});
     const Vec toward = -camera.axis(), upward = up.cast<float>();
-    Fixed f{subject, camera,
+    Fixed f{subject,
+            camera,
             surroundings ? Lighting::surroundings(*surroundings, toward, upward,
                                                   static_cast<float>(options.environment_turn) * float_pi / 180)
                          : Lighting::studio(toward, upward),
-            scale(), std::nullopt};
+            scale(),
+            options.camera.target.value_or(middle),
+            std::nullopt};
     if (const BathLiquid* bath = bath_in_view(); bath != nullptr)
       f.ground = bath_surface(bath->level, subject, up);
     else if (options.ground && options.look.is_material() && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
     f.dark = std::ranges::all_of(drawn_liquids(options, scene), [&](const Liquid& l) { return is_clear(l, frame); });
     fixed.emplace(std::move(f));
+    first_camera = camera;
     const Vector3 eye = camera.eye(), axis = camera.axis().cast<double>(),
                   target = options.camera.target.value_or(eye + (middle - eye).dot(axis) * axis);
     log::detail("camera: --eye {:.6g},{:.6g},{:.6g} --target {:.6g},{:.6g},{:.6g}", eye.x(), eye.y(), eye.z(),
@@ -352,26 +418,38 @@ struct RenderStage::Impl {
     };
     around.ground_gloss = gloss(options.ground_gloss);
     around.solid_gloss = gloss(options.solid_gloss);
+    around.cut_out = options.transparent;
     return around;
   }
 
   [[nodiscard]] Picture picture_of(const formats::Frame& frame, const World& world, const DrawOptions& how,
                                    const Progress& progress) const {
-    if (const Field* field = options.look.field)
-      return render::draw(world, fixed->camera, field_shader(world, *field, values_of(frame, *field), fixed->scale),
-                          how, progress);
-    if (options.look.kind == Look::Kind::wireframe)
-      return render::draw(world, fixed->camera, wireframe_shader(world, fixed->camera.pixel_angle(how.height)), how,
-                          progress);
+    if (!options.look.is_material())
+      return false_colours_of(frame, world, how, progress);
     const PathTracer tracer = tracer_of(world);
     if (options.denoise)
       return draw_denoised(world, fixed->camera, tracer, how, progress);
+    Coverage coverage;
+    if (options.transparent)
+      coverage = [&](const Ray& ray, std::uint64_t& rays) { return tracer.coverage(ray, rays); };
     return render::draw(
         world, fixed->camera,
         [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) {
           return tracer.radiance(ray, sampler, rays).sum();
         },
-        how, progress);
+        how, progress, coverage);
+  }
+
+  [[nodiscard]] Picture false_colours_of(const formats::Frame& frame, const World& world, const DrawOptions& how,
+                                         const Progress& progress) const {
+    const Field* field = options.look.field;
+    const Shader shader = field != nullptr ? field_shader(world, *field, values_of(frame, *field), fixed->scale)
+                                           : wireframe_shader(world, fixed->camera.pixel_angle(how.height));
+    Picture picture = render::draw(world, fixed->camera, shader, how, progress,
+                                   options.transparent ? covers_paper(world) : Coverage());
+    for (std::size_t i = 0; i < picture.alpha.size(); ++i)
+      picture.light.pixels[i] -= how.exposure * (1 - picture.alpha[i]) * paper();
+    return picture;
   }
 
   [[nodiscard]] PathTracer tracer_of(const World& world) const {
@@ -455,7 +533,7 @@ struct RenderStage::Impl {
       return;
     }
     const bool photo = options.look.is_material();
-    Bitmap bitmap = to_bitmap(picture.light, photo ? options.tone : Tone::linear);
+    Bitmap bitmap = to_bitmap(picture, photo ? options.tone : Tone::linear);
     if (!photo)
       draw_scale(bitmap, fixed->scale, options.look, frame.time);
     if (files) {
@@ -470,10 +548,11 @@ struct RenderStage::Impl {
   }
 
   PictureReport draw(const formats::Frame& frame, std::uint64_t index, const Progress& progress) {
-    const std::string file = files ? files->next(index) : "";
+    const std::string file = files ? files->next(options.turntable > 0 ? pictures : index) : "";
     read_scene_of(frame);
     if (!fixed)
       fix(frame);
+    turn();
     warn_if_out_of_sight(frame);
     const formats::Frame seen = with_balls(frame);
     Picture picture = picture_of(seen, progress);

@@ -28,6 +28,7 @@ struct RenderOptions {
   bool layers = false;           // that touch are drawn each by itself
   bool facets = false;           // materials are drawn flat between the sheet's vertices, as false colours are
   CameraOptions camera;
+  std::int64_t turntable = 0; // pictures in which the camera goes once round; 0: it stands
   Look look;
   std::vector<std::size_t> liquids = liquids_told_apart(); // numbers of the presets, of the scene's liquids in turn
   std::optional<double> index;
@@ -46,6 +47,7 @@ struct RenderOptions {
   double environment_strength = 1;                 // factor on its light
   std::string environment;                         // image file; "": the studio
   bool ground = true;                              // whether it is drawn
+  bool transparent = false;                        // where nothing but planes and what lies behind everything is
   DrawnSolids solids = DrawnSolids::not_enclosing;
   std::optional<Scale> range; // of false colours, in SI; absent: that of the frames
   double frames_per_second = 24;
@@ -73,8 +75,8 @@ public:
   // Otherwise they are fitted to the first frame that is drawn, with a margin of a quarter of its size to all sides.
   void survey(const formats::Frame& frame);
 
-  // Draws the frame, which is number `index` of its stream. Throws Error: bad_input (the frame's scene, its solids'
-  // files, nothing to see), io.
+  // Draws the frame, which is number `index` of its stream; files of a turntable are numbered by themselves. Throws
+  // Error: bad_input (the frame's scene, its solids' files, nothing to see), io.
   PictureReport draw(const formats::Frame& frame, std::uint64_t index, const Progress& progress);
 
   // There are no more frames: the video is complete, the picture of a name without number is written. Throws Error

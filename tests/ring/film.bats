@@ -48,6 +48,8 @@ parts() {
   parts "$t/a.mp4" | cmp - "$t/whole.y4m"
   run -2 pipelines/film "$t/run.sheet" "$t/a.mp4" --part 1 -- --size 40x24
   [[ $output == *"has parts of another film"* ]]
+  run -2 pipelines/film "$t/run.sheet" "$t/b.mp4" -- --turntable 24
+  [[ $output == *"--turntable"*"sheet-render itself"* && ! -e $t/b.mp4.parts ]]
   run -2 bash -c "sheet-render - --view-of 0- -o $t/x.png < /dev/null"
   run -3 sheet-render "$t/run.sheet" --frames 0 --view-of 90 -o "$t/x.png"
   [[ $output == *"--view-of 90"*"no such frames"* ]]

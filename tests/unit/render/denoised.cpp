@@ -131,6 +131,43 @@ double distance(const Picture& a, const Picture& b) { // in levels of 255
   return std::sqrt(squares / static_cast<double>(a.light.pixels.size()));
 }
 
+// What is cut out, laid over the background that it has been cut out of, is the whole picture; where there is nothing
+// of the sheet and solids it is clear, ground or not.
+TEST(CutOut, LaidOverItsBackgroundIsThePicture) {
+  const Lighting light = Lighting::uniform(1);
+  for (const std::size_t material : {0, 2, 4}) { // chocolate, honey, glass
+    const Still still(material, light);
+    const World without(make_surface(middle_of(still.frame), 1e-4), {Still::ball()}, {Eigen::Isometry3d::Identity()},
+                        {}, still.box);
+    const auto drawn = [&](const World& world, bool cut_out, bool denoise) {
+      Surroundings around{{Colour::Constant(0.6F)}};
+      around.cut_out = cut_out;
+      const PathTracer tracer(world, light, {preset(material)}, around);
+      if (denoise)
+        return draw_denoised(world, still.camera, tracer, Still::options(16), nullptr);
+      const auto shader = [&](const Ray& ray, Sampler& sampler, std::uint64_t& rays) {
+        return tracer.radiance(ray, sampler, rays).sum();
+      };
+      const auto coverage = [&](const Ray& ray, std::uint64_t& rays) { return tracer.coverage(ray, rays); };
+      return draw(world, still.camera, shader, Still::options(16), nullptr, cut_out ? coverage : Coverage());
+    };
+    for (const bool denoise : {false, true}) {
+      const Picture whole = drawn(without, false, denoise), cut = drawn(without, true, denoise);
+      ASSERT_TRUE(whole.alpha.empty());
+      Picture laid = cut;
+      for (std::size_t i = 0; i < cut.alpha.size(); ++i)
+        laid.light.pixels[i] += 1 - cut.alpha[i];
+      EXPECT_LT(distance(laid, whole), 3) << liquid_names()[material] << (denoise ? ", denoised" : "");
+      const Picture on_ground = drawn(still.world, true, denoise);
+      for (const Picture* picture : {&cut, &on_ground}) {
+        EXPECT_EQ(picture->alpha.front(), 0); // a corner of the picture
+        EXPECT_EQ(picture->light.pixels.front().maxCoeff(), 0);
+        EXPECT_GT(std::ranges::count_if(picture->alpha, [](float a) { return a > 0.9999F; }), 400); // the ball
+      }
+    }
+  }
+}
+
 TEST(Denoised, IsNearerToTheTruthThanSixTimesTheSamples) {
   for (const std::size_t material : {0, 2, 4, 5}) { // chocolate, honey, glass, film
     const Still still(material, studio());

@@ -21,6 +21,38 @@ Image ramp(int w, int h) {
   return image;
 }
 
+Picture picture_of(const Image& image) {
+  Picture picture;
+  picture.light = image;
+  return picture;
+}
+
+// A pixel of such light of which a part is covered, laid over black, white in linear light.
+struct Over {
+  float black, white;
+};
+Over over(float light, float alpha) {
+  Picture picture = picture_of(Image(1, 1));
+  picture.light.at(0, 0) = Colour::Constant(light);
+  picture.alpha = {alpha};
+  const Bitmap bitmap = to_bitmap(picture, Tone::linear);
+  const float part = static_cast<float>(bitmap.alpha[0]) / 255,
+              shown = part * decode_srgb(static_cast<float>(bitmap.bytes[0]) / 255);
+  return {shown, shown + 1 - part};
+}
+
+// What covers a part of a pixel has its own colour there, undimmed; a highlight on glass keeps its light.
+TEST(Display, StraightAlpha) {
+  constexpr float level = 1 / 255.0F;
+  EXPECT_NEAR(over(0.1F, 0.25F).black, 0.1F, level);
+  EXPECT_NEAR(over(0.1F, 0.25F).white, 0.85F, level);
+  EXPECT_EQ(over(0, 0).white, 1);
+  EXPECT_NEAR(over(0.7F, 0.1F).black, 0.7F, level);
+  EXPECT_NEAR(over(0.7F, 0.1F).white, 1, level);
+  EXPECT_EQ(over(3, 0.1F).black, 1);
+  EXPECT_TRUE(to_bitmap(picture_of(Image(2, 1)), Tone::linear).alpha.empty());
+}
+
 TEST(Display, ToneCurve) {
   for (int i = 0; i < 256; ++i) {
     const float x = static_cast<float>(i) / 255;
@@ -38,7 +70,7 @@ TEST(Display, ToneCurve) {
   EXPECT_NEAR(filmic(0.18F), 0.267F, 1e-3F); // by hand
   Image image(1, 1);
   image.at(0, 0) = Colour::Constant(0.18F);
-  const auto shown = [&](Tone tone) { return to_bitmap(image, tone).bytes[0]; };
+  const auto shown = [&](Tone tone) { return to_bitmap(picture_of(image), tone).bytes[0]; };
   EXPECT_EQ(shown(Tone::linear), 118);
   EXPECT_EQ(shown(Tone::shoulder), 118);
   EXPECT_EQ(shown(Tone::filmic), 141);
@@ -46,11 +78,23 @@ TEST(Display, ToneCurve) {
 
 TEST(Png, GoesRound) {
   const Image image = ramp(37, 20);
-  const Bitmap bitmap = to_bitmap(image, Tone::linear);
+  const Bitmap bitmap = to_bitmap(picture_of(image), Tone::linear);
   const Image again = decode_png(encode_png(bitmap), "ramp");
   ASSERT_EQ(again.width, 37);
-  const Bitmap same = to_bitmap(again, Tone::linear);
+  const Bitmap same = to_bitmap(picture_of(again), Tone::linear);
   EXPECT_EQ(same.bytes, bitmap.bytes);
+}
+
+TEST(Png, HasAlpha) {
+  Bitmap bitmap(2, 1);
+  bitmap.bytes = {200, 100, 50, 7, 8, 9};
+  const std::size_t colour_type = 25; // of the header: 2 RGB, 6 RGBA
+  EXPECT_EQ(encode_png(bitmap)[colour_type], 2);
+  bitmap.alpha = {255, 0};
+  const std::string png = encode_png(bitmap);
+  EXPECT_EQ(png[colour_type], 6);
+  const Image opaque = decode_png(png, "alpha");
+  EXPECT_NEAR(encode_srgb(opaque.at(0, 0)[0]), 200 / 255.0F, 1e-5);
 }
 
 // A pixel of Radiance's format: three mantissas and their exponent.
@@ -97,7 +141,7 @@ TEST(Exr, GoesRoundWithLayers) {
 TEST(Decoders, RefuseWhatIsNoPicture) {
   Picture picture;
   picture.light = ramp(8, 8);
-  const std::string png = encode_png(to_bitmap(picture.light, Tone::linear)), exr = encode_exr(picture);
+  const std::string png = encode_png(to_bitmap(picture, Tone::linear)), exr = encode_exr(picture);
   for (std::size_t length = 0; length + 32 < png.size();
        length += 7) // without its end mark alone it is still a picture
     EXPECT_THROW(static_cast<void>(decode_png(png.substr(0, length), "cut.png")), Error) << length;
