@@ -181,8 +181,10 @@ std::span<const Field> fields() { return all_fields; }
 const Field& field_named(std::string_view name) { return *std::ranges::find(all_fields, name, &Field::name); }
 
 bool has(const Frame& frame, const Field& field) {
-  return field.needs == Needs::law ? laws_of(frame) != nullptr
-                                   : field.get != nullptr || array_of(frame, field) != nullptr;
+  if (field.needs != Needs::law)
+    return field.get != nullptr || array_of(frame, field) != nullptr;
+  const Laws* laws = laws_of(frame);
+  return laws != nullptr && scene::tells_liquids(*laws->scene, frame);
 }
 
 double part_at_rest(const Frame& frame) {
@@ -201,7 +203,7 @@ double part_at_rest(const Frame& frame) {
 }
 
 std::vector<double> values_of(const Frame& frame, const Field& field) {
-  if (field.needs == Needs::law && !has(frame, field))
+  if (field.needs == Needs::law && laws_of(frame) == nullptr)
     fail(ExitCode::bad_input,
          "the frame's liquid has one viscosity, so it has no {} of its own: [material] law or viscosity_law give one",
          field.caption);

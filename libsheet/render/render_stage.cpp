@@ -159,7 +159,7 @@ struct RenderStage::Impl {
   };
   std::optional<Fixed> fixed;
   std::optional<Camera> first_camera;
-  bool told_out_of_sight = false, told_empty = false, told_noisy = false;
+  bool told_out_of_sight = false, told_empty = false, told_noisy = false, told_liquids = false;
   std::uint64_t pictures = 0;
 
   explicit Impl(RenderOptions o) : options(std::move(o)) {
@@ -401,6 +401,17 @@ struct RenderStage::Impl {
                      : "give --eye and --target, or read the stream from a file, so that all frames are known");
   }
 
+  void warn_of_unknown_liquids(const formats::Frame& frame) {
+    if (told_liquids || scene == nullptr || options.liquids.size() < 2 || !options.look.is_material() ||
+        tells_liquids(*scene, frame))
+      return;
+    told_liquids = true;
+    log::warning(
+        "the frame at {} s does not say which triangle is of which of its scene's liquids: all is drawn as the "
+        "first one ({})",
+        frame.time, scene::keep_liquid);
+  }
+
   [[nodiscard]] Surroundings surroundings_of_liquid() const {
     Surroundings around;
     if (options.ground_colour || fixed->dark)
@@ -479,7 +490,7 @@ struct RenderStage::Impl {
     Surface surface =
         make_surface(smooth ? smoothed(middle, own_volumes, until) : middle, thinnest * fixed->subject.diagonal());
     add_balls(frame, surface);
-    if (scene != nullptr && options.liquids.size() > 1)
+    if (scene != nullptr && options.liquids.size() > 1 && tells_liquids(*scene, frame))
       if (const FrameLiquids liquids(*scene, frame); liquids.several())
         for (const std::uint32_t t : surface.source_triangle)
           surface.liquids.push_back(liquids.number(t));
@@ -554,6 +565,7 @@ struct RenderStage::Impl {
       fix(frame);
     turn();
     warn_if_out_of_sight(frame);
+    warn_of_unknown_liquids(frame);
     const formats::Frame seen = with_balls(frame);
     Picture picture = picture_of(seen, progress);
     if (options.draw.noise > 0 && picture.worst_noise > options.draw.noise && !told_noisy) {

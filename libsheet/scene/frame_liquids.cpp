@@ -33,6 +33,10 @@ std::vector<std::uint32_t> FrameLiquids::numbers_at_vertices(const formats::Fram
   return numbers;
 }
 
+bool tells_liquids(const Scene& scene, const formats::Frame& frame) {
+  return liquids_of(scene).size() < 2 || frame.find("liquid") != nullptr;
+}
+
 void put_liquid(std::size_t number, formats::Frame& frame) {
   formats::Array array = formats::make_standard_array("liquid", frame.triangles);
   std::ranges::fill(array.values<std::uint32_t>(), static_cast<std::uint32_t>(number));

@@ -35,6 +35,13 @@ private:
   std::span<const std::uint32_t> numbers_;
 };
 
+// Whether the frame says which triangle is of which, or all are of one. Stages that do not keep the array make frames
+// that do not.
+[[nodiscard]] bool tells_liquids(const Scene& scene, const formats::Frame& frame);
+
+// What to do about that.
+inline constexpr const char* keep_liquid = "the array \"liquid\" tells: sheet-init makes it, and stages must keep it";
+
 // Adds the array, of a part that is wholly of the numbered liquid.
 void put_liquid(std::size_t number, formats::Frame& frame);
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -193,6 +194,15 @@ private:
       add_looks({"liquid 1"}, liquid_thickness(frame, {}, 1));
       return {};
     }
+    if (!tells_liquids(*scene, frame)) {
+      if (!std::exchange(told_liquids_, true))
+        log::warning(
+            "the frame at {} s of {} does not say which triangle is of which of its scene's liquids: all is shown "
+            "as the first one ({})",
+            frame.time, std::string(description_["name"]), scene::keep_liquid);
+      add_looks(names_of_liquids(*scene), liquid_thickness(frame, {}, liquids_of(*scene).size()));
+      return {};
+    }
     const FrameLiquids liquids(*scene, frame);
     add_looks(names_of_liquids(*scene), liquid_thickness(frame, liquids.numbers(), liquids.all().size()));
     return liquids.numbers_at_vertices(frame);
@@ -226,6 +236,7 @@ private:
   scene::FrameScene scenes_;
   std::vector<PackedSolid> solids_;
   std::optional<Scene> scene_;
+  bool told_liquids_ = false;
   Placement placed_;
 };
 

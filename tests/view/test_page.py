@@ -253,6 +253,26 @@ class Page(unittest.TestCase):
         self.assertIsNone(self.said("liquid"))
         self.assertEqual(self.browser.complaints(), [])
 
+    def colour_in_the_middle(self):
+        """Red, green, blue of the page's picture."""
+        self.browser.screenshot("picture.png")
+        pixels = subprocess.run(["ffmpeg", "-v", "error", "-i", "picture.png", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
+                                capture_output=True, check=True).stdout
+        x, y, _ = self.middle()
+        at = 3 * (int(y) * 1000 + int(x))
+        return np.array(list(pixels[at : at + 3]))
+
+    def test_a_scale_of_one_value_has_it_in_its_middle(self):
+        with open("thin.toml", "w") as file:
+            file.write('[sheet]\nshape = "disk"\nradius = 0.1\nedge_length = 0.04\nthickness = 0.004\n[material]\n'
+                       'law = "power"\nviscosity = 1e-3\nflow_index = 0.5\nrest_rate = 1\ndensity = 1000\n')
+        sheet("sheet-init thin.toml -o thin.sheet; sheet-view thin.sheet -o thin.html")
+        self.open("thin.html", "#colour=log_viscosity")
+        red, green, blue = self.colour_in_the_middle()
+        self.assertGreater(green, 0.75 * blue)  # teal, not the violet of the scale's lower end
+        self.assertGreater(green, 4 * red)
+        self.assertEqual(self.browser.complaints(), [])
+
     def test_a_narrow_window_holds_everything(self):
         self.browser.size(390, 780, mobile=True)
         self.open("both.html", "#ask=1,0,3&colour=speed&cut=x,1,0,0,0")

@@ -60,7 +60,10 @@ export function rangeOf(streams, quantity) {
   }
   if (high - low > 1e-3 * Math.abs(high))
     return [low, high];
-  return high > 0 ? [0.9 * low, 1.1 * high] : [0, 1];
+  if (low === 0 && high === 0) // of what rests: nothing has a negative speed
+    return [0, 1];
+  const width = high > 0 ? 0.1 * high : 1;
+  return [low - width, high + width];
 }
 
 // Red, green, blue, 255 for each vertex; that of its liquid where there is no quantity, or the frame does not have it.
