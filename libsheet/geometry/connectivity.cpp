@@ -3,8 +3,13 @@
 #include "libsheet/geometry/connectivity.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "libsheet/base/error.h"
+#include "libsheet/geometry/disjoint_sets.h"
 
 namespace sheet {
 
@@ -29,6 +34,54 @@ void sort_halves(std::span<Half> halves) {
       halves[to] = halves[to - 1];
     halves[to] = half;
   }
+}
+
+using EdgeTriangles = std::map<Edge, std::vector<std::uint32_t>>; // those that meet at an edge
+
+EdgeTriangles triangles_by_edge(std::span<const Corners> triangles) {
+  EdgeTriangles at;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
+      at[{low, high}].push_back(t);
+    }
+  return at;
+}
+
+bool runs_upward(const Corners& triangle, const Edge& edge) {
+  return triangle[(std::ranges::find(triangle, edge[0]) - triangle.begin() + 1) % 3] == edge[1];
+}
+
+// Whether turning triangles over cannot give the one that `first` hangs together with two sides. Each triangle counts
+// twice, as it is and turned over; neighbours are joined as they fit. Edges where more than two meet do not join.
+bool is_one_sided(std::span<const Corners> triangles, const EdgeTriangles& at, std::uint32_t first) {
+  const std::uint64_t count = triangles.size();
+  DisjointSets sides(2 * count);
+  for (const auto& [edge, meet] : at)
+    if (meet.size() == 2) {
+      const bool fits = runs_upward(triangles[meet[0]], edge) != runs_upward(triangles[meet[1]], edge);
+      sides.join(meet[0], meet[1] + (fits ? 0 : count));
+      sides.join(meet[0] + count, meet[1] + (fits ? count : 0));
+    }
+  return sides.find(first) == sides.find(first + count);
+}
+
+// Of two triangles that run along an edge in the same direction.
+[[noreturn]] void fail_at(const Edge& edge, std::uint32_t first, std::uint32_t second,
+                          std::span<const Corners> triangles) {
+  const EdgeTriangles at = triangles_by_edge(triangles);
+  const std::string found = fmt::format("edge ({}, {}): triangles {} and {} run along it in the same direction",
+                                        edge[0], edge[1], first, second);
+  if (const std::size_t meet = at.at(edge).size(); meet > 2)
+    fail(ExitCode::bad_input, "{}: {} triangles meet there, and a sheet has at most two: duplicate the edge's vertices",
+         found, meet);
+  if (is_one_sided(triangles, at, first))
+    fail(
+        ExitCode::bad_input,
+        "{}, and turning faces does not help: the surface has one side only, as a Moebius strip has, and a sheet has "
+        "two: cut it open there, along a row of edges from rim to rim or back to itself, by duplicating their vertices",
+        found);
+  fail(ExitCode::bad_input, "{}: turn the faces the same way", found);
 }
 
 } // namespace
@@ -75,11 +128,7 @@ Connectivity connect(std::size_t vertices, std::span<const Corners> triangles) {
       const int side = triangles[h->triangle][(h->corner + 1) % 3] == low ? 0 : 1;
       auto& slot = c.edge_triangles.back()[side];
       if (slot != no_index)
-        fail(
-            ExitCode::bad_input,
-            "edge ({}, {}): triangles {} and {} run along it in the same direction: turn the faces the same way; where "
-            "more than two meet, duplicate the edge's vertices",
-            low, h->high, slot, h->triangle);
+        fail_at({low, h->high}, slot, h->triangle, triangles);
       slot = h->triangle;
       c.triangle_edges[h->triangle][h->corner] = static_cast<std::uint32_t>(c.edges.size() - 1);
     }

@@ -28,7 +28,8 @@ struct Connectivity {
 };
 
 // Fails with bad_input on an index out of range, a triangle with a repeated vertex, an edge of more than two triangles,
-// or two triangles that run along their common edge in the same direction.
+// or two triangles that run along their common edge in the same direction: then it says whether to turn some, or that
+// the mesh has one side only.
 [[nodiscard]] Connectivity connect(std::size_t vertices, std::span<const Corners> triangles);
 
 } // namespace sheet

@@ -189,6 +189,14 @@ gravity = [0, 0, -9.81]'
     sed 1d turned.toml; } > second.toml # the fault has the numbers of its own file
   run -3 sheet-init second.toml -o turned.sheet
   [[ $output == *'turned.obj: edge (1, 2): triangles 0 and 1 run along it'* ]]
+  # A Moebius strip of eight triangles: no turning of faces helps.
+  awk 'BEGIN { n = 4; for (i = 0; i < n; ++i) { a = 6.2831853 * i / n
+      for (s = -0.3; s < 0.4; s += 0.6) print "v", (1 + s * cos(a / 2)) * cos(a), s * sin(a / 2), (1 + s * cos(a / 2)) * sin(a) }
+    for (i = 0; i < n; ++i) { a = 2 * i + 1; c = i < n - 1 ? a + 2 : 2; d = i < n - 1 ? a + 3 : 1
+      print "f", a, a + 1, d; print "f", a, d, c } }' > strip.obj
+  sed 's/turned.obj/strip.obj/' turned.toml > strip.toml
+  run -3 sheet-init strip.toml -o turned.sheet
+  [[ $output == *'strip.obj: edge (0, 1): triangles 0 and 7 '*'one side only'*'cut it open'*'(counted from 0)'* ]]
   # A ball smaller than a triangle, under whose corners it is not.
   refused 'the sheet starts across solid 0 (sphere): triangle ' $'[[solid]]\nshape = "sphere"\nradius = "2 mm"\ncenter = [0.013, 0.017, 0.001]'
   run -3 sheet-init scene.toml -o across.sheet

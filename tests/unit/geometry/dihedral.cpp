@@ -2,6 +2,7 @@
 // Sign of the dihedral angle, and connectivity of small meshes.
 #include <numbers>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/base/error.h"
@@ -59,6 +60,46 @@ TEST(Connectivity, RefusesWhatIsNoSurface) {
   EXPECT_TRUE(refused({{0, 1, 1}}));
   EXPECT_TRUE(refused({{0, 1, 2}, {0, 1, 3}}));
   EXPECT_TRUE(refused({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+}
+
+// A strip of pairs of triangles, whose last vertices are the first, or the first the other way round.
+std::vector<Corners> band(std::uint32_t pairs, bool twisted) {
+  std::vector<Corners> triangles;
+  for (std::uint32_t i = 0; i < pairs; ++i) {
+    const std::uint32_t a = 2 * i, b = a + 1, last = i + 1 == pairs ? 1 : 0, next = 2 * ((i + 1) % pairs),
+                        c = next + (twisted ? last : 0), d = next + 1 - (twisted ? last : 0);
+    triangles.push_back({a, b, d});
+    triangles.push_back({a, d, c});
+  }
+  return triangles;
+}
+
+TEST(Connectivity, SaysWhatHelps) {
+  const auto told = [](const std::vector<Corners>& t) -> std::string {
+    try {
+      (void)connect(40, t);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "a surface";
+  };
+  using testing::HasSubstr;
+  using testing::Not;
+  std::vector<Corners> ring = band(6, false), strip = band(6, true);
+  EXPECT_EQ(told(ring), "a surface");
+  EXPECT_THAT(told(strip), HasSubstr("one side only"));
+  for (std::vector<Corners>* mesh : {&ring, &strip})
+    for (const std::size_t t : {3, 4, 9})
+      std::swap((*mesh)[t][0], (*mesh)[t][1]);
+  EXPECT_THAT(told(ring), HasSubstr("turn the faces the same way"));
+  EXPECT_THAT(told(strip), HasSubstr("one side only"));
+  strip.push_back({30, 31, 32}); // that another piece is one-sided does not matter to this one
+  strip.push_back({30, 31, 33});
+  for (Corners& t : strip)
+    for (std::uint32_t& v : t)
+      v = (v + 10) % 40; // it comes first
+  EXPECT_THAT(told(strip), HasSubstr("turn the faces the same way"));
+  EXPECT_THAT(told({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), HasSubstr("3 triangles meet there"));
 }
 
 } // namespace
