@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace sheet::render {
@@ -72,23 +73,31 @@ Vector3 direction_to_camera(const CameraOptions& options, const Vector3& up) {
 
 std::vector<ViewAngles> views_before_planes(CameraOptions options, const Vector3& up,
                                             std::span<const Vector3> normals) {
-  constexpr double grazing = 0.1; // sine of the angle at which next to nothing is seen of a plane
+  // Sines of the angles at which next to nothing is seen of a plane, and at which half is.
+  constexpr double grazing = 0.1, aslant = 0.5;
   constexpr std::array aside{0, -30, 30, -60, 60, -90, 90, -120, 120, -150, 150, 180}; // from the usual azimuth
   const CameraOptions asked = options;
-  const auto cost = [&](const ViewAngles& view) {
+  const auto below = [&](double sine, const ViewAngles& view) {
     options.azimuth = view.azimuth;
     options.elevation = view.elevation;
     const Vector3 toward = direction_to_camera(options, up);
-    const auto below = [&](double sine) {
-      return std::ranges::count_if(normals, [&](const Vector3& n) { return n.dot(toward) < sine; });
-    };
-    return std::pair(below(-1e-9), below(grazing)); // those that hide what is before them; those not seen
+    return [sine, toward](const Vector3& n) { return n.dot(toward) < sine; };
   };
+  const auto cost = [&](const ViewAngles& view) { // planes that hide what is before them; those not seen
+    return std::pair(std::ranges::count_if(normals, below(-1e-9, view)),
+                     std::ranges::count_if(normals, below(grazing, view)));
+  };
+  std::vector<Vector3> walls;
+  std::ranges::copy_if(normals, std::back_inserter(walls),
+                       [&](const Vector3& n) { return std::abs(n.dot(up)) < wall; });
   std::vector<ViewAngles> views;
   for (const double elevation : {usual_view.elevation, -usual_view.elevation, 0.0})
     for (const int degrees : aside)
       views.push_back({asked.azimuth.value_or(usual_view.azimuth + degrees), asked.elevation.value_or(elevation)});
-  const ViewAngles best = *std::ranges::min_element(views, {}, cost);
+  const ViewAngles first = *std::ranges::min_element(views, {}, cost);
+  std::erase_if(views, [&](const ViewAngles& v) { return v.elevation != first.elevation || cost(v) != cost(first); });
+  const ViewAngles best = *std::ranges::min_element(
+      views, {}, [&](const ViewAngles& v) { return std::ranges::count_if(walls, below(aslant, v)); });
   views = {best};
   for (const double azimuth : {0.0, 180.0, -90.0, 90.0})
     for (const double elevation : {best.elevation, 50.0, 75.0}) {

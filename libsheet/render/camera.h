@@ -62,10 +62,13 @@ struct ViewAngles {
 };
 inline constexpr ViewAngles usual_view{30, 25};
 
-// The angles from which fewest planes hide what is before them and, of those, most are seen by their front, nearest to
-// the usual ones: azimuths every 30 degrees; from above, else from below, else level. Then others of which the same is
-// true, from which solids may hide less: from higher above, likewise from the other sides. Those that `options` has
-// stay. `normals`: unit vectors out of the planes.
+// The cosine of the angle between the upward axis and the normal of a plane that is a wall, at most.
+inline constexpr double wall = 0.3;
+
+// The angles from which fewest planes hide what is before them and, of those, most are seen by their front, walls not
+// aslant, nearest to the usual ones: azimuths every 30 degrees; from above, else from below, else level. Then others of
+// which the same is true, from which solids may hide less: from higher above, likewise from the other sides. Those that
+// `options` has stay. `normals`: unit vectors out of the planes.
 [[nodiscard]] std::vector<ViewAngles> views_before_planes(CameraOptions options, const Vector3& up,
                                                           std::span<const Vector3> normals);
 

@@ -189,14 +189,15 @@ void Lighting::soften() {
     }
 }
 
-Lighting Lighting::studio(const Vec& to_camera, const Vec& up) {
+Lighting Lighting::studio(const Vec& to_camera, const Vec& up, bool from_right) {
   Image map(4, 256);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x)
       map.at(x, y) = studio_sky(std::cos(float_pi * (static_cast<float>(y) + 0.5F) / static_cast<float>(map.height)));
   const Basis axes = level(-to_camera, up); // first: ahead, second: left
-  const Vec key = (-0.35F * axes.first + 0.75F * axes.second + 0.85F * up).normalized();
-  const Vec rim = (0.95F * axes.first - 0.65F * axes.second + 0.45F * up).normalized();
+  const Vec aside = from_right ? Vec(-axes.second) : axes.second;
+  const Vec key = (-0.35F * axes.first + 0.75F * aside + 0.85F * up).normalized();
+  const Vec rim = (0.95F * axes.first - 0.65F * aside + 0.45F * up).normalized();
   return {std::move(map),
           axes,
           {softbox(key, up, 0.24F, 0.30F, 0.10F, Colour(9.0F, 8.6F, 8.0F)),

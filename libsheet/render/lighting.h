@@ -24,9 +24,9 @@ struct Softbox {
 
 class Lighting {
 public:
-  // The built-in studio: a key light high on the left of the camera, a narrow one behind on its right, a bright sky.
-  // `to_camera`, `up`: where the camera stands as seen from what it looks at.
-  static Lighting studio(const Vec& to_camera, const Vec& up);
+  // The built-in studio: a key light high on the left of the camera, a narrow one behind on its right, a bright sky; or
+  // the first two on the other sides. `to_camera`, `up`: where the camera stands as seen from what it looks at.
+  static Lighting studio(const Vec& to_camera, const Vec& up, bool from_right = false);
   // The same radiance from everywhere.
   static Lighting uniform(float radiance);
   // An image of all directions: longitude across, the upper edge is up. -to_camera, turned level, is its middle. Then

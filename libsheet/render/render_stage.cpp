@@ -153,7 +153,8 @@ struct RenderStage::Impl {
     Camera camera;
     Lighting lighting;
     Scale scale;
-    Vector3 pivot; // of a turntable
+    Vector3 pivot;         // of a turntable
+    bool light_from_right; // of the studio
     std::optional<Plane> ground;
     bool dark = false; // the ground
   };
@@ -219,11 +220,15 @@ struct RenderStage::Impl {
     return widened(survey->scale(), *options.look.field);
   }
 
-  // From which the camera may look, the best first; where the user says from where, only that.
-  [[nodiscard]] std::vector<CameraOptions> views_at(double time) const {
+  [[nodiscard]] std::vector<Vector3> plane_normals(double time) const {
     std::vector<Vector3> normals;
     for (const Plane& plane : draws_solids() ? make_planes(*scene, time) : std::vector<Plane>{})
       normals.push_back(plane.normal);
+    return normals;
+  }
+
+  // From which the camera may look, the best first; where the user says from where, only that.
+  [[nodiscard]] std::vector<CameraOptions> views_before(std::span<const Vector3> normals) const {
     std::vector<CameraOptions> views;
     for (const ViewAngles& view : views_before_planes(options.camera, up, normals)) {
       CameraOptions& camera = views.emplace_back(options.camera);
@@ -242,14 +247,15 @@ struct RenderStage::Impl {
       const double aspect = static_cast<double>(options.draw.width) / options.draw.height;
       std::vector<ViewFit> fits;
       std::vector<Vector3> toward;
-      for (const CameraOptions& view : views_at(frame.time)) {
+      const std::vector<Vector3> normals = plane_normals(frame.time);
+      for (const CameraOptions& view : views_before(normals)) {
         fits.emplace_back(view, up, aspect, margins());
         toward.push_back(direction_to_camera(view, up));
         elevations.push_back(view.elevation.value_or(usual_view.elevation));
       }
       add_rings(aspect, fits);
       survey.emplace(fits);
-      sights.emplace(options.camera.eye ? std::vector<Vector3>{} : toward);
+      sights.emplace(options.camera.eye ? std::vector<Vector3>{} : toward, normals);
     }
     survey->add(frame, scene, meshes, options.look);
     sights->add(frame, scene, meshes);
@@ -286,7 +292,7 @@ struct RenderStage::Impl {
     const double part = static_cast<double>(pictures) / static_cast<double>(options.turntable);
     fixed->camera = first_camera->turned(fixed->pivot, up, 2 * std::numbers::pi * (part - std::floor(part)));
     if (!surroundings)
-      fixed->lighting = Lighting::studio(-fixed->camera.axis(), up.cast<float>());
+      fixed->lighting = Lighting::studio(-fixed->camera.axis(), up.cast<float>(), fixed->light_from_right);
   }
 
   void warn_of_walls(double time) const {
@@ -296,6 +302,15 @@ struct RenderStage::Impl {
         if (plane.normal.cross(up).norm() > upright)
           log::warning("[[solid]] {} is an upright plane: --turntable goes behind it too (--solids none leaves it out)",
                        plane.id - first_solid_id);
+  }
+
+  // The light from the left would leave them dark.
+  [[nodiscard]] bool walls_face_right(const Camera& camera, double time) const {
+    double facing = 0;
+    for (const Vector3& normal : plane_normals(time))
+      if (std::abs(normal.dot(up)) < wall)
+        facing += normal.dot(camera.right().cast<double>());
+    return facing > 0.1;
   }
 
   void leave_out_what_encloses() {
@@ -332,14 +347,16 @@ struct RenderStage::Impl {
     check_reach(camera, extent.box);
     if (options.aperture > 0 && options.look.is_material())
       camera.set_lens({options.aperture / 2, std::min(focus_distance(camera, middle), farthest * subject.diagonal())});
+    const bool from_right = walls_face_right(camera, frame.time);
     const Vec toward = -camera.axis(), upward = up.cast<float>();
     Fixed f{subject,
             camera,
             surroundings ? Lighting::surroundings(*surroundings, toward, upward,
                                                   static_cast<float>(options.environment_turn) * float_pi / 180)
-                         : Lighting::studio(toward, upward),
+                         : Lighting::studio(toward, upward, from_right),
             scale(),
             options.camera.target.value_or(middle),
+            from_right,
             std::nullopt};
     if (const BathLiquid* bath = bath_in_view(); bath != nullptr)
       f.ground = bath_surface(bath->level, subject, up);

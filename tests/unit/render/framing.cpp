@@ -51,9 +51,9 @@ TEST(Camera, StandsBeforePlanes) {
   };
   EXPECT_EQ(azimuth({}), 30);
   EXPECT_EQ(azimuth({y}), 30);
-  EXPECT_EQ(azimuth({y, x}), 30);
-  EXPECT_EQ(azimuth({y, -x}), -30);
-  EXPECT_EQ(azimuth({-z}), 120);
+  EXPECT_EQ(azimuth({y, x}), 60); // not aslant
+  EXPECT_EQ(azimuth({y, -x}), -60);
+  EXPECT_EQ(azimuth({-z}), 150);
   EXPECT_EQ(azimuth({-x, -z}), -120);
   EXPECT_EQ(azimuth({x, -x}), 0); // along both of them
   EXPECT_EQ(azimuth({-y}), 30);

@@ -47,7 +47,7 @@ TEST(Sights, WhatIsBetweenWallsIsSeenFromHighAbove) {
   EXPECT_EQ(best_elevation(walls(2), frame), 75);
 }
 
-TEST(Sights, OneSolidEnclosesButNotTwoHalves) {
+TEST(Sights, OneSolidEnclosesOrALidOnSomething) {
   const formats::Frame frame = test::flat(8, 0.01);
   Scene scene;
   scene.solids.emplace_back().shape = scene::Sphere{1};
@@ -62,8 +62,20 @@ TEST(Sights, OneSolidEnclosesButNotTwoHalves) {
   scene.solids[0].shape = scene::SolidBox{{3, 0.1, 3}}; // above and below: each hides it from its side
   scene.solids[0].center = {0, 0.1, 0};
   scene.solids[1].center = {0, -0.1, 0};
-  EXPECT_TRUE(enclosing().empty());
+  EXPECT_EQ(enclosing(), std::vector<std::size_t>{0});      // only the lid, which stands before the cameras
   EXPECT_EQ(enclosing(false), std::vector<std::size_t>{0}); // so large that the cameras are within it, or behind
+  scene.solids.push_back(scene.solids[0]); // with a rib below the lid, seen before the lid from the sheet
+  scene.solids.back().shape = scene::SolidBox{{0.5, 0.02, 3}};
+  scene.solids.back().center = {0, 0.03, 0};
+  EXPECT_EQ(enclosing(), std::vector<std::size_t>{0});
+  scene.solids.resize(1);
+  EXPECT_TRUE(enclosing().empty()); // from below one would see it
+  const std::vector<Vector3> toward{Vector3(0.6, 0.8, 0)}, table{Vector3::UnitY()}, ceiling{-Vector3::UnitY()};
+  for (const auto& normals : {table, ceiling}) {
+    Sights sights(toward, normals);
+    sights.add(frame, &scene, make_solids(scene));
+    EXPECT_EQ(sights.enclosing(true).size(), normals == table ? 1 : 0);
+  }
   Sights none({});
   none.add(frame, &scene, make_solids(scene));
   EXPECT_TRUE(none.enclosing(true).empty());
