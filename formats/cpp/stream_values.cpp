@@ -36,6 +36,7 @@ constexpr std::array standards{
     Standard{"triangle", Place::triangle, Type::uint32, 3, "1", Transfer::drop, true},
     Standard{"volume", Place::triangle, Type::float64, 1, "m^3", Transfer::conserve, true},
     Standard{"liquid", Place::triangle, Type::uint32, 1, "1", Transfer::copy, false},
+    Standard{"sheet", Place::triangle, Type::uint32, 1, "1", Transfer::copy, false},
     Standard{"temperature", Place::triangle, Type::float64, 1, "K", Transfer::mean, false},
     Standard{"temperature_rate", Place::triangle, Type::float64, 1, "K/s", Transfer::mean, false},
     Standard{"temperature_mode", Place::triangle, Type::float64, any_number, "K", Transfer::mean, false},

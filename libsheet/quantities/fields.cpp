@@ -85,6 +85,12 @@ std::vector<double> contacts(const Frame& frame) {
   return result;
 }
 
+// Precondition: the frame has the array.
+std::vector<double> sheet_numbers(const Frame& frame) {
+  const auto numbers = frame.find("sheet")->values<std::uint32_t>();
+  return {numbers.begin(), numbers.end()};
+}
+
 struct Law {
   double rest_rate = 0; // [1/s]
   FlowCurve curve;
@@ -154,7 +160,7 @@ std::vector<double> log_viscosity(const Frame& frame) {
   return values;
 }
 
-const std::array<Field, 9> all_fields = {{
+const std::array<Field, 10> all_fields = {{
     {"thickness", "thickness", "m", Place::triangle, thickness, amounts, true},
     {"curvature", "mean curvature", "1/m", Place::vertex, mean_curvature, two_sided, false},
     {"speed", "speed", "m/s", Place::vertex, speed, amounts, false},
@@ -164,6 +170,7 @@ const std::array<Field, 9> all_fields = {{
     {"strain_rate", "rate of strain", "1/s", Place::triangle, strain_rates, amounts, true, Needs::law},
     {"viscosity", "viscosity", "Pa s", Place::triangle, viscosity, amounts, true, Needs::law},
     {"log_viscosity", "viscosity log10 Pa s", "1", Place::triangle, log_viscosity, amounts, false, Needs::law},
+    {"sheet", "sheet", "1", Place::triangle, sheet_numbers, sheet_colours, false, Needs::sheets},
 }};
 
 // The frame's array of one number a row; null if it has none.
@@ -181,6 +188,8 @@ std::span<const Field> fields() { return all_fields; }
 const Field& field_named(std::string_view name) { return *std::ranges::find(all_fields, name, &Field::name); }
 
 bool has(const Frame& frame, const Field& field) {
+  if (field.needs == Needs::sheets)
+    return frame.find("sheet") != nullptr;
   if (field.needs != Needs::law)
     return field.get != nullptr || array_of(frame, field) != nullptr;
   const Laws* laws = laws_of(frame);
@@ -207,6 +216,10 @@ std::vector<double> values_of(const Frame& frame, const Field& field) {
     fail(ExitCode::bad_input,
          "the frame's liquid has one viscosity, so it has no {} of its own: [material] law or viscosity_law give one",
          field.caption);
+  if (field.needs == Needs::sheets && !has(frame, field))
+    fail(ExitCode::bad_input, "the frame does not say which triangle is of which sheet (array \"sheet\"): sheet-init "
+                              "does where the scene has "
+                              "several");
   if (field.needs == Needs::wanted && !has(frame, field))
     fail(ExitCode::bad_input, "a deviation is from a wanted thickness: give --wanted, such as --wanted 2mm");
   if (field.get != nullptr)

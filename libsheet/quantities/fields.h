@@ -18,9 +18,10 @@ enum class Needs {
   heat,   // temperatures
   wanted, // a wanted thickness (wanted.h)
   drops,  // liquid beside the sheet (sheet/drops.h)
-  gas     // enclosed and compressed (formats/sheet.md, section 5)
+  gas,    // enclosed and compressed (formats/sheet.md, section 5)
+  sheets  // several, told by the array "sheet"
 };
-inline constexpr std::size_t kinds_of_needs = 6;
+inline constexpr std::size_t kinds_of_needs = 7;
 
 struct Field {
   std::string_view name;    // of sheet-render's look and of columns of CSV
@@ -39,6 +40,7 @@ struct Field {
 //              H = Σ l β / (4 A), over the edges that meet there, l their lengths, β the angles between the normals at
 //              them, A a third of the area around the vertex [Cohen-Steiner and Morvan 2003]; at the rim 0
 //   speed      |velocity| at vertices [m/s]
+//   sheet      of triangles, the number of the scene's sheet that they are of, from 0, where there are several
 //   contacts   at vertices: 0 none, 1 touches a solid, 2 has a contact spring
 //   temperature  of triangles, where the frame has it [K]
 //   deviation    of triangles, by how much they are thicker than is wanted, where that is known [m]

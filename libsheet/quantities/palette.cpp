@@ -21,11 +21,22 @@ constexpr std::array<PaletteStop, 5> two_sided_stops = {{{0.0F, {0.09F, 0.25F, 0
 constexpr std::array<PaletteKind, 3> contact_colours = {
     {{"free", {0.80F, 0.81F, 0.83F}}, {"on solid", {0.16F, 0.45F, 0.75F}}, {"on sheet", {0.86F, 0.33F, 0.16F}}}};
 
+// Told apart by eyes that do not tell red from green, too [Okabe and Ito 2008].
+constexpr std::array<PaletteKind, 8> colours_of_sheets = {{{"sheet 1", {0.90F, 0.62F, 0.00F}},
+                                                           {"sheet 2", {0.34F, 0.71F, 0.91F}},
+                                                           {"sheet 3", {0.00F, 0.62F, 0.45F}},
+                                                           {"sheet 4", {0.94F, 0.89F, 0.26F}},
+                                                           {"sheet 5", {0.00F, 0.45F, 0.70F}},
+                                                           {"sheet 6", {0.84F, 0.37F, 0.00F}},
+                                                           {"sheet 7", {0.80F, 0.47F, 0.65F}},
+                                                           {"sheet 8", {0.35F, 0.35F, 0.35F}}}};
+
 } // namespace
 
 const Palette amounts{amount_stops};
 const Palette two_sided{two_sided_stops, {}, true};
 const Palette contact_kinds{{}, contact_colours};
+const Palette sheet_colours{{}, colours_of_sheets};
 
 DisplayedColour Palette::at(float place) const {
   if (has_kinds()) {

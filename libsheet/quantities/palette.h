@@ -32,5 +32,6 @@ struct Palette {
 extern const Palette amounts;   // dark to light: the luminance rises evenly
 extern const Palette two_sided; // blue, white, red
 extern const Palette contact_kinds;
+extern const Palette sheet_colours; // a kind for each of the first eight sheets of a scene (sheet_kinds.h)
 
 } // namespace sheet

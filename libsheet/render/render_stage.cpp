@@ -13,6 +13,7 @@
 #include "libsheet/base/files.h"
 #include "libsheet/base/frame_files.h"
 #include "libsheet/base/log.h"
+#include "libsheet/quantities/sheet_kinds.h"
 #include "libsheet/render/denoised.h"
 #include "libsheet/render/display.h"
 #include "libsheet/render/drops.h"
@@ -141,6 +142,9 @@ struct RenderStage::Impl {
   const Scene* scene = nullptr; // the frame's, if it has one
   std::vector<SolidMesh> meshes;
 
+  std::unique_ptr<SheetKinds> sheets; // of the scene, of the look `sheet`
+  std::optional<Field> sheet_field;   // likewise
+
   Vector3 up = Vector3::UnitY();       // in the first scene
   std::optional<Survey> survey;        // from where the camera may look
   std::optional<Sights> sights;        // from each of these places
@@ -191,9 +195,20 @@ struct RenderStage::Impl {
 
   void read_scene_of(const formats::Frame& frame) {
     scene = scenes.find(frame);
+    if (scenes.changed() && scene != nullptr && options.look.has_scale() && options.look.field->needs == Needs::sheets)
+      name_sheets();
     if (scenes.changed())
       meshes = draws_solids() ? make_solids(*scene) : std::vector<SolidMesh>{};
     leave_out_enclosing();
+  }
+
+  // In the key of the look `sheet`.
+  void name_sheets() {
+    const Field& field = field_named("sheet");
+    sheets = std::make_unique<SheetKinds>(sheet_names(*scene));
+    sheet_field.emplace(Field{field.name, field.caption, field.unit, field.where, field.get, sheets->palette(),
+                              field.in_figures, field.needs});
+    options.look.field = &*sheet_field;
   }
 
   [[nodiscard]] bool draws_solids() const { return scene != nullptr && options.solids != DrawnSolids::none; }

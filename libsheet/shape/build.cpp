@@ -319,6 +319,12 @@ void put_velocities(const TriangleMesh& mesh, const scene::SheetTable& table, fo
   }
 }
 
+void put_sheet_number(std::size_t number, formats::Frame& frame) {
+  formats::Array array = formats::make_standard_array("sheet", frame.triangles);
+  std::ranges::fill(array.values<std::uint32_t>(), static_cast<std::uint32_t>(number));
+  frame.put(std::move(array));
+}
+
 } // namespace
 
 formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) {
@@ -355,6 +361,8 @@ formats::Frame build_sheet(const Scene& scene, std::size_t number, Notes notes) 
     put_temperature(mesh, scene, table, frame);
   if (scene::liquids_of(scene).size() > 1)
     scene::put_liquid(scene::liquid_of(scene, table), frame);
+  if (scene.sheets.size() > 1)
+    put_sheet_number(number, frame);
   scene::put_sheet_edge(scene, table, frame);
   return frame;
 }

@@ -19,6 +19,7 @@
 #include "libsheet/base/log.h"
 #include "libsheet/base/whole_file.h"
 #include "libsheet/quantities/scaled_unit.h"
+#include "libsheet/quantities/sheet_kinds.h"
 #include "libsheet/quantities/wanted.h"
 #include "libsheet/render/framing.h"
 #include "libsheet/scene/frame_liquids.h"
@@ -108,7 +109,9 @@ Json to_json(const DisplayedColour& colour) {
 }
 
 // What the page shows, with units from large to small and what makes them of SI units, and palettes.
-Json quantities_json() {
+// `sheets`: their names.
+Json quantities_json(const std::vector<std::string>& sheets) {
+  const SheetKinds named(sheets);
   Json all = Json::array();
   for (const Field& field : sheet::fields()) {
     Json json = {{"name", field.name},
@@ -122,7 +125,8 @@ Json quantities_json() {
                  {"units", Json::array()}};
     for (const PaletteStop& stop : field.palette.stops)
       json["stops"].push_back({stop.place, to_json(stop.colour)});
-    for (const PaletteKind& kind : field.palette.kinds)
+    const Palette& palette = field.needs == Needs::sheets ? named.palette() : field.palette;
+    for (const PaletteKind& kind : palette.kinds)
       json["kinds"].push_back({kind.name, to_json(kind.colour)});
     for (const ScaledUnit& unit : scaled_units(field.unit))
       json["units"].push_back({unit.name, 1 / unit.size});
@@ -165,6 +169,10 @@ public:
   }
 
   [[nodiscard]] const Json& description() const { return description_; }
+  // Of the first scene.
+  [[nodiscard]] std::vector<std::string> names_of_sheets() const {
+    return scene_ ? sheet_names(*scene_) : std::vector<std::string>{};
+  }
 
 private:
   // Surroundings are those of the first scene of the stream.
@@ -261,12 +269,21 @@ void write_head(const Sink& write, const std::string& title) {
   write(html);
 }
 
-void write_scripts(const Sink& write, const Json& streams) {
+// Of the sheets of all streams, whose numbers have one key: those that are called differently are called by number.
+void join_names(const std::vector<std::string>& more, std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < more.size(); ++i)
+    if (i == names.size())
+      names.push_back(more[i]);
+    else if (names[i] != more[i])
+      names[i] = fmt::format("sheet {}", i + 1);
+}
+
+void write_scripts(const Sink& write, const Json& streams, const std::vector<std::string>& sheets) {
   const auto write_data = [&](std::string_view id, const Json& json) {
     write(fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, script_json(json)));
   };
   write_data("streams", streams);
-  write_data("quantities", quantities_json());
+  write_data("quantities", quantities_json(sheets));
   write("<script>\n\"use strict\";\n(() => {\n");
   const std::vector<PagePart>& parts = page_parts();
   for (std::size_t i = 2; i < parts.size(); ++i)
@@ -306,13 +323,15 @@ void write_page(const ViewOptions& options) {
     const Sink write = [&](std::string_view text) { file.write(text); };
     write_head(write, title_of(options));
     Json streams = Json::array();
+    std::vector<std::string> sheets;
     for (const std::string& input : options.inputs) {
       StreamWriter writer(write, streams.size(), input == "-" ? "standard input" : input, options.materials);
       if (const std::exception_ptr error = write_stream(input, options.wanted, writer); error && !cut)
         cut = error;
       streams.push_back(writer.description());
+      join_names(writer.names_of_sheets(), sheets);
     }
-    write_scripts(write, streams);
+    write_scripts(write, streams, sheets);
   });
   if (cut)
     std::rethrow_exception(cut);
@@ -324,7 +343,7 @@ std::string page_of(const formats::Frame& frame, const std::string& name) {
   write_head(write, name);
   StreamWriter writer(write, 0, name);
   writer.add(frame);
-  write_scripts(write, Json::array({writer.description()}));
+  write_scripts(write, Json::array({writer.description()}), writer.names_of_sheets());
   return page;
 }
 

@@ -133,3 +133,29 @@ spotted() { sheet-init "$BATS_TEST_DIRNAME/thin_spots.toml" --set "tear.crumbs=$
   left() { sheet-print "$1" | sed -n '/^array outflow.volume /{n;p}'; }
   [[ $(left before.sheet) != "$(left after.sheet)" ]]
 }
+
+@test "triangles know which sheet they are of, through new meshes, steps and sheets that enter; pictures tell them apart" {
+  cd "$BATS_TEST_TMPDIR" || exit
+  for i in 1 2 3; do
+    printf '[[sheet]]\nname = "disk %s"\nshape = "disk"\nradius = 0.0%s\nedge_length = 0.02\nthickness = 0.004\n' $i $((i + 2))
+    printf 'center = [0, 0.0%s, 0]\n%s\n' $((3 * i)) "$([[ $i != 3 ]] || echo 'enters = 0.02')"
+  done > disks.toml
+  printf '[material]\nviscosity = 100\ndensity = 1000\n[environment]\ngravity = [0, -9.81, 0]\n[contact]\nself = true\n' >> disks.toml
+  sheet-init disks.toml | sheet-loop --until 0.05 --fps 50 -o run.sheet -- \
+    'sheet-remesh --edge-length 0.012 | sheet-emit | sheet-step --dt 0.01 | sheet-collide'
+  PYTHONPATH=$BATS_TEST_DIRNAME/../../formats/python /usr/bin/python3 -c '
+import sys, numpy as np, sheetstream
+first, *_, frame = sheetstream.Reader(sys.stdin.buffer)
+def volumes(frame):
+    return [frame["volume"].ravel()[frame["sheet"].ravel() == i].sum() for i in range(4)]
+before, after = volumes(first), volumes(frame)
+assert np.allclose(before[:2], after[:2], rtol=1e-9) and before[2] == 0 < after[2] and after[3] == 0, after
+of = frame["sheet"].ravel()
+height = [frame["position"][frame["triangle"][of == i].ravel()][:, 1].mean() for i in range(3)]
+assert height[0] < height[1] < height[2], height
+' < run.sheet
+  sheet-render run.sheet --frames -1 --look sheet --size 320x180 --samples 2 -o told.png
+  { head -8 disks.toml; sed -n '/^.material/,$p' disks.toml; } | sheet-init - -o one.sheet
+  run -3 sheet-render one.sheet --look sheet --size 32x18 -o one.png
+  [[ $output == *'array "sheet"'*'where the scene has several'* ]]
+}

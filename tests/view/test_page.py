@@ -241,9 +241,15 @@ class Page(unittest.TestCase):
                 triangle = np.flatnonzero(number == name)[3]
                 self.go(f"#ask=0,0,{triangle}")
                 self.assertEqual(self.said("liquid"), ["below", "above"][name])
+                self.assertEqual(self.said("sheet"), str(name))
             colours = self.colours_of_liquids()
             self.assertEqual(colours == [None, None], page == "told.html")
         self.assertEqual(len(pictures), 2)
+        self.assertEqual(self.browser.js("JSON.parse(document.getElementById('quantities').textContent)"
+                                         ".find(q => q.name === 'sheet').kinds.map(k => k[0]).join()"), "below,above")
+        self.go("#colour=sheet")
+        blue, *_, red = self.colour_in_the_middle()[::-1]
+        self.assertGreater(blue, red)  # the one above is blue, the one below orange
         chocolate, honey = colours
         self.assertLess(max(chocolate), 120)
         self.assertGreater(honey[0], 180)  # amber

@@ -44,6 +44,7 @@ _STANDARD = {
     "volume": ("triangle", "float64", 1, "m^3", "conserve"),
     "velocity": ("vertex", "float64", 3, "m/s", "interpolate"),
     "liquid": ("triangle", "uint32", 1, "1", "copy"),
+    "sheet": ("triangle", "uint32", 1, "1", "copy"),
     "temperature": ("triangle", "float64", 1, "K", "mean"),
     "temperature_rate": ("triangle", "float64", 1, "K/s", "mean"),
     "temperature_mode": ("triangle", "float64", 0, "K", "mean"),

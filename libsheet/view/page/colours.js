@@ -21,8 +21,8 @@ export const isThere = (streams, {name}) => {
   return streams.some(stream => stream.descriptions.some(frame => frame.fields[i]));
 };
 
-// Its values at the vertices: those of triangles by their area.
-function vertexValues(frame, shape, {name, where}) {
+// Its values at the vertices: those of triangles by their area; kinds have no middle.
+function vertexValues(frame, shape, {name, where, kinds}) {
   if (name === "thickness")
     return shape.thickness;
   if (name === "speed")
@@ -34,8 +34,9 @@ function vertexValues(frame, shape, {name, where}) {
     const corners = frame.cornersOf(t), [a, b, c] = Array.from(corners, v => shape.place.subarray(3 * v, 3 * v + 3));
     const size = length(cross(subtract(b, a), subtract(c, a)));
     for (const v of corners) {
-      sum[v] += size * frame.valueOf(name, t);
-      area[v] += size;
+      const before = kinds.length ? 0 : 1;
+      sum[v] = before * sum[v] + size * frame.valueOf(name, t);
+      area[v] = before * area[v] + size;
     }
   }
   return sum.map((x, v) => area[v] > 0 ? x / area[v] : 0);
