@@ -9,6 +9,7 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/scene/inlet_depth.h"
 #include "libsheet/scene/prescribed.h"
+#include "libsheet/sheet/sheet.h"
 
 namespace sheet::flow {
 
@@ -107,6 +108,18 @@ private:
         scene::put_inlet_depths(frame_, scene_, number_, chain.border, depths);
     }
     add_fluxes(chain, layer.wall, depths);
+    if (std::ranges::any_of(depths, [&](double depth) { return depth > thickness(); }))
+      put_on(chain, layer.wall);
+  }
+
+  // The strip touches the wall, even where the scene has it a little above: what has just entered would hang in the air
+  // beside the layer, without drag and weight, until it has fallen.
+  void put_on(const InletChain& chain, std::int32_t wall) {
+    std::vector<std::int32_t> touched = touched_solids(frame_, scene_.solids.size());
+    for (const auto* vertices : {&chain.border, &chain.row})
+      for (const std::uint32_t v : *vertices)
+        touched[v] = wall;
+    put_touched_solids(frame_, touched, scene_.solids.size());
   }
 
   // What flows in at the scene's velocity with these depths, and what with the inflow's thickness and the strip not

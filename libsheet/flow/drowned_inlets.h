@@ -12,10 +12,10 @@
 namespace sheet::flow {
 
 // Sets depths and heights of the frame's inlets by what lies before them, each depth by at most a twentieth: the
-// greatest mean thickness before that vertex of any of the first four rows of triangles beyond the strip whose corners
-// touch a wall along which liquid flows; at the ends of an inlet, that of all four. As much enters as before. Where the
-// strip would meet what has come to lie there, all stays as it is. Bit for bit the same frame where no inlet is
-// drowned. `solids`: the scene's.
+// greatest mean thickness before that vertex of any of the first four rows of triangles beyond the strip whose
+// corners touch a wall along which liquid flows; at the ends of an inlet, that of all four. As much enters as
+// before, and the strip touches that wall. Where it would meet what has come to lie there, all stays as it is. Bit
+// for bit the same frame where no inlet is drowned. `solids`: the scene's.
 void drown_inlets(formats::Frame& frame, const Scene& scene, const solid::Solids& solids);
 
 } // namespace sheet::flow
