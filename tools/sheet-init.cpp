@@ -28,6 +28,7 @@
 #include "libsheet/plan/inflow_warnings.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/modelled.h"
+#include "libsheet/plan/open_rims.h"
 #include "libsheet/plan/overlapping.h"
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
@@ -181,7 +182,7 @@ std::string explained(Source source, bool ring_alone) {
         sheet::falling_behind_rolls_warning(scene, frame), sheet::drawing_up_warning(scene, frame, until),
         sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until),
         sheet::bath_crushing_warning(scene, frame), sheet::held_whole_warning(scene, frame),
-        sheet::overlapping_warning(scene)})
+        sheet::overlapping_warning(scene), sheet::open_rim_warning(scene, frame)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :

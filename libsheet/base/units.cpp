@@ -75,7 +75,7 @@ constexpr std::array units{
 };
 
 // Other names of the same, which lists of what is known leave out.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spellings{{{"sec", "s"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> spellings{{{"sec", "s"},
                                                                                    {"second", "s"},
                                                                                    {"seconds", "s"},
                                                                                    {"msec", "ms"},
@@ -84,6 +84,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spelling
                                                                                    {"hr", "h"},
                                                                                    {"hour", "h"},
                                                                                    {"hours", "h"},
+                                                                                   {"day", "d"},
+                                                                                   {"days", "d"},
+                                                                                   {"year", "a"},
+                                                                                   {"years", "a"},
                                                                                    {"Poise", "P"},
                                                                                    {"poise", "P"},
                                                                                    {"centipoise", "cP"}}};

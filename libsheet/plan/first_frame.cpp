@@ -233,6 +233,30 @@ void check_surface(const Scene& scene, const Frame& frame) {
   throw *fault;
 }
 
+// That none of them takes away the whole sheet, or an inlet, of which nothing could flow in any more.
+void check_outflows(const Scene& scene, const Frame& frame) {
+  const auto x = positions(frame);
+  const auto inlet = masks(frame, "inlet");
+  for (std::size_t i = 0; i < scene.outflows.size(); ++i) {
+    const scene::Outflow& outflow = scene.outflows[i];
+    const Vector3& n = outflow.normal;
+    const auto is_beyond = [&](const Vector3& place) { return n.dot(place - outflow.point) > 0; };
+    const auto leaves = [&](const flow::InletChain& chain) {
+      return std::ranges::all_of(chain.border, [&](std::uint32_t v) { return is_beyond(x[v]); });
+    };
+    const bool whole = std::ranges::all_of(x, is_beyond);
+    bool an_inlet = false;
+    for (std::size_t number = 0; number < scene.inflows.size() && !inlet.empty(); ++number)
+      an_inlet = an_inlet || std::ranges::any_of(flow::find_inlet(frame, number), leaves);
+    if (whole || an_inlet)
+      fail(
+          ExitCode::bad_input,
+          "[[outflow]] {} (from 0) takes {} away at the start: what is beyond its plane, where its normal ({:g}, {:g}, "
+          "{:g}) points, leaves; turn the normal round, or move its point",
+          i, whole ? "the whole sheet" : "the inlet", n.x(), n.y(), n.z());
+  }
+}
+
 } // namespace
 
 Frame first_frame(const Scene& scene) {
@@ -256,6 +280,7 @@ Frame checked_first_frame(const Scene& scene) {
   check_surface(scene, frame);
   StepStage({}).check(frame);
   if (flows_in_or_out(scene)) {
+    check_outflows(scene, frame);
     Frame copy = frame;
     flow::EmitStage().emit(copy);
   }

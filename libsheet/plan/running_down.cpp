@@ -33,6 +33,7 @@ constexpr double least_part = 0.5;     // of the sheet that lies
 constexpr double least_slope = 0.1;    // part of gravity along the solid
 constexpr double late = 2;             // times the run
 constexpr double wider = 1.1;          // times as wide: what has spread
+constexpr double much_later = 1000;    // times the run: what nobody waits for
 
 std::string word_of_late(double until, std::string_view solid, std::string_view what, double time) {
   const double about = std::stod(fmt::format("{:.2g}", time));
@@ -191,7 +192,7 @@ std::string late_running_warning(const Scene& scene, const formats::Frame& first
   const Liquid& liquid = all.front().liquid;
   const double speed = scene::speed_of_layer(liquid, liquid.density * h * along / n, h, slip / n);
   const double time = std::sqrt(2 * longest_fall(all) / gravity.norm()) + *sheet.length / 2 / speed;
-  if (!std::isfinite(time) || time < late * until)
+  if (!(time > late * until && time < much_later * until))
     return "";
   return word_of_late(until, solid::Solids(scene).name(solid), "run down", time);
 }
@@ -199,7 +200,10 @@ std::string late_running_warning(const Scene& scene, const formats::Frame& first
 std::optional<Spreading> spreads(const Scene& scene, const formats::Frame& first) {
   const scene::Measured sheet = measured(first);
   const std::vector<Landing> all = landings(scene, first);
-  const auto rests = [](const scene::Solid& solid) { return std::holds_alternative<scene::Fixed>(solid.motion); };
+  const auto rests = [&](const scene::Solid& solid) {
+    return std::holds_alternative<scene::Fixed>(solid.motion) &&
+           (scene.outflows.empty() || solid.surface_velocity.isZero());
+  };
   if (all.empty() || !is_free(scene) || !scene.inflows.empty() || scene.sheets.size() > 1 || !sheet.length ||
       !sheet.thickness || !std::ranges::all_of(scene.solids, rests))
     return std::nullopt;
@@ -228,7 +232,6 @@ std::optional<Spreading> spreads(const Scene& scene, const formats::Frame& first
 }
 
 std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until) {
-  constexpr double much_later = 1000; // times the run
   const auto spreading = spreads(scene, first);
   if (!spreading || !(spreading->time > late * until && spreading->time < much_later * until))
     return "";
@@ -236,7 +239,7 @@ std::string late_spreading_warning(const Scene& scene, const formats::Frame& fir
 }
 
 std::string late_overrun_warning(const Scene& scene, const formats::Frame& first, double until) {
-  constexpr double much_later = 30, most = 0.9; // times the run; part of the sheet that lands on the top
+  constexpr double latest = 30, most = 0.9; // times the run; part of the sheet that lands on the top
   const scene::Measured sheet = measured(first);
   const std::vector<Landing> all = landings(scene, first);
   if (all.empty() || !is_free(scene) || !sheet.length || !sheet.thickness)
@@ -273,7 +276,7 @@ std::string late_overrun_warning(const Scene& scene, const formats::Frame& first
   const double speed = around > 0 ? std::cbrt(g * around * around / (3 * nu))
                                   : scene::speed_of_layer(liquid, liquid.density * g * h / 2, h / 2, below.slip_length);
   const double time = std::sqrt(2 * longest_fall(all) / g) + spreading_time(*what, edge, liquid, g) + side / speed;
-  if (!(time > late * until && time < much_later * until))
+  if (!(time > late * until && time < latest * until))
     return "";
   return word_of_late(until, solids.name(number), "come over its edge and run down it", time);
 }

@@ -23,7 +23,8 @@ struct RunningDown {
 [[nodiscard]] std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t);
 
 // Of a free sheet without heat that lands on such solids, and would run down them by half its length long after the
-// run's end at `until` [s], of which what happens while it falls asks for short times; else "", and of what turns.
+// run's end at `until` [s], of which what happens while it falls asks for short times; else "", and of what turns, and
+// where that is a thousand runs.
 [[nodiscard]] std::string late_running_warning(const Scene& scene, const formats::Frame& first, double until);
 
 struct Spreading {
@@ -33,10 +34,10 @@ struct Spreading {
 };
 
 // Of a free sheet without heat, the only one, Newtonian or of a power law and thicker than tension lets lie, that lands
-// or lies on level ground; nothing where a solid moves, which may be what there is to see.
+// or lies on level ground; nothing where a solid moves, which may be what there is to see, or carries it out.
 [[nodiscard]] std::optional<Spreading> spreads(const Scene& scene, const formats::Frame& first);
 
-// Where it has spread by a tenth long after the run's end; "" where that is a thousand runs.
+// Where it has spread by a tenth long after the run's end; likewise "" where that is a thousand runs.
 [[nodiscard]] std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until);
 
 // Likewise of one that lands on the level top of a solid at rest, Newtonian, and comes over its edge. In the time t it

@@ -152,11 +152,14 @@ std::optional<std::string> warning_of_buckling(const Scene& scene, const SheetTa
       brief(*edge), brief(enough));
 }
 
-// Of a mesh whose data say how thick it is, thicker than long [m]; else "".
+// Of a sheet that is thicker than long [m]; else "".
 std::string hint_of_thickness(const SheetTable& sheet, double thickness, double length) {
-  if (!std::holds_alternative<ThicknessData>(sheet.thickness) || !(thickness > length))
+  if (!(thickness > length))
     return "";
-  return fmt::format("; its data make it {} m thick: if they are in millimetres, scale = 0.001 in its thickness",
+  if (std::holds_alternative<ThicknessData>(sheet.thickness))
+    return fmt::format("; its data make it {} m thick: if they are in millimetres, scale = 0.001 in its thickness",
+                       brief(thickness));
+  return fmt::format("; it is {0} m thick: write \"{0} mm\" if you mean that; numbers without unit are metres",
                      brief(thickness));
 }
 

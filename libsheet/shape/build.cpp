@@ -123,11 +123,15 @@ std::vector<double> thicknesses(const TriangleMesh& mesh, const scene::SheetTabl
   } else {
     const auto& data = std::get<scene::ThicknessData>(table.thickness);
     const std::vector<double>& values = data.per_face ? mesh.triangle_thickness : mesh.vertex_thickness;
-    if (data.data != "thickness" || values.empty())
+    if (data.data != "thickness")
       fail(ExitCode::bad_input,
-           "sheet.thickness: the mesh file has no array \"{}\" per {} (\"thickness\" is read from PLY "
-           "and VTU files)",
-           data.data, data.per_face ? "face" : "vertex");
+           "sheet.thickness: of a mesh file the array \"thickness\" alone is read, not \"{}\": name it so there, and "
+           "as data here",
+           data.data);
+    if (values.empty())
+      fail(ExitCode::bad_input,
+           "sheet.thickness: the mesh file has no array \"thickness\" per {} (it is read from PLY and VTU files)",
+           data.per_face ? "face" : "vertex");
     for (std::size_t t = 0; t < h.size(); ++t) {
       const auto& c = mesh.triangles[t];
       h[t] = data.scale * (data.per_face ? values[t] : (values[c[0]] + values[c[1]] + values[c[2]]) / 3);

@@ -100,6 +100,11 @@ TEST(Units, OtherFactors) {
   EXPECT_EQ(read("2 hr", quantity::time), 7200);
   EXPECT_EQ(read("1 hour", quantity::time), 3600);
   EXPECT_EQ(read("2 hours", quantity::time), 7200);
+  EXPECT_EQ(read("1 day", quantity::time), 86400);
+  EXPECT_EQ(read("2 days", quantity::time), 2 * 86400);
+  EXPECT_EQ(read("1 year", quantity::time), read("1 a", quantity::time));
+  EXPECT_EQ(read("300 years", quantity::time), read("300 yr", quantity::time));
+  EXPECT_EQ(read("3 cm/year", quantity::velocity), read("3 cm/yr", quantity::velocity));
   EXPECT_EQ(read("25 mm/sec", quantity::velocity), 0.025);
   EXPECT_EQ(read("30 Poise", quantity::viscosity), 3);
   EXPECT_EQ(read("30 poise", quantity::viscosity), 3);

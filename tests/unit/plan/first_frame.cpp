@@ -65,6 +65,33 @@ TEST(FirstFrame, WhatLiesCloselyBesideAnUprightWallTouchesIt) {
 }
 
 // A curtain that hangs in front of a plane from 1 s on, and flows in at its upper side.
+TEST(FirstFrame, TellsOfOutflowsThatTakeAllAway) {
+  const auto fault = [](const std::string& outflow, const std::string& more = "") -> std::string {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.04, 0.06]\nedge_length = 0.01\nthickness = 0.004\n[material]\n"
+        "viscosity = 20\ndensity = 1300\n" +
+            more + "[[outflow]]\npoint = [9, 0, 0]\nnormal = [1, 0, 0]\n[[outflow]]\n" + outflow,
+        "s");
+    try {
+      (void)checked_first_frame(scene);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string inflow = "[inflow]\nregion = \"x_min\"\nvelocity = [0.05, 0, 0]\n";
+  const std::string right = "point = [0.2, 0, 0]\nnormal = [1, 0, 0]\n",
+                    wrong = "point = [0.2, 0, 0]\nnormal = [-1, 0, 0]\n";
+  EXPECT_EQ(fault(right), "");
+  EXPECT_EQ(fault(right, inflow), "");
+  EXPECT_EQ(fault("point = [0, 0, 0]\nnormal = [1, 0, 0]\n", inflow), ""); // half of the sheet, but not the inlet
+  EXPECT_EQ(fault(wrong), "[[outflow]] 1 (from 0) takes the whole sheet away at the start: what is beyond its plane, "
+                          "where its normal (-1, 0, 0) points, leaves; turn the normal round, or move its point");
+  EXPECT_EQ(fault(wrong, inflow), fault(wrong));
+  EXPECT_THAT(fault("point = [0, 0, 0]\nnormal = [-1, 0, 0]\n", inflow),
+              testing::StartsWith("[[outflow]] 1 (from 0) takes the inlet away at the start: "));
+}
+
 TEST(FirstFrame, TellsAtOnceOfWhatWouldEndARunWhenASheetEnters) {
   const auto why_not = [](double height, double velocity) -> std::string {
     const Scene scene = scene::parse_scene(

@@ -64,6 +64,7 @@ TEST(RunningDown, WhatLandsRunsDownLater) {
                           "some "));
   EXPECT_EQ(warning(ball + "angular_velocity = [0, 0, 1]\n", "flow", 1), ""); // it is carried round
   EXPECT_EQ(warning(ball, "flow", 60), "");
+  EXPECT_EQ(warning(ball, "flow", 1e-3), "");
   EXPECT_EQ(warning(ball, "stick", 1), "");
   EXPECT_EQ(warning(box, "flow", 1), "");
 }
@@ -79,6 +80,9 @@ TEST(RunningDown, WhatLandsOnLevelGroundSpreadsLater) {
     return late_spreading_warning(scene, first_frame(scene), until);
   };
   const std::string plane = "shape = \"plane\"\ncontact = \"flow\"\n", icing = "viscosity = 20\n";
+  const std::string belt = plane + "surface_velocity = [0.3, 0, 0]\n";
+  EXPECT_NE(warning(belt, icing, 1), "");
+  EXPECT_EQ(warning(belt + "[[outflow]]\npoint = [0.3, 0, 0]\nnormal = [1, 0, 0]\n", icing, 1), "");
   EXPECT_THAT(warning(plane, icing, 1),
               testing::StartsWith("the run ends, at 1 s, before what lands on solid 0 (plane) has spread by a tenth, "
                                   "which takes some 6"));

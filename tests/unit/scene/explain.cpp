@@ -313,6 +313,13 @@ TEST(Explain, DoubtsThicknessesThatMayBeMillimetres) {
   EXPECT_THAT(thick(3), testing::Contains(testing::HasSubstr(
                             "doubtful; its data make it 3 m thick: if they are in millimetres, scale = 0.001")));
   EXPECT_THAT(thick(0.02), testing::Contains(testing::EndsWith("thin sheets are doubtful")));
+  const auto plain = [&](const std::string& thickness) {
+    return of("[sheet]\nshape = \"disk\"\nradius = 0.05\nedge_length = 0.01\nthickness = " + thickness + "\n" + liquid)
+        .warnings;
+  };
+  EXPECT_THAT(plain("3"), testing::Contains(testing::EndsWith("doubtful; it is 3 m thick: write \"3 mm\" if you mean "
+                                                              "that; numbers without unit are metres")));
+  EXPECT_THAT(plain("0.03"), testing::Contains(testing::EndsWith("thin sheets are doubtful")));
 }
 
 // On a ball liquid may come to hang below; on a level plate it cannot, and with an adhesion it drips off.
