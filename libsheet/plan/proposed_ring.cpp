@@ -16,6 +16,7 @@
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/forecast.h"
 #include "libsheet/plan/hanging.h"
+#include "libsheet/plan/holds_meet.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/passing.h"
 #include "libsheet/plan/piling.h"
@@ -106,6 +107,17 @@ std::string word_of_blow_up(const Scene& scene, const Frame& first) {
                    "  The pressure blows the sheet up, to any size, within about {:.2g} s: end before, at {:.2g} s or "
                    "so.\n",
                    *end, before_blow_up * *end)
+             : "";
+}
+
+constexpr double before_holds_meet = 0.9; // of the time to that
+
+std::string word_of_holds_that_meet(const Scene& scene, const Frame& first, double until) {
+  const auto meet = holds_meet(scene, first, until);
+  return meet
+             ? fmt::format("  [[hold]]s {} and {} (from 0) come together at about {:.2g} s, with no room between them: "
+                           "end before, at {:.2g} s\n  or so.\n",
+                           meet->one, meet->other, meet->time, before_holds_meet * meet->time)
              : "";
 }
 
@@ -202,6 +214,19 @@ double landing_time(const Scene& scene, const Frame& first, std::size_t number) 
   return std::atan(landing->fall * std::sqrt(k / u)) / std::sqrt(k * u);
 }
 
+// Of the longest fall [s]: from rest, but of what starts downward faster than it would land so, with that speed.
+double fall_time(const Scene& scene, const Frame& first) {
+  const Vector3 gravity = scene.environment.gravity.value_or(Vector3::Zero());
+  const double fall = longest_fall(landings(scene, first)), g = gravity.norm();
+  if (!(fall > 0))
+    return 0;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const scene::SheetTable& sheet : scene.sheets)
+    slowest = std::min(slowest, sheet.velocity.dot(gravity) / g);
+  const double landing = std::sqrt(2 * g * fall);
+  return slowest > landing ? (std::hypot(slowest, landing) - slowest) / g : landing / g;
+}
+
 // Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
 // ends by the clock has ended, whatever moves on for ever has come through or round, belts and slopes have carried
 // it past all, and what lies on level ground has spread.
@@ -213,8 +238,7 @@ double until_of(const Scene& scene, const Frame& first) {
   double until = with_heat(scene, first, [&](const Scene& of) { return flow_time(of, first); });
   if (until == 0)
     until = 1;
-  if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > 0)
-    until += 4 * std::sqrt(2 * longest_fall(landings(scene, first)) / gravity);
+  until += 4 * fall_time(scene, first);
   until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_down(of, first, at_rest); }));
   until = std::max(until, time_spread(scene, first));
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
@@ -308,6 +332,8 @@ ProposedRing proposed_ring(const Scene& with_heat, const Frame& first, const Rin
   double until = until_of(with_heat, first);
   if (const auto end = blow_up_time_with_heat(with_heat, first))
     until = std::min(until, rounded_down(before_blow_up * *end));
+  if (const auto meet = holds_meet(scene, first, until))
+    until = std::min(until, rounded_down(before_holds_meet * meet->time));
   until = wishes.until.value_or(until);
   const auto folds = edges_in_folds(scene, first, wishes.quality);
   return {.until = until,
@@ -331,13 +357,14 @@ std::string few_frames_warning(const Scene& with_heat, const Frame& first, const
 std::string ring_text(const Scene& with_heat, const Frame& first, const RingWishes& wishes, const std::string& init) {
   const ProposedRing ring = proposed_ring(with_heat, first, wishes);
   const Scene scene = scene::as_it_starts(with_heat);
+  const double longest = std::max(ring.until, until_of(with_heat, first));
   return fmt::format(
              "\nThe ring to run\n  {} -o first.sheet\n  sheet-loop -i first.sheet -o run.sheet --until {:.10g} "
              "--fps {:.10g} -- '{}'\n  Edges are {:.3g} m long in the mean. Steps are chosen such that their error "
              "is below {:g} of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
              init, ring.until, ring.fps, ring.stages, scene::mean_edge(first), tolerance_at(wishes.quality)) +
          forecast_text(scene, first, ring, tolerance_at(wishes.quality)) + word_of_blow_up(with_heat, first) +
-         word_of_runaway(with_heat, first) + word_of_edges(ring);
+         word_of_holds_that_meet(scene, first, longest) + word_of_runaway(with_heat, first) + word_of_edges(ring);
 }
 
 std::string ring_lines(const Scene& with_heat, const Frame& first, const RingWishes& wishes, const std::string& init) {
