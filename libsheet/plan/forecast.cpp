@@ -108,7 +108,7 @@ double steps_of_motion(const Scene& scene, const Frame& first, double until, dou
     return until * *along / (edge / 2); // a layer creeps, however it is driven
   const std::vector<Landing> all = landings(scene, first);
   const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm();
-  const double falling = all.empty() ? 0 : falls * std::sqrt(2 * longest_fall(all) / gravity);
+  const double falling = falls * fall_time(scene, all);
   const bool falls_freely = only_falls(scene, all);
   double acceleration = falls_freely ? gravity : 0, flow = 0; // some times of the flow [s]
   for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))

@@ -94,6 +94,18 @@ double longest_fall(const std::vector<Landing>& landings) {
   return longest;
 }
 
+double fall_time(const Scene& scene, const std::vector<Landing>& landings) {
+  const Vector3 gravity = scene.environment.gravity.value_or(Vector3::Zero());
+  const double fall = longest_fall(landings), g = gravity.norm();
+  if (!(fall > 0))
+    return 0;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const scene::SheetTable& sheet : scene.sheets)
+    slowest = std::min(slowest, sheet.velocity.dot(gravity) / g);
+  const double landing = std::sqrt(2 * g * fall);
+  return slowest > landing ? (std::hypot(slowest, landing) - slowest) / g : std::sqrt(2 * fall / g);
+}
+
 std::optional<Landing> landing_of_inflow(const Scene& scene, const Frame& first, std::size_t number) {
   std::optional<Landing> shortest;
   if (!falls(scene))

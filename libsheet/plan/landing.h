@@ -33,6 +33,10 @@ struct Landing {
 // The longest of their falls [m]; 0 if there is none.
 [[nodiscard]] double longest_fall(const std::vector<Landing>& landings);
 
+// In which the longest of them lands [s], 0 if there is none: from rest, but of what starts downward faster than it
+// would come to land so, with the speed of the scene's slowest sheet.
+[[nodiscard]] double fall_time(const Scene& scene, const std::vector<Landing>& landings);
+
 // The shortest fall of what stands at the inlet of that inflow; nothing if it is above no solid, or without gravity.
 [[nodiscard]] std::optional<Landing> landing_of_inflow(const Scene& scene, const formats::Frame& first,
                                                        std::size_t number);

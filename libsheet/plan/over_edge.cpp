@@ -193,6 +193,45 @@ std::optional<OverEdge> runs_over(const OnSolid& on) {
   return earliest;
 }
 
+// When what starts there runs outwards over an edge off which it is flung [s]. On its way a film thins: h r² stays
+// [Emslie, Bonner and Peck 1958, J. Appl. Phys. 29].
+std::optional<double> time_outwards(const OnSolid& on, const Landing& landing, double starts) {
+  const double gravity = on.scene.environment.gravity->norm();
+  Way way(on.scene, on.solids, on.number, starts, on.thickness, on.carried(landing.place, starts));
+  const double at_start = scene::outward_pull(on.solid().motion, on.until, way.x()).norm();
+  double time = starts;
+  for (int i = 0; i < Way::most_steps && !way.taken_up() && time < on.until; ++i) {
+    const Vector3 pull = scene::outward_pull(on.solid().motion, on.until, way.x());
+    const double h = on.thickness * std::pow(at_start / pull.norm(), 2);
+    const double driven = landing.liquid.density * h * way.along(pull).norm();
+    const double speed = scene::speed_of_layer(landing.liquid, driven, h, on.solid().slip_length);
+    if (!(speed > 0))
+      return std::nullopt;
+    time += way.step() / speed;
+    if (way.go(pull))
+      return pull.norm() > gravity ? std::optional(time) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<OverEdge> flung_over(const OnSolid& on) {
+  const auto* turning = std::get_if<scene::Rotating>(&on.solid().motion);
+  if (turning == nullptr || turning->rate.entries.empty() || on.solid().contact != SolidContact::flow)
+    return std::nullopt;
+  const double turns_on = std::max(on.from, turning->rate.entries.back().time);
+  std::optional<OverEdge> earliest;
+  for (const Landing& landing : on.landings) {
+    const double fall = std::max(0.0, landing.fall - on.thickness / 2);
+    const double lands = on.first.time + std::sqrt(2 * fall / on.scene.environment.gravity->norm());
+    const auto time = time_outwards(on, landing, std::max(turns_on, lands));
+    if (time && *time < (earliest ? earliest->time : on.until))
+      earliest = OverEdge{fmt::format("{} flings what lies on it over its edge, from about {:.2g} s on",
+                                      on.solids.name(on.number), *time),
+                          *time, landing.liquid.density};
+  }
+  return earliest;
+}
+
 // The middle of what a hold holds at the start.
 std::optional<Vector3> middle_of_hold(const formats::Frame& first, std::size_t hold) {
   const auto masks = holds(first);
@@ -252,6 +291,7 @@ std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame&
     OnSolid on{scene, first, solids, i, {}, thickness, from, until};
     std::ranges::copy_if(all, std::back_inserter(on.landings), [&](const Landing& l) { return l.solid == i; });
     consider(runs_over(on));
+    consider(flung_over(on));
     for (std::size_t k = 0; k < scene.holds.size(); ++k)
       consider(drawn_over(on, k));
   }

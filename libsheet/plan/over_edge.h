@@ -22,6 +22,8 @@ struct OverEdge {
 //   - down the slope, of the solid as it stands when it has turned: from rest without drag where it slips, with the
 //     speed of a layer where it flows (scene/layer_scales.h)
 //   - to where a hold goes
+//   - away from the axis of a solid that turns on, with the speed of a layer that its turning drives, where that pulls
+//     more than gravity does at the edge
 // and, before any way, where the solid has turned over with a layer too thick to hang.
 // An edge turns by more than 45 degrees within two thicknesses. It is in the open where the way down from it leads
 // under the solid before it comes to another one, a bath or an outflow. all: of the sheet's vertices. Nothing moves

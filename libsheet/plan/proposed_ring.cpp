@@ -214,19 +214,6 @@ double landing_time(const Scene& scene, const Frame& first, std::size_t number) 
   return std::atan(landing->fall * std::sqrt(k / u)) / std::sqrt(k * u);
 }
 
-// Of the longest fall [s]: from rest, but of what starts downward faster than it would land so, with that speed.
-double fall_time(const Scene& scene, const Frame& first) {
-  const Vector3 gravity = scene.environment.gravity.value_or(Vector3::Zero());
-  const double fall = longest_fall(landings(scene, first)), g = gravity.norm();
-  if (!(fall > 0))
-    return 0;
-  double slowest = std::numeric_limits<double>::infinity();
-  for (const scene::SheetTable& sheet : scene.sheets)
-    slowest = std::min(slowest, sheet.velocity.dot(gravity) / g);
-  const double landing = std::sqrt(2 * g * fall);
-  return slowest > landing ? (std::hypot(slowest, landing) - slowest) / g : landing / g;
-}
-
 // Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
 // ends by the clock has ended, whatever moves on for ever has come through or round, belts and slopes have carried
 // it past all, and what lies on level ground has spread.
@@ -238,7 +225,7 @@ double until_of(const Scene& scene, const Frame& first) {
   double until = with_heat(scene, first, [&](const Scene& of) { return flow_time(of, first); });
   if (until == 0)
     until = 1;
-  until += 4 * fall_time(scene, first);
+  until += 4 * fall_time(scene, landings(scene, first));
   until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_down(of, first, at_rest); }));
   until = std::max(until, time_spread(scene, first));
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };

@@ -114,17 +114,6 @@ double resting_thickness(const Liquid& liquid, const scene::Solid& solid, double
   return 2 * capillary_length * std::sin(solid.contact_angle.value_or(std::numbers::pi) / 2);
 }
 
-// What the turning of a solid adds to gravity for what turns with it at x [m/s²].
-Vector3 outward_pull(const scene::Motion& motion, double t, const Vector3& x) {
-  const auto* turning = std::get_if<scene::Rotating>(&motion);
-  if (turning == nullptr || turning->rate.entries.empty())
-    return Vector3::Zero();
-  const Vector3 axis = turning->axis.normalized();
-  const Vector3 out = x - turning->center - scene::integral(turning->velocity, 0, t);
-  const double rate = scene::value_at(turning->rate, t);
-  return rate * rate * (out - out.dot(axis) * axis);
-}
-
 } // namespace
 
 std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t) {
@@ -150,7 +139,7 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
       const Vector3 normal =
           solids.pose(i, t).linear() * (solids.pose(i, first.time).linear().transpose() * point.normal);
       const Vector3 place = scene::motion_between(scene.solids[i].motion, first.time, t) * x[v];
-      const Vector3 pull = gravity + outward_pull(scene.solids[i].motion, t, place);
+      const Vector3 pull = gravity + scene::outward_pull(scene.solids[i].motion, t, place);
       along += (pull - pull.dot(normal) * normal).norm();
       slip += scene.solids[i].slip_length;
       ++lies;
@@ -191,7 +180,7 @@ std::string late_running_warning(const Scene& scene, const formats::Frame& first
     return "";
   const Liquid& liquid = all.front().liquid;
   const double speed = scene::speed_of_layer(liquid, liquid.density * h * along / n, h, slip / n);
-  const double time = std::sqrt(2 * longest_fall(all) / gravity.norm()) + *sheet.length / 2 / speed;
+  const double time = fall_time(scene, all) + *sheet.length / 2 / speed;
   if (!(time > late * until && time < much_later * until))
     return "";
   return word_of_late(until, solid::Solids(scene).name(solid), "run down", time);
@@ -228,7 +217,7 @@ std::optional<Spreading> spreads(const Scene& scene, const formats::Frame& first
   const auto from_point = [&](double r) { return spreading_time(liquid, L * L * h, r, g); };
   return Spreading{.ground = *ground,
                    .lies = fall < near_enough * h && lands == static_cast<double>(all.size()),
-                   .time = std::sqrt(2 * fall / g) + from_point(wider * radius) - from_point(radius)};
+                   .time = fall_time(scene, all) + from_point(wider * radius) - from_point(radius)};
 }
 
 std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until) {
@@ -275,7 +264,7 @@ std::string late_overrun_warning(const Scene& scene, const formats::Frame& first
   const double around = what->flux / (2 * std::numbers::pi * edge);
   const double speed = around > 0 ? std::cbrt(g * around * around / (3 * nu))
                                   : scene::speed_of_layer(liquid, liquid.density * g * h / 2, h / 2, below.slip_length);
-  const double time = std::sqrt(2 * longest_fall(all) / g) + spreading_time(*what, edge, liquid, g) + side / speed;
+  const double time = fall_time(scene, all) + spreading_time(*what, edge, liquid, g) + side / speed;
   if (!(time > late * until && time < latest * until))
     return "";
   return word_of_late(until, solids.name(number), "come over its edge and run down it", time);

@@ -2,6 +2,7 @@
 #include "libsheet/plan/unlikely.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -25,16 +26,21 @@ std::vector<std::string> unlikely_values(const Scene& scene) {
     if (std::ranges::find(found, what) == found.end())
       found.push_back(what);
   };
+  const auto tell_of_density = [&](double density, std::string_view whose) {
+    if (density > 0 && density < lightest)
+      tell(fmt::format("a density{} of {:.3g} kg/m^3 is less than that of any liquid: if it is in g/cm^3, write "
+                       "\"{:.3g} g/cm^3\"",
+                       whose, density, density));
+    if (density > heaviest)
+      tell(fmt::format("a density{} of {:.3g} kg/m^3 is more than that of any matter on Earth: water has 1000 kg/m^3, "
+                       "which is 1 g/cm^3",
+                       whose, density));
+  };
+  if (scene.environment.bath)
+    tell_of_density(scene.environment.bath->density, " of the bath");
   for (const scene::SheetTable& sheet : scene.sheets) {
     const Liquid liquid = scene::with_material_of(scene, sheet).material;
-    if (liquid.density > 0 && liquid.density < lightest)
-      tell(fmt::format("a density of {:.3g} kg/m^3 is less than that of any liquid: if it is in g/cm^3, write \"{:.3g} "
-                       "g/cm^3\"",
-                       liquid.density, liquid.density));
-    if (liquid.density > heaviest)
-      tell(fmt::format("a density of {:.3g} kg/m^3 is more than that of any matter on Earth: water has 1000 kg/m^3, "
-                       "which is 1 g/cm^3",
-                       liquid.density));
+    tell_of_density(liquid.density, "");
     if (liquid.surface_tension > tightest)
       tell(fmt::format("a surface tension of {:.3g} N/m is more than that of any liquid: water has 0.072 N/m, which is "
                        "72 mN/m",
@@ -42,6 +48,9 @@ std::vector<std::string> unlikely_values(const Scene& scene) {
     if (const double speed = sheet.velocity.norm(); speed > fastest)
       tell(fmt::format("a sheet that starts with {:.3g} m/s: if that is in mm/s, write \"{:.3g} mm/s\"", speed, speed));
   }
+  if (constexpr double densest = 100; scene.environment.air && scene.environment.air->density > densest)
+    tell(fmt::format("air of {:.3g} kg/m^3: that around us has 1.2 kg/m^3; a liquid below the sheet is a bath",
+                     scene.environment.air->density));
   if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > strongest)
     tell(fmt::format("a gravity of {:.3g} m/s^2 is {:.0f} times that of the Earth, 9.81 m/s^2", gravity,
                      gravity / 9.81));

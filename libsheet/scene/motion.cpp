@@ -107,6 +107,16 @@ Eigen::Isometry3d motion_between(const Motion& motion, double t0, double t1) {
   return result;
 }
 
+Eigen::Vector3d outward_pull(const Motion& motion, double t, const Eigen::Vector3d& x) {
+  const auto* turning = std::get_if<Rotating>(&motion);
+  if (turning == nullptr || turning->rate.entries.empty())
+    return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d axis = turning->axis.normalized();
+  const Eigen::Vector3d out = x - turning->center - integral(turning->velocity, 0, t);
+  const double rate = value_at(turning->rate, t);
+  return rate * rate * (out - out.dot(axis) * axis);
+}
+
 Eigen::Vector3d velocity_at(const Motion& motion, double t, const Eigen::Vector3d& x) {
   return std::visit(
       Overloaded{[](const Fixed&) -> Eigen::Vector3d { return origin; },

@@ -59,6 +59,10 @@ using Motion = std::variant<Fixed, Translating, Rotating, Keyframed>;
 // The rigid motion that takes every point from its place at t0 to its place at t1.
 [[nodiscard]] Eigen::Isometry3d motion_between(const Motion& motion, double t0, double t1);
 
+// What its turning adds to gravity for what turns with it at x, omega² r away from the axis [m/s²]; nothing of rows
+// that turn.
+[[nodiscard]] Eigen::Vector3d outward_pull(const Motion& motion, double t, const Eigen::Vector3d& x);
+
 // Velocity at time t of the material point that is at x [m/s].
 [[nodiscard]] Eigen::Vector3d velocity_at(const Motion& motion, double t, const Eigen::Vector3d& x);
 

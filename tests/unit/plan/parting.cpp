@@ -5,6 +5,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
@@ -139,6 +140,31 @@ TEST(Parting, OfWhatARollTurnsUnderItself) {
   EXPECT_TRUE(rolls(stiff, 1,
                     "motion = {kind = \"rotating\", axis = [0, 0, 1], rate = [[0, -1.57], [2, -1.57], "
                     "[2.01, 0]]}\n")); // and then hangs
+}
+
+// A ring of 2 mm on a disk of 42 mm that turns so fast that it drives outwards omega² r: at its edge 41 m/s² at 300
+// rpm, 4.6 m/s² at 100 rpm. Its weight is 28 Pa.
+TEST(Parting, OfWhatADiskFlingsOverItsEdge) {
+  const auto parting = [](const std::string& rate, const std::string& more = "contact = \"flow\"\n",
+                          double radius = 0.042) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"annulus\"\ninner_radius = 0.02\nouter_radius = 0.04\nedge_length = 0.005\n"
+        "thickness = 0.002\ncenter = [0, 0.001, 0]\n[material]\nviscosity = 10\ndensity = 1400\n[environment]\n"
+        "gravity = [0, -10, 0]\n[contact]\n[[solid]]\nshape = \"cylinder\"\nradius = " +
+            std::to_string(radius) +
+            "\nheight = 0.02\ncenter = [0, -0.01, 0]\nmotion = {kind = \"rotating\", axis = [0, 1, 0], rate = " + rate +
+            "}\n" + more,
+        "s");
+    return must_part(scene, checked_first_frame(scene), 10);
+  };
+  const auto flung = parting("\"300 rpm\"");
+  ASSERT_TRUE(flung);
+  EXPECT_NEAR(flung->adhesion, 14, 1e-9);
+  EXPECT_THAT(flung->why, testing::StartsWith("solid 0 (cylinder) flings what lies on it over its edge, from about "));
+  EXPECT_FALSE(parting("\"100 rpm\""));
+  EXPECT_FALSE(parting("\"300 rpm\"", "contact = \"flow\"\n", 0.1)); // by ((r/r₀)⁴ - 1) 3 nu/(4 omega² h²) 50 s
+  EXPECT_FALSE(parting("[[0, \"300 rpm\"], [1, \"300 rpm\"], [1.1, 0]]"));
+  EXPECT_FALSE(parting("\"300 rpm\"", "contact = \"slip\"\n"));
 }
 
 TEST(Parting, OfWhatAHoldDrawsOverAnEdge) {

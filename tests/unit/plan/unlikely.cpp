@@ -29,6 +29,10 @@ TEST(Unlikely, NumbersInOtherUnits) {
   EXPECT_THAT(told({"material.density=1.2"}), ElementsAre(HasSubstr("1.2 g/cm^3")));
   EXPECT_THAT(told({"material.density=1200 g/cm^3"}), ElementsAre(HasSubstr("1.2e+06 kg/m^3")));
   EXPECT_THAT(told({"material.density=20", "material.surface_tension=2.5"}), IsEmpty()); // foam, tungsten
+  EXPECT_THAT(told({"environment.bath.density=1000"}), IsEmpty());
+  EXPECT_THAT(told({"environment.bath.density=1.0"}), ElementsAre(HasSubstr("of the bath of 1 kg/m^3")));
+  EXPECT_THAT(told({"environment.air.density=1.2"}), IsEmpty());
+  EXPECT_THAT(told({"environment.air.density=1000"}), ElementsAre(HasSubstr("air of 1e+03 kg/m^3")));
   EXPECT_THAT(told({"material.surface_tension=40"}), ElementsAre(HasSubstr("surface tension of 40 N/m")));
   EXPECT_THAT(told({"environment.gravity=[0, -9810, 0]"}), ElementsAre(HasSubstr("1000 times that of the Earth")));
   EXPECT_THAT(told({"inflow.velocity=[100, 0, 0]"}), ElementsAre(HasSubstr("100 mm/s")));
