@@ -428,8 +428,11 @@ struct RenderStage::Impl {
         return;
     told_out_of_sight = true;
     log::warning("the sheet of the frame at {} s is out of the picture: {}", frame.time,
-                 options.camera.eye
-                     ? "--eye and --target look elsewhere"
+                 options.camera.eye ? "--eye and --target look elsewhere"
+                 : surveyed
+                     ? "it is far below all solids, or the camera stands as for other frames; --frames draws "
+                       "earlier ones, --eye and --target look at this one, and an [[outflow]] in the scene takes "
+                       "up what falls for ever"
                      : "give --eye and --target, or read the stream from a file, so that all frames are known");
   }
 

@@ -158,3 +158,13 @@ END
     done
   done
 }
+
+@test "18: a sheet that has fallen far below all solids is told with what to do" {
+  {
+    cat disk.toml
+    printf '[[solid]]\nshape = "box"\nsize = [0.1, 0.1, 0.1]\n'
+  } > box.toml
+  sheet-init box.toml --set 'sheet.center=[0, 0, -5]' -o fallen.sheet
+  run -0 --separate-stderr sheet-render fallen.sheet -o a.png "${small[@]}"
+  [[ $stderr == *'the sheet of the frame at 0 s is out of the picture: it is far below all solids'*'[[outflow]]'* ]]
+}
