@@ -55,6 +55,15 @@ TEST(SolidContact, NothingToDo) {
   EXPECT_TRUE(unsafe_triangles(far.path, solids_of({solid(scene::Sphere{1}, {0, -5, 0})})).empty());
 }
 
+// Films that are drawn out to nothing beside a solid that turns are followed no more exactly than the sheet asks for.
+TEST(SolidContact, FilmsOfNoThicknessAskForNoExactness) {
+  scene::Solid ball = solid(scene::Sphere{0.05}, {0, -0.055, 0});
+  ball.motion = scene::Rotating{.axis = Vector3::UnitY(), .center = Vector3::Zero(), .rate = {{{0, 12.6}}}};
+  FallingSheet sheet = falling(0.1), alike = falling(0.1);
+  sheet.path.thickness[3] = 3e-10;
+  EXPECT_EQ(resolve_solids(sheet.path, solids_of({ball})).caught, resolve_solids(alike.path, solids_of({ball})).caught);
+}
+
 // What flows down a wall and meets a floor lies on that from then on; what flows along the floor stays on it. In a
 // groove of two slopes as steep, too, it goes on to the second one.
 TEST(SolidContact, WhatComesDownAWallLiesOnTheFloor) {
