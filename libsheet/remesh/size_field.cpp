@@ -26,9 +26,10 @@ using std::numbers::pi;
 constexpr double jump_tolerance = 0.2; // τ: of thickness, from triangle to triangle
 constexpr double even_enough = 1.5;    // of the flow's mean over the sheet's size: gradients below make no difference
 constexpr double edges_in_a_wave = 8;  // of a buckle
-constexpr double thicknesses_an_edge = 1; // a shell model says nothing about what is shorter
-constexpr double grading = 0.4;           // growth of length over distance
-constexpr double widths_an_edge = 2;      // of a strip: up to split_above times that, no angle need be below 19 degrees
+constexpr double thicknesses_an_edge = 1;            // a shell model says nothing about what is shorter
+constexpr double thicknesses_an_edge_on_walls = 0.5; // likewise of a layer on one
+constexpr double grading = 0.4;                      // growth of length over distance
+constexpr double widths_an_edge = 2; // of a strip: up to split_above times that, no angle need be below 19 degrees
 constexpr double widths_an_edge_of_threads = 1.5; // which are as wide as π/4 of their thickness
 constexpr double thicknesses_an_edge_of_threads = 0.5;
 constexpr double least_wedge_of_threads = pi / 9; // a thread ends in no wedge, but tension shortens it
@@ -264,6 +265,8 @@ SizeField::SizeField(const EditableSheet& sheet, const Scene* scene, const SizeO
   if (options.chord_error)
     adapt(sheet, scene, options);
   multiply(sheet, options.scale);
+  if (!options.chord_error)
+    coarsen_deep_layers(sheet);
   note_thick(sheet, options.chord_error ? bounds_of(options).high : uniform_);
   fit_strips(sheet, options, scene != nullptr && scene->model.faces);
 }
@@ -277,6 +280,21 @@ void SizeField::multiply(const EditableSheet& sheet, const std::vector<double>& 
     size_.assign(sheet.mesh().vertex_slots(), uniform_);
   for (std::size_t v = 0; v < scale.size(); ++v)
     size_[v] *= scale[v];
+}
+
+void SizeField::coarsen_deep_layers(const EditableSheet& sheet) {
+  const std::vector<double> thickness = thickness_at_vertices(sheet);
+  std::vector<double> coarse(thickness.size());
+  bool any = false;
+  for (std::uint32_t v = 0; v < coarse.size(); ++v) {
+    const double least = sheet.wall(v) == no_index ? 0 : thicknesses_an_edge_on_walls * thickness[v];
+    any = any || least > at(v);
+    coarse[v] = std::max(at(v), least);
+  }
+  if (!any)
+    return;
+  grade(sheet, coarse);
+  size_ = std::move(coarse);
 }
 
 void SizeField::note_thick(const EditableSheet& sheet, double longest) {

@@ -47,6 +47,9 @@ struct SizeOptions {
 // Likewise a neck (necks.h), its width that of the least of the edges round it; but as long edges as its triangles need
 // to carry a hundredth of what triangles do in the mean.
 //
+// A layer on the one wall along which it flows has edges of half its thickness at least, growing as above, unless
+// lengths are adaptive: columns of liquid that are higher than wide fold over each other where it is pushed together.
+//
 // Where some of the sheet is thicker than the longest wanted length, no edge is split that is not too long for h, too,
 // where nothing holds the sheet and no solid carries it: a shell model says nothing about what is shorter.
 class SizeField {
@@ -66,6 +69,7 @@ private:
   void adapt(const EditableSheet& sheet, const Scene* scene, const SizeOptions& options);
   void fit_strips(const EditableSheet& sheet, const SizeOptions& options, bool round);
   void multiply(const EditableSheet& sheet, const std::vector<double>& scale);
+  void coarsen_deep_layers(const EditableSheet& sheet);
   void note_thick(const EditableSheet& sheet, double longest);
 
   double uniform_;

@@ -3,6 +3,7 @@
 // their edges are long.
 #include "libsheet/remesh/strip_width.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -192,6 +193,28 @@ TEST(StripWidth, TrianglesAreNoFinerThanTheSheetIsThick) {
     formats::Frame thin = ribbon(20 * strip_edge, width, 2 * strip_edge, 0.5 * strip_edge);
     static_cast<void>(remesh(thin, nullptr, options(strip_edge)));
     EXPECT_GT(thin.vertices, 2 * before) << width;
+  }
+}
+
+// On a wall along which it flows, a deep layer gets edges of half its thickness; on one that it sticks to, none but
+// those that are asked for.
+TEST(StripWidth, ADeepLayerOnAWallHasEdgesOfHalfItsThickness) {
+  Scene scene;
+  scene.solids.resize(1);
+  for (const auto contact : {SolidContact::flow, SolidContact::stick}) {
+    scene.solids[0].contact = contact;
+    formats::Frame frame = ribbon(40 * strip_edge, 40 * strip_edge, strip_edge, 5 * strip_edge);
+    std::ranges::fill(put_masks(frame, "touch"), 1);
+    static_cast<void>(remesh(frame, &scene, options(strip_edge)));
+    const EditableSheet sheet(frame);
+    double sum = 0;
+    for (const Edge& e : connect(frame.vertices, triangles(frame)).edges)
+      sum += (sheet.at(e[0]) - sheet.at(e[1])).norm();
+    const double mean = sum / static_cast<double>(connect(frame.vertices, triangles(frame)).edges.size());
+    if (contact == SolidContact::flow)
+      EXPECT_GT(mean, 2 * strip_edge);
+    else
+      EXPECT_LT(mean, 1.3 * strip_edge);
   }
 }
 
