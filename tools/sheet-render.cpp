@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look thickness", "where the sheet is thin at the end");
   tool.example("sheet-render run.sheet --frames -1 -o end.png --look deviation --wanted 2mm",
                "where it is thicker and thinner than that");
-  tool.example("sheet-render run.sheet --frames -1 --turntable 120 --denoise --samples 4 --y4m | ffmpeg -i - turn.mp4",
+  tool.example("sheet-render run.sheet --frames -1 --turntable 120 --denoise --y4m | ffmpeg -i - turn.mp4",
                "round the last frame in 5 s");
   tool.example("sheet-render run.sheet --frames -1 -o end.exr --noise 1 --samples 4096",
                "light, depth, normals, thickness for other programs");
