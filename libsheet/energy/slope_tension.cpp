@@ -19,17 +19,10 @@ TriangleArea triangle(const VectorN<12>& u, int side) {
   return {u.segment<3>(3 * c[0]), u.segment<3>(3 * c[1]), u.segment<3>(3 * c[2])};
 }
 
-// ∇∇A of a triangle times a factor (geometry/area.h).
 void add_area_hessian(const TriangleArea& a, int side, double factor, MatrixN<12>& hessian) {
-  const Matrix3 along_normal = factor / (4 * a.area) * a.normal * a.normal.transpose();
-  const Matrix3 turn = factor / 2 * skew(a.normal);
-  for (int i = 0; i < 3; ++i) {
-    const int at = 3 * corners[side][i], next = 3 * corners[side][(i + 1) % 3];
-    hessian.block<3, 3>(at, at) += a.edge[i].squaredNorm() * along_normal;
-    const Matrix3 mixed = a.edge[i].dot(a.edge[(i + 1) % 3]) * along_normal;
-    hessian.block<3, 3>(at, next) += mixed - turn;
-    hessian.block<3, 3>(next, at) += mixed + turn;
-  }
+  a.each_second(true, [&](int i, int j, const Matrix3& block) {
+    hessian.block<3, 3>(3 * corners[side][i], 3 * corners[side][j]) += factor * block;
+  });
 }
 
 // ∇∇l times a factor, of the edge from the first vertex to the second, `along` its direction.

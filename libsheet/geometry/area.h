@@ -26,6 +26,12 @@ struct TriangleArea {
   // The 9x9 second derivative; in_plane = false leaves the positive part only.
   [[nodiscard]] MatrixN<9> hessian(bool in_plane) const {
     MatrixN<9> h;
+    each_second(in_plane, [&](int i, int j, const Matrix3& block) { h.block<3, 3>(3 * i, 3 * j) = block; });
+    return h;
+  }
+
+  // visit(i, j, ∂²A/∂x_i∂x_j) for all pairs of corners; likewise.
+  template <class Visit> void each_second(bool in_plane, Visit&& visit) const {
     const Matrix3 nn = area > 0 ? Matrix3(normal * normal.transpose() / (4 * area)) : Matrix3::Zero();
     const Matrix3 turn = 0.5 * skew(normal);
     for (int i = 0; i < 3; ++i)
@@ -33,9 +39,8 @@ struct TriangleArea {
         Matrix3 block = edge[i].dot(edge[j]) * nn;
         if (in_plane && i != j)
           block += (j == (i + 2) % 3 ? turn : Matrix3(-turn));
-        h.block<3, 3>(3 * i, 3 * j) = block;
+        visit(i, j, block);
       }
-    return h;
   }
 };
 
