@@ -232,11 +232,14 @@ private:
 
   [[nodiscard]] const SolidView& own_view(std::uint32_t v) const { return views_[static_cast<std::size_t>(rides_[v])]; }
 
-  // Whether a vertex that touches starts farther from its solid than the sheet is thick: a change of the mesh over a
-  // hollow may have put it there.
+  // Whether a vertex that touches is farther from its solid than the sheet is thick: a change of the mesh over a hollow
+  // may have put it there. Not what flows and sheet-step has brought to its distance (wall_distance.h): beside a hold,
+  // which keeps its distance while the layer thins, new vertices are put on chords above the layer.
   [[nodiscard]] bool is_off(std::uint32_t v) const {
     const double thickness = path_.thickness[v] + 2 * path_.stand_off[v];
-    return own_view(v).shape().distance(own_view(v).own(0, path_.start[v]), thickness) >= thickness;
+    const SolidView& view = own_view(v);
+    const auto far = [&](const Vector3& own) { return view.shape().distance(own, thickness) >= thickness; };
+    return far(view.own(0, path_.start[v])) && !(slides(v) && !far(view.own(view.pieces(), path_.end[v])));
   }
 
   // The distance at which a vertex is held that is caught; one that starts nearer and flows is not lifted.

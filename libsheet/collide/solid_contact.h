@@ -6,7 +6,8 @@
 // It keeps its touch bit until it is pulled off (release.h). A vertex without a bit that starts within half the
 // thickness and moves out is left alone, so what has been released gets away. A vertex that a [[hold]] fixes along some
 // axes is put and moved along the others only. A touch bit of a vertex that starts farther from its solid than the
-// sheet is thick, as remeshing over a hollow makes, counts for nothing.
+// sheet is thick, as remeshing over a hollow makes, counts for nothing, but where it flows and sheet-step has brought
+// it back to its wall.
 //
 // Triangles. Where a triangle's path comes within an eighth of its thickness of a solid while its corners stay clear
 // (a rod or a tip through its middle, a corner of a box), the point that hits first sticks: the corners' ends are moved

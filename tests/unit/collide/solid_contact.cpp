@@ -535,6 +535,21 @@ TEST(SolidContact, WhatTouchesNothingIsLetGo) {
   EXPECT_EQ(sheet.path.touch, std::vector<std::int32_t>(end.size(), no_solid));
 }
 
+// What flows and starts as far, as new vertices beside a hold do that keeps its distance while the layer thins, stays
+// on the wall to which sheet-step has brought it back, if not wholly.
+TEST(SolidContact, WhatIsBroughtBackToItsWallStaysOnIt) {
+  scene::Solid wall = solid(scene::HalfSpace{{0, 1, 0}});
+  for (const auto& [contact, touched] : {std::pair(SolidContact::flow, 0), std::pair(SolidContact::stick, no_solid)}) {
+    wall.contact = contact;
+    FallingSheet sheet = falling(0, 3 * thickness_of_sheet);
+    sheet.path.touch.assign(sheet.start.size(), 0);
+    for (Vector3& end : sheet.path.end)
+      end.y() = 0.6 * thickness_of_sheet;
+    resolve_solids(sheet.path, solids_of({wall}));
+    EXPECT_EQ(sheet.path.touch, std::vector<std::int32_t>(sheet.start.size(), touched));
+  }
+}
+
 // What is across a solid with a corner that is held there stays: its free corners cannot bring it out.
 TEST(SolidContact, FreeCornersDoNotBringOutWhatIsHeldInside) {
   const solid::Solids rod = solids_of({solid(scene::Capsule{5e-3, 0.1}, {0, -0.05, 0})});
