@@ -13,6 +13,7 @@
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/passing.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/plan/slopes.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/scene/sheet_edges.h"
@@ -111,7 +112,7 @@ double steps_of_motion(const Scene& scene, const Frame& first, double until, dou
   const double falling = falls * fall_time(scene, all);
   const bool falls_freely = only_falls(scene, all);
   double acceleration = falls_freely ? gravity : 0, flow = 0; // some times of the flow [s]
-  for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_sheets(scene, first)))
+  for (const scene::Scales& scales : scene::scales_of_sheets(scene, measured_on_solids(scene, first)))
     if (!falls_freely && scales.length && *scales.length > 0) {
       acceleration = std::max(acceleration, scales.speed * scales.speed / *scales.length);
       flow = std::max(flow, times_of_flow * *scales.length / scales.speed);

@@ -105,6 +105,36 @@ std::string warning_of_start(const Scene& scene, const Frame& first, std::size_t
       number, entering.norm(), starting.dot(along), entering.x(), entering.y(), entering.z());
 }
 
+// Of what flows in along a bath and is bent at the inlet, as it floats deeper or less deep than that lies.
+std::string warning_of_floating(const Scene& scene, const Frame& first, std::size_t number, const Vector3& up) {
+  constexpr double steepest = 0.5, most = 0.5, near = 1; // sine of 30 degrees; thicknesses: off, from the level
+  const auto& bath = scene.environment.bath;
+  const scene::InletVelocity velocity = scene::inlet_velocity(scene, scene.inflows[number]);
+  const double h = scene.inflows[number].thickness, speed = velocity.speed(first.time);
+  const double density = sheet_named(scene, scene.inflows[number].sheet).material.value_or(scene.material).density;
+  if (!bath || !(speed > 0) || !(density < bath->density))
+    return {};
+  const auto x = positions(first);
+  const auto bits = masks(first, "inlet");
+  double height = 0, upward = 0, count = 0;
+  for (std::size_t v = 0; v < bits.size(); ++v)
+    if ((of_inlet(bits[v], number) & at_inlet_border) != 0) {
+      height += up.dot(x[v]);
+      upward += std::abs(velocity.at(first.time, x[v]).normalized().dot(up));
+      ++count;
+    }
+  if (count == 0 || upward > steepest * count)
+    return {};
+  const double off = height / count - bath->level, floats = -density / bath->density * h;
+  if (std::abs(off) > near * h || std::abs(off - floats) < most * h)
+    return {};
+  return fmt::format(
+      "inflow {} comes in {:.3g} m {} the bath's level, and its middle floats {:.3g} m under that (rho h "
+      "/ rho_bath): it bends down at the inlet at once. A center of the sheet that is {:.3g} m lower lets "
+      "it float",
+      number, std::abs(off), off < 0 ? "under" : "above", -floats, off - floats);
+}
+
 } // namespace
 
 std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first) {
@@ -130,6 +160,9 @@ std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first)
   for (std::size_t i = 0; i < scene.inflows.size(); ++i)
     if (const std::string ribs = warning_of_ribs(scene, first, i); !ribs.empty())
       warnings.push_back(ribs);
+  for (std::size_t i = 0; i < scene.inflows.size() && up; ++i)
+    if (const std::string floating = warning_of_floating(scene, first, i, *up); !floating.empty())
+      warnings.push_back(floating);
   for (std::size_t i = 0; i < scene.inflows.size(); ++i)
     if (const std::string start = warning_of_start(scene, first, i); !start.empty())
       warnings.push_back(start);

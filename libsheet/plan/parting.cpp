@@ -91,6 +91,18 @@ bool is_carried_round(const scene::Motion& motion, const Landing& landing, doubl
   return down < part * speed;
 }
 
+// Whether all of the sheet lands on one solid, or starts on it: under it, as what is wrapped round a roll.
+bool all_lies_on(const solid::Solids& solids, std::size_t number, const formats::Frame& first,
+                 const std::vector<Landing>& landings, double thickness) {
+  constexpr double near = 0.75; // thicknesses, of what starts on it
+  auto landing = landings.begin();
+  return std::ranges::all_of(probes_of(first), [&](std::size_t v) {
+    if (landing != landings.end() && landing->vertex == v)
+      return (landing++)->solid == number;
+    return solids.at(number, positions(first)[v], first.time).distance < near * thickness;
+  });
+}
+
 // As it starts, or else when it has become warm.
 std::optional<OverEdge> over_edge(const Scene& with_heat, const formats::Frame& first, double until) {
   const Scene cold = scene::as_it_starts(with_heat);
@@ -120,8 +132,7 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
   std::vector<double> ends(solids.size(), std::numeric_limits<double>::infinity()), densities(solids.size(), 0);
   const std::vector<Landing> all = landings(scene, first);
   const auto lies_wholly_on = [&](std::size_t number) {
-    return scene.holds.empty() && scene.inflows.empty() && all.size() == probes_of(first).size() &&
-           std::ranges::all_of(all, [&](const Landing& landing) { return landing.solid == number; });
+    return scene.holds.empty() && scene.inflows.empty() && all_lies_on(solids, number, first, all, thickness);
   };
   for (const Landing& landing : all) {
     const std::size_t number = landing.solid;

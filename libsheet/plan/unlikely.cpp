@@ -18,6 +18,22 @@ constexpr double tightest = 3;                     // tungsten has 2.5 [N/m]
 constexpr double strongest = 100;                  // gravity, ten times that of the Earth [m/s²]
 constexpr double fastest = 50;                     // [m/s]
 
+// Of a plane whose surface is to move out of it, of which only what is along it counts; "" of another.
+std::string surface_out_of_plane(const scene::Solid& solid, std::size_t number) {
+  constexpr double least = 0.9; // of the velocity, along the plane
+  const auto* plane = std::get_if<scene::HalfSpace>(&solid.shape);
+  if (plane == nullptr || solid.surface_velocity.isZero())
+    return "";
+  const Vector3& v = solid.surface_velocity;
+  const Vector3 normal = plane->normal.normalized(), along = v - v.dot(normal) * normal;
+  if (along.norm() > least * v.norm())
+    return "";
+  return fmt::format(
+      "solid {} (plane) has a surface_velocity of which only {:.3g} of {:.3g} m/s are along it, and those "
+      "alone count: a belt moves in its plane, here across ({:.3g}, {:.3g}, {:.3g})",
+      number, along.norm(), v.norm(), normal.x(), normal.y(), normal.z());
+}
+
 } // namespace
 
 std::vector<std::string> unlikely_values(const Scene& scene) {
@@ -57,6 +73,9 @@ std::vector<std::string> unlikely_values(const Scene& scene) {
   for (const scene::Inflow& inflow : scene.inflows)
     if (const double speed = scene::inlet_velocity(scene, inflow).speed(0); speed > fastest)
       tell(fmt::format("an inflow of {:.3g} m/s: if that is in mm/s, write \"{:.3g} mm/s\"", speed, speed));
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (const std::string out = surface_out_of_plane(scene.solids[i], i); !out.empty())
+      tell(out);
   return found;
 }
 

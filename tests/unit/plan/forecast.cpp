@@ -47,5 +47,23 @@ TEST(Forecast, WhatFlowsInOnASolidTakesStepsOfHalfAnEdge) {
   EXPECT_GT(foretold("0.002", "stick"), 1);
 }
 
+// What lies on a slope and is held there creeps, as what is held by nothing does: its weight does not drive it as what
+// falls.
+TEST(Forecast, WhatLiesOnASlopeCreepsAlsoWhereItIsHeld) {
+  const auto steps = [](const std::string& contact, const std::string& hold) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.1, 0.2]\nplane = \"xy\"\ncenter = [0, 0, 0.001]\n"
+        "edge_length = 0.008\nthickness = 0.002\n[material]\ndensity = 1000\nviscosity = 5\n[environment]\n"
+        "gravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncontact = \"" +
+            contact + "\"\n" + hold,
+        "s");
+    return forecast(scene, first_frame(scene), {.until = 55, .fps = 1, .stages = ""}, 0.01).steps;
+  };
+  const std::string hold = "[[hold]]\nregion = \"y_max\"\n";
+  EXPECT_LT(steps("flow", ""), 200);
+  EXPECT_LT(steps("flow", hold), 200);
+  EXPECT_GT(steps("stick", hold), 1000);
+}
+
 } // namespace
 } // namespace sheet

@@ -93,5 +93,25 @@ TEST(InflowWarnings, OfASheetThatStartsSlowerThanWhatFlowsIn) {
   EXPECT_THAT(warnings_of(0, -0.5, 2, "[model]\ninertia = false\n"), testing::IsEmpty());
 }
 
+// Of 0.9 of the bath's density, the middle floats 0.9 thicknesses under the level.
+TEST(InflowWarnings, OfOneThatFloatsAtAnotherHeightThanItComesIn) {
+  const auto warnings_of = [](const std::string& height, const std::string& velocity) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [2e4, 6e4]\nedge_length = 4e3\nthickness = 600\ncenter = [0, " +
+            height +
+            ", 0]\n[material]\nviscosity = 1e14\ndensity = 900\n[model]\ninertia = false\n[environment]\n"
+            "gravity = [0, -9.81, 0]\nbath = {density = 1000, level = 0}\n[inflow]\nregion = \"x_min\"\n"
+            "velocity = " +
+            velocity + "\n",
+        "s");
+    return inflow_warnings(scene, first_frame(scene));
+  };
+  EXPECT_THAT(warnings_of("0", "[1e-5, 0, 0]"), testing::ElementsAre(testing::HasSubstr("is 540 m lower")));
+  EXPECT_THAT(warnings_of("-540", "[1e-5, 0, 0]"), testing::IsEmpty());
+  EXPECT_THAT(warnings_of("-300", "[1e-5, 0, 0]"), testing::IsEmpty());
+  EXPECT_THAT(warnings_of("2000", "[1e-5, 0, 0]"), testing::IsEmpty()); // poured on it
+  EXPECT_THAT(warnings_of("0", "[1e-5, -1e-5, 0]"), testing::IsEmpty());
+}
+
 } // namespace
 } // namespace sheet

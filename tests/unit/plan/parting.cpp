@@ -142,6 +142,24 @@ TEST(Parting, OfWhatARollTurnsUnderItself) {
                     "[2.01, 0]]}\n")); // and then hangs
 }
 
+// Honey all round a roll of 20 mm at 30 rpm, U = 0.063 m/s: it carries 0.7 (nu U/g)^½, 4.7 mm.
+TEST(Parting, NotOfWhatARollCarriesRoundThatItIsWrappedIn) {
+  const auto round = [](double thickness, double radius) {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[sheet]\nshape = \"tube\"\nradius = {}\nheight = 0.1\nplane = \"yz\"\nedge_length = 0.005\n"
+                    "thickness = {}\n[material]\nviscosity = 10\ndensity = 1400\n[environment]\n"
+                    "gravity = [0, -9.81, 0]\n[contact]\n[[solid]]\nshape = \"cylinder\"\nradius = 0.02\n"
+                    "height = 0.14\nrotation = {{axis = [0, 0, 1], angle = \"90 deg\"}}\ncontact = \"flow\"\n"
+                    "motion = {{kind = \"rotating\", axis = [1, 0, 0], rate = \"30 rpm\"}}\n",
+                    radius, thickness),
+        "s");
+    return must_part(scene, first_frame(scene), 10);
+  };
+  EXPECT_FALSE(round(0.003, 0.0215));
+  EXPECT_TRUE(round(0.006, 0.023));
+  EXPECT_TRUE(round(0.003, 0.03)); // wide of it
+}
+
 // A ring of 2 mm on a disk of 42 mm that turns so fast that it drives outwards omega² r: at its edge 41 m/s² at 300
 // rpm, 4.6 m/s² at 100 rpm. Its weight is 28 Pa.
 TEST(Parting, OfWhatADiskFlingsOverItsEdge) {

@@ -48,5 +48,20 @@ TEST(Unlikely, EachLiquidOnce) {
   EXPECT_THAT(unlikely_values(scene::parse_scene(sheet + sheet + common, "s")), ElementsAre(HasSubstr("1.2 g/cm^3")));
 }
 
+// Only what is along the plane counts.
+TEST(Unlikely, ABeltThatMovesOutOfItsPlane) {
+  const auto told_of = [](const std::string& plane) {
+    return unlikely_values(
+        scene::parse_scene("[sheet]\nshape = \"disk\"\nradius = 0.1\nedge_length = 0.02\n"
+                           "thickness = 0.001\n[material]\nviscosity = 10\ndensity = 1000\n[[solid]]\n"
+                           "shape = \"plane\"\nsurface_velocity = [0, 0.1, 0]\n" +
+                               plane,
+                           "s"));
+  };
+  EXPECT_THAT(told_of("normal = [0, 1, 0]\n"), ElementsAre(HasSubstr("only 0 of 0.1 m/s")));
+  EXPECT_THAT(told_of("normal = [1, 1, 0]\n"), ElementsAre(HasSubstr("only 0.0707 of 0.1 m/s")));
+  EXPECT_THAT(told_of("normal = [1, 0.1, 0]\n"), IsEmpty());
+}
+
 } // namespace
 } // namespace sheet
