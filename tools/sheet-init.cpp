@@ -26,6 +26,7 @@
 #include "libsheet/plan/hole_forecast.h"
 #include "libsheet/plan/idle_rolls.h"
 #include "libsheet/plan/inflow_warnings.h"
+#include "libsheet/plan/late_heat.h"
 #include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/modelled.h"
 #include "libsheet/plan/open_rims.h"
@@ -187,7 +188,8 @@ std::string explained(Source source, bool ring_alone) {
       explanation.warnings.push_back(warning);
   for (const std::string& late :
        {sheet::late_running_warning(scene, frame, until), sheet::late_spreading_warning(scene, frame, until),
-        sheet::late_overrun_warning(scene, frame, until), sheet::few_frames_warning(with_heat, frame, wishes)})
+        sheet::late_overrun_warning(scene, frame, until), sheet::late_heat_warning(with_heat, frame, until),
+        sheet::few_frames_warning(with_heat, frame, wishes)})
     if (!source.until && !late.empty())
       explanation.warnings.push_back(late);
   std::ranges::copy(sheet::face_warnings(scene, frame, until), std::back_inserter(explanation.warnings));
