@@ -31,6 +31,15 @@ private:
   std::vector<std::uint32_t> numbers_;
 };
 
+// How far down the way to a solid is clear, of what is at that distance from it [m]: to a plane all of the way, which
+// beside an upright one has no end, and would be gone in steps of that distance.
+double clear_way(const scene::Solid& solid, const solid::SolidPoint& point, const Vector3& down) {
+  if (!std::holds_alternative<scene::HalfSpace>(solid.shape) || !(point.distance > 0))
+    return point.distance;
+  const double slope = -point.normal.dot(down);
+  return slope > 0 ? point.distance / slope : std::numeric_limits<double>::infinity();
+}
+
 bool falls(const Scene& scene) {
   return !scene.solids.empty() && scene.environment.gravity && scene.environment.gravity->norm() > 0;
 }
@@ -48,14 +57,18 @@ std::optional<Landing> landing_below(const solid::Solids& solids, const Vector3d
                     .there = {std::numeric_limits<double>::infinity(), -down, {}},
                     .liquid = {},
                     .vertex = 0};
-    for (std::size_t i = 0; i < solids.size(); ++i)
-      if (const solid::SolidPoint point = solids.at(i, nearest.place, t); point.distance < nearest.there.distance) {
+    double clear = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const solid::SolidPoint point = solids.at(i, nearest.place, t);
+      clear = std::min(clear, clear_way(solids.scene(i), point, down));
+      if (point.distance < nearest.there.distance) {
         nearest.solid = i;
         nearest.there = point;
       }
+    }
     if (nearest.there.distance < near * size)
       return nearest;
-    way += nearest.there.distance;
+    way += clear;
   }
   return {};
 }
