@@ -17,6 +17,7 @@ constexpr double lightest = 10, heaviest = 25'000; // foam has 20, osmium 22,600
 constexpr double tightest = 3;                     // tungsten has 2.5 [N/m]
 constexpr double strongest = 100;                  // gravity, ten times that of the Earth [m/s²]
 constexpr double fastest = 50;                     // [m/s]
+constexpr double thickest = 2;                     // flow index
 
 // Of a plane whose surface is to move out of it, of which only what is along it counts; "" of another.
 std::string surface_out_of_plane(const scene::Solid& solid, std::size_t number) {
@@ -61,6 +62,11 @@ std::vector<std::string> unlikely_values(const Scene& scene) {
       tell(fmt::format("a surface tension of {:.3g} N/m is more than that of any liquid: water has 0.072 N/m, which is "
                        "72 mN/m",
                        liquid.surface_tension));
+    if (const double index = liquid.law.flow_index; index >= thickest)
+      tell(
+          fmt::format("a flow_index of {:.3g} thickens: stress grows as the rate to that power. By Glen's law the rate "
+                      "grows as stress to the power n, and flow_index is 1/n, here {:.4g}",
+                      index, 1 / index));
     if (const double speed = sheet.velocity.norm(); speed > fastest)
       tell(fmt::format("a sheet that starts with {:.3g} m/s: if that is in mm/s, write \"{:.3g} mm/s\"", speed, speed));
   }

@@ -8,7 +8,8 @@
 
 namespace sheet {
 
-// Of densities, surface tensions, gravity, and speeds at which liquid flows in or starts.
+// Of densities, surface tensions, flow indices, gravity, speeds at which liquid flows in or starts, and belts that move
+// out of their planes.
 [[nodiscard]] std::vector<std::string> unlikely_values(const Scene& scene);
 
 } // namespace sheet

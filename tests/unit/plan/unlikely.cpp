@@ -48,6 +48,15 @@ TEST(Unlikely, EachLiquidOnce) {
   EXPECT_THAT(unlikely_values(scene::parse_scene(sheet + sheet + common, "s")), ElementsAre(HasSubstr("1.2 g/cm^3")));
 }
 
+TEST(Unlikely, GlensExponentForItsInverse) {
+  const auto with_index = [](const std::string& index) {
+    return told({"material.law=power", "material.flow_index=" + index});
+  };
+  EXPECT_THAT(with_index("3"), ElementsAre(HasSubstr("flow_index is 1/n, here 0.3333")));
+  EXPECT_THAT(with_index("0.3333"), IsEmpty());
+  EXPECT_THAT(with_index("1.5"), IsEmpty());
+}
+
 // Only what is along the plane counts.
 TEST(Unlikely, ABeltThatMovesOutOfItsPlane) {
   const auto told_of = [](const std::string& plane) {
