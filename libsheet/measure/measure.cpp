@@ -16,6 +16,7 @@
 #include "libsheet/scene/free_faces.h"
 #include "libsheet/scene/inner_faces.h"
 #include "libsheet/scene/read.h"
+#include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -182,11 +183,7 @@ void measure_motion(const formats::Frame& frame, const Densities& densities, Mea
 
 // Of the enclosures. In the first frame there is none yet, but a canonical scene that says so.
 void measure_gas(const formats::Frame& frame, Measurements& m) {
-  const auto values = [&](std::string_view name) {
-    const formats::Array* array = frame.find(name);
-    return array != nullptr ? array->values<double>() : std::span<const double>();
-  };
-  const auto pressure = values("gas.pressure");
+  const auto pressure = of_enclosures(frame, "gas.pressure");
   const formats::Array* scene = frame.find("scene");
   m.has[static_cast<std::size_t>(Needs::gas)] =
       !pressure.empty() ||
@@ -195,9 +192,9 @@ void measure_gas(const formats::Frame& frame, Measurements& m) {
     return;
   m.gas_pressure = std::ranges::max(pressure);
   m.gas_amount = m.gas_escaped = 0;
-  for (const double amount : values("gas.amount"))
+  for (const double amount : of_enclosures(frame, "gas.amount"))
     m.gas_amount += amount;
-  for (const double escaped : values("gas.escaped"))
+  for (const double escaped : of_enclosures(frame, "gas.escaped"))
     m.gas_escaped += escaped;
 }
 

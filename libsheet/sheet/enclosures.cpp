@@ -32,4 +32,23 @@ std::uint32_t last_enclosure(const formats::Frame& frame) {
   return numbers.empty() ? 0 : *std::ranges::max_element(numbers);
 }
 
+std::vector<std::uint32_t> enclosure_numbers(const formats::Frame& frame) {
+  const auto all = enclosures(frame);
+  std::vector<std::uint32_t> numbers(all.begin(), all.end());
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::erase(numbers, 0);
+  return numbers;
+}
+
+std::span<const double> of_enclosures(const formats::Frame& frame, std::string_view name) {
+  const Array* array = frame.find(name);
+  if (array == nullptr)
+    return {};
+  if (array->place != Place::frame || array->type != Type::float64 || array->components != 1)
+    fail(ExitCode::bad_input, "array \"{}\" must be frame float64, a row for each enclosure of gas; rename yours",
+         name);
+  return array->values<double>();
+}
+
 } // namespace sheet

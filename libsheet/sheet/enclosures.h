@@ -5,6 +5,8 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "formats/cpp/stream_frame.h"
 
@@ -16,5 +18,10 @@ namespace sheet {
 void put_enclosures(std::span<const std::uint32_t> numbers, formats::Frame& frame);
 // The greatest number; 0 if there is none.
 [[nodiscard]] std::uint32_t last_enclosure(const formats::Frame& frame);
+// Those that there are, each once, ascending.
+[[nodiscard]] std::vector<std::uint32_t> enclosure_numbers(const formats::Frame& frame);
+// What the frame says of each enclosure's gas in the array of that name (formats/sheet.md), from the first one on;
+// empty if it has none. Throws Error (bad_input) where it is something else.
+[[nodiscard]] std::span<const double> of_enclosures(const formats::Frame& frame, std::string_view name);
 
 } // namespace sheet

@@ -82,7 +82,11 @@ std::span<const Eigen::Vector3d> velocities(const Frame& frame) {
 
 std::span<const std::uint64_t> masks(const Frame& frame, std::string_view name) {
   const Array* array = frame.find(name);
-  return array == nullptr ? std::span<const std::uint64_t>() : array->values<std::uint64_t>();
+  if (array == nullptr)
+    return {};
+  if (array->place != formats::Place::vertex || array->type != formats::Type::uint64)
+    fail(ExitCode::bad_input, "array \"{}\" must be vertex uint64; rename yours", name);
+  return array->values<std::uint64_t>();
 }
 
 std::span<std::uint64_t> put_masks(Frame& frame, std::string_view name) {

@@ -23,8 +23,8 @@ using formats::Frame;
 
 // Of an enclosure, from the frame's array of that name; none if it has none.
 std::optional<double> of_enclosure(const Frame& frame, std::string_view name, std::size_t number) {
-  const Array* array = frame.find(name);
-  return array != nullptr && number < array->rows ? std::optional(array->values<double>()[number]) : std::nullopt;
+  const auto values = of_enclosures(frame, name);
+  return number < values.size() ? std::optional(values[number]) : std::nullopt;
 }
 
 // The volume of the gas in the sheet, and what it fills besides [m³].
@@ -47,6 +47,14 @@ double amount_in(const scene::GasPressure& gas, const PressureLaw& law, const Fr
          "away from, so there is no room for gas: turn it round, or give more_volume",
          law.number, volume);
   return amount_of_gas(law.gas, gas.value, volume);
+}
+
+// Arrays get a row for each enclosure up to the last. The first frame has no more than triangles, later ones have rows.
+void refuse_unknown(const PressureLaw& law, const Frame& frame) {
+  const std::size_t known = std::max(frame.triangles, of_enclosures(frame, "gas.amount").size());
+  if (law.number >= known)
+    fail(ExitCode::bad_input, "array \"enclosure\": there is no enclosure {}, as the frame has at most {} of them",
+         law.number + 1, known);
 }
 
 // The area of the middle section of the ball that holds as much [m²].
@@ -138,14 +146,13 @@ std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, c
     return {std::move(law)};
   }
   std::vector<PressureLaw> laws;
-  for (std::uint32_t number = 1; number <= last_enclosure(frame); ++number) {
+  for (const std::uint32_t number : enclosure_numbers(frame)) {
     PressureLaw law = pressure_law(scene.environment);
     law.number = number - 1;
     for (const std::uint32_t of : numbers)
       law.part.push_back(of == number ? 1 : 0);
-    if (std::ranges::count(law.part, 1) == 0)
-      continue;
     if (gas != nullptr) {
+      refuse_unknown(law, frame);
       law.gas.amount = amount_in(*gas, law, frame, mesh);
       add_holes(scene, frame, mesh, rims, law);
     }
@@ -155,10 +162,10 @@ std::vector<PressureLaw> pressure_laws(const Scene& scene, const Frame& frame, c
 }
 
 std::vector<Gas> gas_of(const Frame& frame) {
-  const Array* amounts = frame.find("gas.amount");
-  std::vector<Gas> gas(amounts != nullptr ? amounts->rows : 0);
+  const auto amounts = of_enclosures(frame, "gas.amount");
+  std::vector<Gas> gas(amounts.size());
   for (std::size_t k = 0; k < gas.size(); ++k) {
-    gas[k].amount = amounts->values<double>()[k];
+    gas[k].amount = amounts[k];
     gas[k].escaped = of_enclosure(frame, "gas.escaped", k).value_or(0);
   }
   return gas;

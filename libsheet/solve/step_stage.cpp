@@ -17,6 +17,7 @@
 #include "libsheet/energy/term_table.h"
 #include "libsheet/health/teller.h"
 #include "libsheet/scene/frame_heat.h"
+#include "libsheet/scene/frame_liquids.h"
 #include "libsheet/scene/frame_scene.h"
 #include "libsheet/scene/rolls.h"
 #include "libsheet/sheet/frame_mesh.h"
@@ -132,6 +133,7 @@ struct StepStage::Impl {
       check_mesh(*mesh.mesh());
     check_edges(frame, *mesh.mesh());
     scene::check_temperatures(scene, frame);
+    (void)scene::FrameLiquids(scene, frame); // refuses what is of no liquid
     check_bending(scene, options.bending);
     if (mesh.mesh()->triangles.empty())
       fail(ExitCode::bad_input, "the sheet has no triangles: there is nothing to step");

@@ -106,6 +106,14 @@ END
   attack curtain.sheet hostile/inlet*.sheet hostile/mesh_*.sheet hostile/shape_*.sheet hostile/time_*.sheet hostile/scene_velocity*.sheet
 }
 
+@test "two liquids that hold gas each" {
+  sheet-init "$SHEET_SOURCE/tests/features/two_liquids_gas.toml" |
+    sheet-loop -q --steps 2 --keep last -o gas.sheet -- 'sheet-step --dt 0.001 | sheet-collide'
+  spoil 200 gas.sheet
+  [[ -e hostile/gas.amount_of_bytes.sheet && -e hostile/enclosure_enormous.sheet && -e hostile/liquid_missing.sheet ]]
+  attack gas.sheet hostile/{enclosure,gas.,liquid}*.sheet
+}
+
 @test "what the format's corpus says is valid" {
   attack "$SHEET_SOURCE/formats/corpus/1.0/passed/0003_one_triangle.sheet" "$SHEET_SOURCE"/formats/corpus/1.0/passed/*.sheet
 }

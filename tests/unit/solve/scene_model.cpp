@@ -7,6 +7,7 @@
 
 #include "libsheet/base/error.h"
 #include "libsheet/scene/read.h"
+#include "libsheet/sheet/enclosures.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solve/scene_model.h"
 #include "libsheet/solve/step_stage.h"
@@ -436,6 +437,66 @@ TEST(StepStage, RefusesWhatItCannotStep) {
   fixed.tolerance.reset();
   fixed.dt = -1;
   EXPECT_THROW(StepStage{fixed}, Error);
+}
+
+std::string refusal(Frame frame) {
+  StepStageOptions options;
+  options.dt = 0.1;
+  try {
+    StepStage(options).step(frame);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(StepStage, RefusesTrianglesOfNoLiquidOfTheScene) {
+  Frame frame = two_squares();
+  frame.put_text("scene", R"(
+    [[sheet]]
+    shape = "disk"
+    radius = 1
+    edge_length = 0.5
+    thickness = 0.1
+    [[sheet]]
+    shape = "disk"
+    radius = 1
+    center = [0, 0, 1]
+    edge_length = 0.5
+    thickness = 0.1
+    [sheet.material]
+    viscosity = 20
+    density = 2000
+    [material]
+    viscosity = 10
+    density = 1000
+  )");
+  EXPECT_NE(refusal(frame).find("does not say which triangle is of which"), std::string::npos);
+  frame.put(formats::make_standard_array("liquid", frame.triangles));
+  EXPECT_EQ(refusal(frame), "no error");
+  frame.find("liquid")->values<std::uint32_t>()[2] = 2;
+  EXPECT_NE(refusal(frame).find("triangle 2 is of liquid 2"), std::string::npos);
+}
+
+// The greatest number that there is, too: rows of gas were made up to that.
+TEST(StepStage, RefusesAnEnclosureThatThereCannotBe) {
+  Frame frame = two_squares();
+  frame.put_text("scene", R"(
+    [sheet]
+    shape = "sphere"
+    radius = 1
+    edge_length = 0.5
+    thickness = 0.1
+    [material]
+    viscosity = 10
+    density = 1000
+    [environment]
+    pressure = {law = "gas", amount = 1, ambient = 1000}
+  )");
+  put_enclosures(std::vector<std::uint32_t>{1, 1, 0, 1}, frame);
+  EXPECT_EQ(refusal(frame), "no error");
+  put_enclosures(std::vector<std::uint32_t>{1, 1, 0, std::numeric_limits<std::uint32_t>::max()}, frame);
+  EXPECT_NE(refusal(frame).find("there is no enclosure 4294967295"), std::string::npos);
 }
 
 // Memory that has held something else is what the next arrays are made of.
