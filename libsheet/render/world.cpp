@@ -173,6 +173,13 @@ World::~World() = default;
 
 namespace {
 
+// Embree takes no others.
+bool may_be_shot(const Ray& ray, float beyond, float within) {
+  constexpr float farthest = 1.8e18F; // Embree's FLT_LARGE is 1.844e18
+  return (ray.origin.array().abs() < farthest).all() && (ray.direction.array().abs() < farthest).all() &&
+         !std::isnan(beyond) && !std::isnan(within);
+}
+
 RTCRayHit shoot(RTCScene scene, RTCIntersectContext& context, const Ray& ray, float beyond, float within) {
   RTCRayHit r{};
   r.ray.org_x = ray.origin.x();
@@ -185,7 +192,8 @@ RTCRayHit shoot(RTCScene scene, RTCIntersectContext& context, const Ray& ray, fl
   r.ray.tfar = within;
   r.ray.mask = ~0U;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene, &context, &r);
+  if (may_be_shot(ray, beyond, within)) // what starts so far away meets nothing
+    rtcIntersect1(scene, &context, &r);
   return r;
 }
 

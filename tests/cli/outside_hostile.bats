@@ -114,6 +114,13 @@ END
   attack gas.sheet hostile/{enclosure,gas.,liquid}*.sheet
 }
 
+@test "air around what is thick without bound: rays that start too far away for Embree" {
+  sheet-init "$SHEET_SOURCE/tests/features/air.toml" |
+    sheet-loop -q --steps 2 --keep last -o air.sheet -- 'sheet-remesh --smooth | sheet-step --dt 0.01 | sheet-collide'
+  spoil 100 air.sheet
+  attack air.sheet hostile/volume_large.sheet hostile/volume_all_enormous.sheet
+}
+
 @test "what the format's corpus says is valid" {
   attack "$SHEET_SOURCE/formats/corpus/1.0/passed/0003_one_triangle.sheet" "$SHEET_SOURCE"/formats/corpus/1.0/passed/*.sheet
 }
