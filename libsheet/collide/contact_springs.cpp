@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "libsheet/base/each.h"
-#include "libsheet/collide/spring_feet.h"
 #include "libsheet/material/flow_curve.h"
 
 namespace sheet::collide {
@@ -195,8 +194,6 @@ std::optional<ContactSpring> spring_of(const NearPair& pair, const SheetLayers& 
   s.weights = pair.closest.weights;
   if (std::ranges::all_of(s.vertices, [&](auto v) { return sheet.fixed[v] == all_axes; }) || !normal_of(s, sheet.end) ||
       layers.one(sheet.end, s.vertices, s.weights, SheetLayers::of_new, s.mean(sheet.reach)))
-    return std::nullopt;
-  if (sheet.mesh != nullptr && layers_flow(scene) && s.of_vertex() && beside_border(*sheet.mesh, s.vertices, sheet.end))
     return std::nullopt;
   s.anchor = pair.closest.offset;
   s.rest = s.anchor.norm();

@@ -20,10 +20,6 @@ struct AreaLoads {
   std::optional<ContactSqueeze> squeeze = {};
 
   [[nodiscard]] bool any() const { return tension || weight || squeeze; }
-  // T of triangle t [J m²].
-  [[nodiscard]] double thrust(std::size_t t) const {
-    return (weight ? weight->thrust(t) : 0) + (squeeze ? squeeze->thrust(t) : 0);
-  }
   void begin(const Stage& stage) {
     if (tension)
       tension->begin(stage);

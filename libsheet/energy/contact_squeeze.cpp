@@ -12,23 +12,18 @@ namespace sheet {
 
 namespace {
 
-// Of each vertex, once; `normals` of its triangles.
-std::vector<ContactSqueeze::Press> presses(std::span<const ContactSpring> springs, const Stage& stage,
-                                           std::span<const Vector3> normals) {
-  std::vector<ContactSqueeze::Press> of(stage.vertices());
+// Of each vertex: what springs press with, added up [N].
+std::vector<double> presses(std::span<const ContactSpring> springs, const Stage& stage) {
+  std::vector<double> force(stage.vertices(), 0);
   for (const ContactSpring& s : springs) {
     const Vector3 offset = s.sum([&](std::uint32_t v) {
       return stage.previous != nullptr ? stage.position(*stage.previous, v) : stage.start->positions[v];
     });
     const double press = -s.stiffness[0] * s.gap(offset);
-    for (std::size_t c = 0; c < 4 && press > 0; ++c) {
-      const Vector3 force = s.weights[c] * press * s.normal;
-      ContactSqueeze::Press& to = of[s.vertices[c]];
-      to.on_side[force.dot(normals[s.vertices[c]]) < 0 ? 0 : 1] += std::abs(s.weights[c]) * press;
-      to.force += force;
-    }
+    for (std::size_t c = 0; c < 4 && press > 0; ++c)
+      force[s.vertices[c]] += std::abs(s.weights[c]) * press;
   }
-  return of;
+  return force;
 }
 
 // What a layer feels, in the mean over its depth h, of pressures on its face, at vertices [Pa]: of one with the wave
@@ -72,71 +67,21 @@ bool ContactSqueeze::from_above_only(const Stage& stage, std::uint32_t v) const 
   return site_at(stage, v) != nullptr || (bath_ && bath_->bears(v, stage.start->positions[v]));
 }
 
-// Forces and masses of vertices that no wall or bath bears, added up over the triangles at each, so that a vertex which
-// by chance no spring bears counts as what is around it.
-std::vector<ContactSqueeze::Borne> ContactSqueeze::borne_around(const Stage& stage,
-                                                                std::span<const Press> press) const {
-  const auto& triangles = stage.start->mesh->triangles;
-  std::vector<Borne> own(stage.vertices()), around(stage.vertices());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (const std::uint32_t v : triangles[t])
-      own[v].mass += stage.liquid_of(t).liquid.density * stage.start->volumes[t] / 3;
-  for (std::uint32_t v = 0; v < own.size(); ++v)
-    own[v] = from_above_only(stage, v) ? Borne{} : Borne{press[v].force, own[v].mass};
-  for (const Corners& corners : triangles) {
-    const Borne sum = own[corners[0]] + own[corners[1]] + own[corners[2]];
-    for (const std::uint32_t v : corners)
-      around[v] = around[v] + sum;
-  }
-  return around;
-}
-
-// ρ g_b V²/2 of a triangle, in the part of its corners that nothing but layers may bear.
-double ContactSqueeze::own_thrust(const Stage& stage, std::size_t t, const Vector3& normal,
-                                  std::span<const Borne> borne) const {
-  const Vector3 up = normal.dot(gravity_) > 0 ? Vector3(-normal) : normal;
-  Borne sum;
-  double part = 0;
-  for (const std::uint32_t v : stage.start->mesh->triangles[t]) {
-    sum = sum + borne[v];
-    part += from_above_only(stage, v) ? 0 : 1.0 / 3;
-  }
-  if (!(sum.mass > 0))
-    return 0;
-  const double gravity = std::max(0.0, std::min(-gravity_.dot(up), sum.force.dot(up) / sum.mass));
-  const double volume = stage.start->volumes[t];
-  return part * stage.liquid_of(t).liquid.density * gravity * volume * volume / 2;
-}
-
 void ContactSqueeze::begin(const Stage& stage) {
   const auto& triangles = stage.start->mesh->triangles;
   const auto& x = stage.start->positions;
   const LayerShares shares = layer_shares(stage);
   work_.assign(triangles.size(), 0);
-  thrust_.assign(triangles.size(), 0);
   start_area_.assign(triangles.size(), 1);
-  std::vector<Vector3> across(triangles.size()), normals(stage.vertices(), Vector3::Zero());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const TriangleArea a(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
-    start_area_[t] = a.area;
-    across[t] = a.normal;
-    for (const auto v : triangles[t])
-      normals[v] += a.area * a.normal;
-  }
-  const std::vector<Press> press = presses(springs_, stage, normals);
-  std::vector<double> pressure(stage.vertices(), 0);
-  for (std::uint32_t v = 0; v < pressure.size(); ++v) {
-    const auto [one, other] = press[v].on_side;
-    pressure[v] =
-        one + other > 0 ? (from_above_only(stage, v) ? one + other : std::min(one, other)) / shares.area[v] : 0;
-  }
-  const std::vector<Borne> borne = borne_around(stage, press);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
+  std::vector<double> pressure = presses(springs_, stage);
+  for (std::size_t v = 0; v < pressure.size(); ++v)
+    pressure[v] /= pressure[v] > 0 ? shares.area[v] : 1;
   pressure = felt_in_depth(std::move(pressure), triangles, start_area_, stage.start->volumes);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
+  for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const auto v : triangles[t])
-      work_[t] += pressure[v] / 3 * stage.start->volumes[t];
-    thrust_[t] = own_thrust(stage, t, across[t], borne);
-  }
+      work_[t] += (from_above_only(stage, v) ? 1 : 0.5) * pressure[v] / 3 * stage.start->volumes[t];
 }
 
 } // namespace sheet

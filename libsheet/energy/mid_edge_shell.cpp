@@ -135,7 +135,7 @@ void MidEdgeShell::load(const Stage& stage, std::size_t batch) {
     const std::size_t t = std::min(lane_count * batch + static_cast<std::size_t>(lane), triangles_ - 1);
     const Corners& v = mesh_->triangles[t];
     to.tension[lane] = area_loads_.tension ? area_loads_.tension->tension(t) : 0;
-    to.thrust[lane] = area_loads_.thrust(t);
+    to.thrust[lane] = area_loads_.weight ? area_loads_.weight->thrust(t) : 0;
     to.work[lane] = area_loads_.squeeze ? area_loads_.squeeze->work(t) : 0;
     to.start_area[lane] = TriangleArea(x[v[0]], x[v[1]], x[v[2]]).area;
     to.worked = to.worked || to.work[lane] != 0;

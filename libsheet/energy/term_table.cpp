@@ -190,7 +190,7 @@ constexpr std::array table = {
                 std::optional<BathSurface> bath;
                 if (spreads(m) && m.has_weight())
                   bath.emplace(m.gravity, m.bath->level, m.bath_reach);
-                maker.add_load(&AreaLoads::squeeze, ContactSqueeze(m.contacts, m.gravity, std::move(bath)));
+                maker.add_load(&AreaLoads::squeeze, ContactSqueeze(m.contacts, std::move(bath)));
               }},
     TermEntry{"shear of layers", [](const Model& m) { return layers_flow(m) && m.liquid.viscous(); },
               [](const Model&) -> std::string { return "layers drag each other"; },

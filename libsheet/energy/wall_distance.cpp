@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "libsheet/energy/stage_setup.h"
-#include "libsheet/geometry/area.h"
 #include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
@@ -58,19 +57,17 @@ std::vector<char> held_elsewhere(std::vector<Hold> holds, const Stage& stage) {
 struct Shifts {
   explicit Shifts(std::size_t vertices) : of(vertices, Vector3::Zero()), known(vertices, 0) {}
 
-  // What lies on something that rises goes with it, and by what the distance between the two grows: from the features
-  // of contacts that are known to those that are not. Returns whether any was.
-  bool pass_on(std::span<const ContactSpring> contacts, std::span<const double> growth) {
+  // What lies on something that rises goes with it: from the features of contacts that are known to those that are not.
+  // Returns whether any was.
+  bool pass_on(std::span<const ContactSpring> contacts) {
     std::vector<Vector3> sum(of.size(), Vector3::Zero());
     std::vector<double> weight(of.size(), 0);
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const ContactSpring& s = contacts[i];
+    for (const ContactSpring& s : contacts) {
       const std::size_t middle = s.second_feature();
       const bool one = knows(s, 0, middle), other = knows(s, middle, 4);
       if (one == other)
         continue;
-      const Vector3 apart = growth[i] * s.normal; // of the first feature from the other one
-      const Vector3 shift = one ? Vector3(mean(s, 0, middle) - apart) : Vector3(mean(s, middle, 4) + apart);
+      const Vector3 shift = one ? mean(s, 0, middle) : mean(s, middle, 4);
       for (std::size_t c = one ? middle : 0; c < (one ? 4 : middle); ++c) {
         sum[s.vertices[c]] += std::abs(s.weights[c]) * shift;
         weight[s.vertices[c]] += std::abs(s.weights[c]);
@@ -100,27 +97,6 @@ private:
   }
 };
 
-// By how much the rest distances of contacts will grow that go with their layers' thickness (sheet-collide's doing)
-// [m]. 0 of those that do not lie on each other, but side by side.
-std::vector<double> growth_of(std::span<const ContactSpring> contacts, const Vector3& gravity, const Stage& stage,
-                              const State& end) {
-  const auto thickness = [](const State& state) {
-    const auto& x = state.positions;
-    return thickness_around(x.size(), state.mesh->triangles, state.volumes, [&](std::uint32_t t) {
-      const Corners& c = state.mesh->triangles[t];
-      return TriangleArea(x[c[0]], x[c[1]], x[c[2]]).area;
-    });
-  };
-  const std::vector<double> before = thickness(*stage.start), after = thickness(end);
-  std::vector<double> growth;
-  growth.reserve(contacts.size());
-  for (const ContactSpring& s : contacts) {
-    const bool lies = std::abs(s.normal.dot(gravity)) > least_lying_cosine * gravity.norm();
-    growth.push_back(lies ? s.rest * std::clamp(s.mean(after) / s.mean(before) - 1, -longest_rise, longest_rise) : 0);
-  }
-  return growth;
-}
-
 } // namespace
 
 std::vector<double> lying_thickness(const Stage& stage, const State& end) {
@@ -130,8 +106,7 @@ std::vector<double> lying_thickness(const Stage& stage, const State& end) {
 }
 
 void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<Hold>& holds,
-                              std::span<const ContactSpring> contacts, const Vector3& gravity, const Stage& stage,
-                              State& end) {
+                              std::span<const ContactSpring> contacts, const Stage& stage, State& end) {
   if (stage.sites.empty())
     return;
   std::vector<double> distance = lying_thickness(stage, end);
@@ -151,8 +126,7 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
     const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
     shifts.of[site.vertex] = std::clamp(distance[site.vertex] - point.distance, -most, most) * point.normal;
   }
-  const std::vector<double> growth = growth_of(contacts, gravity, stage, end);
-  for (int layer = 0; layer < most_layers && shifts.pass_on(contacts, growth); ++layer) {
+  for (int layer = 0; layer < most_layers && shifts.pass_on(contacts); ++layer) {
   }
   for (std::uint32_t v = 0; v < stage.vertices(); ++v)
     if (const Vector3 free = free_of(shifts.of[v], held, v);

@@ -117,31 +117,3 @@ END
   sheet-diff straight.sheet resumed.sheet
   sheet-diff --ignore provenance straight.sheet two.sheet
 }
-
-# Chocolate of 3 Pa s on dough of 60, 6 mm thick each. By the forces of single springs, which each change of thickness
-# jerked, and which stayed where layers had met, its rim became jagged (1.7 mm beside its mean) and 0.1 mm thin, in 159
-# to 184 steps.
-@test "a layer spreads on another one, and stays round" {
-  { disk 3 6; disk 9.3 6; } | sed 's/"2 mm"/"3 mm"/; s/name = .*//' > upon.toml
-  sed -i '0,/"20 mm"/s//"40 mm"/' upon.toml
-  awk '{ print } /^center/ { print "[sheet.material]\nviscosity = \"" (++n == 1 ? 60 : 3) " Pa*s\"\ndensity = \"1400 kg/m^3\"" }
-    END { print "[environment]\ngravity = [0, \"-9.81 m/s^2\", 0]\n[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n[contact]\nself = true" }' \
-    upon.toml > lies.toml
-  for tolerance in 0.0096 0.01 0.0104; do
-    sheet-init lies.toml | sheet-loop -q --until 1.2 --fps 5 -o lies.sheet -- \
-      "sheet-remesh --smooth | sheet-step --tolerance $tolerance | sheet-collide"
-    sheet-check lies.sheet
-    PYTHONPATH=$BATS_TEST_DIRNAME/../../formats/python /usr/bin/python3 - > rim.txt << 'END'
-import numpy, sheetstream
-frame = sheetstream.Run("lies.sheet")[-1]
-upper = frame["triangle"][frame["sheet"] == 1]
-edges, count = numpy.unique(numpy.sort(upper[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_counts=True)
-rim = frame["position"][numpy.unique(edges[count == 1])]
-radius = 1e3 * numpy.hypot(rim[:, 0], rim[:, 2])
-print(radius.mean(), radius.std())
-END
-    echo "rim at $(cat rim.txt) mm, $(last lies.sheet thickness_min) m thin, $(last lies.sheet step) steps"
-    (($(last lies.sheet step) <= 90))
-    awk -v h="$(last lies.sheet thickness_min)" '{ exit !($1 > 25 && $2 < 1.3 && h > 0.001) }' rim.txt
-  done
-}
