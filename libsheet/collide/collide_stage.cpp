@@ -20,6 +20,7 @@
 #include "libsheet/collide/self_response.h"
 #include "libsheet/collide/solid_contact.h"
 #include "libsheet/collide/solid_sweep.h"
+#include "libsheet/collide/spring_feet.h"
 #include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/health/teller.h"
@@ -490,17 +491,23 @@ struct CollideStage::Impl {
     const FrameLiquids liquids(*scene, frame);
     const std::vector<double> shift = vertex_shifts(frame, liquids);
     const std::vector<std::uint32_t> numbers = liquids.numbers_at_vertices(frame);
-    const SpringSheet sheet{path.start,    path.end,           reach, path.thickness, at_end.area,  fixed,
-                            path.length(), path.end_thickness, shift, numbers,        liquids.all()};
+    const SpringSheet sheet{path.start,    path.end, reach,         path.thickness,
+                            at_end.area,   fixed,    path.length(), path.end_thickness,
+                            shift,         numbers,  liquids.all(), layers_flow(*scene) ? mesh.mesh().get() : nullptr,
+                            volumes(frame)};
     std::vector<ContactSpring> springs = read_springs(frame);
     drop_within_layers(springs, search->layers(), sheet);
     weld_anew(springs, *mesh.mesh(), path.start);
     const LooseSprings loose = take_loose(springs, *mesh.mesh(), path.start);
-    const std::vector<double> had = follow(springs, *scene, sheet, positions(frame));
+    std::vector<double> had = follow(springs, *scene, sheet, positions(frame));
+    std::vector<ContactSpring> left = let_feet_slide(springs, had, *mesh.mesh(), path.end);
     const std::size_t old = springs.size();
     add_springs(springs, *search, *scene, sheet);
     hand_over(loose.aside, path.end, springs);
-    ease_strained(springs, had, taken + energy_of(loose.aside, *scene, positions(frame)), *scene, path.end);
+    hand_over(left, path.end, springs);
+    ease_strained(springs, had,
+                  taken + energy_of(loose.aside, *scene, positions(frame)) + energy_of(left, *scene, path.end), *scene,
+                  path.end);
     hand_over(loose.without_features, path.end, springs); // as they were before the mesh changed
     level_velocities(std::span(springs).subspan(old), *scene, path.mass, fixed, path.velocity);
     totals.most_springs = std::max(totals.most_springs, springs.size());

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libsheet/base/each.h"
+#include "libsheet/collide/spring_feet.h"
 #include "libsheet/material/flow_curve.h"
 
 namespace sheet::collide {
@@ -55,6 +56,19 @@ double stiffness_of(const ContactSpring& s, const Scene& scene, const SpringShee
   return inertia + 200 * mass * g / d + 0.5 * viscosity * h / time;
 }
 
+// By how much its features, together, are thicker at the end of the step.
+double thickening(const ContactSpring& s, const SpringSheet& sheet) {
+  const Corners corners{s.vertices[1], s.vertices[2], s.vertices[3]};
+  const std::uint32_t t = s.of_vertex() ? triangle_of(*sheet.mesh, corners) : no_index;
+  const double volume = t == no_index ? 0 : sheet.volumes[t];
+  const auto area = [&](std::span<const Vector3> x) {
+    return TriangleArea(x[corners[0]], x[corners[1]], x[corners[2]]).area;
+  };
+  const double before = area(sheet.start);
+  return s.thickness(sheet.end_thickness, volume, before, area(sheet.end)) /
+         s.thickness(sheet.thickness, volume, before, before);
+}
+
 // Goes with its features; false where it parts.
 bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   const auto before = normal_of(s, sheet.start), after = normal_of(s, sheet.end);
@@ -64,7 +78,7 @@ bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   s.normal = (turn * s.normal).normalized();
   s.anchor = turn * s.anchor;
   if (!sheet.end_thickness.empty())
-    s.rest *= s.mean(sheet.end_thickness) / s.mean(sheet.thickness);
+    s.rest *= thickening(s, sheet);
   const double gap = s.normal.dot(s.offset(sheet.end));
   if (s.welded())
     return true;
@@ -194,6 +208,8 @@ std::optional<ContactSpring> spring_of(const NearPair& pair, const SheetLayers& 
   s.weights = pair.closest.weights;
   if (std::ranges::all_of(s.vertices, [&](auto v) { return sheet.fixed[v] == all_axes; }) || !normal_of(s, sheet.end) ||
       layers.one(sheet.end, s.vertices, s.weights, SheetLayers::of_new, s.mean(sheet.reach)))
+    return std::nullopt;
+  if (sheet.mesh != nullptr && s.of_vertex() && beside_border(*sheet.mesh, s.vertices, sheet.end))
     return std::nullopt;
   s.anchor = pair.closest.offset;
   s.rest = s.anchor.norm();

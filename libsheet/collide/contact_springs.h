@@ -17,9 +17,10 @@
 // falls from a height of d is stopped within a tenth of it; weight: ten layers compress by a twentieth of d; viscosity:
 // as stiff as the sheet itself is against stretching within T, so that what a viscous sheet presses together does not
 // go through either; mu of two liquids is 2/(1/mu + 1/mu'), as one is behind the other. Where layers flow (layers_flow)
-// the tangential part is 0 (contact_shear.h has it), and the rest distance follows their mean thickness. The length of
-// the step does not matter (where neither g nor v is, T is that), nor, under gravity, how fast the features came, as
-// impulses take that speed away, else the error of a step would not fall with it.
+// the tangential part is 0 (contact_shear.h has it), the rest distance follows their mean thickness, and springs slide
+// with the layers (spring_feet.h). The length of the step does not matter (where neither g nor v is, T is that), nor,
+// under gravity, how fast the features came, as impulses take that speed away, else the error of a step would not fall
+// with it.
 #pragma once
 #include "libsheet/collide/self_search.h"
 #include "libsheet/collide/sheet_layers.h"
@@ -41,6 +42,8 @@ struct SpringSheet {
   std::span<const double> shift = {};         // a_T by which temperature shifts the flow curve; empty: 1
   std::span<const std::uint32_t> liquid = {}; // its number in `liquids`; empty: 0
   std::span<const Liquid> liquids = {};       // of the scene (scene::liquids_of)
+  const Connectivity* mesh = nullptr;         // given where layers flow
+  std::span<const double> volumes = {};       // of its triangles [m³]
 };
 
 // Takes away the springs within one layer, by the positions and contact distances at the start: those of a layer that

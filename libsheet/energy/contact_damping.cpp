@@ -23,6 +23,7 @@ double viscosity_between(const ContactSpring& s, const Stage& stage, std::span<c
 void ContactDamping::begin(const Stage& stage) {
   const LayerShares shares = layer_shares(stage);
   const std::vector<double> viscosities = vertex_means(stage, stage.viscosity);
+  rests_.begin(stage);
   dampers_.assign(springs_.size(), {});
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What keeps layers that touch from bouncing and swaying on their springs (contact.h). For each contact spring of the
 // area A and the stiffnesses k_n, k_t, between layers of the mean thickness h,
-//   W = (c_n (n·e)² + c_t |P e|²)/(2 τ),   e = Σ w_i (x_i - x̄_i),
+//   W = (c_n (n·e - d + d̄)² + c_t |P e|²)/(2 τ),   e = Σ w_i (x_i - x̄_i),
 //   c_n = μ h/2 + √(2 k_n A ρ h),   c_t = √(2 k_t A ρ h)   [N s/m],
-// n its normal, P along the layers, x̄ the start of the step, in a second stage extrapolated from the first. μ h/2
-// resists as the sheet itself does when it is stretched, μ of two liquids 2/(1/μ + 1/μ'), as one is behind the other;
-// the roots, with inertia only, damp two free layers critically.
-// Neither depends on the step. Without adhesion, across the layers only approach is damped.
+// n its normal, d its rest distance (spring_rests.h), P along the layers, x̄, d̄ at the start of the step, in a second
+// stage extrapolated from the first. μ h/2 resists as the sheet itself does when it is stretched, μ of two liquids
+// 2/(1/μ + 1/μ'), as one is behind the other; the roots, with inertia only, damp two free layers critically. Neither
+// depends on the step. Without adhesion, across the layers only approach is damped.
 #pragma once
 #include "libsheet/energy/contact.h"
 
@@ -15,9 +15,9 @@ namespace sheet {
 class ContactDamping {
 public:
   static constexpr Stencil stencil = Stencil::four;
-  // springs: outlive the term; inertia: it is modelled; adhesion: the springs pull, too.
-  ContactDamping(std::span<const ContactSpring> springs, bool inertia, bool adhesion)
-      : springs_(springs), inertia_(inertia), adhesion_(adhesion) {}
+  // springs: outlive the term; inertia: it is modelled; adhesion: the springs pull, too; flow: layers do.
+  ContactDamping(std::span<const ContactSpring> springs, bool inertia, bool adhesion, bool flow)
+      : springs_(springs), rests_(springs, flow), inertia_(inertia), adhesion_(adhesion) {}
   [[nodiscard]] const char* name() const { return "contact damping"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
@@ -28,7 +28,8 @@ public:
     return 0.5 * (way.normal * way.across * way.across + dampers_[i].tangential * way.along.squaredNorm());
   }
 
-  double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian, bool) const {
+  double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
+                     bool definite) const {
     const Way way(*this, i, u);
     const Vector3& n = springs_[i].normal;
     const Vector3 force = way.normal * way.across * n + dampers_[i].tangential * way.along;
@@ -41,6 +42,7 @@ public:
       for (std::size_t b = 0; b < 4; ++b)
         hessian.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) = w[a] * w[b] * stiffness;
     }
+    rests_.add_derivatives(i, u, way.normal, way.across, gradient, hessian, definite);
     return 0.5 * (way.normal * way.across * way.across + dampers_[i].tangential * way.along.squaredNorm());
   }
 
@@ -50,19 +52,21 @@ private:
     double normal = 0, tangential = 0; // c/τ [N/m]
   };
 
-  // e, and the stiffness that it meets across the layers.
+  // e, across the layers beyond what their thickness makes of it, and the stiffness that it meets there.
   struct Way {
     double across, normal;
     Vector3 along;
     Way(const ContactDamping& d, std::size_t i, const VectorN<12>& u) {
       const Vector3 e = weighted_sum(d.springs_[i].weights, u) - d.dampers_[i].before;
-      across = d.springs_[i].normal.dot(e);
-      along = e - across * d.springs_[i].normal;
+      const double apart = d.springs_[i].normal.dot(e);
+      along = e - apart * d.springs_[i].normal;
+      across = apart - (d.rests_.longer(i, u) - d.rests_.longer_before(i));
       normal = d.adhesion_ || across < 0 ? d.dampers_[i].normal : 0;
     }
   };
 
   std::span<const ContactSpring> springs_;
+  SpringRests rests_;
   bool inertia_, adhesion_;
   std::vector<Damper> dampers_;
 };

@@ -60,6 +60,7 @@ void ContactShear::begin(const Stage& stage) {
   const VertexMeans means{std::move(shares.thickness), vertex_means(stage, stage.viscosity),
                           stage.shift.empty() ? std::vector<double>{} : vertex_means(stage, stage.shift)};
   links_.assign(springs_.size(), {});
+  rests_.begin(stage);
   flows_.begin(stage);
   own_force_.clear();
   for (std::size_t i = 0; i < springs_.size(); ++i) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shear between layers that lie on each other and flow, in place of a spring that glues them along each other. For
 // each contact spring, of the area A, between layers of thickness h below and h' above, on a wall or not (layers.h),
-//   W = A μ/(2 τ) (|P e|²/depth + 3 (n·f)²/d),   e = Σ v_i (x_i - x̄_i),   f = Σ w_i (x_i - x̄_i),   d = (h + h')/2,
-// n the spring's normal, P along the layers, e the way of the upper layer less `carries` times that of the lower one,
-// both relative to the wall: v are the spring's weights w, but for corners that touch one `carries` times these. x̄ is
-// the start of the step, in a second stage extrapolated from the first, and what a corner does beyond its own weight
-// counts from WallSite::carried. What this does not give back to the upper layer the wall takes (add_wall_forces). The
-// second part is that of liquid which is drawn out or squeezed between the middles of the layers [Trouton 1906];
-// without it they would bounce on their springs whenever contacts change. Of a liquid that is not Newtonian the first
-// part is A τ depth φ(γ̇²), γ̇ = |P e|/(τ depth) (curved_drag.h). Welds hold by their springs alone.
+//   W = A μ/(2 τ) (|P e|²/depth + 3 (n·f - r + r̄)²/d),   e = Σ v_i (x_i - x̄_i),   f = Σ w_i (x_i - x̄_i),   d = (h +
+//   h')/2,
+// n the spring's normal, r its rest distance (spring_rests.h), P along the layers, e the way of the upper layer less
+// `carries` times that of the lower one, both relative to the wall: v are the spring's weights w, but for corners that
+// touch one `carries` times these. x̄ is the start of the step, in a second stage extrapolated from the first, and what
+// a corner does beyond its own weight counts from WallSite::carried. What this does not give back to the upper layer
+// the wall takes (add_wall_forces). The second part is that of liquid which is drawn out or squeezed between the
+// middles of the layers [Trouton 1906]; without it they would bounce on their springs whenever contacts change. Of a
+// liquid that is not Newtonian the first part is A τ depth φ(γ̇²), γ̇ = |P e|/(τ depth) (curved_drag.h). Welds hold by
+// their springs alone.
 #pragma once
 #include "libsheet/energy/contact.h"
 #include "libsheet/energy/curved_drag.h"
@@ -20,7 +22,7 @@ class ContactShear {
 public:
   static constexpr Stencil stencil = Stencil::four;
   // springs: outlive the term.
-  explicit ContactShear(std::span<const ContactSpring> springs) : springs_(springs) {}
+  explicit ContactShear(std::span<const ContactSpring> springs) : springs_(springs), rests_(springs, true) {}
   [[nodiscard]] const char* name() const { return "shear of layers"; }
   [[nodiscard]] std::size_t size() const { return springs_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
@@ -31,14 +33,16 @@ public:
     return drag_of(links_[i], way(i, u)).potential + 0.5 * links_[i].squeeze * gap * gap;
   }
 
-  double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian, bool) const {
+  double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
+                     bool definite) const {
     const Link& link = links_[i];
     const Vector3 slid = way(i, u), &n = springs_[i].normal;
     const CurvedDrag drag = drag_of(link, slid);
     const Vector3 e = drag.stiffness * slid;
     const Matrix3 nn = n * n.transpose(), across = link.squeeze * nn;
     const Matrix3 along = drag.hessian(slid, Matrix3::Identity() - nn, own_force(i));
-    const Vector3 f = link.squeeze * thickening(i, u) * n;
+    const double thicker = thickening(i, u);
+    const Vector3 f = link.squeeze * thicker * n;
     const auto& w = springs_[i].weights;
     for (std::size_t a = 0; a < 4; ++a) {
       const auto row = static_cast<Eigen::Index>(3 * a);
@@ -47,6 +51,7 @@ public:
         hessian.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) =
             link.weights[a] * link.weights[b] * along + w[a] * w[b] * across;
     }
+    rests_.add_derivatives(i, u, link.squeeze, thicker, gradient, hessian, definite);
     return value(i, u);
   }
 
@@ -83,12 +88,14 @@ private:
   [[nodiscard]] Vector3 way(std::size_t i, const VectorN<12>& u) const {
     return springs_[i].along(weighted_sum(links_[i].weights, u) - links_[i].before);
   }
-  // n·f [m].
+  // n·f - r + r̄ [m].
   [[nodiscard]] double thickening(std::size_t i, const VectorN<12>& u) const {
-    return springs_[i].normal.dot(weighted_sum(springs_[i].weights, u)) - links_[i].thickness;
+    return springs_[i].normal.dot(weighted_sum(springs_[i].weights, u)) - links_[i].thickness -
+           (rests_.longer(i, u) - rests_.longer_before(i));
   }
 
   std::span<const ContactSpring> springs_;
+  SpringRests rests_;
   std::vector<Link> links_;
   LiquidFlows flows_;
   std::vector<Vector3> own_force_; // of what is not Newtonian, once Newton has gone a step [N]

@@ -6,24 +6,49 @@
 #include <utility>
 
 #include "libsheet/energy/layers.h"
+#include "libsheet/energy/spring_rests.h"
 #include "libsheet/energy/walls.h"
 
 namespace sheet {
 
 namespace {
 
-// Of each vertex: what springs press with, added up [N].
-std::vector<double> presses(std::span<const ContactSpring> springs, const Stage& stage) {
-  std::vector<double> force(stage.vertices(), 0);
-  for (const ContactSpring& s : springs) {
+// Of each vertex: what springs press with [N], all, and those that stand with it on a triangle or an edge.
+struct Presses {
+  std::vector<double> all, own;
+};
+
+Presses presses(std::span<const ContactSpring> springs, const Stage& stage) {
+  Presses force{std::vector<double>(stage.vertices(), 0), std::vector<double>(stage.vertices(), 0)};
+  const std::vector<double> longer = SpringRests(springs, true).longer_at_last(stage);
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const ContactSpring& s = springs[i];
     const Vector3 offset = s.sum([&](std::uint32_t v) {
       return stage.previous != nullptr ? stage.position(*stage.previous, v) : stage.start->positions[v];
     });
-    const double press = -s.stiffness[0] * s.gap(offset);
-    for (std::size_t c = 0; c < 4 && press > 0; ++c)
-      force[s.vertices[c]] += std::abs(s.weights[c]) * press;
+    const double press = -s.stiffness[0] * (s.gap(offset) - longer[i]);
+    for (std::size_t c = 0; c < 4; ++c) {
+      force.all[s.vertices[c]] += std::abs(s.weights[c]) * press;
+      if (c == 0 || !s.of_vertex())
+        force.own[s.vertices[c]] += std::abs(s.weights[c]) * press;
+    }
   }
   return force;
+}
+
+// The mean around each vertex, by area, of what is added up at them, per area.
+std::vector<double> per_area(const std::vector<double>& force, std::span<const double> area,
+                             std::span<const Corners> triangles) {
+  std::vector<double> sum(force.size(), 0), over(force.size(), 0);
+  for (const Corners& c : triangles)
+    for (const auto v : c)
+      for (const auto other : c) {
+        sum[v] += force[other];
+        over[v] += area[other];
+      }
+  for (std::size_t v = 0; v < sum.size(); ++v)
+    sum[v] = over[v] > 0 ? sum[v] / over[v] : 0;
+  return sum;
 }
 
 // What a layer feels, in the mean over its depth h, of pressures on its face, at vertices [Pa]: of one with the wave
@@ -75,13 +100,17 @@ void ContactSqueeze::begin(const Stage& stage) {
   start_area_.assign(triangles.size(), 1);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
-  std::vector<double> pressure = presses(springs_, stage);
-  for (std::size_t v = 0; v < pressure.size(); ++v)
-    pressure[v] /= pressure[v] > 0 ? shares.area[v] : 1;
+  const Presses press = presses(springs_, stage);
+  const std::vector<double> all = per_area(press.all, shares.area, triangles),
+                            own = per_area(press.own, shares.area, triangles);
+  std::vector<double> pressure(stage.vertices());
+  for (std::uint32_t v = 0; v < pressure.size(); ++v)
+    pressure[v] = std::max(0.0, own[v]) / 2 + (from_above_only(stage, v) ? std::max(0.0, all[v]) / 2 : 0);
   pressure = felt_in_depth(std::move(pressure), triangles, start_area_, stage.start->volumes);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const auto v : triangles[t])
-      work_[t] += (from_above_only(stage, v) ? 1 : 0.5) * pressure[v] / 3 * stage.start->volumes[t];
+      if (of_layer(stage.start->volumes[t], start_area_[t]))
+        work_[t] += pressure[v] / 3 * stage.start->volumes[t];
 }
 
 } // namespace sheet

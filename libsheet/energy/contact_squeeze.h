@@ -3,10 +3,12 @@
 // h has the thrust (P + p) h/2 [N/m]; on a wall, which bears its own weight, P = p + ρ g_n h, and wall_weight.h has the
 // rest [Huppert 1982, for the pressure of a layer at rest]. For each triangle
 //   W = -q V ln(A/A0),
-// q the mean over its corners of p on walls and on a bath on which a sheet spreads (bath_thrust.h), of (P + p)/2
-// elsewhere [Pa]: from the forces of the contact springs at the start of the step, in a second stage at the end of the
-// first, by the vertices' areas, as felt in the mean over the layer's depth. Springs that pull do not count: layers
-// that hang from each other would be unstable at wavelengths that no such equation bounds.
+// q the mean over its corners [Pa]: from the forces of the contact springs at the start of the step, in a second stage
+// at the end of the first, those that pull taken off, by the areas of a vertex and its neighbours, as felt in the mean
+// over the layer's depth; none where they pull in the mean. What stands on its triangles draws them out by itself
+// (spring_rests.h), half of the thrust; the other half is half of what the springs of its vertices press with. On walls
+// and on a bath on which a sheet spreads (bath_thrust.h) half of what all of them press with comes to it, as nothing
+// below is a spring. A crumb has none.
 #pragma once
 #include <cmath>
 #include <optional>

@@ -176,13 +176,14 @@ constexpr std::array table = {
         [](const Model& m) { return fmt::format("air of {:.3g} kg/m³ holds back what moves in it", m.air->density); },
         [](const Model&) -> std::string { return "no air in [environment]"; },
         [](const Model& m, TermMaker& maker) { maker.add(FormDrag(*m.air)); }},
-    TermEntry{"contact", [](const Model& m) { return !m.contacts.empty(); },
-              [](const Model&) -> std::string { return "the sheet cannot pass through itself"; }, no_contact,
-              [](const Model& m, TermMaker& maker) { maker.add(Contact(m.contacts, m.contacts_adhere)); }},
+    TermEntry{
+        "contact", [](const Model& m) { return !m.contacts.empty(); },
+        [](const Model&) -> std::string { return "the sheet cannot pass through itself"; }, no_contact,
+        [](const Model& m, TermMaker& maker) { maker.add(Contact(m.contacts, m.contacts_adhere, m.contacts_flow)); }},
     TermEntry{"contact damping", [](const Model& m) { return !m.contacts.empty(); },
               [](const Model&) -> std::string { return "what comes to touch does not bounce"; }, no_contact,
               [](const Model& m, TermMaker& maker) {
-                maker.add(ContactDamping(m.contacts, m.has_inertia(), m.contacts_adhere));
+                maker.add(ContactDamping(m.contacts, m.has_inertia(), m.contacts_adhere, m.contacts_flow));
               }},
     TermEntry{"squeezed layers", layers_flow,
               [](const Model&) -> std::string { return "what lies on a layer presses it flat"; }, no_layers,

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libsheet/energy/spring_rests.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/geometry/area.h"
 #include "libsheet/geometry/vertex_shares.h"
 
 namespace sheet {
@@ -57,17 +59,19 @@ std::vector<char> held_elsewhere(std::vector<Hold> holds, const Stage& stage) {
 struct Shifts {
   explicit Shifts(std::size_t vertices) : of(vertices, Vector3::Zero()), known(vertices, 0) {}
 
-  // What lies on something that rises goes with it: from the features of contacts that are known to those that are not.
-  // Returns whether any was.
-  bool pass_on(std::span<const ContactSpring> contacts) {
+  // What lies on something that rises goes with it, and by what the distance between the two grows: from the features
+  // of contacts that are known to those that are not. Returns whether any was.
+  bool pass_on(std::span<const ContactSpring> contacts, std::span<const double> growth) {
     std::vector<Vector3> sum(of.size(), Vector3::Zero());
     std::vector<double> weight(of.size(), 0);
-    for (const ContactSpring& s : contacts) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const ContactSpring& s = contacts[i];
       const std::size_t middle = s.second_feature();
       const bool one = knows(s, 0, middle), other = knows(s, middle, 4);
       if (one == other)
         continue;
-      const Vector3 shift = one ? mean(s, 0, middle) : mean(s, middle, 4);
+      const Vector3 apart = growth[i] * s.normal; // of the first feature from the other one
+      const Vector3 shift = one ? Vector3(mean(s, 0, middle) - apart) : Vector3(mean(s, middle, 4) + apart);
       for (std::size_t c = one ? middle : 0; c < (one ? 4 : middle); ++c) {
         sum[s.vertices[c]] += std::abs(s.weights[c]) * shift;
         weight[s.vertices[c]] += std::abs(s.weights[c]);
@@ -92,10 +96,44 @@ private:
                        [&](std::uint32_t v) { return known[v] != 0; });
   }
 
+  // Of the corners of a feature that are known, one at least.
   [[nodiscard]] Vector3 mean(const ContactSpring& s, std::size_t first, std::size_t last) const {
-    return s.mean_of_corners(first, last, std::span<const Vector3>(of));
+    Vector3 sum = Vector3::Zero(), plain = Vector3::Zero();
+    double weight = 0, count = 0;
+    for (std::size_t c = first; c < last; ++c)
+      if (const std::uint32_t v = s.vertices[c]; known[v] != 0) {
+        sum += std::abs(s.weights[c]) * of[v];
+        weight += std::abs(s.weights[c]);
+        plain += of[v];
+        ++count;
+      }
+    return weight > 0 ? Vector3(sum / weight) : Vector3(plain / count);
   }
 };
+
+// By how much the rest distances of contacts between layers that flow, and lie on each other, are longer than the
+// step's last stage foresaw (spring_rests.h) [m]: sheet-collide makes them what the layers are thick.
+std::vector<double> unforeseen_growth(std::span<const ContactSpring> contacts, const Vector3& gravity,
+                                      const Stage& stage, const State& end) {
+  const auto& triangles = end.mesh->triangles;
+  const auto thickness = [&](const std::vector<Vector3>& x) {
+    return thickness_around(x.size(), triangles, end.volumes, [&](std::uint32_t t) {
+      return TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
+    });
+  };
+  const std::vector<double> start = thickness(stage.start->positions), now = thickness(end.positions),
+                            foreseen = predicted_thickness(stage);
+  std::vector<double> growth;
+  growth.reserve(contacts.size());
+  for (const ContactSpring& s : contacts) {
+    const bool lies = std::abs(s.normal.dot(gravity)) > least_lying_cosine * gravity.norm();
+    const std::size_t first = s.second_feature();
+    const auto own = [&](const std::vector<double>& of) { return s.mean_of_corners(0, first, std::span(of)) / 2; };
+    const double part = std::clamp((own(now) - own(foreseen)) / s.mean(start), -longest_rise, longest_rise);
+    growth.push_back(lies ? s.rest * part : 0);
+  }
+  return growth;
+}
 
 } // namespace
 
@@ -106,7 +144,8 @@ std::vector<double> lying_thickness(const Stage& stage, const State& end) {
 }
 
 void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<Hold>& holds,
-                              std::span<const ContactSpring> contacts, const Stage& stage, State& end) {
+                              std::span<const ContactSpring> contacts, const Vector3& gravity, const Stage& stage,
+                              State& end) {
   if (stage.sites.empty())
     return;
   std::vector<double> distance = lying_thickness(stage, end);
@@ -126,7 +165,8 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
     const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
     shifts.of[site.vertex] = std::clamp(distance[site.vertex] - point.distance, -most, most) * point.normal;
   }
-  for (int layer = 0; layer < most_layers && shifts.pass_on(contacts); ++layer) {
+  const std::vector<double> growth = unforeseen_growth(contacts, gravity, stage, end);
+  for (int layer = 0; layer < most_layers && shifts.pass_on(contacts, growth); ++layer) {
   }
   for (std::uint32_t v = 0; v < stage.vertices(); ++v)
     if (const Vector3 free = free_of(shifts.of[v], held, v);

@@ -18,10 +18,13 @@ namespace sheet {
 [[nodiscard]] std::vector<double> lying_thickness(const Stage& stage, const State& end);
 
 // Moves what lies on one wall, and by contacts on what does, towards half its thickness from it, by at most a tenth of
-// the mean length of its edges, along the axes only that no [[hold]] or inlet prescribes. Where thickness changes
-// steeply the middle rises by no more than 0.3 of the way along the wall from what is lower beside it: over edges
-// shorter than what lies there is thick, triangles would stand upright and fold, and mechanics do not see the distance.
+// the mean length of its edges, along the axes only that no [[hold]] or inlet prescribes. What lies on another layer
+// moves, too, by what the distance between them grows more than the step foresaw (spring_rests.h). Where thickness
+// changes steeply the middle rises by no more than 0.3 of the way along the wall from what is lower beside it: over
+// edges shorter than what lies there is thick, triangles would stand upright and fold, and mechanics do not see the
+// distance.
 void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<Hold>& holds,
-                              std::span<const ContactSpring> contacts, const Stage& stage, State& end);
+                              std::span<const ContactSpring> contacts, const Vector3& gravity, const Stage& stage,
+                              State& end);
 
 } // namespace sheet

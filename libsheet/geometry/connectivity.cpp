@@ -136,4 +136,16 @@ Connectivity connect(std::size_t vertices, std::span<const Corners> triangles) {
   return c;
 }
 
+std::uint32_t triangle_of(const Connectivity& mesh, const Corners& corners) {
+  const auto [a, b, c] = corners;
+  const Edge edge{std::min(a, b), std::max(a, b)};
+  const auto at = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
+  if (at == mesh.edges.end() || *at != edge)
+    return no_index;
+  for (const std::uint32_t t : mesh.edge_triangles[static_cast<std::size_t>(at - mesh.edges.begin())])
+    if (t != no_index && std::ranges::find(mesh.triangles[t], c) != mesh.triangles[t].end())
+      return t;
+  return no_index;
+}
+
 } // namespace sheet

@@ -32,4 +32,7 @@ struct Connectivity {
 // the mesh has one side only.
 [[nodiscard]] Connectivity connect(std::size_t vertices, std::span<const Corners> triangles);
 
+// The triangle with these corners, in any order; no_index if there is none.
+[[nodiscard]] std::uint32_t triangle_of(const Connectivity& mesh, const Corners& corners);
+
 } // namespace sheet

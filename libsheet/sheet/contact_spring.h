@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,12 @@ namespace sheet {
   for (std::size_t i = 1; i < 4; ++i) // from the first vertex, so that far from the origin no digits are lost
     c += weights[i] * (positions[vertices[i]] - positions[vertices[0]]);
   return c;
+}
+
+// Whether a triangle is part of a layer, as against a crumb of a strand, which is thicker than 4 edges: where layers
+// flow the rest distances of springs go with the thickness of layers. Volume [m³], area [m²].
+[[nodiscard]] inline bool of_layer(double volume, double area) {
+  return volume * volume < 16 * (4 / std::numbers::sqrt3) * area * area * area;
 }
 
 struct ContactSpring {
@@ -61,9 +68,9 @@ struct ContactSpring {
   [[nodiscard]] double normal_stiffness(double gap, bool adheres) const {
     return adheres || welded() || gap < 0 ? stiffness[0] : 0;
   }
-  // (libsheet/energy/contact.h) [J].
-  [[nodiscard]] double energy(const Vector3& offset, bool adheres) const {
-    const double g = gap(offset);
+  // (libsheet/energy/contact.h), if its rest distance is longer by so much [J].
+  [[nodiscard]] double energy(const Vector3& offset, bool adheres, double longer = 0) const {
+    const double g = gap(offset) - longer;
     return 0.5 * normal_stiffness(g, adheres) * g * g + 0.5 * stiffness[1] * slide(offset).squaredNorm();
   }
   // The area that the spring stands for, given those of the vertices (a third of their triangles'): half of its
@@ -71,6 +78,15 @@ struct ContactSpring {
   [[nodiscard]] double area(std::span<const double> of_vertices) const {
     const auto of = [&](std::size_t i) { return of_vertices[vertices[i]]; };
     return of_vertex() ? 0.5 * of(0) : 0.125 * (of(0) + of(1) + of(2) + of(3));
+  }
+  // Of its vertex, given the vertices', and of the triangle on which that stands, together; of edges of both features
+  // [m]. Of a crumb what it was at the start of the step. Triangle: its volume [m³] (0: of edges), its area there and
+  // now [m²].
+  [[nodiscard]] double thickness(std::span<const double> of_vertices, double volume, double start_area,
+                                 double area) const {
+    if (volume == 0)
+      return 2 * mean(of_vertices);
+    return of_vertices[vertices[0]] + volume / (of_layer(volume, start_area) ? area : start_area);
   }
   // Mean of a value over both features.
   [[nodiscard]] double mean(std::span<const double> of_vertices) const {

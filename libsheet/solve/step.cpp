@@ -283,7 +283,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     report.reactions = end_reactions(cache_->system, cache_->terms, model_, state, end, dt, options_.newton);
   if (level_layers(stage, model_.gravity, model_.holds, model_.faces.has_value(), dt, end))
     set_prescribed_velocities(stage, end);
-  set_distances_from_walls(model_.walls, model_.holds, model_.contacts, stage, end);
+  set_distances_from_walls(model_.walls, model_.holds, model_.contacts, model_.gravity, stage, end);
   return Outcome::done;
 }
 

@@ -36,9 +36,9 @@ public:
     if (membrane)
       terms.push_back(make_term(Membrane()));
     if (contact)
-      terms.push_back(make_term(Contact(springs_, true)));
+      terms.push_back(make_term(Contact(springs_, true, true)));
     if (damping)
-      terms.push_back(make_term(ContactDamping(springs_, true, true)));
+      terms.push_back(make_term(ContactDamping(springs_, true, true, true)));
     for (const auto& term : terms)
       term->begin(stage_);
     return terms;

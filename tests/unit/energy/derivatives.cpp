@@ -698,14 +698,39 @@ std::vector<ContactSpring> random_springs() {
 }
 const std::vector<ContactSpring> springs = random_springs();
 
+// Vertices that stand on triangles of the sphere, some nearer than at rest, some farther.
+std::vector<ContactSpring> standing_springs() {
+  Random random;
+  std::vector<ContactSpring> all;
+  const test::Mesh sphere = test::icosphere(1);
+  const auto count = static_cast<std::uint32_t>(sphere.positions.size());
+  for (const auto& [a, b, c] : sphere.triangles)
+    if (const std::uint32_t v = (a + b + c) % count; v != a && v != b && v != c)
+      all.push_back(
+          {{v, a, b, c}, {1, -0.2, -0.5, -0.3}, random.vector(1).normalized(), 0.3, random.vector(0.1), {3, 0}});
+  return all;
+}
+const std::vector<ContactSpring> standing = standing_springs();
+
 TEST(Derivatives, Contact) {
-  check(Contact(springs, true), {true, false});
-  check(Contact(springs, false), {true, false});
+  check(Contact(springs, true, false), {true, false});
+  check(Contact(springs, false, false), {true, false});
+}
+
+// Of layers that flow, whose springs rest at what triangles are thick.
+TEST(Derivatives, ContactOfLayersThatFlow) {
+  for (const bool adhesion : {false, true}) {
+    check(Contact(springs, adhesion, true), {true, false});
+    check(Contact(standing, adhesion, true), {true, false});
+  }
+  check(ContactDamping(standing, true, true, true), {true, false}); // without adhesion it sets in suddenly
+  check(ContactShear(standing), {true, false});
+  check(ContactShear(standing), {false, false}, true, crumpled, touch_walls);
 }
 
 TEST(Derivatives, ContactDamping) {
-  check(ContactDamping(springs, true, true), {true, false});
-  check(ContactDamping(springs, true, false), {true, false});
+  check(ContactDamping(springs, true, true, false), {true, false});
+  check(ContactDamping(springs, true, false, false), {true, false});
 }
 
 TEST(Derivatives, ContactShear) {

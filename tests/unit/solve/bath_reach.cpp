@@ -53,30 +53,22 @@ struct FloatingStack {
 private:
   void add_layer(const test::Mesh& mesh, std::uint32_t layer, bool face_up, const Vector3& up, test::Mesh& all) {
     const auto offset = static_cast<std::uint32_t>(layer * size);
-    std::vector<double> area(size, 0);
-    std::vector<Corners> of(size);
+    const auto below = static_cast<std::uint32_t>(offset - size);
     for (Corners c : mesh.triangles) {
       const double third =
           (mesh.positions[c[1]] - mesh.positions[c[0]]).cross(mesh.positions[c[2]] - mesh.positions[c[0]]).norm() / 6;
-      for (std::size_t k = 0; k < 3; ++k) {
-        area[c[k]] += third;
-        of[c[k]] = {c[k], c[(k + 1) % 3], c[(k + 2) % 3]};
-      }
+      for (std::size_t k = 0; k < 3 && layer > 0; ++k) // on each of its triangles a part of it
+        springs.push_back({.vertices = {c[k] + offset, c[k] + below, c[(k + 1) % 3] + below, c[(k + 2) % 3] + below},
+                           .weights = {1, -1, 0, 0},
+                           .normal = up,
+                           .rest = layer_depth,
+                           .stiffness = {spring_stiffness * third, 0}});
       if (!face_up)
         std::swap(c[1], c[2]);
       all.triangles.push_back({c[0] + offset, c[1] + offset, c[2] + offset});
     }
-    for (std::uint32_t v = 0; v < size; ++v) {
+    for (std::uint32_t v = 0; v < size; ++v)
       all.positions.push_back(mesh.positions[v] + layer_depth * layer * up);
-      if (layer == 0)
-        continue;
-      const auto below = static_cast<std::uint32_t>(offset - size);
-      springs.push_back({.vertices = {v + offset, of[v][0] + below, of[v][1] + below, of[v][2] + below},
-                         .weights = {1, -1, 0, 0},
-                         .normal = up,
-                         .rest = layer_depth,
-                         .stiffness = {spring_stiffness * area[v], 0}});
-    }
   }
 };
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "libsheet/energy/spring_rests.h"
+
+#include <algorithm>
+
+#include "libsheet/geometry/vertex_shares.h"
+
+namespace sheet {
+
+namespace {
+
+constexpr double most_change = 0.25; // that is predicted of a thickness
+
+void bound_change(std::vector<double>& predicted, std::span<const double> start) {
+  for (std::size_t v = 0; v < predicted.size(); ++v)
+    predicted[v] = std::clamp(predicted[v], (1 - most_change) * start[v], (1 + most_change) * start[v]);
+}
+
+// The triangle on which the vertex of a spring stands, without volume of one of edges.
+struct Foot {
+  Corners corners;
+  double volume = 0, area = 0; // [m³], at the start of the step [m²]
+};
+
+template <class PositionOf> double area_of(const Corners& c, PositionOf position_of) {
+  return TriangleArea(position_of(c[0]), position_of(c[1]), position_of(c[2])).area;
+}
+
+template <class PositionOf> std::vector<double> thickness_at(const Stage& stage, PositionOf position_of) {
+  const auto& triangles = stage.start->mesh->triangles;
+  return thickness_around(stage.vertices(), triangles, stage.start->volumes,
+                          [&](std::uint32_t t) { return area_of(triangles[t], position_of); });
+}
+
+Foot foot_of(const ContactSpring& s, const Stage& stage) {
+  const Corners at{s.vertices[1], s.vertices[2], s.vertices[3]};
+  const std::uint32_t t = s.of_vertex() ? triangle_of(*stage.start->mesh, at) : no_index;
+  if (t == no_index)
+    return {at};
+  return {at, stage.start->volumes[t], area_of(at, [&](std::uint32_t v) { return stage.start->positions[v]; })};
+}
+
+// Where a vertex comes to by its velocity until the end of a first stage.
+Vector3 first_guess(const Stage& stage, std::uint32_t v, double time) {
+  const State& start = *stage.start;
+  return start.velocities.empty() ? start.positions[v] : Vector3(start.positions[v] + time * start.velocities[v]);
+}
+
+} // namespace
+
+std::vector<double> predicted_thickness(const Stage& stage) {
+  const auto start = [&](std::uint32_t v) { return stage.start->positions[v]; };
+  std::vector<double> predicted = thickness_at(stage, [&](std::uint32_t v) {
+    return stage.previous == nullptr
+               ? first_guess(stage, v, stage.duration)
+               : Vector3(start(v) + (1 + stage.ratio) * (stage.position(*stage.previous, v) - start(v)));
+  });
+  bound_change(predicted, thickness_at(stage, start));
+  return predicted;
+}
+
+void SpringRests::begin(const Stage& stage) {
+  if (!flow_)
+    return;
+  const auto start = [&](std::uint32_t v) { return stage.start->positions[v]; };
+  const auto reference = [&](std::uint32_t v) { return reference_position(stage, v); };
+  const std::vector<double> at_start = thickness_at(stage, start);
+  rests_ = rests_with(stage, at_start, predicted_thickness(stage));
+  before_.assign(springs_.size(), 0);
+  if (stage.previous == nullptr)
+    return;
+  const std::vector<double> at_reference = thickness_at(stage, reference);
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const ContactSpring& s = springs_[i];
+    const Foot foot = foot_of(s, stage);
+    const double is = s.thickness(at_reference, foot.volume, foot.area, area_of(foot.corners, reference)),
+                 was = s.thickness(at_start, foot.volume, foot.area, foot.area);
+    before_[i] = s.rest * (is / was - 1);
+  }
+}
+
+std::vector<SpringRests::Rest> SpringRests::rests_with(const Stage& stage, std::span<const double> start,
+                                                       std::span<const double> end) const {
+  std::vector<Rest> rests(springs_.size());
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const ContactSpring& s = springs_[i];
+    const Foot foot = foot_of(s, stage);
+    const double part = s.rest / s.thickness(start, foot.volume, foot.area, foot.area);
+    if (const bool moves = foot.volume > 0 && of_layer(foot.volume, foot.area); moves)
+      rests[i] = {part * end[s.vertices[0]] - s.rest, part * foot.volume};
+    else
+      rests[i].predicted = part * s.thickness(end, foot.volume, foot.area, foot.area) - s.rest;
+  }
+  return rests;
+}
+
+std::vector<double> SpringRests::longer_at_last(const Stage& stage) const {
+  std::vector<double> longer(springs_.size(), 0);
+  if (!flow_ || stage.previous == nullptr)
+    return longer;
+  const auto start = [&](std::uint32_t v) { return stage.start->positions[v]; };
+  const auto last = [&](std::uint32_t v) { return stage.position(*stage.previous, v); };
+  const std::vector<double> at_start = thickness_at(stage, start);
+  std::vector<double> guess =
+      thickness_at(stage, [&](std::uint32_t v) { return first_guess(stage, v, stage.duration); });
+  bound_change(guess, at_start);
+  const std::vector<Rest> rests = rests_with(stage, at_start, guess);
+  for (std::size_t i = 0; i < springs_.size(); ++i)
+    longer[i] = rests[i].predicted +
+                (rests[i].volume > 0 ? rests[i].volume / area_of(foot_of(springs_[i], stage).corners, last) : 0);
+  return longer;
+}
+
+void SpringRests::add_derivatives(std::size_t i, const VectorN<12>& u, double k, double gap, VectorN<12>& gradient,
+                                  MatrixN<12>& hessian, bool definite) const {
+  if (!flow_ || rests_[i].volume == 0)
+    return;
+  const ContactSpring& s = springs_[i];
+  const TriangleArea a = foot(u);
+  VectorN<12> along, thins = VectorN<12>::Zero(); // of n·Σ w_i x_i, and of -d
+  for (int c = 0; c < 4; ++c)
+    along.segment<3>(3 * c) = s.weights[static_cast<std::size_t>(c)] * s.normal;
+  const double by_area = rests_[i].volume / (a.area * a.area), force = k * gap;
+  for (int c = 0; c < 3; ++c)
+    thins.segment<3>(3 * (c + 1)) = by_area * a.gradient(c);
+  gradient += force * thins;
+  hessian += k * (along * thins.transpose() + thins * along.transpose() + thins * thins.transpose());
+  if (!definite || force < 0)
+    hessian -= 2 * force / (by_area * a.area) * thins * thins.transpose();
+  if (!definite || force > 0)
+    hessian.block<9, 9>(3, 3) += force * by_area * a.hessian(!definite);
+}
+
+} // namespace sheet
