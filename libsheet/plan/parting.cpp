@@ -46,12 +46,13 @@ double height_of_throw(const scene::Motion& motion, const Vector3d& x, double t,
 // How long a belt needs to carry what lies at x past its solid's end [s].
 double time_to_end(const solid::Solids& solids, std::size_t number, const Vector3d& x, const Vector3d& normal,
                    double t) {
+  constexpr double none = 1e-6; // part of the belt's velocity: round-off of that across its face
   const Eigen::Isometry3d to_own = solids.pose(number, t).inverse();
   const Vector3d place = to_own * x, velocity = to_own.linear() * solids.belt_velocity(number, normal);
   const solid::Box3 box = solids.shape(number).bounds();
   double time = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i)
-    if (velocity[i] != 0)
+    if (std::abs(velocity[i]) > none * velocity.norm())
       time = std::min(time, ((velocity[i] > 0 ? box.max()[i] : box.min()[i]) - place[i]) / velocity[i]);
   return std::max(time, 0.0);
 }

@@ -60,6 +60,10 @@ TEST(Parting, OfWhatABeltCarriesPastItsEnd) {
   ASSERT_TRUE(parting);
   EXPECT_EQ(parting->why, "solid 0 (box) carries what lies on it past its end, from about 0.6 s on");
   EXPECT_FALSE(parting_of("surface_velocity = [0.1, 0, 0]")); // later than the run ends
+  // turned, its velocity across its face is round-off
+  const auto turned = parting_of("rotation = {axis = [1, 0, 0], angle = \"180 deg\"}\nsurface_velocity = [0, 0, -0.2]");
+  ASSERT_TRUE(turned);
+  EXPECT_EQ(turned->why, "solid 0 (box) carries what lies on it past its end, from about 0.6 s on");
 }
 
 // The rim is 120 mm from the end of a slippery box in the air, down which gravity pulls with 4 m/s².
