@@ -9,11 +9,14 @@
 // the other sign there (BathReach::facing, outside). Below zero, where W would have no lower bound, A_z counts as
 // nothing, and smoothly so from a twentieth of the area on; what is closed has all of it, as the bath presses on its
 // top. What is wet on both faces (BathReach::around, and under the surface what has its face down at the start of a
-// step) is lifted by the weight of as much of the bath as it is itself (Archimedes), ρ g V/3 at each corner under the
-// surface. Corners that another layer bears feel neither. A triangle has the part of W that its corners are which the
-// bath reaches from below alone. ρ in kg/m³, g in m/s².
+// step) is lifted by the weight of as much of the bath as it is itself (Archimedes), ρ g V/3 at each corner, and as it
+// comes up by less of it from d = -h on, h = V/A its thickness at the start of the step, ρ g V/3 min(1, max(0, -d/h)):
+// so much is its lower face lifted by then, and a step in which it comes up does not throw it out of the bath. Corners
+// that another layer bears feel neither. Of a triangle of which the bath reaches some corners alone from below W is
+// the sum of their (ρ g/6) A_z min(d, 0)², so that each bears its own part. ρ in kg/m³, g in m/s².
 #pragma once
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -48,38 +51,43 @@ public:
       int from_below = 0;
       for (int a = 0; a < 3; ++a) {
         const std::uint32_t v = c[static_cast<std::size_t>(a)];
+        start_[t].below[static_cast<std::size_t>(a)] = !overturned && surface_.on_one_face(v);
         from_below += !overturned && surface_.on_one_face(v);
         if ((overturned || surface_.reach(v) == BathReach::around) && surface_.wets(v, x[v]))
           start_[t].lift[a] = 4 * weight_ * stage.start->volumes[t]; // ρ g V/3
       }
+      start_[t].thickness = stage.start->volumes[t] / area.area;
       start_[t].steep = closed ? -std::numeric_limits<double>::infinity() : steepest * area.area;
-      start_[t].weight = from_below == 3 ? weight_ : weight_ * from_below / 3;
+      start_[t].weight = from_below > 0 ? weight_ : 0;
     }
   }
 
   [[nodiscard]] double value(std::size_t t, const VectorN<9>& u) const {
     if (start_[t].weight == 0)
       return lifted(t, u);
-    const Parts p(*this, u, start_[t].side);
+    const Parts p(*this, u, start_[t]);
     return start_[t].weight * Projection(p.area, start_[t].steep).value * p.depth.square + lifted(t, u);
   }
 
   double derivatives(std::size_t t, const VectorN<9>& u, VectorN<9>& gradient, MatrixN<9>& hessian,
                      bool definite) const {
-    for (int a = 0; a < 3; ++a)
-      gradient.segment<3>(3 * a) = -start_[t].lift[a] * surface_.up();
     hessian.setZero();
+    for (int a = 0; a < 3; ++a) {
+      const Lift lift(start_[t].lift[a], surface_.height(u.segment<3>(3 * a)), start_[t].thickness);
+      gradient.segment<3>(3 * a) = lift.first * surface_.up();
+      hessian.block<3, 3>(3 * a, 3 * a) = lift.second * surface_.up() * surface_.up().transpose();
+    }
     const double weight = start_[t].weight;
     if (weight == 0)
       return lifted(t, u);
-    const Parts p(*this, u, start_[t].side);
+    const Parts p(*this, u, start_[t]);
     const Projection area(p.area, start_[t].steep);
     gradient += weight * (area.first * p.depth.square * p.by_area + area.value * p.by_square);
     const Matrix3 upright =
         (weight * (definite ? std::max(0.0, area.value) : area.value)) * (surface_.up() * surface_.up().transpose());
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
-        hessian.block<3, 3>(3 * a, 3 * b) = p.depth.second(a, b) * upright;
+        hessian.block<3, 3>(3 * a, 3 * b) += p.depth.second(a, b) * upright;
     if (area.second > 0)
       hessian += (weight * area.second * p.depth.square) * p.by_area * p.by_area.transpose();
     if (!definite) {
@@ -98,8 +106,23 @@ private:
   struct Start {
     double side = 1;                // by which A_z counts: -1 where the normal points to the bath
     double steep = 0;               // the projection below which it counts less [m²]
-    double weight = 0;              // ρ g/12, in the part of its corners that the bath reaches from below [N/m³]
-    Vector3 lift = Vector3::Zero(); // at each corner [N]
+    double weight = 0;              // ρ g/12, or 0 if the bath reaches no corner from below alone [N/m³]
+    std::array<bool, 3> below{};    // which corners it reaches so
+    Vector3 lift = Vector3::Zero(); // at each corner, where it is deeper than its thickness [N]
+    double thickness = 0;           // h [m]
+  };
+
+  // Of a corner at the height d, with its derivatives by d: its force is all of it below -h, and none above 0.
+  struct Lift {
+    double value, first, second;
+    Lift(double all, double d, double h) : value(-all * (d + h / 2)), first(-all), second(0) {
+      if (d <= -h)
+        return;
+      const double under = std::min(d, 0.0);
+      value = all * under * under / (2 * h);
+      first = all * under / h;
+      second = d < 0 ? all / h : 0;
+    }
   };
 
   // What counts of A_z, with its derivatives: itself, a parabola between ±s, nothing below.
@@ -116,9 +139,10 @@ private:
   };
 
   [[nodiscard]] double lifted(std::size_t t, const VectorN<9>& u) const {
-    const Vector3 heights =
-        Eigen::Map<const Matrix3>(u.data()).transpose() * surface_.up() - Vector3::Constant(surface_.level());
-    return -start_[t].lift.dot(heights);
+    double sum = 0;
+    for (int a = 0; a < 3; ++a)
+      sum += Lift(start_[t].lift[a], surface_.height(u.segment<3>(3 * a)), start_[t].thickness).value;
+    return sum;
   }
 
   // q as a function of the heights of the three vertices, with its derivatives.
@@ -132,6 +156,12 @@ private:
       square += 0.5 * (d.squaredNorm() + sum * sum);
       first += d + Vector3::Constant(sum);
       second += Matrix3::Identity() + Matrix3::Ones();
+    }
+    // The third of the triangle at vertex a.
+    void add_alone(double d, int a) {
+      square += 2 * d * d;
+      first[a] += 4 * d;
+      second(a, a) += 4;
     }
     // The part on the side of vertex a, which lies alone on its side of the surface.
     void add_corner(const Vector3& d, int a, double sign) {
@@ -149,7 +179,13 @@ private:
       }
     }
 
-    Depth(const Vector3& d, bool clings) {
+    Depth(const Vector3& d, const std::array<bool, 3>& below, bool clings) {
+      if (!(below[0] && below[1] && below[2])) {
+        for (int a = 0; a < 3; ++a)
+          if (below[static_cast<std::size_t>(a)] && (clings || d[a] < 0))
+            add_alone(d[a], a);
+        return;
+      }
       const auto under = (d.array() < 0).count();
       if (clings || under == 3) {
         add_whole(d);
@@ -167,11 +203,12 @@ private:
     double area;
     Depth depth;
     VectorN<9> by_area, by_square;
-    Parts(const Bath& bath, const VectorN<9>& u, double side)
+    Parts(const Bath& bath, const VectorN<9>& u, const Start& start)
         : depth(Eigen::Map<const Matrix3>(u.data()).transpose() * bath.surface_.up() -
                     Vector3::Constant(bath.surface_.level()),
-                bath.clings_) {
+                start.below, bath.clings_) {
       const Vector3& k = bath.surface_.up();
+      const double side = start.side;
       const Vector3 x[3] = {u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)};
       area = 0.5 * side * k.dot((x[1] - x[0]).cross(x[2] - x[0]));
       for (int a = 0; a < 3; ++a) {

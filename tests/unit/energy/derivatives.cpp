@@ -493,6 +493,58 @@ TEST(Derivatives, BathLiftsWhatIsOverturned) {
     EXPECT_NEAR((force - Vector3(0, 0, depth > 0 ? 3 * 2 * 0.05 : 0)).norm(), 0, 1e-15);
   }
 }
+// One corner flooded, one borne by another layer, one from below alone: each has what is its own, on its own.
+TEST(Derivatives, BathAtTheEdgeOfAFlood) {
+  const std::vector<BathReach> reach{BathReach::around, BathReach::none, BathReach::below};
+  const State s = test::at_rest({{{0, 0, -0.3}, {1, 0, -0.3}, {0, 1, -0.3}}, {{0, 1, 2}}}, 0.2);
+  const Stage stage = first_stage(s, Liquid{}, 0.1, 0.1, false);
+  for (const bool clings : {false, true}) {
+    Bath bath(3, {0, 0, -2}, 0, clings, reach);
+    bath.begin(stage);
+    VectorN<9> u, gradient;
+    MatrixN<9> hessian;
+    u << 0, 0, -0.3, 1, 0, -0.3, 0, 1, -0.3;
+    static_cast<void>(bath.derivatives(0, u, gradient, hessian, false));
+    EXPECT_NEAR(gradient[2], -3 * 2 * 0.1 / 3, 1e-15); // its volume
+    EXPECT_EQ(gradient.segment<3>(3).z(), 0);
+    EXPECT_NEAR(gradient[8], -3 * 2 * 0.3 * 0.5 / 3, 1e-15); // of the bath over its third of the area
+    for (const double z : {-0.3, -0.15, -0.05, 0.1}) {       // the flooded corner comes up, and out of the bath
+      u << 0, 0, z, 1, 0.1, -0.3, 0, 1, -0.2;
+      MatrixN<9> scrap;
+      const double value = bath.derivatives(0, u, gradient, hessian, false);
+      EXPECT_EQ(value, bath.value(0, u));
+      for (int i = 0; i < 9; ++i) {
+        VectorN<9> below = u, above = u, g_below, g_above;
+        below[i] -= 1e-6, above[i] += 1e-6;
+        EXPECT_NEAR(gradient[i], (bath.value(0, above) - bath.value(0, below)) / 2e-6, 1e-9) << z;
+        static_cast<void>(bath.derivatives(0, below, g_below, scrap, false));
+        static_cast<void>(bath.derivatives(0, above, g_above, scrap, false));
+        EXPECT_LE((hessian.col(i) - (g_above - g_below) / 2e-6).norm(), 1e-7) << z;
+      }
+      static_cast<void>(bath.derivatives(0, u, gradient, hessian, true));
+      EXPECT_GE(eigenvalues_of(hessian)[0], -1e-12);
+    }
+  }
+}
+// As it comes up from deeper than its thickness it is lifted as by its lower face alone: half as much half as deep.
+TEST(Derivatives, BathLetsGoWhatComesUpOutOfIt) {
+  const State s = test::at_rest({{{0, 0, -0.3}, {1, 0, -0.3}, {0, 1, -0.3}}, {{0, 1, 2}}}, 0.2);
+  const Stage stage = first_stage(s, Liquid{}, 0.1, 0.1, false);
+  Bath bath(3, {0, 0, -2}, 0, false, on_the_face(BathReach::around));
+  bath.begin(stage);
+  const auto lift_at = [&](double z) {
+    VectorN<9> u, gradient;
+    MatrixN<9> hessian;
+    u << 0, 0, z, 1, 0, z, 0, 1, z;
+    static_cast<void>(bath.derivatives(0, u, gradient, hessian, false));
+    return -gradient[2] - gradient[5] - gradient[8];
+  };
+  const double whole = 3 * 2 * 0.1; // ρ g V
+  EXPECT_NEAR(lift_at(-0.3), whole, 1e-15);
+  EXPECT_NEAR(lift_at(-0.2), whole, 1e-15);
+  EXPECT_NEAR(lift_at(-0.1), whole / 2, 1e-15);
+  EXPECT_EQ(lift_at(0.01), 0);
+}
 TEST(Derivatives, Pressure) { check(Pressure({PressureLaw::Kind::constant, 3, 1, 1}), {false, false}); }
 // On a free rim the force is p n A/3 at each corner, at rest exactly: the cap's part of the enclosed volume is taken
 // away.

@@ -246,6 +246,30 @@ TEST(BathReach, TwoLayersFloatAsDeepAsBothWeigh) {
   }
 }
 
+// A corner of a rim that has gone under comes up to where it floats in one long step, and is not thrown out of the
+// bath; what is around it stays.
+TEST(BathReach, ARimThatWasUnderFloats) {
+  constexpr double density = 900, depth = density * layer_depth / bath_density;
+  FloatingStack stack({true});
+  stack.sink(depth);
+  stack.state.positions[0].z() = -1.1 * layer_depth;
+  Model m = on_bath(stack, density, density);
+  ASSERT_EQ(m.bath_reach[0], BathReach::around);
+  Hold along;
+  for (std::uint32_t v = 0; v < stack.state.positions.size(); ++v)
+    along.vertices.push_back(v);
+  along.axes = static_cast<Axes>(axis_bit(0) | axis_bit(1));
+  m.holds = {along};
+  for (const Scheme scheme : {Scheme::backward_euler, Scheme::sdirk2}) {
+    State state = stack.state;
+    StepOptions options;
+    options.scheme = scheme;
+    Stepper(m, options).step(state, 100);
+    for (const Vector3& x : state.positions)
+      EXPECT_NEAR(x.z(), -depth, 0.01 * depth);
+  }
+}
+
 // What is heavier than the bath sinks by the weight that the bath does not take off, however it lies.
 TEST(BathReach, WhatIsHeavierSinks) {
   constexpr double density = 1350, step = 0.01;
