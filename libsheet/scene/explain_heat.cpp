@@ -133,6 +133,18 @@ double time_of_greatest(const Varying& varying) {
 
 Scene as_it_starts(const Scene& scene) { return scene.heat ? as_at(scene, start_temperature(scene)) : scene; }
 
+double change_of_viscosity(const Scene& scene, double time, double until) {
+  const double start = start_temperature(scene), near = -std::expm1(-until / time);
+  const auto [cold, warm] = temperatures_around(scene);
+  double most = 0; // of its logarithm
+  for (const Liquid& liquid : liquids_of(scene)) {
+    const ViscosityShift shift(liquid.temperature_law);
+    for (const double around : {cold, warm})
+      most = std::max(most, std::abs(std::log(shift.factor(start + near * (around - start)) / shift.factor(start))));
+  }
+  return std::exp(most);
+}
+
 std::optional<Warming> warming_of(const Scene& scene, double thickness) {
   constexpr double near = 3; // times of warming: but for a twentieth
   if (!scene.heat ||

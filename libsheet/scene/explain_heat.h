@@ -25,6 +25,10 @@ struct Warming {
 // The times of all rows of temperatures, and of what transfers heat [s].
 [[nodiscard]] std::vector<double> heat_events(const Scene& scene);
 
+// The factor, 1 or more, by which the viscosity of a liquid of a scene with heat has changed at most at the time
+// `until` [s], where all that is around brings its temperature to its own by exp(-t/time), time in s.
+[[nodiscard]] double change_of_viscosity(const Scene& scene, double time, double until);
+
 // Of scenes with heat, else none. `scales`: those of the scene as it starts.
 [[nodiscard]] std::vector<Scale> heat_scales(const Scene& scene, const Scales& scales);
 [[nodiscard]] std::vector<DimensionlessNumber> heat_numbers(const Scene& scene, const Scales& scales);

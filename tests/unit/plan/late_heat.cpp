@@ -31,6 +31,11 @@ TEST(LateHeat, WhereTheRunEndsBeforeItSets) {
   EXPECT_THAT(told(law, "", 0.4), testing::HasSubstr("the run ends, at 0.4 s, before heat changes how it flows, as "
                                                      "cooling and warming take some 30 s: --until 30 shows that"));
   EXPECT_EQ(told(law, "", 4), "");
+  // 6 K more within 1.4 s: of a law ten times as steep its twentieth is left
+  EXPECT_NE(told(law, "", 1.4), "");
+  EXPECT_EQ(
+      told("viscosity_law = \"exponential\"\nreference_temperature = 293\ntemperature_coefficient = 0.5\n", "", 1.4),
+      "");
   EXPECT_EQ(told(law, "", 0.02), "");
   EXPECT_EQ(told("", "", 0.4), "");
   EXPECT_EQ(told(law, "[inflow]\nregion = \"x_min\"\nvelocity = [0.1, 0, 0]\n", 0.4), "");
