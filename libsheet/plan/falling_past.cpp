@@ -92,8 +92,8 @@ std::optional<Vector3d> end_of_hold(const Scene& scene, const Frame& first, std:
 
 std::string falling_past_warning(const Scene& scene, const Frame& first) {
   const Vector3d gravity = scene.environment.gravity.value_or(Vector3d::Zero());
-  // What sticks to solids is told of without the frame (explain.h).
-  if (!scene.model.inertia && scene::flows_on_solids(scene) && !gravity.isZero(0) && !scene.environment.bath &&
+  // Where there are none, that is told of without the frame (explain.h).
+  if (!scene.model.inertia && !scene.solids.empty() && !gravity.isZero(0) && !scene.environment.bath &&
       !scene.environment.air && scene.holds.empty() && scene.inflows.empty() && first.vertices > 0 &&
       !lies_on_solid(scene, first))
     return "creeping flow under gravity of a sheet that touches no solid at its start: nothing resists the fall, there "

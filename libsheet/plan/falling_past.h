@@ -10,8 +10,8 @@
 namespace sheet {
 
 // "" unless there are solids, all at rest, and nothing but gravity moves the sheet, straight down, past all of them, on
-// none of which it lies. Or where inertia is left out, nothing holds it, and it lies on none of the solids, on which it
-// would flow: that has no solution.
+// none of which it lies. Or where inertia is left out, nothing holds it, and it lies on none of the solids: that has
+// no solution.
 [[nodiscard]] std::string falling_past_warning(const Scene& scene, const formats::Frame& first);
 
 // Of what is carried, runs or is drawn over the edge of a solid before `until` [s] (parting.h), where no other solid

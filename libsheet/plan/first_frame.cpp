@@ -154,11 +154,6 @@ std::vector<Vector3> normals_at_vertices(const Frame& frame) {
   return normals;
 }
 
-bool stays_in_place(const scene::Motion& motion) {
-  const auto* turning = std::get_if<scene::Rotating>(&motion);
-  return std::holds_alternative<scene::Fixed>(motion) || (turning != nullptr && turning->velocity.entries.empty());
-}
-
 // What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) Where all
 // that is near lies along upright walls that stay in place, what is closely beside them counts, too: its weight would
 // not press it on. (Of what is near and lies on top, a part alone would be held, into which the rest falls.)
@@ -177,7 +172,7 @@ void mark_touching(const Scene& scene, Frame& frame) {
   for (std::size_t i = 0; i < solids.size(); ++i) {
     if (solids.scene(i).contact == SolidContact::stick)
       continue;
-    bool beside = up && stays_in_place(scene.solids[i].motion);
+    bool beside = up && scene::stays_in_place(scene.solids[i].motion);
     std::vector<std::size_t> near, touching;
     for (std::size_t v = 0; v < x.size(); ++v) {
       const solid::SolidPoint there = solids.at(i, x[v], frame.time);

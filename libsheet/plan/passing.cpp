@@ -240,7 +240,7 @@ double carrying_time(const Scene& scene, const formats::Frame& first) {
     const Vector3 velocity = solids.at(belt, way.center(), first.time).velocity;
     for (std::size_t i = 0; i < solids.size(); ++i) {
       const Box3 other = box_of(solids, i, first.time);
-      if (i == belt || !rests(scene.solids[i]) || !other.sizes().allFinite())
+      if (i == belt || !scene::stays_in_place(scene.solids[i].motion) || !other.sizes().allFinite())
         continue;
       Box3 reached = way;
       if (is_beyond(other, box_of(solids, belt, first.time), velocity)) // there it falls from the belt's end
@@ -261,7 +261,7 @@ double running_time(const Scene& scene, const formats::Frame& first) {
     if (const auto layer = running(scene, first, inflow))
       for (std::size_t i = 0; i < solids.size(); ++i)
         if (const Box3 other = box_of(solids, i, first.time);
-            i != layer->slope && rests(scene.solids[i]) && other.sizes().allFinite())
+            i != layer->slope && scene::stays_in_place(scene.solids[i].motion) && other.sizes().allFinite())
           passed = std::max(passed, layer->time_to(leaves(way, layer->pull.normalized(), other)));
   return passed > 0 ? first.time + passed : 0;
 }

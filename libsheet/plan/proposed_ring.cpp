@@ -27,6 +27,7 @@
 #include "libsheet/scene/ring.h"
 #include "libsheet/scene/scales.h"
 #include "libsheet/scene/sheet_edges.h"
+#include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet {
@@ -214,6 +215,18 @@ double landing_time(const Scene& scene, const Frame& first, std::size_t number) 
   return std::atan(landing->fall * std::sqrt(k / u)) / std::sqrt(k * u);
 }
 
+// When belts have carried the first sheet and all that enter later past what is in their ways [s].
+double all_carried_time(const Scene& scene, const Frame& first) {
+  double time = carrying_time(scene, first);
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    if (const auto& enters = scene.sheets[i].enters) {
+      Frame later = build_sheet(scene, i, Notes::silent);
+      later.time = *enters;
+      time = std::max(time, carrying_time(scene, later));
+    }
+  return time;
+}
+
 // Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
 // ends by the clock has ended, whatever moves on for ever has come through or round, belts and slopes have carried
 // it past all, and what lies on level ground has spread.
@@ -243,7 +256,7 @@ double until_of(const Scene& scene, const Frame& first) {
   for (const scene::SheetTable& sheet : scene.sheets)
     ends(sheet.enters.value_or(0));
   const double lands_later = scene.inflows.empty() ? 1 : 1.5;
-  const double carried = std::max(carrying_time(scene, first), running_time(scene, first));
+  const double carried = std::max(all_carried_time(scene, first), running_time(scene, first));
   const double passed = std::max({passing_time(scene, first), turning_time(scene, first), lands_later * carried});
   until = std::max({until, drawing_time(scene, first), std::min(passed, longest_passing * until)});
   return std::isfinite(until) && until > 0 ? rounded(until) : 1;

@@ -283,7 +283,7 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
         std::holds_alternative<SheetMesh>(sheet.shape)
             ? "if its mesh is in millimetres, give [sheet] scale = 0.001"
             : fmt::format("write \"{} mm\" if you mean that; numbers without unit are metres", brief(*scales.length))));
-  if (scene.environment.gravity && !scene.model.inertia && !carried && !flows_on_solids(scene))
+  if (scene.environment.gravity && !scene.model.inertia && !carried && scene.solids.empty())
     warn("creeping flow under gravity without hold, bath or inflow: nothing resists the fall, there is no solution");
   else if (scene.environment.gravity && !scene.model.inertia && !always && scene.solids.empty())
     warn("creeping flow under gravity of a sheet that falls, onto the bath, or as its holds and inlets let it go: "

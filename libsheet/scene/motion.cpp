@@ -150,6 +150,11 @@ MotionBounds bounds(const Motion& motion, double from, double to) {
       motion);
 }
 
+bool stays_in_place(const Motion& motion) {
+  const auto* turning = std::get_if<Rotating>(&motion);
+  return std::holds_alternative<Fixed>(motion) || (turning != nullptr && turning->velocity.entries.empty());
+}
+
 bool turns(const Motion& motion) {
   const auto* keyed = std::get_if<Keyframed>(&motion);
   return std::holds_alternative<Rotating>(motion) || (keyed != nullptr && !keyed->frames->rotations().empty());

@@ -77,6 +77,8 @@ struct MotionBounds {
 
 // Whether the motion turns things, at any time.
 [[nodiscard]] bool turns(const Motion& motion);
+// Whether it leaves things where they are: at rest, or turning about an axis that is.
+[[nodiscard]] bool stays_in_place(const Motion& motion);
 
 // The times at which the velocity is not smooth, or the place jumps [s], increasing: sheet-step ends steps there.
 [[nodiscard]] std::vector<double> events(const Motion& motion);

@@ -30,14 +30,16 @@ TEST(FallingPast, WhereGravityPointsAlongAnotherAxisOrUp) {
   EXPECT_THAT(warning("[0, 0, -9.81]"), testing::HasSubstr("gravity = [0, 0, -9.81]"));
 }
 
-// On a box along which the liquid would flow, which the disk does not touch yet.
+// On a box along which the liquid would flow, or to which it would stick, which the disk does not touch yet.
 TEST(FallingPast, OfCreepingFlowThatTouchesNothing) {
-  const auto creeping = [](const std::string& more) {
-    return warning("[0, -9.81, 0]", "", "contact = \"flow\"\n[model]\ninertia = false\n" + more);
-  };
-  EXPECT_THAT(creeping(""), testing::HasSubstr("nothing resists the fall, there is no solution"));
-  EXPECT_EQ(creeping("[[hold]]\nregion = \"rim\"\n"), "");
-  EXPECT_EQ(creeping("[[solid]]\nshape = \"plane\"\ncenter = [0, 0.0485, 0]\n"), ""); // on which it lies
+  for (const std::string contact : {"flow", "stick"}) {
+    const auto creeping = [&](const std::string& more) {
+      return warning("[0, -9.81, 0]", "", "contact = \"" + contact + "\"\n[model]\ninertia = false\n" + more);
+    };
+    EXPECT_THAT(creeping(""), testing::HasSubstr("nothing resists the fall, there is no solution"));
+    EXPECT_EQ(creeping("[[hold]]\nregion = \"rim\"\n"), "");
+    EXPECT_EQ(creeping("[[solid]]\nshape = \"plane\"\ncenter = [0, 0.0485, 0]\n"), ""); // on which it lies
+  }
   EXPECT_EQ(warning("[0, -9.81, 0]", "", "contact = \"flow\"\n"), "");
 }
 

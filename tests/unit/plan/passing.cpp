@@ -154,8 +154,21 @@ TEST(Passing, UntilABeltHasCarriedTheSheetPastABlade) {
   EXPECT_NEAR(carrying(blade, 0.05), way / 0.1, 1e-9);
   EXPECT_EQ(carrying(blade, 0, "[-0.1, 0, 0]"), 0);
   EXPECT_EQ(carrying(blade, 0, "[0, 0, 0.1]"), 0);
-  EXPECT_EQ(carrying(blade + "velocity = [0, 0.1, 0]\n"), 0); // it is not there any more
+  EXPECT_EQ(carrying(blade + "velocity = [0, 0.1, 0]\n"), 0);                       // it is not there any more
+  EXPECT_NEAR(carrying(blade + "angular_velocity = [0, 5, 0]\n"), way / 0.1, 1e-9); // turning on the spot
   EXPECT_EQ(carrying(""), 0);
+}
+
+// Two strips that come 2 s one after the other.
+TEST(Passing, UntilABeltHasCarriedPastARollerWhatEntersLater) {
+  const std::string strip = "[[sheet]]\nshape = \"rectangle\"\nsize = [0.08, 0.03]\nedge_length = 0.01\n"
+                            "thickness = 0.004\ncenter = [0, 0.002, 0]\n";
+  const Scene scene = scene::parse_scene(
+      strip + strip + "enters = 2\n[material]\nviscosity = 50\ndensity = 1400\n[environment]\n" +
+          "gravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\nsurface_velocity = [0.1, 0, 0]\n" +
+          "[[solid]]\nshape = \"sphere\"\nradius = 0.02\ncenter = [0.3, 0.03, 0]\nangular_velocity = [0, 0, -5]\n",
+      "s");
+  EXPECT_GE(proposed_ring(scene, first_frame(scene), {}).until, 2 + (0.3 + 0.02 + 0.04) / 0.1);
 }
 
 // And past the blade to an outflow, 0.5 m away.
