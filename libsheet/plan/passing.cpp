@@ -143,6 +143,19 @@ bool is_near(const solid::Solids& solids, std::size_t number, const Box3& box, d
   return any;
 }
 
+// The longest way down a slope, along `ahead` (a unit vector), that a box goes until it is wholly in the bath, or
+// beyond an outflow [m]; 0 if it comes to none.
+double way_to_be_taken_up(const Scene& scene, const Box3& box, const Vector3& ahead) {
+  double way = 0;
+  for (const scene::Outflow& outflow : scene.outflows)
+    way = std::max(way, is_taken_up(box, ahead, outflow));
+  if (const auto& bath = scene.environment.bath; bath && scene.environment.gravity) {
+    const Vector3 down = down_in(scene);
+    way = std::max(way, is_taken_up(box, ahead, {.point = -bath->level * down, .normal = down}));
+  }
+  return way;
+}
+
 // The mean place of what a hold holds [m].
 Vector3 middle(const formats::Frame& frame, std::size_t hold) {
   const auto held = masks(frame, "hold");
@@ -258,11 +271,15 @@ double running_time(const Scene& scene, const formats::Frame& first) {
   const Box3 way = falling_way(scene, first);
   double passed = 0;
   for (std::size_t inflow = 0; inflow < scene.inflows.size() && !way.isEmpty(); ++inflow)
-    if (const auto layer = running(scene, first, inflow))
+    if (const auto layer = running(scene, first, inflow)) {
+      const Vector3 ahead = layer->pull.normalized();
+      double farthest = way_to_be_taken_up(scene, way, ahead);
       for (std::size_t i = 0; i < solids.size(); ++i)
         if (const Box3 other = box_of(solids, i, first.time);
             i != layer->slope && scene::stays_in_place(scene.solids[i].motion) && other.sizes().allFinite())
-          passed = std::max(passed, layer->time_to(leaves(way, layer->pull.normalized(), other)));
+          farthest = std::max(farthest, leaves(way, ahead, other));
+      passed = std::max(passed, layer->time_to(farthest));
+    }
   return passed > 0 ? first.time + passed : 0;
 }
 

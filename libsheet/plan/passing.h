@@ -22,10 +22,10 @@ namespace sheet {
 // is none.
 [[nodiscard]] double carrying_time(const Scene& scene, const formats::Frame& first);
 
-// When what flows in, and runs down a slope where it lands, has come past the last of the solids that stay in its way:
-// a wall with a gate, blocks, a roller [s]; 0 if there is none. As wide as its inlet it is a layer of h³ = 3 ν q/g_t,
-// whose front goes at q/h [Nusselt 1916]; when all has flowed in, A = q t_end, it comes to x at 4 ν x³/(9 A² g_t)
-// [Huppert 1982].
+// When what flows in, and runs down a slope where it lands, has come past the last of the solids that stay in its way,
+// a wall with a gate, blocks, a roller, into the bath and to the last outflow [s]; 0 if there is none. As wide as its
+// inlet it is a layer of h³ = 3 ν q/g_t, whose front goes at q/h [Nusselt 1916]; when all has flowed in, A = q t_end,
+// it comes to x at 4 ν x³/(9 A² g_t) [Huppert 1982].
 [[nodiscard]] double running_time(const Scene& scene, const formats::Frame& first);
 
 // When holds that move on for ever, away from others, none of them a roll, have gone as far as the sheet is long that

@@ -201,6 +201,26 @@ TEST(Passing, UntilABeltHasCarriedTheSheetPastASecondOne) {
   EXPECT_NEAR(carrying_time(scene, first_frame(scene)), (0.155 + 0.1 + 0.002) / 0.1, 1e-9);
 }
 
+// The same board 0.3 m above a bath, and 0.3 m before an outflow.
+TEST(Passing, UntilWhatFlowsDownASlopeHasComeToABathOrAnOutflow) {
+  const auto running = [](const std::string& bath, const std::string& more) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.02, 0.04]\nedge_length = 0.005\nthickness = 0.005\n"
+        "center = [0.01, 0.0025, 0]\n[material]\nviscosity = 14\ndensity = 1400\n[environment]\n"
+        "gravity = [5, -8.66, 0]\n" +
+            bath +
+            "[[inflow]]\nregion = \"x_min\"\nvelocity = [0.01, 0, 0]\n[[solid]]\nshape = \"plane\"\n"
+            "normal = [0, 1, 0]\ncontact = \"flow\"\n" +
+            more,
+        "s");
+    return running_time(scene, first_frame(scene));
+  };
+  const double flux = 0.005 * 0.01, speed = flux / std::cbrt(3 * 0.01 * flux / 5);
+  EXPECT_NEAR(running("bath = {density = 1000, level = -0.3}\n", ""), 0.6 / speed, 0.06 * 0.6 / speed);
+  EXPECT_NEAR(running("", "[[outflow]]\npoint = [0.3, 0, 0]\nnormal = [1, 0, 0]\n"), 0.3 / speed, 0.06 * 0.3 / speed);
+  EXPECT_EQ(running("", "[[outflow]]\npoint = [-0.3, 0, 0]\nnormal = [-1, 0, 0]\n"), 0);
+}
+
 // Of honey, 5 mm thick, that flows in on a board that leans by 30 degrees, 0.2 m before a wall of 10 mm.
 TEST(Passing, UntilWhatFlowsDownASlopeHasComePastAWall) {
   const auto running = [](const std::string& inflow, const std::string& contact, double gravity_along) {
