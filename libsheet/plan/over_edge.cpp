@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/way_along_solid.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/scene/motion.h"
 #include "libsheet/sheet/sheet.h"
@@ -25,72 +25,13 @@ bool has_edges(const scene::Solid& solid) {
           std::holds_alternative<scene::SolidMesh>(solid.shape));
 }
 
-// A way along a solid that stands as at time t, half a thickness above it.
-class Way {
-public:
-  Way(const Scene& scene, const solid::Solids& solids, std::size_t number, double t, double thickness,
-      const Vector3& from)
-      : scene_(scene), solids_(solids), number_(number), t_(t), thickness_(thickness),
-        step_(std::max(thickness / 4, solids.shape(number).bounds().diagonal().norm() / steps_across)), x_(from) {
-    come_to(from);
-  }
-
-  [[nodiscard]] const Vector3& x() const { return x_; }
-  [[nodiscard]] const Vector3& normal() const { return normal_; }
-  [[nodiscard]] double step() const { return step_; }
-  [[nodiscard]] Vector3 along(const Vector3& direction) const { return direction - direction.dot(normal_) * normal_; }
-
-  // A step in that direction, along the solid; whether an edge has been passed then.
-  bool go(const Vector3& direction) {
-    const Vector3 ahead = along(direction).normalized();
-    directions_.push_back(ahead);
-    if (static_cast<double>(directions_.size()) > std::max(1.0, in_reach * thickness_ / step_))
-      directions_.pop_front();
-    come_to(x_ + step_ * ahead);
-    return normal_.dot(directions_.front()) > turned;
-  }
-
-  // Whether something else takes up what is there: another solid, a bath, an outflow.
-  [[nodiscard]] bool taken_up() const {
-    for (std::size_t i = 0; i < solids_.size(); ++i)
-      if (i != number_ && solids_.at(i, x_, t_).distance < in_reach * thickness_)
-        return true;
-    const auto up = scene::up(scene_.environment);
-    if (up && scene_.environment.bath && up->dot(x_) < scene_.environment.bath->level)
-      return true;
-    return std::ranges::any_of(scene_.outflows,
-                               [&](const scene::Outflow& o) { return o.normal.dot(x_ - o.point) > 0; });
-  }
-
-  static constexpr int most_steps = 1000;
-  static constexpr double in_reach = 2;      // thicknesses
-  static constexpr double least_slope = 0.1; // part of gravity along the solid, below which nothing runs
-
-private:
-  static constexpr double steps_across = 300;
-  static constexpr double turned = 0.7; // sine of the angle by which an edge turns at least
-
-  void come_to(const Vector3& x) {
-    const solid::SolidPoint there = solids_.at(number_, x, t_);
-    normal_ = there.normal;
-    x_ = x + (thickness_ / 2 - there.distance) * normal_;
-  }
-
-  const Scene& scene_;
-  const solid::Solids& solids_;
-  std::size_t number_;
-  double t_, thickness_, step_;
-  Vector3 x_, normal_;
-  std::deque<Vector3> directions_; // of the last steps, over as much as an edge may be long
-};
-
 // Whether nothing takes up what runs down from there until the way leads under the solid.
-bool is_in_the_open(Way way, const Vector3& gravity) {
+bool is_in_the_open(WayAlongSolid way, const Vector3& gravity) {
   constexpr double underside = 0.5; // cosine between a face that looks down and gravity
-  for (int i = 0; i < Way::most_steps && !way.taken_up(); ++i) {
+  for (int i = 0; i < WayAlongSolid::most_steps && !way.taken_up(); ++i) {
     if (way.normal().dot(gravity) > underside * gravity.norm())
       return true;
-    if (way.along(gravity).norm() < Way::least_slope * gravity.norm())
+    if (way.along(gravity).norm() < WayAlongSolid::least_slope * gravity.norm())
       return false;
     way.go(gravity);
   }
@@ -98,14 +39,14 @@ bool is_in_the_open(Way way, const Vector3& gravity) {
 }
 
 // When what starts there from rest comes down to an edge in the open [s].
-std::optional<double> time_down(Way way, const Scene& scene, const scene::Solid& solid, const Liquid& liquid,
+std::optional<double> time_down(WayAlongSolid way, const Scene& scene, const scene::Solid& solid, const Liquid& liquid,
                                 double h) {
   constexpr double below = 0.8; // cosine between gravity and a face below something round
   const Vector3 gravity = *scene.environment.gravity;
   double time = 0, speed = 0;
-  for (int i = 0; i < Way::most_steps && !way.taken_up(); ++i) {
+  for (int i = 0; i < WayAlongSolid::most_steps && !way.taken_up(); ++i) {
     const double pull = way.along(gravity).norm();
-    if (pull < Way::least_slope * gravity.norm() || way.normal().dot(gravity) > below * gravity.norm())
+    if (pull < WayAlongSolid::least_slope * gravity.norm() || way.normal().dot(gravity) > below * gravity.norm())
       return std::nullopt;
     const double before = speed;
     speed = solid.contact == SolidContact::slip
@@ -121,8 +62,8 @@ std::optional<double> time_down(Way way, const Scene& scene, const scene::Solid&
 }
 
 // Whether the way straight to that place passes an edge, beyond which no other solid is near.
-bool passes_edge(Way way, const Vector3& target) {
-  for (int i = 0; i < Way::most_steps && !way.taken_up(); ++i) {
+bool passes_edge(WayAlongSolid way, const Vector3& target) {
+  for (int i = 0; i < WayAlongSolid::most_steps && !way.taken_up(); ++i) {
     const Vector3 direction = target - way.x();
     if (way.along(direction).norm() < way.step())
       return false;
@@ -178,7 +119,7 @@ std::optional<OverEdge> runs_over(const OnSolid& on) {
     const Landing& landing = on.landings[i];
     const double fall = std::max(0.0, landing.fall - on.thickness / 2);
     const double starts = std::max({*turned_at, on.from, on.first.time + std::sqrt(2 * fall / gravity)});
-    const Way way(on.scene, on.solids, on.number, starts, on.thickness, on.carried(landing.place, starts));
+    const WayAlongSolid way(on.scene, on.solids, on.number, starts, on.thickness, on.carried(landing.place, starts));
     const auto takes = time_down(way, on.scene, on.solid(), landing.liquid, on.thickness);
     if (!way.taken_up() && is_turned_over(way.normal(), landing.liquid, *on.scene.environment.gravity, on.thickness))
       return OverEdge{fmt::format("{} turns over with what lies on it", on.solids.name(on.number)), starts,
@@ -197,10 +138,10 @@ std::optional<OverEdge> runs_over(const OnSolid& on) {
 // [Emslie, Bonner and Peck 1958, J. Appl. Phys. 29].
 std::optional<double> time_outwards(const OnSolid& on, const Landing& landing, double starts) {
   const double gravity = on.scene.environment.gravity->norm();
-  Way way(on.scene, on.solids, on.number, starts, on.thickness, on.carried(landing.place, starts));
+  WayAlongSolid way(on.scene, on.solids, on.number, starts, on.thickness, on.carried(landing.place, starts));
   const double at_start = scene::outward_pull(on.solid().motion, on.until, way.x()).norm();
   double time = starts;
-  for (int i = 0; i < Way::most_steps && !way.taken_up() && time < on.until; ++i) {
+  for (int i = 0; i < WayAlongSolid::most_steps && !way.taken_up() && time < on.until; ++i) {
     const Vector3 pull = scene::outward_pull(on.solid().motion, on.until, way.x());
     const double h = on.thickness * std::pow(at_start / pull.norm(), 2);
     const double driven = landing.liquid.density * h * way.along(pull).norm();
@@ -266,8 +207,8 @@ std::optional<OverEdge> drawn_over(const OnSolid& on, std::size_t number) {
     const Vector3 place = on.carried(nearest->place, t),
                   target = scene::motion_between(hold.motion, start, t) * *middle;
     const bool away = (target - place).norm() > (*middle - nearest->place).norm() + on.thickness;
-    if (away && on.solids.at(on.number, target, t).distance > Way::in_reach * on.thickness &&
-        passes_edge(Way(on.scene, on.solids, on.number, t, on.thickness, place), target))
+    if (away && on.solids.at(on.number, target, t).distance > WayAlongSolid::in_reach * on.thickness &&
+        passes_edge(WayAlongSolid(on.scene, on.solids, on.number, t, on.thickness, place), target))
       return OverEdge{fmt::format("hold {} draws what lies on {} over its edge", number, on.solids.name(on.number)), t,
                       nearest->liquid.density};
   }

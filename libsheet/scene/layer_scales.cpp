@@ -26,7 +26,7 @@ double along(const Solid& solid, const Vector3d& gravity, std::optional<double> 
 double speed_of_layer(const Liquid& liquid, double stress, double h, double b) {
   if (liquid.law.newtonian())
     return stress * (h + 3 * b) / (3 * liquid.viscosity);
-  return stress > liquid.law.yield_stress ? WallFlow(liquid).velocity(stress, h, b) : 0;
+  return stress > liquid.law.yield_stress ? wall_flow_of(liquid)->velocity(stress, h, b) : 0;
 }
 
 std::optional<LayerScales> layer_scales_of(const Scene& scene, const Scales& scales) {

@@ -49,6 +49,16 @@ TEST(Slopes, ATiltedBoxHasItsTilt) {
   EXPECT_NEAR(speed_of(disk_above("0, 0.05, 0", tilted)), layer_speed(Layer::g / 2), 1e-6);
 }
 
+// What flows in runs on: down a tilted box as steeply as that is, down a ball to its side.
+TEST(Slopes, WhereLiquidFlowsInTheyAreThoseOfItsWaysDown) {
+  const std::string inflow = "[inflow]\nregion = \"rim\"\nvelocity = [0, -0.1, 0]\n";
+  EXPECT_NEAR(speed_of(disk_above("0, 0.002, 0", box + inflow)), layer_speed(0), 1e-9);
+  const std::string tilted = box + "rotation = {axis = [0, 0, 1], angle = \"30 deg\"}\n";
+  EXPECT_NEAR(speed_of(disk_above("0, 0.05, 0", tilted + inflow)), layer_speed(Layer::g / 2), 1e-6);
+  const std::string ball = "[[solid]]\nshape = \"sphere\"\nradius = 0.08\ncenter = [0, -0.08, 0]\ncontact = \"flow\"\n";
+  EXPECT_NEAR(speed_of(disk_above("0, 0.01, 0", ball + inflow)), layer_speed(Layer::g), 0.01 * layer_speed(Layer::g));
+}
+
 TEST(Slopes, ABallIsAsSteepAsUnderTheSheet) {
   const std::string ball = "[[solid]]\nshape = \"sphere\"\nradius = 0.08\ncenter = [0, -0.08, 0]\ncontact = \"flow\"\n";
   EXPECT_NEAR(speed_of(disk_above("0, 0.01, 0", ball)), layer_speed(Layer::g / 2), 0.03 * layer_speed(Layer::g / 2));
