@@ -10,6 +10,8 @@
 
 #include "libsheet/plan/first_frame.h"
 #include "libsheet/plan/way_along_solid.h"
+#include "libsheet/scene/frame_liquids.h"
+#include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/scene/motion.h"
 #include "libsheet/sheet/sheet.h"
@@ -215,6 +217,47 @@ std::optional<OverEdge> drawn_over(const OnSolid& on, std::size_t number) {
   return std::nullopt;
 }
 
+// Less what a bath bears of what floats on it [kg/m³].
+double density_over_bath(const scene::Environment& environment, double density) {
+  return environment.bath && density < environment.bath->density ? density * (1 - density / environment.bath->density)
+                                                                 : density;
+}
+
+// What an inflow drives along an upright wall of the solid comes past its end, beyond which no other solid is near.
+std::optional<OverEdge> driven_past(const OnSolid& on, std::size_t number) {
+  constexpr double near = 0.75, upright = 0.3, off = 0.3; // thicknesses; cosines: to gravity, to the way
+  const scene::Inflow& inflow = on.scene.inflows[number];
+  const double start = on.first.time, end = std::min(on.until, inflow.until.value_or(on.until));
+  if (!std::holds_alternative<scene::Fixed>(on.solid().motion))
+    return std::nullopt;
+  const auto x = positions(on.first);
+  const scene::FrameLiquids liquids(on.scene, on.first);
+  const std::vector<std::uint32_t> liquid_at = liquids.numbers_at_vertices(on.first);
+  const scene::InletVelocity velocity = scene::inlet_velocity(on.scene, inflow);
+  std::optional<OverEdge> earliest;
+  for (const std::size_t v : probes_of(on.first)) {
+    const solid::SolidPoint point = on.solids.at(on.number, x[v], start);
+    if (std::abs(point.distance) > near * on.thickness ||
+        std::abs(point.normal.dot(*on.scene.environment.gravity)) > upright * on.scene.environment.gravity->norm())
+      continue;
+    const Vector3 drive = velocity.at(start, x[v]);
+    WayAlongSolid way(on.scene, on.solids, on.number, start, on.thickness, x[v]);
+    double time = start;
+    bool past = false;
+    for (int i = 0;
+         i < WayAlongSolid::most_steps && time < end && way.along(drive).norm() > off * drive.norm() && !past; ++i) {
+      time += way.step() / drive.norm();
+      past = way.go(drive);
+    }
+    if (past && !way.meets_another() && time < (earliest ? earliest->time : end))
+      earliest = OverEdge{
+          fmt::format("inflow {} drives what touches {} along it past its end, from about {:.2g} s on", number,
+                      on.solids.name(on.number), time),
+          time, density_over_bath(on.scene.environment, liquids.all()[liquid_at.empty() ? 0 : liquid_at[v]].density)};
+  }
+  return earliest;
+}
+
 } // namespace
 
 std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame& first, const std::vector<Landing>& all,
@@ -235,6 +278,8 @@ std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame&
     consider(flung_over(on));
     for (std::size_t k = 0; k < scene.holds.size(); ++k)
       consider(drawn_over(on, k));
+    for (std::size_t k = 0; k < scene.inflows.size(); ++k)
+      consider(driven_past(on, k));
   }
   return earliest;
 }

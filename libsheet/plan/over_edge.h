@@ -14,7 +14,7 @@ namespace sheet {
 struct OverEdge {
   std::string why; // what goes over the edge of which solid
   double time;     // from when on [s]
-  double density;  // of the liquid [kg/m³]
+  double density;  // of the liquid, less what a bath bears of it if it floats past a wall's end [kg/m³]
 };
 
 // Of what lies or lands on boxes, cylinders and meshes along which it slips or flows, the first that gets there before
@@ -22,6 +22,7 @@ struct OverEdge {
 //   - down the slope, of the solid as it stands when it has turned: from rest without drag where it slips, with the
 //     speed of a layer where it flows (scene/layer_scales.h)
 //   - to where a hold goes
+//   - to where an inflow drives it, along an upright wall at rest, past the wall's end
 //   - away from the axis of a solid that turns on, with the speed of a layer that its turning drives, where that pulls
 //     more than gravity does at the edge
 // and, before any way, where the solid has turned over with a layer too thick to hang.

@@ -34,11 +34,18 @@ public:
     return normal_.dot(directions_.front()) > turned;
   }
 
-  // Whether something else takes up what is there: another solid, a bath, an outflow.
-  [[nodiscard]] bool taken_up() const {
+  // Whether another solid is near.
+  [[nodiscard]] bool meets_another() const {
     for (std::size_t i = 0; i < solids_.size(); ++i)
       if (i != number_ && solids_.at(i, x_, t_).distance < in_reach * thickness_)
         return true;
+    return false;
+  }
+
+  // Whether something else takes up what is there: another solid, a bath, an outflow.
+  [[nodiscard]] bool taken_up() const {
+    if (meets_another())
+      return true;
     const auto up = scene::up(scene_.environment);
     if (up && scene_.environment.bath && up->dot(x_) < scene_.environment.bath->level)
       return true;

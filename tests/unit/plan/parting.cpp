@@ -104,6 +104,30 @@ TEST(Parting, OfWhatRunsOverAnEdgeWhenItIsWarm) {
   EXPECT_FALSE(parting("20 degC", 100));
 }
 
+// A raft 40 mm wide and 4 mm thick that flows in between a wall and the open bath, 70 mm before the wall's end; of its
+// weight the bath leaves a tenth.
+TEST(Parting, OfWhatFlowsInAlongAWallPastItsEnd) {
+  const auto parting = [](const std::string& wall, double until) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.06, 0.04]\nedge_length = 0.01\nthickness = 0.004\n"
+        "[material]\nviscosity = 100\ndensity = 900\n[environment]\ngravity = [0, -10, 0]\n"
+        "bath = {density = 1000}\n[inflow]\nregion = \"x_min\"\nvelocity = [0.1, 0, 0]\n[[solid]]\nshape = \"box\"\n"
+        "size = [0.2, 0.1, 0.02]\ncenter = [0, 0, 0.03]\n" +
+            wall,
+        "s");
+    return must_part(scene, checked_first_frame(scene), until);
+  };
+  const auto past = parting("contact = \"slip\"\n", 10);
+  ASSERT_TRUE(past);
+  EXPECT_EQ(past->why, "inflow 0 drives what touches solid 0 (box) along it past its end, from about 0.72 s on");
+  EXPECT_NEAR(past->adhesion, 90 * 10 * 0.004 / 2, 1e-9);
+  EXPECT_FALSE(parting("contact = \"slip\"\n", 0.5));
+  EXPECT_FALSE(parting("contact = \"stick\"\n", 10));
+  EXPECT_FALSE(parting("contact = \"slip\"\n[[solid]]\nshape = \"box\"\nsize = [0.1, 0.1, 0.02]\n" // the wall goes on
+                       "center = [0.15, 0, 0.03]\ncontact = \"slip\"\n",
+                       0.8));
+}
+
 TEST(Parting, OfWhatABoxThatTiltsLetsSlide) {
   const auto tilts = [](double degrees) {
     return parting_of(fmt::format("contact = \"slip\"\nmotion = {{kind = \"rotating\", axis = [0, 0, 1], rate = [[0, "
