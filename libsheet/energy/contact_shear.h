@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shear between layers that lie on each other and flow, in place of a spring that glues them along each other. For
 // each contact spring, of the area A, between layers of thickness h below and h' above, on a wall or not (layers.h),
-//   W = A μ/(2 τ) (|P e|²/depth + 3 (n·f - r + r̄)²/d),   e = Σ v_i (x_i - x̄_i),   f = Σ w_i (x_i - x̄_i),   d = (h +
-//   h')/2,
+//   W = A μ/(2 τ) (|P e|²/depth + 3 (n·f - r + r̄)²/d),
+//   e = Σ v_i (x_i - x̄_i),   f = Σ w_i (x_i - x̄_i),   d = (h + h')/2,
 // n the spring's normal, r its rest distance (spring_rests.h), P along the layers, e the way of the upper layer less
 // `carries` times that of the lower one, both relative to the wall: v are the spring's weights w, but for corners that
 // touch one `carries` times these. x̄ is the start of the step, in a second stage extrapolated from the first, and what

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rest distances of contact springs. Between layers that flow the rest distance d goes with their
-// thickness, of h at the vertex and h' = V/A of the triangle on which it stands, as it was h0 and h0':
+// The rest distances of contact springs. Between layers that flow the rest distance d goes with their thickness, of h
+// at the vertex and h' = V/A of the triangle on which it stands, as it was d0 with h0 and h0' [m]:
 //   d(x) = d0 (h + V/A(x))/(h0 + h0').
-// h' is that of the triangle's area as it moves: what a spring presses with draws its triangle out by the thrust
-// F d0/(h0 + h0') h'/A, half of what the layer between two pressures has [Pa m], and the stack sinks as it thins,
-// within the step and with inertia. h is that which the stage predicts for its end; contact_squeeze.h has its half of
-// the thrust. (Were both predicted, an inert stack would swing: thickness follows pressure, and pressure how the stack
-// sinks.) Of edges both are predicted; where layers do not flow d stays.
+// h' is of the triangle's area as it moves: a spring that presses with F draws its triangle out by F d0/(h0 + h0') h'/A
+// [N/m], a part of the thrust of a layer between two pressures, and a stack sinks as it thins, within the step and with
+// inertia. h is foreseen for the stage's end; contact_squeeze.h has the rest of the thrust. (Were both foreseen, a stack
+// with inertia would swing: thickness follows pressure, and pressure how the stack sinks.) Of edges both are foreseen.
+// Of a crumb (of_layer) h' stays, and where layers do not flow d does. Ours; not in [Batty et al. 2012].
 #pragma once
 #include <span>
 #include <vector>
