@@ -4,9 +4,9 @@
 //   d(x) = d0 (h + V/A(x))/(h0 + h0').
 // h' is of the triangle's area as it moves: a spring that presses with F draws its triangle out by F d0/(h0 + h0') h'/A
 // [N/m], a part of the thrust of a layer between two pressures, and a stack sinks as it thins, within the step and with
-// inertia. h is foreseen for the stage's end; contact_squeeze.h has the rest of the thrust. (Were both foreseen, a stack
-// with inertia would swing: thickness follows pressure, and pressure how the stack sinks.) Of edges both are foreseen.
-// Of a crumb (of_layer) h' stays, and where layers do not flow d does. Ours; not in [Batty et al. 2012].
+// inertia. h is foreseen for the stage's end; contact_squeeze.h has the rest of the thrust. (Were both foreseen, a
+// stack with inertia would swing: thickness follows pressure, and pressure how the stack sinks.) Of edges both are
+// foreseen. Of a crumb (of_layer) h' stays, and where layers do not flow d does. Ours; not in [Batty et al. 2012].
 #pragma once
 #include <span>
 #include <vector>
