@@ -7,6 +7,7 @@
 
 #include "libsheet/base/each.h"
 #include "libsheet/collide/spring_feet.h"
+#include "libsheet/geometry/area.h"
 #include "libsheet/material/flow_curve.h"
 
 namespace sheet::collide {

@@ -2,6 +2,8 @@
 // The feet of contact springs slide with the layers, and leave them at their rims.
 #include "libsheet/collide/spring_feet.h"
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/meshes.h"
