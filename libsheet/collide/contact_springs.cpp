@@ -78,7 +78,7 @@ bool follows(ContactSpring& s, const Scene& scene, const SpringSheet& sheet) {
   const auto turn = Eigen::Quaterniond::FromTwoVectors(*before, *after);
   s.normal = (turn * s.normal).normalized();
   s.anchor = turn * s.anchor;
-  if (!sheet.end_thickness.empty())
+  if (!sheet.end_thickness.empty() && s.rest_of_layers() > 0)
     s.rest *= thickening(s, sheet);
   const double gap = s.normal.dot(s.offset(sheet.end));
   if (s.welded())

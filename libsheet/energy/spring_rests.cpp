@@ -75,7 +75,7 @@ void SpringRests::begin(const Stage& stage) {
     const Foot foot = foot_of(s, stage);
     const double is = s.thickness(at_reference, foot.volume, foot.area, area_of(foot.corners, reference)),
                  was = s.thickness(at_start, foot.volume, foot.area, foot.area);
-    before_[i] = s.rest * (is / was - 1);
+    before_[i] = s.rest_of_layers() * (is / was - 1);
   }
 }
 
@@ -85,11 +85,11 @@ std::vector<SpringRests::Rest> SpringRests::rests_with(const Stage& stage, std::
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
     const Foot foot = foot_of(s, stage);
-    const double part = s.rest / s.thickness(start, foot.volume, foot.area, foot.area);
+    const double rest = s.rest_of_layers(), part = rest / s.thickness(start, foot.volume, foot.area, foot.area);
     if (const bool moves = foot.volume > 0 && of_layer(foot.volume, foot.area); moves)
-      rests[i] = {part * end[s.vertices[0]] - s.rest, part * foot.volume};
+      rests[i] = {part * end[s.vertices[0]] - rest, part * foot.volume};
     else
-      rests[i].predicted = part * s.thickness(end, foot.volume, foot.area, foot.area) - s.rest;
+      rests[i].predicted = part * s.thickness(end, foot.volume, foot.area, foot.area) - rest;
   }
   return rests;
 }

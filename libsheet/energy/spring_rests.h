@@ -6,7 +6,8 @@
 // [N/m], a part of the thrust of a layer between two pressures, and a stack sinks as it thins, within the step and with
 // inertia. h is foreseen for the stage's end; contact_squeeze.h has the rest of the thrust. (Were both foreseen, a
 // stack with inertia would swing: thickness follows pressure, and pressure how the stack sinks.) Of edges both are
-// foreseen. Of a crumb (of_layer) h' stays, and where layers do not flow d does. Ours; not in [Batty et al. 2012].
+// foreseen. Of a crumb (of_layer) h' stays; where layers do not flow d does, and where d0 is negative
+// (rest_of_layers). Ours; not in [Batty et al. 2012].
 #pragma once
 #include <span>
 #include <vector>

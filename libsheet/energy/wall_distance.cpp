@@ -130,7 +130,7 @@ std::vector<double> unforeseen_growth(std::span<const ContactSpring> contacts, c
     const std::size_t first = s.second_feature();
     const auto own = [&](const std::vector<double>& of) { return s.mean_of_corners(0, first, std::span(of)) / 2; };
     const double part = std::clamp((own(now) - own(foreseen)) / s.mean(start), -longest_rise, longest_rise);
-    growth.push_back(lies ? s.rest * part : 0);
+    growth.push_back(lies ? s.rest_of_layers() * part : 0);
   }
   return growth;
 }

@@ -2,6 +2,7 @@
 // The springs between near features of a sheet, as a frame carries them (formats/sheet.md, section 5, contact_*): a
 // vertex and a triangle, or two edges.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -58,6 +59,9 @@ struct ContactSpring {
       result += weights[i] * of(vertices[i]);
     return result;
   }
+  // What of the rest distance goes with the layers' thickness: all, unless remeshing or what other springs bore has
+  // made it negative [m].
+  [[nodiscard]] double rest_of_layers() const { return std::max(rest, 0.0); }
   // How much farther the features are apart than at rest, given their offset [m].
   [[nodiscard]] double gap(const Vector3& offset) const { return normal.dot(offset) - rest; }
   // How far they have slid along each other [m].

@@ -750,7 +750,8 @@ std::vector<ContactSpring> random_springs() {
 }
 const std::vector<ContactSpring> springs = random_springs();
 
-// Vertices that stand on triangles of the sphere, some nearer than at rest, some farther.
+// Vertices that stand on triangles of the sphere, some nearer than at rest, some farther; the rest distances of some
+// are negative.
 std::vector<ContactSpring> standing_springs() {
   Random random;
   std::vector<ContactSpring> all;
@@ -758,8 +759,12 @@ std::vector<ContactSpring> standing_springs() {
   const auto count = static_cast<std::uint32_t>(sphere.positions.size());
   for (const auto& [a, b, c] : sphere.triangles)
     if (const std::uint32_t v = (a + b + c) % count; v != a && v != b && v != c)
-      all.push_back(
-          {{v, a, b, c}, {1, -0.2, -0.5, -0.3}, random.vector(1).normalized(), 0.3, random.vector(0.1), {3, 0}});
+      all.push_back({{v, a, b, c},
+                     {1, -0.2, -0.5, -0.3},
+                     random.vector(1).normalized(),
+                     all.size() % 5 == 0 ? -0.3 : 0.3,
+                     random.vector(0.1),
+                     {3, 0}});
   return all;
 }
 const std::vector<ContactSpring> standing = standing_springs();
