@@ -23,10 +23,9 @@ double viscosity_between(const ContactSpring& s, const Stage& stage, std::span<c
 void ContactDamping::begin(const Stage& stage) {
   const LayerShares shares = layer_shares(stage);
   const std::vector<double> viscosities = vertex_means(stage, stage.viscosity);
-  rests_.begin(stage);
-  dampers_.assign(springs_.size(), {});
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    const ContactSpring& s = springs_[i];
+  dampers_.assign(size(), {});
+  for (std::size_t i = 0; i < size(); ++i) {
+    const ContactSpring& s = spring(i);
     const double area = s.area(shares.area), h = s.mean(shares.thickness);
     const auto density_at = [&](std::size_t corner) { return stage.liquid_at(s.vertices[corner]).liquid.density; };
     const double density = inertia_ ? (density_at(0) + density_at(3)) / 2 : 0; // of one feature and of the other

@@ -15,35 +15,28 @@ namespace sheet {
 class ContactDamping {
 public:
   static constexpr Stencil stencil = Stencil::four;
-  // springs: outlive the term; inertia: it is modelled; adhesion: the springs pull, too; flow: layers do.
-  ContactDamping(std::span<const ContactSpring> springs, bool inertia, bool adhesion, bool flow)
-      : springs_(springs), rests_(springs, flow), inertia_(inertia), adhesion_(adhesion) {}
+  // rests: Contact begins them; inertia: it is modelled; adhesion: the springs pull, too.
+  ContactDamping(std::shared_ptr<const SpringRests> rests, bool inertia, bool adhesion)
+      : rests_(std::move(rests)), inertia_(inertia), adhesion_(adhesion) {}
   [[nodiscard]] const char* name() const { return "contact damping"; }
-  [[nodiscard]] std::size_t size() const { return springs_.size(); }
-  [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
+  [[nodiscard]] std::size_t size() const { return rests_->springs().size(); }
+  [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return spring(i).vertices; }
   void begin(const Stage& stage);
 
-  [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const {
+  [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const { return Way(*this, i, u).work(); }
+
+  double gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const {
     const Way way(*this, i, u);
-    return 0.5 * (way.normal * way.across * way.across + dampers_[i].tangential * way.along.squaredNorm());
+    way.set_gradient(gradient);
+    return way.work();
   }
 
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const {
     const Way way(*this, i, u);
-    const Vector3& n = springs_[i].normal;
-    const Vector3 force = way.normal * way.across * n + dampers_[i].tangential * way.along;
-    const Matrix3 nn = n * n.transpose();
-    const Matrix3 stiffness = way.normal * nn + dampers_[i].tangential * (Matrix3::Identity() - nn);
-    const auto& w = springs_[i].weights;
-    for (std::size_t a = 0; a < 4; ++a) {
-      const auto row = static_cast<Eigen::Index>(3 * a);
-      gradient.segment<3>(row) = w[a] * force;
-      for (std::size_t b = 0; b < 4; ++b)
-        hessian.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) = w[a] * w[b] * stiffness;
-    }
-    rests_.add_derivatives(i, u, way.normal, way.across, gradient, hessian, definite);
-    return 0.5 * (way.normal * way.across * way.across + dampers_[i].tangential * way.along.squaredNorm());
+    way.set_gradient(gradient);
+    way.set_hessian(hessian, definite);
+    return way.work();
   }
 
 private:
@@ -51,22 +44,34 @@ private:
     Vector3 before = Vector3::Zero();  // Σ w_i x̄_i [m]
     double normal = 0, tangential = 0; // c/τ [N/m]
   };
+  [[nodiscard]] const ContactSpring& spring(std::size_t i) const { return rests_->springs()[i]; }
 
-  // e, across the layers beyond what their thickness makes of it, and the stiffness that it meets there.
+  // e, across the layers beyond what their thickness makes of it, and the stiffnesses that it meets.
   struct Way {
-    double across, normal;
+    const ContactSpring& spring;
+    LongerRest longer;
+    double across, normal, tangential;
     Vector3 along;
-    Way(const ContactDamping& d, std::size_t i, const VectorN<12>& u) {
-      const Vector3 e = weighted_sum(d.springs_[i].weights, u) - d.dampers_[i].before;
-      const double apart = d.springs_[i].normal.dot(e);
-      along = e - apart * d.springs_[i].normal;
-      across = apart - (d.rests_.longer(i, u) - d.rests_.longer_before(i));
+    Way(const ContactDamping& d, std::size_t i, const VectorN<12>& u)
+        : spring(d.spring(i)), longer(d.rests_->longer(i, u)), tangential(d.dampers_[i].tangential) {
+      const Vector3 e = weighted_sum(spring.weights, u) - d.dampers_[i].before;
+      const double apart = spring.normal.dot(e);
+      along = e - apart * spring.normal;
+      across = apart - (longer.value - d.rests_->longer_before(i));
       normal = d.adhesion_ || across < 0 ? d.dampers_[i].normal : 0;
+    }
+    [[nodiscard]] double work() const { return 0.5 * (normal * across * across + tangential * along.squaredNorm()); }
+    void set_gradient(VectorN<12>& gradient) const {
+      gradient = spread(spring.weights, normal * across * spring.normal + tangential * along);
+      longer.add_to_gradient(normal * across, gradient);
+    }
+    void set_hessian(MatrixN<12>& hessian, bool definite) const {
+      set_along(spring, tangential, hessian);
+      longer.add_to_hessian(normal, normal * across, spread(spring.weights, spring.normal), hessian, definite);
     }
   };
 
-  std::span<const ContactSpring> springs_;
-  SpringRests rests_;
+  std::shared_ptr<const SpringRests> rests_;
   bool inertia_, adhesion_;
   std::vector<Damper> dampers_;
 };

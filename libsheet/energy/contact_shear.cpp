@@ -59,12 +59,11 @@ void ContactShear::begin(const Stage& stage) {
   LayerShares shares = layer_shares(stage);
   const VertexMeans means{std::move(shares.thickness), vertex_means(stage, stage.viscosity),
                           stage.shift.empty() ? std::vector<double>{} : vertex_means(stage, stage.shift)};
-  links_.assign(springs_.size(), {});
-  rests_.begin(stage);
+  links_.assign(size(), {});
   flows_.begin(stage);
   own_force_.clear();
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    const ContactSpring& s = springs_[i];
+  for (std::size_t i = 0; i < size(); ++i) {
+    const ContactSpring& s = spring(i);
     if (s.welded())
       continue;
     const std::size_t middle = s.second_feature();
@@ -109,11 +108,11 @@ void ContactShear::begin(const Stage& stage) {
 void ContactShear::follow(const Unknowns& u, const Unknowns& step) {
   if (flows_.newtonian())
     return;
-  std::vector<Vector3> next(springs_.size(), Vector3::Zero());
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
+  std::vector<Vector3> next(size(), Vector3::Zero());
+  for (std::size_t i = 0; i < size(); ++i) {
     if (links_[i].area == 0)
       continue;
-    const ContactSpring& s = springs_[i];
+    const ContactSpring& s = spring(i);
     VectorN<12> at, by;
     for (int c = 0; c < 4; ++c) {
       at.segment<3>(3 * c) = Stage::position(u, s.vertices[static_cast<std::size_t>(c)]);
@@ -126,8 +125,8 @@ void ContactShear::follow(const Unknowns& u, const Unknowns& step) {
 }
 
 void ContactShear::add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    const ContactSpring& s = springs_[i];
+  for (std::size_t i = 0; i < size(); ++i) {
+    const ContactSpring& s = spring(i);
     VectorN<12> x;
     for (int c = 0; c < 4; ++c)
       x.segment<3>(3 * c) = Stage::position(u, s.vertices[static_cast<std::size_t>(c)]);

@@ -21,38 +21,39 @@ namespace sheet {
 class ContactShear {
 public:
   static constexpr Stencil stencil = Stencil::four;
-  // springs: outlive the term.
-  explicit ContactShear(std::span<const ContactSpring> springs) : springs_(springs), rests_(springs, true) {}
+  // rests: Contact begins them; of layers that flow.
+  explicit ContactShear(std::shared_ptr<const SpringRests> rests) : rests_(std::move(rests)) {}
   [[nodiscard]] const char* name() const { return "shear of layers"; }
-  [[nodiscard]] std::size_t size() const { return springs_.size(); }
-  [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return springs_[i].vertices; }
+  [[nodiscard]] std::size_t size() const { return rests_->springs().size(); }
+  [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return spring(i).vertices; }
   void begin(const Stage& stage);
 
   [[nodiscard]] double value(std::size_t i, const VectorN<12>& u) const {
-    const double gap = thickening(i, u);
-    return drag_of(links_[i], way(i, u)).potential + 0.5 * links_[i].squeeze * gap * gap;
+    return drag_of(links_[i], way(i, u)).potential + Squeeze(*this, i, u).work();
+  }
+
+  double gradient(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient) const {
+    const Vector3 slid = way(i, u);
+    const CurvedDrag drag = drag_of(links_[i], slid);
+    const Squeeze squeeze(*this, i, u);
+    set_gradient(i, drag.stiffness * slid, squeeze, gradient);
+    return drag.potential + squeeze.work();
   }
 
   double derivatives(std::size_t i, const VectorN<12>& u, VectorN<12>& gradient, MatrixN<12>& hessian,
                      bool definite) const {
-    const Link& link = links_[i];
-    const Vector3 slid = way(i, u), &n = springs_[i].normal;
-    const CurvedDrag drag = drag_of(link, slid);
-    const Vector3 e = drag.stiffness * slid;
-    const Matrix3 nn = n * n.transpose(), across = link.squeeze * nn;
-    const Matrix3 along = drag.hessian(slid, Matrix3::Identity() - nn, own_force(i));
-    const double thicker = thickening(i, u);
-    const Vector3 f = link.squeeze * thicker * n;
-    const auto& w = springs_[i].weights;
-    for (std::size_t a = 0; a < 4; ++a) {
-      const auto row = static_cast<Eigen::Index>(3 * a);
-      gradient.segment<3>(row) = link.weights[a] * e + w[a] * f;
+    const Vector3 slid = way(i, u), &n = spring(i).normal;
+    const CurvedDrag drag = drag_of(links_[i], slid);
+    const Squeeze squeeze(*this, i, u);
+    set_gradient(i, drag.stiffness * slid, squeeze, gradient);
+    const Matrix3 along = drag.hessian(slid, Matrix3::Identity() - n * n.transpose(), own_force(i));
+    const auto& v = links_[i].weights;
+    for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < 4; ++b)
-        hessian.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) =
-            link.weights[a] * link.weights[b] * along + w[a] * w[b] * across;
-    }
-    rests_.add_derivatives(i, u, link.squeeze, thicker, gradient, hessian, definite);
-    return value(i, u);
+        hessian.block<3, 3>(static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b)) = v[a] * v[b] * along;
+    squeeze.longer.add_to_hessian(squeeze.stiffness, squeeze.stiffness * squeeze.thicker, spread(spring(i).weights, n),
+                                  hessian, definite);
+    return drag.potential + squeeze.work();
   }
 
   // See term.h.
@@ -84,18 +85,29 @@ private:
   }
   [[nodiscard]] const Vector3* own_force(std::size_t i) const { return own_force_.empty() ? nullptr : &own_force_[i]; }
 
+  [[nodiscard]] const ContactSpring& spring(std::size_t i) const { return rests_->springs()[i]; }
+
   // P e [m].
   [[nodiscard]] Vector3 way(std::size_t i, const VectorN<12>& u) const {
-    return springs_[i].along(weighted_sum(links_[i].weights, u) - links_[i].before);
+    return spring(i).along(weighted_sum(links_[i].weights, u) - links_[i].before);
   }
-  // n·f - r + r̄ [m].
-  [[nodiscard]] double thickening(std::size_t i, const VectorN<12>& u) const {
-    return springs_[i].normal.dot(weighted_sum(springs_[i].weights, u)) - links_[i].thickness -
-           (rests_.longer(i, u) - rests_.longer_before(i));
+  // n·f - r + r̄, and what it meets.
+  struct Squeeze {
+    LongerRest longer;
+    double thicker, stiffness; // [m], [N/m]
+    Squeeze(const ContactShear& c, std::size_t i, const VectorN<12>& u)
+        : longer(c.rests_->longer(i, u)), thicker(c.spring(i).normal.dot(weighted_sum(c.spring(i).weights, u)) -
+                                                  c.links_[i].thickness - (longer.value - c.rests_->longer_before(i))),
+          stiffness(c.links_[i].squeeze) {}
+    [[nodiscard]] double work() const { return 0.5 * stiffness * thicker * thicker; }
+  };
+  void set_gradient(std::size_t i, const Vector3& dragged, const Squeeze& squeeze, VectorN<12>& gradient) const {
+    const double force = squeeze.stiffness * squeeze.thicker;
+    gradient = spread(links_[i].weights, dragged) + spread(spring(i).weights, force * spring(i).normal);
+    squeeze.longer.add_to_gradient(force, gradient);
   }
 
-  std::span<const ContactSpring> springs_;
-  SpringRests rests_;
+  std::shared_ptr<const SpringRests> rests_;
   std::vector<Link> links_;
   LiquidFlows flows_;
   std::vector<Vector3> own_force_; // of what is not Newtonian, once Newton has gone a step [N]

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "libsheet/energy/layers.h"
-#include "libsheet/energy/spring_rests.h"
 #include "libsheet/energy/walls.h"
 
 namespace sheet {
@@ -18,9 +17,10 @@ struct Presses {
   std::vector<double> all, own;
 };
 
-Presses presses(std::span<const ContactSpring> springs, const Stage& stage) {
+Presses presses(const SpringRests& rests, const Stage& stage) {
+  const std::span<const ContactSpring> springs = rests.springs();
   Presses force{std::vector<double>(stage.vertices(), 0), std::vector<double>(stage.vertices(), 0)};
-  const std::vector<double> longer = SpringRests(springs, true).longer_at_last(stage);
+  const std::vector<double> longer = rests.longer_at_last(stage);
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const ContactSpring& s = springs[i];
     const Vector3 offset = s.sum([&](std::uint32_t v) {
@@ -100,7 +100,7 @@ void ContactSqueeze::begin(const Stage& stage) {
   start_area_.assign(triangles.size(), 1);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
-  const Presses press = presses(springs_, stage);
+  const Presses press = presses(*rests_, stage);
   const std::vector<double> all = per_area(press.all, shares.area, triangles),
                             own = per_area(press.own, shares.area, triangles);
   std::vector<double> pressure(stage.vertices());

@@ -11,6 +11,7 @@
 // below is a spring. A crumb has none.
 #pragma once
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,8 +19,8 @@
 #include "libsheet/energy/bath_surface.h"
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/falls_with_area.h"
+#include "libsheet/energy/spring_rests.h"
 #include "libsheet/geometry/area.h"
-#include "libsheet/sheet/contact_spring.h"
 
 namespace sheet {
 
@@ -27,9 +28,9 @@ class ContactSqueeze {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   static constexpr Kind kind = Kind::elastic;
-  // springs: outlive the term; bath: on which the sheet spreads, if it does.
-  explicit ContactSqueeze(std::span<const ContactSpring> springs, std::optional<BathSurface> bath = {})
-      : springs_(springs), bath_(std::move(bath)) {}
+  // rests: those of layers that flow; bath: on which the sheet spreads, if it does.
+  explicit ContactSqueeze(std::shared_ptr<const SpringRests> rests, std::optional<BathSurface> bath = {})
+      : rests_(std::move(rests)), bath_(std::move(bath)) {}
   [[nodiscard]] const char* name() const { return "squeezed layers"; }
   [[nodiscard]] std::size_t size() const { return work_.size(); }
   void begin(const Stage& stage);
@@ -59,7 +60,7 @@ private:
     return -work_[i] * std::log(area / start_area_[i]);
   }
 
-  std::span<const ContactSpring> springs_;
+  std::shared_ptr<const SpringRests> rests_;
   std::optional<BathSurface> bath_;
   std::vector<double> work_, start_area_; // q V [J], [m²]
 };

@@ -16,12 +16,6 @@ void bound_change(std::vector<double>& predicted, std::span<const double> start)
     predicted[v] = std::clamp(predicted[v], (1 - most_change) * start[v], (1 + most_change) * start[v]);
 }
 
-// The triangle on which the vertex of a spring stands, without volume of one of edges.
-struct Foot {
-  Corners corners;
-  double volume = 0, area = 0; // [m³], at the start of the step [m²]
-};
-
 template <class PositionOf> double area_of(const Corners& c, PositionOf position_of) {
   return TriangleArea(position_of(c[0]), position_of(c[1]), position_of(c[2])).area;
 }
@@ -30,14 +24,6 @@ template <class PositionOf> std::vector<double> thickness_at(const Stage& stage,
   const auto& triangles = stage.start->mesh->triangles;
   return thickness_around(stage.vertices(), triangles, stage.start->volumes,
                           [&](std::uint32_t t) { return area_of(triangles[t], position_of); });
-}
-
-Foot foot_of(const ContactSpring& s, const Stage& stage) {
-  const Corners at{s.vertices[1], s.vertices[2], s.vertices[3]};
-  const std::uint32_t t = s.of_vertex() ? triangle_of(*stage.start->mesh, at) : no_index;
-  if (t == no_index)
-    return {at};
-  return {at, stage.start->volumes[t], area_of(at, [&](std::uint32_t v) { return stage.start->positions[v]; })};
 }
 
 // Where a vertex comes to by its velocity until the end of a first stage.
@@ -59,6 +45,54 @@ std::vector<double> predicted_thickness(const Stage& stage) {
   return predicted;
 }
 
+void LongerRest::add_to_gradient(double times, VectorN<12>& gradient) const {
+  if (!foot)
+    return;
+  const double by_area = times * volume / (foot->area * foot->area);
+  for (int c = 0; c < 3; ++c)
+    gradient.segment<3>(3 * (c + 1)) += by_area * foot->gradient(c);
+}
+
+// k ∇g ∇gᵀ + k g ∇²g, ∇g = along + a ∇A, ∇²g = a (∇²A - 2/A ∇A ∇Aᵀ), a = d0 V/((h0 + h0') A²).
+void LongerRest::add_to_hessian(double k, double force, const VectorN<12>& along, MatrixN<12>& hessian,
+                                bool definite) const {
+  if (!foot) {
+    hessian += k * along * along.transpose();
+    return;
+  }
+  VectorN<12> gradient = along;
+  add_to_gradient(1, gradient);
+  hessian += k * gradient * gradient.transpose();
+  const double bent = force * volume / (foot->area * foot->area),
+               opposed = !definite || force < 0 ? -2 * bent / foot->area : 0;
+  if (!definite || force > 0)
+    foot->each_second(!definite, [&](int i, int j, const Matrix3& block) {
+      hessian.block<3, 3>(3 * (i + 1), 3 * (j + 1)) += bent * block;
+    });
+  if (opposed != 0) {
+    const Vector3 slope[3] = {foot->gradient(0), foot->gradient(1), foot->gradient(2)};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        hessian.block<3, 3>(3 * (i + 1), 3 * (j + 1)) += (opposed * slope[i]) * slope[j].transpose();
+  }
+}
+
+SpringRests::SpringRests(std::span<const ContactSpring> springs, bool flow, const Connectivity& mesh)
+    : springs_(springs), flow_(flow), triangles_(flow ? springs.size() : 0, no_index) {
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    if (const ContactSpring& s = springs[i]; s.of_vertex())
+      triangles_[i] = triangle_of(mesh, {s.vertices[1], s.vertices[2], s.vertices[3]});
+}
+
+SpringRests::Foot SpringRests::foot_of(std::size_t i, const Stage& stage) const {
+  const ContactSpring& s = springs_[i];
+  const Corners at{s.vertices[1], s.vertices[2], s.vertices[3]};
+  const std::uint32_t t = triangles_[i];
+  if (t == no_index)
+    return {at};
+  return {at, stage.start->volumes[t], area_of(at, [&](std::uint32_t v) { return stage.start->positions[v]; })};
+}
+
 void SpringRests::begin(const Stage& stage) {
   if (!flow_)
     return;
@@ -72,7 +106,7 @@ void SpringRests::begin(const Stage& stage) {
   const std::vector<double> at_reference = thickness_at(stage, reference);
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
-    const Foot foot = foot_of(s, stage);
+    const Foot foot = foot_of(i, stage);
     const double is = s.thickness(at_reference, foot.volume, foot.area, area_of(foot.corners, reference)),
                  was = s.thickness(at_start, foot.volume, foot.area, foot.area);
     before_[i] = s.rest_of_layers() * (is / was - 1);
@@ -84,7 +118,7 @@ std::vector<SpringRests::Rest> SpringRests::rests_with(const Stage& stage, std::
   std::vector<Rest> rests(springs_.size());
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const ContactSpring& s = springs_[i];
-    const Foot foot = foot_of(s, stage);
+    const Foot foot = foot_of(i, stage);
     const double rest = s.rest_of_layers(), part = rest / s.thickness(start, foot.volume, foot.area, foot.area);
     if (const bool moves = foot.volume > 0 && of_layer(foot.volume, foot.area); moves)
       rests[i] = {part * end[s.vertices[0]] - rest, part * foot.volume};
@@ -106,29 +140,9 @@ std::vector<double> SpringRests::longer_at_last(const Stage& stage) const {
   bound_change(guess, at_start);
   const std::vector<Rest> rests = rests_with(stage, at_start, guess);
   for (std::size_t i = 0; i < springs_.size(); ++i)
-    longer[i] = rests[i].predicted +
-                (rests[i].volume > 0 ? rests[i].volume / area_of(foot_of(springs_[i], stage).corners, last) : 0);
+    longer[i] =
+        rests[i].predicted + (rests[i].volume > 0 ? rests[i].volume / area_of(foot_of(i, stage).corners, last) : 0);
   return longer;
-}
-
-void SpringRests::add_derivatives(std::size_t i, const VectorN<12>& u, double k, double gap, VectorN<12>& gradient,
-                                  MatrixN<12>& hessian, bool definite) const {
-  if (!flow_ || rests_[i].volume == 0)
-    return;
-  const ContactSpring& s = springs_[i];
-  const TriangleArea a = foot(u);
-  VectorN<12> along, thins = VectorN<12>::Zero(); // of n·Σ w_i x_i, and of -d
-  for (int c = 0; c < 4; ++c)
-    along.segment<3>(3 * c) = s.weights[static_cast<std::size_t>(c)] * s.normal;
-  const double by_area = rests_[i].volume / (a.area * a.area), force = k * gap;
-  for (int c = 0; c < 3; ++c)
-    thins.segment<3>(3 * (c + 1)) = by_area * a.gradient(c);
-  gradient += force * thins;
-  hessian += k * (along * thins.transpose() + thins * along.transpose() + thins * thins.transpose());
-  if (!definite || force < 0)
-    hessian -= 2 * force / (by_area * a.area) * thins * thins.transpose();
-  if (!definite || force > 0)
-    hessian.block<9, 9>(3, 3) += force * by_area * a.hessian(!definite);
 }
 
 } // namespace sheet

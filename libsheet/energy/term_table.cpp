@@ -34,6 +34,12 @@ public:
 
   [[nodiscard]] const Connectivity& mesh() const { return mesh_; }
   [[nodiscard]] bool arcs() const { return arcs_; }
+  // Of the model's contacts, which outlive the terms.
+  const std::shared_ptr<SpringRests>& spring_rests(const Model& model) {
+    if (!spring_rests_)
+      spring_rests_ = std::make_shared<SpringRests>(model.contacts, model.contacts_flow, mesh_);
+    return spring_rests_;
+  }
   template <class Element> void add(Element element) { terms_.push_back(make_term(std::move(element))); }
   // What works on area: the shell's, where it has arcs.
   template <class Load> void add_load(std::optional<Load> AreaLoads::*place, Load load) {
@@ -52,6 +58,7 @@ public:
 private:
   const Connectivity& mesh_;
   bool arcs_;
+  std::shared_ptr<SpringRests> spring_rests_;
   AreaLoads loads_;
   Terms terms_;
 };
@@ -176,14 +183,13 @@ constexpr std::array table = {
         [](const Model& m) { return fmt::format("air of {:.3g} kg/m³ holds back what moves in it", m.air->density); },
         [](const Model&) -> std::string { return "no air in [environment]"; },
         [](const Model& m, TermMaker& maker) { maker.add(FormDrag(*m.air)); }},
-    TermEntry{
-        "contact", [](const Model& m) { return !m.contacts.empty(); },
-        [](const Model&) -> std::string { return "the sheet cannot pass through itself"; }, no_contact,
-        [](const Model& m, TermMaker& maker) { maker.add(Contact(m.contacts, m.contacts_adhere, m.contacts_flow)); }},
+    TermEntry{"contact", [](const Model& m) { return !m.contacts.empty(); },
+              [](const Model&) -> std::string { return "the sheet cannot pass through itself"; }, no_contact,
+              [](const Model& m, TermMaker& maker) { maker.add(Contact(maker.spring_rests(m), m.contacts_adhere)); }},
     TermEntry{"contact damping", [](const Model& m) { return !m.contacts.empty(); },
               [](const Model&) -> std::string { return "what comes to touch does not bounce"; }, no_contact,
               [](const Model& m, TermMaker& maker) {
-                maker.add(ContactDamping(m.contacts, m.has_inertia(), m.contacts_adhere, m.contacts_flow));
+                maker.add(ContactDamping(maker.spring_rests(m), m.has_inertia(), m.contacts_adhere));
               }},
     TermEntry{"squeezed layers", layers_flow,
               [](const Model&) -> std::string { return "what lies on a layer presses it flat"; }, no_layers,
@@ -191,12 +197,12 @@ constexpr std::array table = {
                 std::optional<BathSurface> bath;
                 if (spreads(m) && m.has_weight())
                   bath.emplace(m.gravity, m.bath->level, m.bath_reach);
-                maker.add_load(&AreaLoads::squeeze, ContactSqueeze(m.contacts, std::move(bath)));
+                maker.add_load(&AreaLoads::squeeze, ContactSqueeze(maker.spring_rests(m), std::move(bath)));
               }},
     TermEntry{"shear of layers", [](const Model& m) { return layers_flow(m) && m.liquid.viscous(); },
               [](const Model&) -> std::string { return "layers drag each other"; },
               [](const Model& m) { return m.liquid.viscous() ? no_layers(m) : inviscid(m); },
-              [](const Model& m, TermMaker& maker) { maker.add(ContactShear(m.contacts)); }}};
+              [](const Model& m, TermMaker& maker) { maker.add(ContactShear(maker.spring_rests(m))); }}};
 
 } // namespace
 

@@ -2,9 +2,14 @@
 #include "libsheet/flow/merge_patches.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "libsheet/flow/contact_dates.h"
+#include "libsheet/flow/tear_cuts.h"
 #include "libsheet/flow/whole_patches.h"
 #include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/material/driven_rate.h"
@@ -21,6 +26,7 @@ namespace {
 constexpr double all_of_it = 0.999; // of a triangle's area
 constexpr double most_of_it = 0.5;  // of one that juts out over the rim of what it lies on
 constexpr double most_edges = 2;
+constexpr double much_less = 0.9;                // of a piece's volume
 constexpr std::array<double, 2> sides = {1, -1}; // towards the positive face, and the other one
 
 // Pieces of the sheet that hang together across edges.
@@ -63,6 +69,8 @@ public:
     }
   }
 
+  [[nodiscard]] std::uint64_t piece(std::uint32_t t) const { return pieces_.of[t]; }
+
   [[nodiscard]] bool may_go(std::uint32_t t) const {
     return pieces_.open[pieces_.of[t]] && !any_corner(t, on_solid_) && !any_corner(t, held_);
   }
@@ -77,10 +85,10 @@ public:
     if (any_corner(l.lower, on_solid_))
       return true;
     const std::uint64_t own = pieces_.of[l.upper], other = pieces_.of[l.lower];
-    if (own != other && pieces_.volume[own] != pieces_.volume[other])
-      return pieces_.volume[own] < pieces_.volume[other];
-    const double rises = l.normal.dot(up_);
-    return rises != 0 ? rises > 0 : l.upper > l.lower;
+    const double volume = pieces_.volume[own], others = pieces_.volume[other], rises = l.normal.dot(up_);
+    if (rises != 0 && volume >= much_less * others && others >= much_less * volume)
+      return rises > 0;
+    return volume != others ? volume < others : l.upper > l.lower;
   }
 
 private:
@@ -109,6 +117,7 @@ public:
       if (areas_[t].area > 0 && order_.may_go(t) && !look_below(t))
         not_enough.push_back(t);
     look_beside(not_enough);
+    leave_one_way();
   }
   [[nodiscard]] const std::vector<LyingOn>& on() const { return on_; }
   [[nodiscard]] double ripe() const { return ripe_; } // volume of all that would go, enough or not [m³]
@@ -211,6 +220,38 @@ private:
           if (s != no_index && on_[t].parts.empty() && !before[s].parts.empty() && (ripe(t, 0) || ripe(t, 1)))
             if (LyingOn on = layers_.beside(t, before[s]); goes(on))
               on_[t] = std::move(on);
+  }
+
+  // Of two pieces that lie on each other one goes, and it takes up nothing meanwhile: else patches of many layers of a
+  // pile would go here and there, as they happen to lie on what goes, and leave islands of each. The two of which most
+  // triangles would go come first; crumbs decide nothing.
+  void leave_one_way() {
+    using Pair = std::pair<std::uint64_t, std::uint64_t>; // the upper piece, the lower one
+    const auto each_pair = [&](std::uint32_t t, auto visit) {
+      for (const Lying& l : on_[t].parts)
+        if (const Pair pair{order_.piece(t), order_.piece(l.lower)}; pair.first != pair.second)
+          visit(pair);
+    };
+    std::map<Pair, std::size_t> count;
+    for (std::uint32_t t = 0; t < on_.size(); ++t)
+      each_pair(t, [&](const Pair& pair) { ++count[pair]; });
+    std::vector<std::pair<std::size_t, Pair>> pairs;
+    for (const auto& [pair, triangles] : count)
+      if (triangles >= crumb)
+        pairs.emplace_back(triangles, pair);
+    std::ranges::stable_sort(pairs, std::greater<>(), [](const auto& p) { return p.first; });
+    std::set<std::uint64_t> go, take;
+    for (const auto& [triangles, pair] : pairs)
+      if (!take.contains(pair.first) && !go.contains(pair.second)) {
+        go.insert(pair.first);
+        take.insert(pair.second);
+      }
+    for (std::uint32_t t = 0; t < on_.size(); ++t) {
+      bool other_way = false;
+      each_pair(t, [&](const Pair& pair) { other_way |= take.contains(pair.first) || go.contains(pair.second); });
+      if (other_way)
+        on_[t] = {};
+    }
   }
 
   const Frame& frame_;

@@ -10,10 +10,11 @@
 // within 1.5 mean thicknesses of that, if nothing beyond them stays: their volume goes below, inwards by less than
 // that.
 //
-// Which of two layers is taken up: the one that touches no solid, else the piece of the sheet with less volume, else,
-// within a piece, the one that is above by gravity, else the one with the higher number. What is below is decided
-// first, and nothing is taken up by what is taken up itself, so a pile takes several steps. Patches are whole
-// (whole_patches.h).
+// Which of two layers is taken up: the one that touches no solid, else the one whose piece of the sheet has less
+// volume, but of two that differ by less than a tenth, and within a piece, the one that is above by gravity; else the
+// one with the higher number. What is below is decided first, and nothing is taken up by what is taken up itself; of
+// two pieces that lie on each other one goes and takes nothing up meanwhile, so a pile takes several steps. Patches are
+// whole (whole_patches.h).
 #pragma once
 #include <vector>
 

@@ -32,13 +32,15 @@ public:
   TiedBall& operator=(const TiedBall&) = delete;
 
   [[nodiscard]] Terms terms(bool membrane, bool contact, bool damping) const {
+    const auto rests = std::make_shared<SpringRests>(springs_, true, *s_.mesh);
+    rests->begin(stage_);
     Terms terms;
     if (membrane)
       terms.push_back(make_term(Membrane()));
     if (contact)
-      terms.push_back(make_term(Contact(springs_, true, true)));
+      terms.push_back(make_term(Contact(rests, true)));
     if (damping)
-      terms.push_back(make_term(ContactDamping(springs_, true, true, true)));
+      terms.push_back(make_term(ContactDamping(rests, true, true)));
     for (const auto& term : terms)
       term->begin(stage_);
     return terms;

@@ -45,7 +45,7 @@ Squeezed squeezed(double thickness, const std::function<double(const Vector3&)>&
     springs.push_back(spring);
   }
   const Stage stage = first_stage(start, Liquid{}, 0.1, 0.1, false);
-  ContactSqueeze squeeze(springs);
+  ContactSqueeze squeeze(std::make_shared<SpringRests>(springs, true, *start.mesh));
   squeeze.begin(stage);
   Squeezed found;
   for (std::size_t t = 0; t < count; ++t) {

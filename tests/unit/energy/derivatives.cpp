@@ -769,46 +769,67 @@ std::vector<ContactSpring> standing_springs() {
 }
 const std::vector<ContactSpring> standing = standing_springs();
 
+std::shared_ptr<SpringRests> rests_of(const std::vector<ContactSpring>& all, bool flow) {
+  return std::make_shared<SpringRests>(all, flow, *test::at_rest(test::icosphere(1), 1).mesh);
+}
+
+// A term that begins the rest distances itself, as Contact does.
+template <class E> struct WithRests : E {
+  std::shared_ptr<SpringRests> rests;
+  void begin(const Stage& stage) {
+    rests->begin(stage);
+    E::begin(stage);
+  }
+};
+template <class E, class... Options>
+WithRests<E> with_rests(const std::shared_ptr<SpringRests>& rests, Options... options) {
+  return {E(rests, options...), rests};
+}
+
 TEST(Derivatives, Contact) {
-  check(Contact(springs, true, false), {true, false});
-  check(Contact(springs, false, false), {true, false});
+  check(Contact(rests_of(springs, false), true), {true, false});
+  check(Contact(rests_of(springs, false), false), {true, false});
 }
 
 // Of layers that flow, whose springs rest at what triangles are thick.
 TEST(Derivatives, ContactOfLayersThatFlow) {
   for (const bool adhesion : {false, true}) {
-    check(Contact(springs, adhesion, true), {true, false});
-    check(Contact(standing, adhesion, true), {true, false});
+    check(Contact(rests_of(springs, true), adhesion), {true, false});
+    check(Contact(rests_of(standing, true), adhesion), {true, false});
   }
-  check(ContactDamping(standing, true, true, true), {true, false}); // without adhesion it sets in suddenly
-  check(ContactShear(standing), {true, false});
-  check(ContactShear(standing), {false, false}, true, crumpled, touch_walls);
+  check(with_rests<ContactDamping>(rests_of(standing, true), true, true),
+        {true, false}); // without adhesion it sets in suddenly
+  check(with_rests<ContactShear>(rests_of(standing, true)), {true, false});
+  check(with_rests<ContactShear>(rests_of(standing, true)), {false, false}, true, crumpled, touch_walls);
 }
 
 TEST(Derivatives, ContactDamping) {
-  check(ContactDamping(springs, true, true, false), {true, false});
-  check(ContactDamping(springs, true, false, false), {true, false});
+  check(with_rests<ContactDamping>(rests_of(springs, false), true, true), {true, false});
+  check(with_rests<ContactDamping>(rests_of(springs, false), true, false), {true, false});
 }
 
 TEST(Derivatives, ContactShear) {
-  check(ContactShear(springs), {true, false});
-  check(ContactShear(springs), {false, false}, true, crumpled, touch_walls); // walls take a part
+  check(with_rests<ContactShear>(rests_of(springs, true)), {true, false});
+  check(with_rests<ContactShear>(rests_of(springs, true)), {false, false}, true, crumpled,
+        touch_walls); // walls take a part
 }
 
 TEST(Derivatives, ContactShearOfFlowCurves) {
   for (const std::size_t law : {0U, 1U, 2U, 4U, 5U}) // Cross' curve is not smooth at rest, which some are near
     for (const bool warm : {false, true})
       for (const bool two : {false, true})
-        check(ContactShear(springs), {false, false, 2, flow_laws()[law], warm, two}, true, crumpled, touch_walls);
+        check(with_rests<ContactShear>(rests_of(springs, true)), {false, false, 2, flow_laws()[law], warm, two}, true,
+              crumpled, touch_walls);
 }
 
 TEST(Derivatives, SqueezeOfArcs) {
-  check(MidEdgeShell(AreaLoads{.squeeze = ContactSqueeze(springs)}), {true, false, 0.01}, true, crumpled, touch_walls);
+  check(MidEdgeShell(AreaLoads{.squeeze = ContactSqueeze(rests_of(springs, true))}), {true, false, 0.01}, true,
+        crumpled, touch_walls);
 }
 
 TEST(Derivatives, ContactSqueeze) {
-  check(ContactSqueeze(springs), {});
-  check(ContactSqueeze(springs), {}, true, crumpled, touch_walls);
+  check(ContactSqueeze(rests_of(springs, true)), {});
+  check(ContactSqueeze(rests_of(springs, true)), {}, true, crumpled, touch_walls);
 }
 
 } // namespace

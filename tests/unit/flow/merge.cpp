@@ -241,8 +241,8 @@ TEST(Merge, WeldsTheBorderOfWhatStays) {
   EXPECT_EQ(again.triangles, 0u);
 }
 
-// Three sheets on each other: the second goes at once, the third when it has lain on the first.
-TEST(Merge, PilesGoFromBelow) {
+// Three sheets on each other, of 12, 8 and 6 cells, the lowest on a solid or not.
+Frame pile(bool on_solid) {
   Frame frame = stack();
   const std::size_t lower = 169;
   Frame third = test::grid(6, 6, 0.1, layer / 2);
@@ -256,12 +256,54 @@ TEST(Merge, PilesGoFromBelow) {
     if (std::ranges::all_of(s.vertices, [&](std::uint32_t v) { return v >= lower; }))
       springs.push_back(s);
   std::vector<std::int32_t> touch(frame.vertices, no_solid);
-  std::fill_n(touch.begin(), lower, 0);
+  if (on_solid)
+    std::fill_n(touch.begin(), lower, 0);
   put_touched_solids(frame, touch, 1);
   write_springs(frame, springs);
+  return frame;
+}
+
+// The second goes at once, the third when it has lain on the first.
+TEST(Merge, PilesGoFromBelow) {
+  Frame frame = pile(true);
   const Merged merged = merge(frame, merging_scene());
   EXPECT_EQ(merged.triangles, 128u);
   EXPECT_EQ(frame.triangles, 288u + 72u);
+}
+
+// A part of the second has touched the first for too short a time, as far as y = 0.6 m. The third, which lies on both
+// parts, does not go into the one that stays, as that piece goes.
+TEST(Merge, OfAPileEachPieceGoesOrTakes) {
+  Frame frame = pile(true);
+  const auto x = positions(std::as_const(frame));
+  std::vector<ContactSpring> springs = read_springs(frame);
+  for (ContactSpring& s : springs)
+    if (std::ranges::any_of(s.vertices, [](std::uint32_t v) { return v < 169; }) && x[s.vertices[0]].y() < 0.6)
+      s.since = 0.9;
+  write_springs(frame, springs);
+  const MergePatches patches =
+      find_patches(frame, connect(frame.vertices, triangles(std::as_const(frame))), merging_scene());
+  const auto taken_of = [&](std::size_t first, std::size_t last) {
+    return std::count(patches.taken.begin() + static_cast<std::ptrdiff_t>(first),
+                      patches.taken.begin() + static_cast<std::ptrdiff_t>(last), true);
+  };
+  EXPECT_GT(taken_of(288, 416), 30);
+  EXPECT_EQ(taken_of(416, 488), 0);
+}
+
+// Of two sheets of one volume but for rounding, on no solid, the upper one goes.
+TEST(Merge, RoundingOfVolumesDoesNotDecide) {
+  for (const double times : {1 - 1e-15, 1 + 1e-15}) {
+    Frame frame = stack(12, Vector3(0, 0, gap));
+    put_touched_solids(frame, std::vector<std::int32_t>(frame.vertices, no_solid), 1);
+    const auto volume = volumes(frame);
+    for (std::size_t t = 0; t < 288; ++t)
+      volume[t + 288] = volume[t] * times;
+    const MergePatches patches =
+        find_patches(frame, connect(frame.vertices, triangles(std::as_const(frame))), merging_scene());
+    EXPECT_EQ(std::count(patches.taken.begin(), patches.taken.begin() + 288, true), 0) << times;
+    EXPECT_EQ(std::count(patches.taken.begin() + 288, patches.taken.end(), true), 288) << times;
+  }
 }
 
 // A strip that is folded over: the upper leg goes into the lower one, and the bend is its rim.

@@ -112,8 +112,10 @@ TEST(TwoLiquids, LayersBearOneStress) {
   const Layers layers = two_layers(lower, upper);
   for (const auto& [below, above] : {std::pair{3.0, 50.0}, std::pair{50.0, 3.0}, std::pair{7.0, 7.0 * (1 + 1e-9)}}) {
     const std::vector<Liquid> liquids{{.viscosity = below, .density = 1000}, {.viscosity = above, .density = 1000}};
-    ContactShear shear(layers.springs);
+    const auto rests = std::make_shared<SpringRests>(layers.springs, true, *layers.state.mesh);
+    ContactShear shear(rests);
     const Stage stage = first_stage(layers.state, liquids, duration, duration, false);
+    rests->begin(stage);
     shear.begin(stage);
     const double way = 1e-3;
     VectorN<12> u, gradient;
