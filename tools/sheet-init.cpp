@@ -47,6 +47,7 @@
 #include "libsheet/scene/keys.h"
 #include "libsheet/scene/read.h"
 #include "libsheet/scene/scales.h"
+#include "libsheet/solid/solids.h"
 
 namespace {
 
@@ -146,6 +147,7 @@ void warn_of_symmetry(const sheet::Scene& scene, const sheet::formats::Frame& fr
 // What --check prints; of that, what --ring does.
 std::string explained(Source source, bool ring_alone) {
   const sheet::Scene with_heat = read(source), scene = sheet::scene::as_it_starts(with_heat);
+  const sheet::solid::Solids kept(scene); // each mesh is read once
   const sheet::formats::Frame frame = sheet::checked_first_frame(with_heat);
   const std::vector<sheet::scene::Measured> measured = sheet::measured_on_solids(scene, frame);
   sheet::scene::Explanation explanation = sheet::scene::explain(with_heat, measured, sheet::modelled(with_heat));

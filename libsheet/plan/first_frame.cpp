@@ -271,6 +271,7 @@ Frame first_frame(const Scene& scene) {
 }
 
 Frame checked_first_frame(const Scene& scene) {
+  const solid::Solids kept(scene); // each mesh is read once
   Frame frame = first_frame(scene);
   check_surface(scene, frame);
   StepStage({}).check(frame);

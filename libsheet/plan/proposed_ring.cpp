@@ -169,6 +169,13 @@ double time_spread(const Scene& scene, const Frame& first) {
   return spreading && spreading->lies ? times * spreading->time : 0;
 }
 
+// Until its waves of thickness have levelled there; 0 where that takes many times of everything else, `until` [s].
+double time_level(const Scene& scene, const Frame& first, double until) {
+  constexpr double times = 2, much_later = 1000;
+  const double time = times * levelling_time(scene, first);
+  return time < much_later * until ? time : 0;
+}
+
 // That of the scene as it starts; of what is warmed until it flows, counted from when it is warm.
 double with_heat(const Scene& scene, const Frame& first, const std::function<double(const Scene&)>& time_of) {
   const double as_it_starts = time_of(scene::as_it_starts(scene));
@@ -229,7 +236,7 @@ double all_carried_time(const Scene& scene, const Frame& first) {
 
 // Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
 // ends by the clock has ended, whatever moves on for ever has come through or round, belts and slopes have carried
-// it past all, and what lies on level ground has spread.
+// it past all, and what lies on level ground has spread and levelled.
 double until_of(const Scene& scene, const Frame& first) {
   double at_rest = first.time; // all solids
   for (const scene::Solid& solid : scene.solids)
@@ -241,6 +248,7 @@ double until_of(const Scene& scene, const Frame& first) {
   until += 4 * fall_time(scene, landings(scene, first));
   until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_down(of, first, at_rest); }));
   until = std::max(until, time_spread(scene, first));
+  until = std::max(until, time_level(scene, first, until));
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
   for (const scene::Hold& hold : scene.holds)
     ends(hold.until.value_or(0));

@@ -114,6 +114,40 @@ double resting_thickness(const Liquid& liquid, const scene::Solid& solid, double
   return 2 * capillary_length * std::sin(solid.contact_angle.value_or(std::numbers::pi) / 2);
 }
 
+// A solid at rest on which liquid flows.
+struct LevelGround {
+  std::size_t number;
+  bool lies; // all of the sheet, on it from the start
+};
+
+// Of a free sheet, the only one, most of which lands there.
+std::optional<LevelGround> level_ground(const Scene& scene, const formats::Frame& first,
+                                        const std::vector<Landing>& all) {
+  const scene::Measured sheet = measured(first);
+  const auto rests = [&](const scene::Solid& solid) {
+    return std::holds_alternative<scene::Fixed>(solid.motion) &&
+           (scene.outflows.empty() || solid.surface_velocity.isZero());
+  };
+  if (all.empty() || !is_free(scene) || !scene.inflows.empty() || scene.sheets.size() > 1 || !sheet.length ||
+      !sheet.thickness || !std::ranges::all_of(scene.solids, rests))
+    return std::nullopt;
+  const Vector3 down = scene.environment.gravity->normalized();
+  std::optional<std::size_t> ground;
+  double lands = 0;
+  for (const Landing& landing : all) {
+    const scene::Solid& below = scene.solids[landing.solid];
+    if (below.contact == SolidContact::flow && std::holds_alternative<scene::HalfSpace>(below.shape) &&
+        landing.there.normal.cross(down).norm() < least_slope) {
+      ground = landing.solid;
+      ++lands;
+    }
+  }
+  if (!ground || lands < least_part * static_cast<double>(all.size()))
+    return std::nullopt;
+  return LevelGround{*ground,
+                     longest_fall(all) < near_enough * *sheet.thickness && lands == static_cast<double>(all.size())};
+}
+
 } // namespace
 
 std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& first, double t) {
@@ -187,37 +221,41 @@ std::string late_running_warning(const Scene& scene, const formats::Frame& first
 }
 
 std::optional<Spreading> spreads(const Scene& scene, const formats::Frame& first) {
-  const scene::Measured sheet = measured(first);
   const std::vector<Landing> all = landings(scene, first);
-  const auto rests = [&](const scene::Solid& solid) {
-    return std::holds_alternative<scene::Fixed>(solid.motion) &&
-           (scene.outflows.empty() || solid.surface_velocity.isZero());
-  };
-  if (all.empty() || !is_free(scene) || !scene.inflows.empty() || scene.sheets.size() > 1 || !sheet.length ||
-      !sheet.thickness || !std::ranges::all_of(scene.solids, rests))
+  const auto ground = level_ground(scene, first, all);
+  if (!ground)
     return std::nullopt;
-  const Vector3 down = scene.environment.gravity->normalized();
-  std::optional<std::size_t> ground;
-  double lands = 0;
-  for (const Landing& landing : all) {
-    const scene::Solid& below = scene.solids[landing.solid];
-    if (below.contact == SolidContact::flow && std::holds_alternative<scene::HalfSpace>(below.shape) &&
-        landing.there.normal.cross(down).norm() < least_slope) {
-      ground = landing.solid;
-      ++lands;
-    }
-  }
   const Liquid& liquid = all.front().liquid;
+  const scene::Measured sheet = measured(first);
   const double g = scene.environment.gravity->norm(), h = *sheet.thickness, L = *sheet.length;
-  if (!ground || lands < least_part * static_cast<double>(all.size()) ||
-      !(liquid.law.newtonian() || liquid.law.kind == FlowLawKind::power) ||
-      h < resting_thickness(liquid, scene.solids[*ground], g))
+  if (!(liquid.law.newtonian() || liquid.law.kind == FlowLawKind::power) ||
+      h < resting_thickness(liquid, scene.solids[ground->number], g))
     return std::nullopt;
-  const double fall = longest_fall(all), radius = L / std::sqrt(std::numbers::pi);
+  const double radius = L / std::sqrt(std::numbers::pi);
   const auto from_point = [&](double r) { return spreading_time(liquid, L * L * h, r, g); };
-  return Spreading{.ground = *ground,
-                   .lies = fall < near_enough * h && lands == static_cast<double>(all.size()),
+  return Spreading{.ground = ground->number,
+                   .lies = ground->lies,
                    .time = fall_time(scene, all) + from_point(wider * radius) - from_point(radius)};
+}
+
+double levelling_time(const Scene& scene, const formats::Frame& first) {
+  constexpr double seen = 0.01; // least wave, part of the thickness
+  const std::vector<Landing> all = landings(scene, first);
+  const auto ground = level_ground(scene, first, all);
+  if (!ground || !ground->lies || !all.front().liquid.law.newtonian())
+    return 0;
+  const Liquid& liquid = all.front().liquid;
+  const double h = *measured(first).thickness, b = scene.solids[ground->number].slip_length;
+  const double weight = liquid.density * scene.environment.gravity->norm();
+  const double tension = scene.model.faces ? liquid.surface_tension : 0;
+  double time = 0;
+  for (const scene::Perturbation& wave : scene.sheets.front().perturbations)
+    if (const auto* form = std::get_if<scene::Wave>(&wave.form);
+        form != nullptr && wave.of_thickness && std::abs(wave.amplitude) >= seen * h) {
+      const double k = 2 * std::numbers::pi / form->wavelength, resistance = 3 / (h + 3 * b) + 4 * k * k * h;
+      time = std::max(time, liquid.viscosity * resistance / (k * k * (weight + tension * k * k) * h * h));
+    }
+  return time;
 }
 
 std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until) {

@@ -37,6 +37,11 @@ struct Spreading {
 // or lies on level ground; nothing where a solid moves, which may be what there is to see, or carries it out.
 [[nodiscard]] std::optional<Spreading> spreads(const Scene& scene, const formats::Frame& first);
 
+// In which the waves of its thickness, a hundredth of it and more, fall to 1/e where it lies on level ground from the
+// start and is Newtonian, the slowest of them [s]: μ (3/(h + 3 b) + 4 k² h)/(k² (ρ g + γ k²) h²) [Orchard 1962], the
+// layer stretched, too; γ with `faces` only. 0 where there are none.
+[[nodiscard]] double levelling_time(const Scene& scene, const formats::Frame& first);
+
 // Where it has spread by a tenth long after the run's end; likewise "" where that is a thousand runs.
 [[nodiscard]] std::string late_spreading_warning(const Scene& scene, const formats::Frame& first, double until);
 

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
+#include <utility>
 
 #include "libsheet/base/error.h"
 #include "libsheet/base/log.h"
@@ -86,6 +88,29 @@ private:
   double slack_;
 };
 
+std::shared_ptr<const SolidDistance> distance_from_file(const scene::SolidMesh& mesh, const std::string& name) {
+  SolidSurface surface;
+  try {
+    surface = read_surface(mesh);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::io)
+      throw;
+    fail(ExitCode::io, "{} (the scene names it as seen from the folder in which sheet-init ran: go on from there)",
+         error.what());
+  }
+  check_surface(surface, name, true);
+  const double voxel_size = voxel_size_for(surface, mesh.voxel_size.value_or(0));
+  check_voxels(surface, name, voxel_size);
+  const std::string key = cache_key(surface, voxel_size, band_voxels);
+  std::optional<DistanceField> field = load_field(key);
+  if (!field) {
+    check_surface(surface, name);
+    field.emplace(surface, voxel_size, band_voxels);
+    store_field(key, *field);
+  }
+  return std::make_shared<MeshDistance>(std::move(surface), std::move(*field));
+}
+
 } // namespace
 
 SolidSurface read_surface(const scene::SolidMesh& mesh) {
@@ -109,27 +134,17 @@ SolidSurface read_surface(const scene::SolidMesh& mesh) {
   return surface;
 }
 
-std::unique_ptr<const SolidDistance> make_distance(const scene::SolidMesh& mesh, const std::string& name) {
-  SolidSurface surface;
-  try {
-    surface = read_surface(mesh);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::io)
-      throw;
-    fail(ExitCode::io, "{} (the scene names it as seen from the folder in which sheet-init ran: go on from there)",
-         error.what());
-  }
-  check_surface(surface, name, true);
-  const double voxel_size = voxel_size_for(surface, mesh.voxel_size.value_or(0));
-  check_voxels(surface, name, voxel_size);
-  const std::string key = cache_key(surface, voxel_size, band_voxels);
-  std::optional<DistanceField> field = load_field(key);
-  if (!field) {
-    check_surface(surface, name);
-    field.emplace(surface, voxel_size, band_voxels);
-    store_field(key, *field);
-  }
-  return std::make_unique<MeshDistance>(std::move(surface), std::move(*field));
+std::shared_ptr<const SolidDistance> shared_distance(const scene::SolidMesh& mesh, const std::string& name) {
+  static std::mutex mutex;
+  static std::vector<std::pair<scene::SolidMesh, std::weak_ptr<const SolidDistance>>> known;
+  const std::scoped_lock lock(mutex);
+  std::erase_if(known, [](const auto& entry) { return entry.second.expired(); });
+  for (const auto& [file, shared] : known)
+    if (std::shared_ptr<const SolidDistance> distance = file == mesh ? shared.lock() : nullptr)
+      return distance;
+  std::shared_ptr<const SolidDistance> distance = distance_from_file(mesh, name);
+  known.emplace_back(mesh, distance);
+  return distance;
 }
 
 std::unique_ptr<const SolidDistance> make_distance(SolidSurface surface, double voxel_size) {

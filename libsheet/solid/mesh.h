@@ -23,10 +23,11 @@ struct SolidSurface {
 [[nodiscard]] SolidSurface read_surface(const scene::SolidMesh& mesh);
 
 // The distance of the surface in its file, checked (solid_check.h), its field from the cache where it is there.
-// `name` stands for the solid in messages.
-[[nodiscard]] std::unique_ptr<const SolidDistance> make_distance(const scene::SolidMesh& mesh, const std::string& name);
+// `name` stands for the solid in messages. As long as somebody has it, others get the same and no file is read.
+[[nodiscard]] std::shared_ptr<const SolidDistance> shared_distance(const scene::SolidMesh& mesh,
+                                                                   const std::string& name);
 
-// The same without file and cache. The surface must have passed check_surface. `voxel_size` 0: chosen.
+// The same anew, without file and cache. The surface must have passed check_surface. `voxel_size` 0: chosen.
 [[nodiscard]] std::unique_ptr<const SolidDistance> make_distance(SolidSurface surface, double voxel_size);
 
 } // namespace sheet::solid

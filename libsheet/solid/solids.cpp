@@ -16,12 +16,13 @@ Solids::Solids(const Scene& scene) : may_squeeze_(scene::solids_squeeze(scene)) 
     const scene::Solid& solid = scene.solids[i];
     Entry entry{solid, fmt::format("solid {} ({})", i, scene::words::solid_shapes[solid.shape.index()]), {}, nullptr};
     entry.placed = Eigen::Translation3d(solid.center) * Eigen::Isometry3d(scene::matrix(solid.rotation));
-    entry.shape = std::visit(Overloaded{[&](const scene::SolidMesh& mesh) {
-                                          entry.name = fmt::format("solid {} ({})", i, mesh.file);
-                                          return make_distance(mesh, entry.name);
-                                        },
-                                        [](const auto& exact) { return make_distance(exact); }},
-                             solid.shape);
+    entry.shape = std::visit(
+        Overloaded{[&](const scene::SolidMesh& mesh) {
+                     entry.name = fmt::format("solid {} ({})", i, mesh.file);
+                     return shared_distance(mesh, entry.name);
+                   },
+                   [](const auto& exact) -> std::shared_ptr<const SolidDistance> { return make_distance(exact); }},
+        solid.shape);
     solids_.push_back(std::move(entry));
   }
 }

@@ -28,8 +28,8 @@ struct SolidPoint {
 
 class Solids {
 public:
-  // Reads the meshes and fields that the scene names. Throws Error (io, bad_input) where one of them is missing or is
-  // not the surface of a solid (solid_mesh.h).
+  // Reads the meshes and fields that the scene names, unless others are there that have read them (mesh.h). Throws
+  // Error (io, bad_input) where one of them is missing or is not the surface of a solid (solid_mesh.h).
   explicit Solids(const Scene& scene);
 
   [[nodiscard]] std::size_t size() const { return solids_.size(); }
@@ -70,7 +70,7 @@ private:
     scene::Solid scene;
     std::string name;
     Eigen::Isometry3d placed; // from its own frame to the world at time 0
-    std::unique_ptr<const SolidDistance> shape;
+    std::shared_ptr<const SolidDistance> shape;
   };
   std::vector<Entry> solids_;
   bool may_squeeze_ = false;

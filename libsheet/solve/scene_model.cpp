@@ -267,7 +267,7 @@ void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh
 
 // As they are at the start of the step, so that a run that is gone on with has the same.
 ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& mesh) {
-  constexpr double least_slope = 0.02; // of a face: what is less adds 5e-5 to its area
+  constexpr double least_slope = 1e-4; // of a face: a layer with less is as good as level
   FreeFaces faces = scene::free_faces(scene, frame, mesh);
   std::vector<SlopedEdge> slopes = sloped_edges(mesh, positions(frame), volumes(frame), faces, least_slope);
   return {std::move(faces.rims), std::move(slopes)};

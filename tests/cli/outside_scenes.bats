@@ -571,6 +571,19 @@ END
   [ "$(grep -c 'that no face uses' <<< "$stderr")" = 2 ]
 }
 
+@test "--check reads the mesh of a solid once, however much it asks of it" {
+  {
+    printf 'v %s\n' '-5 -1 -5' '5 -1 -5' '5 0 -5' '-5 0 -5' '-5 -1 5' '5 -1 5' '5 0 5' '-5 0 5' '9 9 9'
+    printf 'f %s\n' '1 3 2' '1 4 3' '5 6 7' '5 7 8' '1 2 6' '1 6 5' '4 8 7' '4 7 3' '1 5 8' '1 8 4' '2 3 7' '2 7 6'
+  } > block.obj
+  sed 's/^\[material\]/center = [0, 1, 0]\n&/' disk.toml > falls.toml
+  printf '[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\nshape = "mesh"\nfile = "block.obj"\n' >> falls.toml
+  for how in --check --no-provenance; do
+    run --separate-stderr -0 sheet-init falls.toml $how -o /dev/null
+    [ "$(grep -c 'that no face uses' <<< "$stderr")" = 1 ]
+  done
+}
+
 @test "8: a size without its unit is doubted before its mesh is made" {
   sed 's/radius = 1/radius = 4/; s/0.4/"10 mm"/' disk.toml > large.toml
   sheet-init large.toml -o large.sheet > /dev/null 2> log &

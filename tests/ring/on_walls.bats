@@ -404,3 +404,53 @@ END
             exit !(r > 0.98 * 48.55 && r < 1.02 * 48.55) }' "edges$edge.csv"
   done
 }
+
+# usage: wave_heights RUN: time and height of the wave of 20 mm in the middle, of each frame [mm]
+wave_heights() {
+  PYTHONPATH=$BATS_TEST_DIRNAME/../../formats/python /usr/bin/python3 - "$1" << 'END'
+import sys
+import numpy as np
+import sheetstream
+
+k = 2 * np.pi / 0.02
+for frame in sheetstream.Run(sys.argv[1]):
+    corners = frame["position"][frame["triangle"]]
+    x, _, z = corners.mean(axis=1).T
+    middle = (abs(x) < 0.03) & (abs(z) < 0.01)
+    x, weight = x[middle], np.sqrt(frame.area()[middle])
+    fitted = np.stack([x**0, x, x**2, np.cos(k * x), np.sin(k * x)], 1) * weight[:, None]
+    parts = np.linalg.lstsq(fitted, frame["volume"][middle] / weight, rcond=None)[0]
+    print(frame.time, 1e3 * np.hypot(*parts[3:]))
+END
+}
+
+@test "brush marks level by tension, however smooth they are" {
+  cat > paint.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = ["80 mm", "60 mm"]
+edge_length = "1.5 mm"
+thickness = "1 mm"
+perturbation = {of = "thickness", amplitude = "30 um", wavelength = "20 mm", direction = "x"}
+center = [0, "0.5 mm", 0]
+[material]
+viscosity = "2 Pa*s"
+density = "1200 kg/m^3"
+surface_tension = "0.2 N/m"
+[model]
+faces = true
+[environment]
+gravity = [0, -9.81, 0]
+[[hold]]
+region = "rim"
+[[solid]]
+shape = "plane"
+contact = "flow"
+END
+  run_scene paint 1.5 2
+  # k² (ρ g + γ k²) h³/(3 μ (1 + 4 k² h²/3)) = 0.458 1/s [Orchard 1962], the layer stretched, too; its weight alone 0.171
+  wave_heights paint.sheet | tee heights.txt
+  awk 'NR == 2 { t = $1; h = $2 } END { rate = log(h/$2)/($1 - t); print rate; exit !(rate > 0.435 && rate < 0.47) }' \
+    heights.txt
+  awk 'END { exit !($2 < 0.018) }' heights.txt
+}

@@ -266,5 +266,36 @@ TEST(RunningDown, WhatIsPouredOnATopComesOverItsEdgeLater) {
   EXPECT_EQ(late(straight, "[[hold]]\nregion = \"x_min\"\n", 1), "");
 }
 
+// Paint with brush marks, which tension keeps from spreading.
+TEST(RunningDown, TheRunGoesOnUntilWavesHaveLevelled) {
+  const auto paint = [](const std::string& perturbation, const std::string& more) {
+    return scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.1, 0.04]\nedge_length = 0.005\nthickness = 0.001\n"
+        "center = [0, 0.0005, 0]\n" +
+            perturbation +
+            "[material]\nviscosity = 2\ndensity = 1200\nsurface_tension = 0.03\n[environment]\n"
+            "gravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n" +
+            more,
+        "s");
+  };
+  const auto time = [](const Scene& scene) { return levelling_time(scene, first_frame(scene)); };
+  const auto until = [](const Scene& scene) { return proposed_ring(scene, first_frame(scene), {}).until; };
+  const std::string wave = "perturbation = {of = \"thickness\", amplitude = 1e-4, wavelength = 0.02}\n";
+  const double k = 2 * std::numbers::pi / 0.02, h = 0.001, weight = 1200 * 9.81;
+  const auto law = [&](double tension) {
+    return 3 * 2 * (1 + 4 * k * k * h * h / 3) / (k * k * (weight + tension * k * k) * h * h * h);
+  };
+  EXPECT_NEAR(time(paint(wave, "")), law(0), 1e-4 * law(0));
+  EXPECT_NEAR(time(paint(wave, "[model]\nfaces = true\n")), law(0.03), 1e-4 * law(0.03));
+  EXPECT_NEAR(until(paint(wave, "")), 2 * law(0), 0.1 * law(0));
+  const std::string small = "perturbation = {of = \"thickness\", amplitude = 1e-6, wavelength = 0.02}\n",
+                    bend = "perturbation = {amplitude = 1e-5, wavelength = 0.02}\n",
+                    held = "[[hold]]\nregion = \"rim\"\n";
+  EXPECT_EQ(time(paint(small, "")), 0);
+  EXPECT_EQ(time(paint(bend, "")), 0);
+  EXPECT_LT(until(paint(small, "")), 1);
+  EXPECT_EQ(time(paint(wave, held)), 0);
+}
+
 } // namespace
 } // namespace sheet

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Signed distances and first hits of all shapes, against closed forms, differences and samples.
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
 #include <gtest/gtest.h>
 
+#include "libsheet/solid/solids.h"
 #include "libsheet/solid/triangle_distance.h"
 #include "libsheet/solid/triangle_tree.h"
 #include "tests/support/slow_searches.h"
+#include "tests/unit/own_path.h"
 #include "tests/unit/solid/solid_support.h"
 
 namespace sheet::solid {
@@ -246,6 +252,32 @@ TEST(Searches, EndWhereTheyComeToAnInstant) {
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->point.near.distance, 0, 5e-9); // lowest points are found to 1e-9 of the longest side, 5 m
   EXPECT_GE(box->separation(thrown.at(0.99 * hit->s), 10, 1e-6), 0);
+}
+
+// The file is read again when nobody has it any more.
+TEST(SharedDistance, OfOneFileIsOneAsLongAsSomebodyHasIt) {
+  const std::string file = test::own_path("shared.off");
+  const auto write = [&](double x) {
+    std::ofstream(file) << "OFF\n4 4 0\n0 0 0\n" << x << " 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  };
+  const auto width = [](const Solids& solids) { return solids.shape(0).bounds().sizes().x(); };
+  write(1);
+  Scene scene;
+  scene.solids.resize(2);
+  for (scene::Solid& solid : scene.solids)
+    solid.shape = scene::SolidMesh{file, 1, {}};
+  std::optional<Solids> first(scene);
+  write(2);
+  scene.solids[1].shape = scene::SolidMesh{file, 0.5, {}};
+  std::optional<Solids> second(scene);
+  EXPECT_EQ(&first->shape(0), &first->shape(1));
+  EXPECT_EQ(&first->shape(0), &second->shape(0));
+  EXPECT_NE(&first->shape(0), &second->shape(1)); // of another scale
+  EXPECT_DOUBLE_EQ(width(*second), 1);
+  first.reset();
+  second.reset();
+  EXPECT_DOUBLE_EQ(width(Solids(scene)), 2);
+  std::filesystem::remove(file);
 }
 
 } // namespace
