@@ -82,6 +82,11 @@ std::vector<char> at_free_rims(const Connectivity& mesh, const FreeFaces& faces)
   return on;
 }
 
+// On something, with a face that is free.
+bool lies_open(const FreeFaces& faces, std::uint32_t v) {
+  return !faces.closed.empty() && faces.closed[v] > 0 && faces.closed[v] < 2;
+}
+
 } // namespace
 
 FreeFaces all_free(const Connectivity& mesh) {
@@ -92,7 +97,7 @@ FreeFaces all_free(const Connectivity& mesh) {
 }
 
 std::vector<SlopedEdge> sloped_edges(const Connectivity& mesh, std::span<const Vector3> positions,
-                                     std::span<const double> volumes, const FreeFaces& faces, double least) {
+                                     std::span<const double> volumes, const FreeFaces& faces, const LeastSlope& least) {
   const Thickness thickness(mesh, positions, volumes);
   const std::vector<char> on_rim = at_free_rims(mesh, faces);
   std::vector<SlopedEdge> sloped;
@@ -101,7 +106,8 @@ std::vector<SlopedEdge> sloped_edges(const Connectivity& mesh, std::span<const V
       continue;
     const auto [p, q] = thickness.slant_at(e); // the slope is 2 q/p
     const auto [a, b] = mesh.edges[e];
-    if (on_rim[a] != 0 || on_rim[b] != 0 || 2 * std::abs(q) > least * p)
+    const double enough = lies_open(faces, a) || lies_open(faces, b) ? least.on_something : least.free;
+    if (on_rim[a] != 0 || on_rim[b] != 0 || 2 * std::abs(q) > enough * p)
       sloped.push_back(sloped_edge(mesh, e, faces, on_rim));
   }
   return sloped;

@@ -69,10 +69,15 @@ struct SlopedEdge {
   double two_faces = 1, one_face = 0, of_thread = 0;
 };
 
+// Slopes of the thickness that count.
+struct LeastSlope {
+  double free = 0, on_something = 0; // where an end of the edge lies on something, with a face that is free, the second
+};
+
 // Inner edges at which the thickness is not even, the slope being above `least`, and those that end on a free rim.
 [[nodiscard]] std::vector<SlopedEdge> sloped_edges(const Connectivity& mesh, std::span<const Vector3> positions,
                                                    std::span<const double> volumes, const FreeFaces& faces,
-                                                   double least);
+                                                   const LeastSlope& least);
 
 // The area that all of them have beyond twice that of the middle surface [m²]; of such factors of the triangles, their
 // sum over it, between two triangles with the mean of both.

@@ -267,7 +267,8 @@ void add_inlets(const Scene& scene, const Frame& frame, const Connectivity& mesh
 
 // As they are at the start of the step, so that a run that is gone on with has the same.
 ModelFaces faces_of(const Scene& scene, const Frame& frame, const Connectivity& mesh) {
-  constexpr double least_slope = 1e-4; // of a face: a layer with less is as good as level
+  // Of free faces what is less adds 5e-5 to their area. What lies on something levels for as long as a run goes on.
+  constexpr LeastSlope least_slope{.free = 0.02, .on_something = 1e-4};
   FreeFaces faces = scene::free_faces(scene, frame, mesh);
   std::vector<SlopedEdge> slopes = sloped_edges(mesh, positions(frame), volumes(frame), faces, least_slope);
   return {std::move(faces.rims), std::move(slopes)};

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double gamma = 0.05; // [N/m]
 
-constexpr double every = -1; // slope is above that
+constexpr LeastSlope every{-1, -1}; // slope is above that
 
 // Those rims, and every slope.
 void put_faces(const State& s, const FreeFaces& faces, Model& m) {

@@ -385,7 +385,7 @@ TEST(Derivatives, SlopeTension) {
     faces.closed[v] = 0.3 * static_cast<double>(v % 7);
   Random random;
   const State s = steep(random);
-  const std::vector<SlopedEdge> edges = sloped_edges(mesh, s.positions, s.volumes, faces, 0);
+  const std::vector<SlopedEdge> edges = sloped_edges(mesh, s.positions, s.volumes, faces, {0, 0});
   EXPECT_GT(edges.size(), 20U);
   check(SlopeTension(edges), {}, true, steep);
   check(SlopeTension(edges), {}, true, steep, touch_two_walls);

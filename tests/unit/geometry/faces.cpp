@@ -104,7 +104,7 @@ TEST(Faces, AThreadsAreaIsThatOfARoundOne) {
 TEST(Faces, EvenThicknessHasSlopesNearRimsOnly) {
   const Layer even(10, Vector3::Zero()), uneven(10, Vector3(0.1, 0.05, 0));
   const auto count = [](const Layer& layer, const FreeFaces& faces) {
-    return sloped_edges(layer.mesh, layer.x, layer.volumes, faces, 0.01).size();
+    return sloped_edges(layer.mesh, layer.x, layer.volumes, faces, {0.01, 0.01}).size();
   };
   const FreeFaces closed{std::vector<double>(even.mesh.edges.size(), 0), {}};
   const std::size_t inner = even.mesh.edges.size() - 40;
@@ -112,6 +112,19 @@ TEST(Faces, EvenThicknessHasSlopesNearRimsOnly) {
   EXPECT_EQ(count(uneven, all_free(even.mesh)), inner);
   EXPECT_GT(count(even, all_free(even.mesh)), 0U);
   EXPECT_LT(count(even, all_free(even.mesh)), inner);
+}
+
+// What lies on something counts from other slopes on than what is free, or between two things.
+TEST(Faces, SmoothThicknessHasSlopesWhereItLies) {
+  const Layer smooth(10, Vector3(0.001, 0.0005, 0));
+  const auto count = [&](std::vector<double> on) {
+    const FreeFaces faces{std::vector<double>(smooth.mesh.edges.size(), 0), std::move(on)};
+    return sloped_edges(smooth.mesh, smooth.x, smooth.volumes, faces, {.free = 0.01, .on_something = 1e-5}).size();
+  };
+  EXPECT_EQ(count({}), 0U);
+  for (const double on : {0.0, 2.0})
+    EXPECT_EQ(count(std::vector<double>(smooth.mesh.vertices, on)), 0U);
+  EXPECT_EQ(count(std::vector<double>(smooth.mesh.vertices, 1)), smooth.mesh.edges.size() - 40);
 }
 
 // With a factor for each triangle: linear in them, and of one that stands alone all of its own.
