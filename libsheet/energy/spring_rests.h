@@ -21,11 +21,12 @@
 
 namespace sheet {
 
-// Σ w_i u_i of the unknowns of an element of four vertices, and n·that by these unknowns.
+// Σ w_i u_i of the unknowns of an element of four vertices.
 [[nodiscard]] inline Vector3 weighted_sum(const std::array<double, 4>& w, const VectorN<12>& u) {
   return w[0] * u.segment<3>(0) + w[1] * u.segment<3>(3) + w[2] * u.segment<3>(6) + w[3] * u.segment<3>(9);
 }
 
+// The gradient of n·Σ w_i u_i by these unknowns.
 [[nodiscard]] inline VectorN<12> spread(const std::array<double, 4>& w, const Vector3& n) {
   VectorN<12> u;
   u << w[0] * n, w[1] * n, w[2] * n, w[3] * n;
