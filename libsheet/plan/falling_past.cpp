@@ -93,9 +93,7 @@ std::optional<Vector3d> end_of_hold(const Scene& scene, const Frame& first, std:
 std::string falling_past_warning(const Scene& scene, const Frame& first) {
   const Vector3d gravity = scene.environment.gravity.value_or(Vector3d::Zero());
   // Where there are none, that is told of without the frame (explain.h).
-  if (!scene.model.inertia && !scene.solids.empty() && !gravity.isZero(0) && !scene.environment.bath &&
-      !scene.environment.air && scene.holds.empty() && scene.inflows.empty() && first.vertices > 0 &&
-      !lies_on_solid(scene, first))
+  if (scene::nothing_resists_fall(scene) && !scene.solids.empty() && first.vertices > 0 && !lies_on_solid(scene, first))
     return "creeping flow under gravity of a sheet that touches no solid at its start: nothing resists the fall, there "
            "is no solution; let it start on a solid, or with inertia (model.inertia = true)";
   const auto rests = [](const scene::Solid& solid) { return std::holds_alternative<scene::Fixed>(solid.motion); };

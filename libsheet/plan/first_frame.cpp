@@ -156,12 +156,14 @@ std::vector<Vector3> normals_at_vertices(const Frame& frame) {
 
 // What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) Where all
 // that is near lies along upright walls that stay in place, what is closely beside them counts, too: its weight would
-// not press it on. (Of what is near and lies on top, a part alone would be held, into which the rest falls.)
+// not press it on. (Of what is near and lies on top, a part alone would be held, into which the rest falls.) So does
+// what is as near above solids where nothing resists its fall onto them.
 void mark_touching(const Scene& scene, Frame& frame) {
-  constexpr double in_reach = 1 + 1e-3, beside_a_wall = 1.5; // of half the thickness
-  constexpr double upright = 0.1, along = 0.9;               // sine of the wall's lean; cosine between the normals
+  constexpr double in_reach = 1 + 1e-3, near_enough = 1.5; // of half the thickness
+  constexpr double upright = 0.1, along = 0.9;             // sine of the wall's lean; cosine between the normals
   const solid::Solids solids(scene);
   const auto up = scene::up(scene.environment);
+  const bool falls_at_once = scene::nothing_resists_fall(scene);
   const auto x = positions(frame);
   const auto corners = triangles(frame);
   const std::vector<Vector3> normals = normals_at_vertices(frame);
@@ -172,19 +174,23 @@ void mark_touching(const Scene& scene, Frame& frame) {
   for (std::size_t i = 0; i < solids.size(); ++i) {
     if (solids.scene(i).contact == SolidContact::stick)
       continue;
-    bool beside = up && scene::stays_in_place(scene.solids[i].motion);
+    const bool stays = scene::stays_in_place(scene.solids[i].motion);
+    bool all_near = up.has_value();
     std::vector<std::size_t> near, touching;
     for (std::size_t v = 0; v < x.size(); ++v) {
       const solid::SolidPoint there = solids.at(i, x[v], frame.time);
       const double distance = there.distance / (thickness[v] / 2);
-      if (touch[v] != no_solid || !(distance <= beside_a_wall))
+      if (touch[v] != no_solid || !(distance <= near_enough))
         continue;
       near.push_back(v);
       if (distance <= in_reach)
         touching.push_back(v);
-      beside = beside && std::abs(there.normal.dot(*up)) < upright && std::abs(there.normal.dot(normals[v])) > along;
+      all_near =
+          all_near &&
+          ((stays && std::abs(there.normal.dot(*up)) < upright && std::abs(there.normal.dot(normals[v])) > along) ||
+           (falls_at_once && there.normal.dot(*up) > 0));
     }
-    for (const std::size_t v : beside ? near : touching)
+    for (const std::size_t v : all_near ? near : touching)
       touch[v] = static_cast<std::int32_t>(i);
   }
   if (std::ranges::any_of(touch, [](std::int32_t solid) { return solid != no_solid; }))

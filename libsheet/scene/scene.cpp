@@ -161,6 +161,11 @@ bool is_bottomless(const Scene& scene) {
          std::ranges::none_of(scene.solids, [](const Solid& s) { return std::holds_alternative<HalfSpace>(s.shape); });
 }
 
+bool nothing_resists_fall(const Scene& scene) {
+  return up(scene.environment) && !scene.model.inertia && !scene.environment.bath && !scene.environment.air &&
+         scene.holds.empty() && scene.inflows.empty();
+}
+
 bool layers_flow(const Scene& scene) {
   return flows_on_solids(scene) || (scene.environment.bath && scene.environment.bath->spreads);
 }

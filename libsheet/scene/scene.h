@@ -425,6 +425,10 @@ struct PlaneAxes {
 // Whether what comes off the scene's solids falls for ever: no plane, no bath, no outflow takes it up.
 [[nodiscard]] bool is_bottomless(const Scene& scene);
 
+// Whether there is weight, but no inertia, and nothing but solids on which the sheet would come to rest: what touches
+// none falls at no speed that the model could tell.
+[[nodiscard]] bool nothing_resists_fall(const Scene& scene);
+
 // Whether what sticks to a solid may be squeezed by another one: where there are several and one of them moves.
 [[nodiscard]] bool solids_squeeze(const Scene& scene);
 

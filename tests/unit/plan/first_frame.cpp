@@ -65,6 +65,17 @@ TEST(FirstFrame, WhatLiesCloselyBesideAnUprightWallTouchesIt) {
 }
 
 // A curtain that hangs in front of a plane from 1 s on, and flows in at its upper side.
+TEST(FirstFrame, WhatFallsAtOnceTouchesTheSolidThatItIsCloselyAbove) {
+  const std::string tray = "normal = [0, 0, 1]\ncontact = \"flow\"\n", creeping = "[model]\ninertia = false\n",
+                    down = "0, -2, -9.6", held = "[[hold]]\nregion = \"y_max\"\n";
+  EXPECT_EQ(touching(2.9, tray + creeping, down), 1);
+  EXPECT_EQ(touching(3.1, tray + creeping, down), 0);
+  EXPECT_EQ(touching(2.9, tray + "velocity = [0.1, 0, 0]\n" + creeping, down), 1);
+  EXPECT_EQ(touching(2.9, tray, down), 0);                    // inertia lets it fall
+  EXPECT_EQ(touching(2.9, tray + creeping + held, down), 0);  // its hold carries it
+  EXPECT_EQ(touching(2.9, tray + creeping, "0, -2, 9.6"), 0); // falls off it
+}
+
 TEST(FirstFrame, TellsOfOutflowsThatTakeAllAway) {
   const auto fault = [](const std::string& outflow, const std::string& more = "") -> std::string {
     const Scene scene = scene::parse_scene(
