@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The pressure by which liquid flows out of a gap between two walls (channels.h): it keeps a layer no thicker than its
 // gap is wide. What it is too thick by, x = h/G - 1 of the gap, makes the pressure
-//   p = max(0, m (dx/dt + r x)),   m = 50 (1 + S/g²) μ,
-// S the area of all that lies between walls, r the rate at which what is too thick gives way (channels.h). For each
-// triangle of the volume V of which a corner lies between two walls
+//   p = max(0, m (dx/dt + r x)),   m = 50 (1 + D²/g²) μ,
+// D the hydraulic diameter of what lies between walls around it, r the rate at which what is too thick gives way
+// (channels.h). For each triangle of the volume V of which a corner lies between two walls
 //   W = Σ f_c/3 m (1/τ + r) V/2 max(0, h/G - 1 - max(0, x̄)/(1 + r τ))²,   h = V/A,
 //   G = Σ (f_c g_c exp(s_c·(x_c - x̂_c)/g_c) + (1 - f_c) 1.1 ĥ)/3,
 // τ the stage's duration, x̄ at the start of the step, in a second stage extrapolated from the first, f_c the part in
@@ -34,7 +34,7 @@ public:
     const auto& triangles = stage.start->mesh->triangles;
     triangles_ = triangles.size();
     gaps_.assign(stage.channels.empty() ? 0 : triangles.size(), {});
-    const double rate = stage.channel_rate, area = stage.channel_area;
+    const double rate = stage.channel_rate;
     each_in_parallel(gaps_.size(), [&](std::size_t t) {
       const Corners& corners = triangles[t];
       if (std::ranges::none_of(corners, [&](std::uint32_t v) { return channel_at(stage, v) != nullptr; }))
@@ -42,18 +42,21 @@ public:
       Gap& gap = gaps_[t];
       gap.volume = stage.start->volumes[t];
       const double free = near_touch * gap.volume / stage.raised[t].area();
-      double mean = 0, filled = 0;
+      double mean = 0, filled = 0, diameter = 0;
       for (std::size_t c = 0; c < 3; ++c) {
         const Channel* channel = channel_at(stage, corners[c]);
         const double part = channel != nullptr ? channel->filled : 0;
         gap.corners[c].free = (1 - part) * free;
-        if (part > 0)
+        if (part > 0) {
           gap.corners[c] = {(1 - part) * free, part * channel->gap, channel->slope / channel->gap, channel->place};
+          diameter = std::max(diameter, channel->diameter);
+        }
         mean += (gap.corners[c].free + gap.corners[c].width) / 3;
         filled += part / 3;
       }
+      const double wide = diameter / mean;
       gap.stiffness =
-          filled * modulus * (1 + area / (mean * mean)) * stage.viscosity[t] * (1 / stage.duration + rate) * gap.volume;
+          filled * modulus * (1 + wide * wide) * stage.viscosity[t] * (1 / stage.duration + rate) * gap.volume;
       gap.allowed = std::max(0.0, reference(stage, t)) / (1 + rate * stage.duration);
     });
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "libsheet/geometry/disjoint_sets.h"
 #include "libsheet/geometry/facing_walls.h"
 #include "libsheet/geometry/longest_edges.h"
 #include "libsheet/geometry/vertex_shares.h"
@@ -79,7 +80,45 @@ double rate_at(const std::vector<Wall>& walls, const Stage& stage, const WallSit
   Vector3 past = velocity_at(facing, stage, site.vertex) - velocity_at(wall, stage, site.vertex);
   past -= std::max(0.0, past.dot(normal)) * normal;
   past -= std::min(0.0, past.dot(facing_normal)) * facing_normal;
-  return std::abs(past.dot(normal)) / channel.gap + past.norm() / std::sqrt(stage.channel_area);
+  return std::abs(past.dot(normal)) / channel.gap + past.norm() / channel.diameter;
+}
+
+// 4 S/P of each region in which vertices between walls hang together: S is their shares of the area, and P how long the
+// line is that goes round them half-way to the others, and along the rim.
+void set_hydraulic_diameters(Stage& stage) {
+  const Connectivity& mesh = *stage.start->mesh;
+  const auto& x = stage.start->positions;
+  std::vector<std::uint8_t> between(mesh.vertices, 0);
+  for (const Channel& channel : stage.channels)
+    between[channel.vertex] = 1;
+  const std::vector<double> shares =
+      vertex_shares(mesh.vertices, mesh.triangles, [&](std::uint32_t t) { return stage.raised[t].area(); });
+  DisjointSets regions(mesh.vertices);
+  std::vector<double> area(mesh.vertices, 0), round(mesh.vertices, 0); // at a vertex of the region
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [a, b] = mesh.edges[e];
+    if (between[a] != 0 && between[b] != 0)
+      regions.join(a, b);
+    if (mesh.on_rim(e))
+      for (const std::uint32_t v : {a, b})
+        round[v] += (x[a] - x[b]).norm() / 2;
+  }
+  // Between the middles of two sides of a triangle the line is half as long as the third.
+  for (const Corners& c : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const std::uint32_t alone = c[i], one = c[(i + 1) % 3], other = c[(i + 2) % 3];
+          between[one] == between[other] && between[alone] != between[one])
+        round[between[alone] != 0 ? alone : one] += (x[one] - x[other]).norm() / 2;
+  std::vector<double> perimeter(mesh.vertices, 0); // of the region, at the vertex that stands for it
+  for (const Channel& channel : stage.channels) {
+    const std::uint64_t region = regions.find(channel.vertex);
+    area[region] += shares[channel.vertex];
+    perimeter[region] += round[channel.vertex];
+  }
+  for (Channel& channel : stage.channels) {
+    const std::uint64_t region = regions.find(channel.vertex);
+    channel.diameter = 4 * area[region] / perimeter[region];
+  }
 }
 
 } // namespace
@@ -101,7 +140,7 @@ double filled_part(double thickness, double gap) {
 
 void set_channels(const std::vector<Wall>& walls, std::span<const double> thickness,
                   const std::function<Vector3(const Wall&, std::uint32_t vertex)>& carried, Stage& stage) {
-  stage.channel_area = stage.channel_rate = 0;
+  stage.channel_rate = 0;
   const std::vector<double> edges = longest_edges(stage.start->positions, stage.start->mesh->triangles);
   for (WallSite& site : stage.sites) {
     std::optional<Channel> channel = find_channel(walls, stage, site, thickness[site.vertex], edges[site.vertex]);
@@ -117,10 +156,7 @@ void set_channels(const std::vector<Wall>& walls, std::span<const double> thickn
   }
   if (stage.channels.empty())
     return;
-  const std::vector<double> areas = vertex_shares(stage.vertices(), stage.start->mesh->triangles,
-                                                  [&](std::uint32_t t) { return stage.raised[t].area(); });
-  for (const Channel& channel : stage.channels)
-    stage.channel_area += areas[channel.vertex];
+  set_hydraulic_diameters(stage);
   for (const WallSite& site : stage.sites)
     if (const Channel* channel = channel_of(stage, site))
       stage.channel_rate = std::max(stage.channel_rate, relief * rate_at(walls, stage, site, *channel));

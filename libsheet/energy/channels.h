@@ -8,8 +8,8 @@
 // What lies in the gap is in its middle, and no thicker than it is wide (channel_pressure.h).
 //
 // What is too thick for its gap at once, as where a solid stands in the sheet at the start, gives way at ten times the
-// rate at which the walls move there: the speed of closing over the gap, that of sliding over the root of the area, and
-// nothing of how they part: a gate that is lifted presses nothing out. (A rate that knew of the liquid's own speed
+// rate at which the walls move there: the speed of closing over the gap, that of sliding over the hydraulic diameter,
+// and nothing of how they part: a gate that is lifted presses nothing out. (A rate that knew of the liquid's own speed
 // would feed on itself.)
 //
 // A layer comes to fill a gap as its face touches: from 1.1 thicknesses to 1.05, in proportion, so that forces do not
@@ -35,9 +35,8 @@ struct ChannelDrag {
 // How far a layer of this thickness [m] fills a gap [m]: 1 where it touches both walls, 0 where its face is free.
 [[nodiscard]] double filled_part(double thickness, double gap);
 
-// Gives the stage's sites that lie between two walls their channels, and sets their area and rate. thickness: of each
-// vertex [m]. carried: where a
-// wall takes what is at a vertex, as in WallSite::carried.
+// Gives the stage's sites that lie between two walls their channels, and sets their rate. thickness: of each vertex
+// [m]. carried: where a wall takes what is at a vertex, as in WallSite::carried.
 void set_channels(const std::vector<Wall>& walls, std::span<const double> thickness,
                   const std::function<Vector3(const Wall&, std::uint32_t vertex)>& carried, Stage& stage);
 

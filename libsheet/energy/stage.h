@@ -42,6 +42,7 @@ struct Channel {
   double gap = 0, gap_before = 0;       // between the two; at the start of the step [m]
   double gap_first = 0;                 // at the end of the first stage, if this is a second one [m]
   double filled = 0;                    // the part in which the layer touches both
+  double diameter = 0;                  // hydraulic, of all that lies between walls around it [m]
   double depth = 0;                     // of the drag of both [m]
   Vector3 place = Vector3::Zero();      // predicted, of the vertex [m]
   Vector3 slope = Vector3::Zero();      // of the gap along the wall
@@ -80,7 +81,6 @@ struct Stage {
   std::vector<WallSite> sites;               // of what touches walls, ascending
   std::vector<std::uint32_t> site_of;        // of each vertex, or no_index; empty without sites
   std::vector<Channel> channels;             // of sites between two walls, ascending
-  double channel_area = 0;                   // of the layer there [m²]
   double channel_rate = 0;                   // at which what is too thick there gives way [1/s]
   std::vector<std::uint32_t> wall_edges;     // whose directors stand as the wall lets them, ascending
   std::vector<double> wall_turns;            // of these directors, by the predicted end of the stage [rad]

@@ -373,6 +373,21 @@ TEST(Walls, AGapThatIsFoundHasNotNarrowedByMoreThanWhatMoves) {
   EXPECT_TRUE(comes);
 }
 
+// Of two tools over a layer, each a strip of 1 by 0.3 with its rim, not of both.
+TEST(Walls, EachRegionBetweenWallsHasItsHydraulicDiameter) {
+  const State s = resting(0.1);
+  Wall tools;
+  tools.nearest = [](double, const Vector3& x) {
+    const bool faces = x.x() < 0.3 || x.x() > 0.7;
+    return WallPoint{0.08 - x.z(), faces ? Vector3(-Vector3::UnitZ()) : Vector3::UnitX()};
+  };
+  Stage stage = first_stage(s, heavy_layer().liquid, 0.01, 0.01, true);
+  set_wall_sites({floor_of(s), tools}, stage);
+  EXPECT_EQ(stage.channels.size(), 24);
+  for (const Channel& channel : stage.channels)
+    EXPECT_NEAR(channel.diameter, 4 * 0.3 / 2.6, 1e-12);
+}
+
 // A fixed step in which liquid would pass edges is taken in parts.
 TEST(Walls, StepsPassHalfAnEdgeAtMost) {
   State s = resting(0.1);
