@@ -314,6 +314,32 @@ double rate_of(double until, double action) {
   return wanted > rate ? std::min(film, round_number(wanted)) : rate;
 }
 
+constexpr double as_long_again = 1.5; // of the time in which something ends: what shows it
+
+bool few_show(double ended, double fps) {
+  constexpr double enough = 5; // frames
+  return ended > 0 && ended * fps < enough;
+}
+
+// Until everything has come to its end, or would blow up.
+double whole_run(const Scene& with_heat, const Frame& first) {
+  const double until = until_of(with_heat, first);
+  const auto blow_up = blow_up_time_with_heat(with_heat, first);
+  const double end = blow_up ? std::min(until, rounded_down(before_blow_up * *blow_up)) : until;
+  const auto meet = holds_meet(scene::as_it_starts(with_heat), first, end);
+  return meet ? std::min(end, rounded_down(before_holds_meet * meet->time)) : end;
+}
+
+// Soon after the last solid has come through the sheet, where few frames of a whole run would show that: what then runs
+// down for minutes is not what the scene is about.
+std::optional<double> end_of_coming_through(const Scene& with_heat, const Frame& first, double whole) {
+  const double through = coming_through_time(with_heat, first);
+  const double end = through > 0 ? rounded(as_long_again * through) : 0;
+  const bool last = ended_time(with_heat, first) <= through;
+  return last && end < whole && few_show(through, rate_of(whole, action_time(with_heat, first))) ? std::optional(end)
+                                                                                                 : std::nullopt;
+}
+
 std::string word_of_edges(const ProposedRing& ring) {
   return ring.folds
              ? "  Edges follow folds; sheet-remesh --smooth alone folds more coarsely, often in a third of the time;\n"
@@ -337,12 +363,9 @@ double landing_thickness(const Scene& scene, const Frame& first) {
 
 ProposedRing proposed_ring(const Scene& with_heat, const Frame& first, const RingWishes& wishes) {
   const Scene scene = scene::as_it_starts(with_heat);
-  double until = until_of(with_heat, first);
-  if (const auto end = blow_up_time_with_heat(with_heat, first))
-    until = std::min(until, rounded_down(before_blow_up * *end));
-  if (const auto meet = holds_meet(scene, first, until))
-    until = std::min(until, rounded_down(before_holds_meet * meet->time));
-  until = wishes.until.value_or(until);
+  const double whole = whole_run(with_heat, first);
+  const auto soon = wishes.fps ? std::nullopt : end_of_coming_through(with_heat, first, whole);
+  const double until = wishes.until.value_or(soon.value_or(whole));
   const auto folds = edges_in_folds(scene, first, wishes.quality);
   return {.until = until,
           .fps = wishes.fps.value_or(rate_of(until, action_time(with_heat, first))),
@@ -351,10 +374,14 @@ ProposedRing proposed_ring(const Scene& with_heat, const Frame& first, const Rin
 }
 
 std::string few_frames_warning(const Scene& with_heat, const Frame& first, const RingWishes& wishes) {
-  constexpr double enough = 5, as_long_again = 1.5; // frames; times that
   const double ended = ended_time(with_heat, first);
   const ProposedRing ring = proposed_ring(with_heat, first, wishes);
-  if (wishes.fps || !(ended > 0) || ended * ring.fps >= enough || as_long_again * ended > ring.until)
+  if (const double whole = whole_run(with_heat, first); !wishes.until && ring.until < whole)
+    return fmt::format(
+        "the run ends at {} s, soon after what moves has come through: the sheet flows on, and --until {} "
+        "shows that",
+        ring.until, whole);
+  if (wishes.fps || !few_show(ended, ring.fps) || as_long_again * ended > ring.until)
     return "";
   const double until = rounded(as_long_again * ended);
   return fmt::format("what moves has come through or ended by {:.2g} s, which {:.0f} of the frames show, as the run "

@@ -33,13 +33,14 @@ struct RingWishes {
 };
 // `first`: the scene's first frame, at that quality. A run that would blow up ends at nine tenths of the time to it
 // (blow_up.h), one that hangs some times of free fall after it has run away (hanging.h), unless the user wishes
-// otherwise; one that is warmed until it flows goes on until it has flowed when
-// warm.
+// otherwise; one that is warmed until it flows goes on until it has flowed when warm. One that a solid comes through at
+// its beginning, as a squeegee that passes over paint, which then runs down for minutes, ends soon after that where few
+// of 250 frames would show it.
 [[nodiscard]] ProposedRing proposed_ring(const Scene& with_heat, const formats::Frame& first, const RingWishes& wishes);
 
-// Of what a scene prescribes at the beginning of a long run, as of a squeegee that passes over paint, which then runs
-// down for minutes: that few frames show it, and the run that does. "" where five or more do, or the user has settled
-// how many.
+// Of what a scene prescribes at the beginning of a long run: that few frames show it, and the run that does; or that the
+// run ends soon after it, and the one that goes on. "" where five frames or more show it, or the user has settled how
+// many.
 [[nodiscard]] std::string few_frames_warning(const Scene& with_heat, const formats::Frame& first,
                                              const RingWishes& wishes);
 

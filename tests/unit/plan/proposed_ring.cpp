@@ -92,9 +92,12 @@ TEST(ProposedRing, TellsOfWhatFewFramesShow) {
         "s");
     return few_frames_warning(scene, first_frame(scene), wishes);
   };
-  const std::string moves = "velocity = [0, -0.2, 0]\n";
-  EXPECT_THAT(warning(moves), testing::HasSubstr("has come through or ended by 1.6 s, which 4 of the frames show"));
-  EXPECT_THAT(warning(moves), testing::EndsWith("--until 2.5 --fps 24 shows it"));
+  const std::string moves = "velocity = [0, -0.2, 0]\n", lets_go = "[[hold]]\nregion = \"y_max\"\nuntil = 1.6\n";
+  EXPECT_THAT(warning(lets_go), testing::HasSubstr("has come through or ended by 1.6 s, which 4 of the frames show"));
+  EXPECT_THAT(warning(lets_go), testing::EndsWith("--until 2.4 --fps 24 shows it"));
+  EXPECT_EQ(warning(moves), "the run ends at 2.5 s, soon after what moves has come through: the sheet flows on, and "
+                            "--until 190 shows that");
+  EXPECT_EQ(warning(moves, {Quality::normal, 190, {}}).substr(0, 27), "what moves has come through");
   EXPECT_EQ(warning(""), "");
   EXPECT_EQ(warning(moves, {Quality::normal, {}, 2}), "");
   EXPECT_EQ(warning(moves, {Quality::normal, 2, {}}), "");
