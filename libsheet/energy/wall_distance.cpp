@@ -23,9 +23,13 @@ double lying_area(const Stage& stage, const State& end, const Corners& c) {
     return 0;
   const auto& x = end.positions;
   const Vector3 whole = 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
-  const Vector3 normal = site_at(stage, c[0])->normal + site_at(stage, c[1])->normal + site_at(stage, c[2])->normal;
-  const double seen = std::abs(whole.dot(normal.normalized()));
-  return seen > least_lying_cosine * whole.norm() ? seen : 0;
+  Vector3 normal = Vector3::Zero();
+  for (const auto v : c) {
+    normal += site_at(stage, v)->normal;
+    if (!(std::abs(whole.dot(site_at(stage, v)->normal)) > least_lying_cosine * whole.norm()))
+      return 0;
+  }
+  return std::abs(whole.dot(normal.normalized()));
 }
 
 // The distances of vertices at whose ends of an edge both are known (not 0), lowered until none is above another's by

@@ -8,6 +8,7 @@
 // On a bath: bath_thrust.h.
 #pragma once
 #include <algorithm>
+#include <array>
 
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/falls_with_area.h"
@@ -30,11 +31,12 @@ public:
     thrust_.assign(triangles.size(), 0);
     start_area_.assign(triangles.size(), 1);
     for (std::size_t t = 0; t < triangles.size() && !stage.sites.empty(); ++t) {
-      double towards = 0;
       const Vector3 weight = stage.liquid_of(t).liquid.density * gravity_; // of a cubic metre [N/m³]
-      for (const auto v : triangles[t])
-        if (const WallSite* site = site_at(stage, v))
-          towards += std::max(0.0, -weight.dot(site->normal)) / 3 * lying(stage, t, *site);
+      std::array<Bearing, 3> bearings;
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const WallSite* site = site_at(stage, triangles[t][c]))
+          bearings[c] = {lying(stage, t, *site), std::max(0.0, -weight.dot(site->normal)), true};
+      const double towards = borne(bearings);
       const double volume = stage.start->volumes[t];
       thrust_[t] = towards * volume * volume / 2;
       start_area_[t] = TriangleArea(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]).area;
@@ -61,6 +63,23 @@ public:
   }
 
 private:
+  // What the wall of a corner bears.
+  struct Bearing {
+    double lying = 0, weight = 0; // in what part the triangle lies on it; of a cubic metre towards it [N/m³]
+    bool touches = false;
+  };
+
+  // The weight of a cubic metre towards the walls [N/m³]: a corner that touches a wall on which the triangle stands,
+  // while another one's lies below it, as in the corner of a dish, is borne by that.
+  [[nodiscard]] static double borne(const std::array<Bearing, 3>& bearings) {
+    const Bearing& best = *std::ranges::max_element(bearings, {}, &Bearing::lying);
+    double sum = 0;
+    for (const Bearing& b : bearings)
+      if (b.touches)
+        sum += b.weight / 3 * b.lying + best.weight / 3 * (best.lying - b.lying);
+    return sum;
+  }
+
   // W less that at the start, which only keeps round-off small.
   [[nodiscard]] double since_start(std::size_t i, double area) const {
     return thrust_[i] * (start_area_[i] - area) / (area * start_area_[i]);

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "libsheet/base/each.h"
 #include "libsheet/energy/channels.h"
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/geometry/facing_walls.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/heat/surroundings.h"
 
@@ -15,6 +17,8 @@ namespace sheet {
 namespace {
 
 constexpr double in_reach = 1 + 1e-3;    // of the distance kept: another wall that is so near holds a vertex as well
+constexpr double bluntest_corner = 0.9;  // cosine of the angle between two faces that make one: 26 degrees
+constexpr double same_face = 0.95;       // cosine of the angle by which a face turns in a step at most: 18 degrees
 constexpr double farthest_in_gap = 0.75; // of the gap between two walls: from its own wall
 constexpr double part_of_an_edge = 0.5;  // that a vertex may move along its wall in a step
 
@@ -66,17 +70,43 @@ double kept_distance(const Stage& stage, const WallSite& site, double own) {
   return std::min(own, std::max(farthest_in_gap * channel->gap, nearer));
 }
 
+// The face of a hollow wall beside the one nearest to x, where a layer so thick stands in their corner: above that face
+// it is the nearest one. Its distance is that from its plane. Faces that face each other have a gap, not a corner.
+std::optional<WallPoint> face_beside(const Wall& wall, double t, const Vector3& x, double thickness) {
+  const Vector3 face = wall.nearest(t, x).normal, above = x + thickness * face;
+  const WallPoint other = wall.nearest(t, above);
+  const double cosine = other.normal.dot(face);
+  if (cosine > bluntest_corner || cosine < -least_facing)
+    return {};
+  return WallPoint{other.distance - other.normal.dot(above - x), other.normal};
+}
+
+// Keeps a vertex from coming nearer to the other face of its wall's corner than it is, or than a layer so thick lies.
+void keep_off_face_beside(const Wall& wall, const Stage& stage, double own, double thickness, WallSite& site) {
+  const Vector3 &x0 = stage.start->positions[site.vertex], &x = stage.predicted[site.vertex];
+  const std::optional<WallPoint> before = face_beside(wall, stage.start->time, x0, thickness),
+                                 beside = face_beside(wall, stage.end_time, x, thickness);
+  if (!before || !beside || before->normal.dot(beside->normal) < same_face)
+    return;
+  const double kept = std::min(std::max(own, thickness / 2), before->distance);
+  if (holds(site, *beside, kept))
+    add_plane_of(site, *beside, x, kept);
+}
+
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
 // moves it across, but one that faces its own and would come too near.
-void keep_distances(const std::vector<Wall>& walls, const Stage& stage, WallSite& site) {
+void keep_distances(const std::vector<Wall>& walls, const Stage& stage, double thickness, WallSite& site) {
   const Vector3 &x0 = stage.start->positions[site.vertex], &x = stage.predicted[site.vertex];
   const double own = walls[site.wall].nearest(stage.start->time, x0).distance;
   const WallPoint point = walls[site.wall].nearest(stage.end_time, x);
   const Channel* channel = channel_of(stage, site);
   site.normal = point.normal;
   add_plane_of(site, point, x, kept_distance(stage, site, own));
+  if (walls[site.wall].hollow && channel == nullptr)
+    keep_off_face_beside(walls[site.wall], stage, own, thickness, site);
   for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w)
-    if (w != site.wall && !walls[w].vertices.empty() && (channel == nullptr || w != channel->facing))
+    if (w != site.wall && (channel == nullptr || w != channel->facing) &&
+        !(walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
       if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
         const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
         if (holds(site, other, kept))
@@ -100,13 +130,16 @@ Vector3 carried_by(const Wall& wall, const Stage& stage, std::uint32_t vertex) {
   return stuck + stage.ratio * (moved(wall, from, stage.end_time).rotation * (to_first.rotation.transpose() * slid));
 }
 
-// The sites that lie between two walls, by the thickness around them at the predicted end.
-void find_channels(const std::vector<Wall>& walls, Stage& stage) {
+// Around each vertex, at the predicted end.
+std::vector<double> predicted_around(const Stage& stage) {
+  return thickness_around(stage.vertices(), stage.start->mesh->triangles, stage.start->volumes,
+                          [&](std::uint32_t t) { return stage.raised[t].area(); });
+}
+
+// The sites that lie between two walls.
+void find_channels(const std::vector<Wall>& walls, std::span<const double> thickness, Stage& stage) {
   if (walls.size() < 2)
     return;
-  const auto& triangles = stage.start->mesh->triangles;
-  const std::vector<double> thickness = thickness_around(stage.vertices(), triangles, stage.start->volumes,
-                                                         [&](std::uint32_t t) { return stage.raised[t].area(); });
   set_channels(
       walls, thickness, [&](const Wall& wall, std::uint32_t v) { return carried_by(wall, stage, v); }, stage);
 }
@@ -241,9 +274,10 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
       stage.sites.push_back(std::move(site));
     }
   std::ranges::sort(stage.sites, {}, &WallSite::vertex);
-  find_channels(walls, stage);
+  const std::vector<double> thickness = predicted_around(stage);
+  find_channels(walls, thickness, stage);
   for (WallSite& site : stage.sites)
-    keep_distances(walls, stage, site);
+    keep_distances(walls, stage, thickness[site.vertex], site);
   for (std::uint32_t s = 0; s < stage.sites.size(); ++s)
     stage.site_of[stage.sites[s].vertex] = s;
   set_wall_turns(stage);

@@ -35,6 +35,7 @@ struct Wall {
   double slip_length = 0;              // [m], or free_slip
   double wetting = 2;                  // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs
   std::function<WallPoint(double t, const Vector3& x)> nearest;
+  bool hollow = false; // whether it may have corners of its own into which liquid flows, as the mesh of a dish has
   // Whether x is surely farther from it than `reach` [m], which is cheaper to know; absent: no one knows.
   std::function<bool(double t, const Vector3& x, double reach)> beyond;
   // Of what sticks to it, as for holds; absent: it rests.

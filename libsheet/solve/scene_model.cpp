@@ -107,6 +107,7 @@ Wall wall_of(const std::shared_ptr<const solid::Solids>& solids, std::size_t i, 
   wall.vertices = std::move(touching);
   wall.slip_length = solid.contact == SolidContact::slip ? free_slip : solid.slip_length;
   wall.wetting = solid.contact_angle ? 1 - std::cos(*solid.contact_angle) : 2;
+  wall.hollow = std::holds_alternative<scene::SolidMesh>(solid.shape);
   wall.nearest = [solids, i](double t, const Vector3& x) {
     const solid::SolidPoint point = solids->at(i, x, t);
     return WallPoint{point.distance, point.normal};

@@ -190,6 +190,58 @@ END
   (($(last corner step) <= 150))
 }
 
+# usage: pool: 12 mm deep, 1 mm from the four sides that stand round it
+pool() {
+  cat << 'END'
+[sheet]
+shape = "rectangle"
+size = ["98 mm", "78 mm"]
+edge_length = "6 mm"
+thickness = "12 mm"
+center = [0, "6 mm", 0]
+[material]
+viscosity = "2 Pa*s"
+density = "1200 kg/m^3"
+[environment]
+gravity = [0, "-9.81 m/s^2", 0]
+END
+}
+
+# usage: sides: of a tray of 100 by 80 mm, 40 mm high, with its floor
+sides() {
+  printf '[[solid]]\nshape = "plane"\ncontact = "flow"\n'
+  for side in '55 0 10 100' '-55 0 10 100' '0 45 120 10' '0 -45 120 10'; do
+    read -r x z wide deep <<< "$side"
+    printf '[[solid]]\nshape = "box"\ncontact = "flow"\nsize = ["%s mm", "40 mm", "%s mm"]\n' "$wide" "$deep"
+    printf 'center = ["%s mm", "20 mm", "%s mm"]\n' "$x" "$z"
+  done
+}
+
+# usage: tray: tray.obj, the same as one mesh with walls 10 mm thick
+tray() {
+  awk 'BEGIN {
+    split("60 50 -10 60 50 40 50 40 40 50 40 0", ring)
+    for (k = 0; k < 4; ++k)
+      for (c = 0; c < 4; ++c)
+        print "v", (c == 0 || c == 3 ? 1 : -1) * ring[3 * k + 1], ring[3 * k + 3], (c < 2 ? 1 : -1) * ring[3 * k + 2]
+    print "f 1 2 3 4"; print "f 16 15 14 13"
+    for (k = 0; k < 3; ++k)
+      for (c = 0; c < 4; ++c)
+        print "f", 4 * k + c + 5, 4 * k + (c + 1) % 4 + 5, 4 * k + (c + 1) % 4 + 1, 4 * k + c + 1 }' > tray.obj
+}
+
+# It was thrown at the sides in each step, and the 95th percentile of its thickness was 1.5 times the 5th.
+@test "a pool in a tray is level up to the sides, be they solids of their own or a mesh" {
+  { pool; sides; } > solids.toml
+  tray
+  { pool; printf '[[solid]]\nshape = "mesh"\nfile = "tray.obj"\nscale = 0.001\ncontact = "flow"\n'; } > mesh.toml
+  for scene in solids mesh; do
+    run_scene $scene 0.5 10
+    awk -v low="$(last $scene thickness_p5)" -v high="$(last $scene thickness_p95)" -v wide="$(last $scene x_max)" '
+      BEGIN { print low, high, wide; exit !(high < 1.2 * low && wide > 0.0445 && wide < 0.0495) }'
+  done
+}
+
 # On an incline of the angle a the layer of the flux q is h = (3 nu q/(g sin a))^(1/3) thick [Nusselt 1916]: 13.8 mm here,
 # where the scene lets in 6 mm twelve times as fast as they run away.
 @test "an inlet on a slope that brings more than runs away is drowned" {

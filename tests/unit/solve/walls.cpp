@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/energy/stage_setup.h"
+#include "libsheet/energy/wall_distance.h"
+#include "libsheet/energy/wall_weight.h"
 #include "libsheet/geometry/area.h"
 #include "libsheet/solve/step.h"
 #include "tests/support/meshes.h"
@@ -293,8 +295,64 @@ TEST(Walls, ACornerHoldsALine) {
   double furthest = 0;
   for (const Vector3& x : s.positions)
     furthest = std::max(furthest, x.x());
-  EXPECT_LT(furthest, 1.01);
+  EXPECT_LT(furthest, 1 + 1e-12); // though nothing touches the side yet
   EXPECT_GT(furthest, 0.98);
+}
+
+// A layer on the floor of a dish, whose rim stands beside the dish's side and is nearer to that: floor and side are one
+// wall, or two. What is borne there is borne by the floor, or the layer would be thicker along the side for good.
+// Beside one wall its rim keeps its distance, and does not give way to half a thickness from the side.
+TEST(Walls, ALayerStandsBesideTheSideOfItsDish) {
+  constexpr double thickness = 0.1, off = 0.03; // of the rim from the side
+  const State s = resting(thickness);
+  const auto by_the_side = [](const Vector3& x) { return x.x() > 1 - 1e-9; };
+  const WallPoint side{off, -Vector3::UnitX()};
+  Wall dish = floor_of(s), one = dish, other = dish;
+  dish.nearest = [&](double, const Vector3& x) { return by_the_side(x) ? side : WallPoint{x.z(), Vector3::UnitZ()}; };
+  other.nearest = [](double, const Vector3& x) { return WallPoint{1 + off - x.x(), -Vector3::UnitX()}; };
+  std::erase_if(one.vertices, [&](std::uint32_t v) { return by_the_side(s.positions[v]); });
+  std::erase_if(other.vertices, [&](std::uint32_t v) { return !by_the_side(s.positions[v]); });
+  const auto begun = [&](const std::vector<Wall>& walls) {
+    Stage stage = first_stage(s, heavy_layer().liquid, 0.01, 0.01, true);
+    set_wall_sites(walls, stage);
+    return stage;
+  };
+  WallWeight weight(Vector3(0, 0, -9));
+  for (const std::vector<Wall>& walls : {std::vector{dish}, {one, other}}) {
+    const Stage stage = begun(walls);
+    weight.begin(stage);
+    for (std::size_t t = 0; t < weight.size(); ++t)
+      EXPECT_NEAR(weight.thrust(t), 2 * 9 * s.volumes[t] * s.volumes[t] / 2, 1e-15);
+  }
+  const std::vector<double> lying = lying_thickness(begun({dish}), s);
+  for (std::size_t v = 0; v < lying.size(); ++v)
+    EXPECT_NEAR(lying[v], by_the_side(s.positions[v]) ? 0 : thickness, 1e-12);
+}
+
+// A hollow wall's corner holds a line, as that of two walls does: of its faces that beside the nearest one, too.
+TEST(Walls, ACornerOfOneWallHoldsALine) {
+  constexpr double thickness = 0.1;
+  const State s = resting(thickness);
+  for (const double off : {0.03, 0.06}) { // of the rim from the side, which is nearer than the floor or farther off
+    Wall dish = floor_of(s);
+    dish.nearest = [&](double, const Vector3& x) {
+      const double aside = 1 + off - x.x();
+      return aside < x.z() ? WallPoint{aside, -Vector3::UnitX()} : WallPoint{x.z(), Vector3::UnitZ()};
+    };
+    for (const bool hollow : {false, true}) {
+      dish.hollow = hollow;
+      Stage stage = first_stage(s, heavy_layer().liquid, 0.01, 0.01, true);
+      set_wall_sites({dish}, stage);
+      for (const WallSite& site : stage.sites) {
+        const bool corner = s.positions[site.vertex].x() > 1 - 1e-9;
+        ASSERT_EQ(site.across.size(), hollow && corner && off < thickness / 2 ? 2 : 1);
+        if (site.across.size() == 2) {
+          EXPECT_NEAR((site.across[1] - Vector3::UnitZ()).norm(), 0, 1e-12);
+          EXPECT_NEAR(site.place[1], thickness / 2, 1e-12);
+        }
+      }
+    }
+  }
 }
 
 // A wall lets go of what touches another one and would have to be pulled: what comes to rest in a corner flows on when
