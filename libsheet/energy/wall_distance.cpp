@@ -163,9 +163,11 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
   Shifts shifts(stage.vertices());
   for (const WallSite& site : stage.sites) {
     shifts.known[site.vertex] = 1;
-    if (distance[site.vertex] == 0 || site.across.size() > 1)
+    if (distance[site.vertex] == 0 || (site.across.size() > 1 && !site.beside_upright))
       continue;
     const WallPoint point = walls[site.wall].nearest(end.time, end.positions[site.vertex]);
+    if (site.beside_upright && distance[site.vertex] > point.distance)
+      continue; // beside another wall it sinks only
     const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
     shifts.of[site.vertex] = std::clamp(distance[site.vertex] - point.distance, -most, most) * point.normal;
   }
