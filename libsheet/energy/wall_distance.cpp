@@ -53,6 +53,11 @@ void flatten(const Stage& stage, const State& end, std::vector<double>& distance
   }
 }
 
+// Whether a wall with this normal is so steep that what stands beside it lies on another one alone: not in a groove.
+bool bears_nothing(const Vector3& normal, const Vector3& gravity) {
+  return std::abs(normal.dot(gravity)) < least_lying_cosine * gravity.norm();
+}
+
 // By holds that have nothing to do with walls.
 std::vector<char> held_elsewhere(std::vector<Hold> holds, const Stage& stage) {
   std::erase_if(holds, [](const Hold& hold) { return hold.of_wall; });
@@ -163,9 +168,12 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
   Shifts shifts(stage.vertices());
   for (const WallSite& site : stage.sites) {
     shifts.known[site.vertex] = 1;
-    if (distance[site.vertex] == 0 || site.across.size() > 1)
+    const bool corner = site.across.size() > 1;
+    if (distance[site.vertex] == 0 || (corner && !(site.beside_upright && bears_nothing(site.across[1], gravity))))
       continue;
     const WallPoint point = walls[site.wall].nearest(end.time, end.positions[site.vertex]);
+    if (site.beside_upright && distance[site.vertex] > point.distance)
+      continue; // beside another wall it sinks only
     const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
     shifts.of[site.vertex] = std::clamp(distance[site.vertex] - point.distance, -most, most) * point.normal;
   }

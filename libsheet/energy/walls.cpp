@@ -18,6 +18,7 @@ namespace {
 
 constexpr double in_reach = 1 + 1e-3;    // of the distance kept: another wall that is so near holds a vertex as well
 constexpr double bluntest_corner = 0.9;  // cosine of the angle between two faces that make one: 26 degrees
+constexpr double upright = 0.3;          // cosine of the angle between a wall and one beside it: 17 degrees off upright
 constexpr double same_face = 0.95;       // cosine of the angle by which a face turns in a step at most: 18 degrees
 constexpr double farthest_in_gap = 0.75; // of the gap between two walls: from its own wall
 constexpr double part_of_an_edge = 0.5;  // that a vertex may move along its wall in a step
@@ -109,8 +110,10 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, double t
         !(walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
       if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
         const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
-        if (holds(site, other, kept))
-          add_plane_of(site, other, x, kept);
+        if (!holds(site, other, kept))
+          continue;
+        add_plane_of(site, other, x, kept);
+        site.beside_upright = site.across.size() == 2 && std::abs(other.normal.dot(point.normal)) < upright;
       }
 }
 

@@ -295,8 +295,28 @@ TEST(Walls, ACornerHoldsALine) {
   double furthest = 0;
   for (const Vector3& x : s.positions)
     furthest = std::max(furthest, x.x());
-  EXPECT_LT(furthest, 1 + 1e-12); // though nothing touches the side yet
+  EXPECT_LT(furthest, 1 + 2e-4); // though nothing touches the side yet: as near as the layer is thin by then
   EXPECT_GT(furthest, 0.98);
+}
+
+// What a side holds lies on its floor half as high as it is thick, like all else: a layer that a gate dams up sinks
+// with the rest, or it would be farther from its floor than it is thick one day, and touch it no more.
+TEST(Walls, WhatStandsBesideASideSinksWithTheRest) {
+  State s = resting(0.1);
+  for (double& volume : s.volumes)
+    volume /= 2; // at twice the height at which it lies
+  Model m = heavy_layer();
+  m.inertia = false;
+  m.gravity = {1.5, 0, -9};
+  m.walls.push_back(floor_of(s));
+  Wall side;
+  side.nearest = [](double, const Vector3& x) { return WallPoint{1.03 - x.x(), -Vector3::UnitX()}; };
+  m.walls.push_back(side);
+  Stepper stepper(m, {});
+  for (int k = 0; k < 5; ++k)
+    (void)stepper.step(s, 0.001);
+  for (const Vector3& x : s.positions)
+    EXPECT_NEAR(x.z(), 0.025, 1e-3);
 }
 
 // A layer on the floor of a dish, whose rim stands beside the dish's side and is nearer to that: floor and side are one
