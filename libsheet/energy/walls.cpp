@@ -94,20 +94,35 @@ void keep_off_face_beside(const Wall& wall, const Stage& stage, double own, doub
     add_plane_of(site, *beside, x, kept);
 }
 
+// Whether two walls stand still towards each other at a vertex, as the sides of a dish.
+bool goes_with(const Wall& one, const Wall& other, const Stage& stage, std::uint32_t vertex) {
+  const auto velocity = [&](const Wall& wall) -> Vector3 {
+    return wall.velocity ? wall.velocity(stage.start->time, stage.start->positions[vertex]) : Vector3::Zero();
+  };
+  const Vector3 of_one = velocity(one);
+  return (of_one - velocity(other)).norm() <= 1e-9 * of_one.norm();
+}
+
+// Whether another wall may hold the vertex of a site beside its own one. A tool that nothing touches yet may not: what
+// it comes to goes out of its way, or is caught as it meets it.
+bool may_hold(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site, std::uint32_t other) {
+  const Channel* channel = channel_of(stage, site);
+  return other != site.wall && (channel == nullptr || other != channel->facing) &&
+         (!walls[other].vertices.empty() || goes_with(walls[other], walls[site.wall], stage, site.vertex));
+}
+
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
 // moves it across, but one that faces its own and would come too near.
 void keep_distances(const std::vector<Wall>& walls, const Stage& stage, double thickness, WallSite& site) {
   const Vector3 &x0 = stage.start->positions[site.vertex], &x = stage.predicted[site.vertex];
   const double own = walls[site.wall].nearest(stage.start->time, x0).distance;
   const WallPoint point = walls[site.wall].nearest(stage.end_time, x);
-  const Channel* channel = channel_of(stage, site);
   site.normal = point.normal;
   add_plane_of(site, point, x, kept_distance(stage, site, own));
-  if (walls[site.wall].hollow && channel == nullptr)
+  if (walls[site.wall].hollow && channel_of(stage, site) == nullptr)
     keep_off_face_beside(walls[site.wall], stage, own, thickness, site);
   for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w)
-    if (w != site.wall && (channel == nullptr || w != channel->facing) &&
-        !(walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
+    if (may_hold(walls, stage, site, w) && !(walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
       if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
         const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
         if (!holds(site, other, kept))

@@ -349,6 +349,23 @@ TEST(Walls, ALayerStandsBesideTheSideOfItsDish) {
     EXPECT_NEAR(lying[v], by_the_side(s.positions[v]) ? 0 : thickness, 1e-12);
 }
 
+// One that nothing touches holds what comes near it beside another wall that stands still with it, as a dish's side; a
+// tool that comes does not, whose way would be cut into short steps.
+TEST(Walls, WhatNothingTouchesHoldsWhereItStandsStill) {
+  const State s = resting(0.1);
+  Wall side;
+  side.nearest = [](double, const Vector3& x) { return WallPoint{1.03 - x.x(), -Vector3::UnitX()}; };
+  Wall tool = side;
+  tool.velocity = [](double, const Vector3&) { return Vector3(-0.1, 0, 0); };
+  const auto held_by = [&](const Wall& wall) {
+    Stage stage = first_stage(s, heavy_layer().liquid, 0.01, 0.01, true);
+    set_wall_sites({floor_of(s), wall}, stage);
+    return std::ranges::count_if(stage.sites, [](const WallSite& site) { return site.across.size() > 1; });
+  };
+  EXPECT_EQ(held_by(side), 6);
+  EXPECT_EQ(held_by(tool), 0);
+}
+
 // A hollow wall's corner holds a line, as that of two walls does: of its faces that beside the nearest one, too.
 TEST(Walls, ACornerOfOneWallHoldsALine) {
   constexpr double thickness = 0.1;
