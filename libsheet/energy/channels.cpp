@@ -87,7 +87,7 @@ double rate_at(const std::vector<Wall>& walls, const Stage& stage, const WallSit
 // line is that goes round them half-way to the others, and along the rim.
 void set_hydraulic_diameters(Stage& stage) {
   const Connectivity& mesh = *stage.start->mesh;
-  const auto& x = stage.start->positions;
+  const auto& x = stage.predicted;
   std::vector<std::uint8_t> between(mesh.vertices, 0);
   for (const Channel& channel : stage.channels)
     between[channel.vertex] = 1;
