@@ -38,9 +38,9 @@ struct RingWishes {
 // of 250 frames would show it.
 [[nodiscard]] ProposedRing proposed_ring(const Scene& with_heat, const formats::Frame& first, const RingWishes& wishes);
 
-// Of what a scene prescribes at the beginning of a long run: that few frames show it, and the run that does; or that the
-// run ends soon after it, and the one that goes on. "" where five frames or more show it, or the user has settled how
-// many.
+// Of what a scene prescribes at the beginning of a long run: that few frames show it, and the run that does; or that
+// the run ends soon after it, and the one that goes on. "" where five frames or more show it, or the user has settled
+// how many.
 [[nodiscard]] std::string few_frames_warning(const Scene& with_heat, const formats::Frame& first,
                                              const RingWishes& wishes);
 
