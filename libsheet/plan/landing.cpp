@@ -137,6 +137,25 @@ std::optional<Landing> landing_of_inflow(const Scene& scene, const Frame& first,
   return shortest;
 }
 
+double fall_to_outflow(const Scene& scene, const Frame& first, std::size_t number) {
+  const Vector3d down = scene.environment.gravity.value_or(Vector3d::Zero()).normalized();
+  const solid::Solids solids(scene);
+  const double size = measured(first).length.value_or(0);
+  const auto inlets = masks(first, "inlet");
+  double longest = 0;
+  for (std::size_t v = 0; v < inlets.size() && !down.isZero(0); ++v) {
+    double fall = std::numeric_limits<double>::infinity();
+    const Vector3d& x = positions(first)[v];
+    if (of_inlet(inlets[v], number) != 0)
+      for (const scene::Outflow& outflow : scene.outflows)
+        if (const double way = outflow.normal.dot(outflow.point - x); way > 0 && outflow.normal.dot(down) > 0)
+          fall = std::min(fall, way / outflow.normal.dot(down));
+    if (fall < std::numeric_limits<double>::infinity() && !landing_below(solids, down, x, size, first.time))
+      longest = std::max(longest, fall);
+  }
+  return longest;
+}
+
 double speed_after_fall(const Scene& scene, double v0, const Landing& landing) {
   const double fall = landing.fall;
   const double g = scene.environment.gravity.value_or(Vector3d::Zero()).norm();

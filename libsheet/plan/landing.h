@@ -41,6 +41,9 @@ struct Landing {
 [[nodiscard]] std::optional<Landing> landing_of_inflow(const Scene& scene, const formats::Frame& first,
                                                        std::size_t number);
 
+// Of what stands there above no solid the longest fall, each to the first outflow below it [m]; 0 if there is none.
+[[nodiscard]] double fall_to_outflow(const Scene& scene, const formats::Frame& first, std::size_t number);
+
 // Of what begins that fall with the speed v0 [m/s], at its end: the least of sqrt(v0² + 2 g H) (free fall) and
 // v0 + rho g H²/(8 mu) (a viscous curtain's first stretching, whose force at y is rho g (H - y) h and equals
 // 4 mu h dv/dy [Trouton 1906; Brown 1961, J. Fluid Mech. 10]).

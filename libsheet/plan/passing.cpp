@@ -14,6 +14,7 @@
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/way_of_sheet.h"
 #include "libsheet/scene/inlet_velocity.h"
+#include "libsheet/scene/layer_scales.h"
 #include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
 
@@ -156,6 +157,19 @@ double way_to_be_taken_up(const Scene& scene, const Box3& box, const Vector3& ah
   return way;
 }
 
+// The longest way down a slope that a box goes until it has come past the last of the solids that stay in its way, into
+// the bath and beyond the last outflow [m]; 0 if it comes to none.
+double way_down(const Scene& scene, const formats::Frame& first, const solid::Solids& solids, const Box3& box,
+                std::size_t slope, const Vector3& pull) {
+  const Vector3 ahead = pull.normalized();
+  double farthest = way_to_be_taken_up(scene, box, ahead);
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    if (const Box3 other = box_of(solids, i, first.time);
+        i != slope && scene::stays_in_place(scene.solids[i].motion) && other.sizes().allFinite())
+      farthest = std::max(farthest, leaves(box, ahead, other));
+  return farthest;
+}
+
 // The mean place of what a hold holds [m].
 Vector3 middle(const formats::Frame& frame, std::size_t hold) {
   const auto held = masks(frame, "hold");
@@ -200,6 +214,72 @@ std::optional<Running> running(const Scene& scene, const formats::Frame& first, 
                  .viscosity = viscosity_of(landing->liquid, {rate * rate}) / landing->liquid.density,
                  .flux = inflow.thickness * speed,
                  .end = inflow.until.value_or(std::numeric_limits<double>::infinity())};
+}
+
+// What lies on a slope from the start, or falls on it, and runs down it by its weight.
+struct Sliding {
+  std::size_t slope; // the number of the solid
+  Vector3 pull;      // gravity along it [m/s²]
+  Liquid liquid;
+  double slip;    // length [m]
+  double length;  // down the slope, at the start [m]
+  double section; // volume for each metre across its way [m²]
+
+  // When its front has come so far from where it is at the start [s]; 0 if it stands before. At x from its upper end
+  // the front is 3/2 as thick as all is in the mean, and goes at the mean speed of such a layer: of a Newtonian liquid
+  // dx/dt = 3 A² g_t/(4 ν x²) [Huppert 1982]; and no faster than what slides down freely from rest.
+  [[nodiscard]] double time_to(double way) const {
+    constexpr int parts = 100;
+    double time = std::sqrt(2 * way / pull.norm());
+    for (int i = 0; i < parts; ++i) {
+      const double x = length + way * (i + 0.5) / parts, h = 1.5 * section / x;
+      const double speed = scene::speed_of_layer(liquid, liquid.density * h * pull.norm(), h, slip);
+      if (!(speed > 0))
+        return 0;
+      time += way / parts / speed;
+    }
+    return time;
+  }
+};
+
+// From the first to the last vertex of a frame in a direction [m].
+double extent(const formats::Frame& frame, const Vector3& direction) {
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const Vector3& x : positions(frame)) {
+    first = std::min(first, x.dot(direction));
+    last = std::max(last, x.dot(direction));
+  }
+  return last - first;
+}
+
+// Nothing unless nine tenths of the sheet lie or land on one such solid at rest, along which it flows.
+std::optional<Sliding> sliding(const Scene& scene, const formats::Frame& first) {
+  constexpr double most = 0.9, least_slope = 0.1; // part of the sheet; of gravity along the solid
+  const std::vector<Landing> all = landings(scene, first);
+  if (all.empty() || !scene.inflows.empty() || scene.heat)
+    return std::nullopt;
+  const std::size_t slope = all.front().solid;
+  const Vector3 gravity = *scene.environment.gravity;
+  Vector3 pull = Vector3::Zero();
+  double lands = 0;
+  for (const Landing& landing : all)
+    if (landing.solid == slope) {
+      pull += gravity - gravity.dot(landing.there.normal) * landing.there.normal;
+      ++lands;
+    }
+  pull /= lands;
+  const Vector3 across = pull.cross(gravity);
+  if (lands < most * static_cast<double>(probes_of(first).size()) || pull.norm() < least_slope * gravity.norm() ||
+      scene.solids[slope].contact != SolidContact::flow || !rests(scene.solids[slope]) || across.isZero(0))
+    return std::nullopt;
+  const scene::Measured sheet = measured(first);
+  return Sliding{.slope = slope,
+                 .pull = pull,
+                 .liquid = all.front().liquid,
+                 .slip = scene.solids[slope].slip_length,
+                 .length = extent(first, pull.normalized()),
+                 .section =
+                     *sheet.length * *sheet.length * sheet.thickness.value_or(0) / extent(first, across.normalized())};
 }
 
 struct Held {
@@ -271,15 +351,10 @@ double running_time(const Scene& scene, const formats::Frame& first) {
   const Box3 way = falling_way(scene, first);
   double passed = 0;
   for (std::size_t inflow = 0; inflow < scene.inflows.size() && !way.isEmpty(); ++inflow)
-    if (const auto layer = running(scene, first, inflow)) {
-      const Vector3 ahead = layer->pull.normalized();
-      double farthest = way_to_be_taken_up(scene, way, ahead);
-      for (std::size_t i = 0; i < solids.size(); ++i)
-        if (const Box3 other = box_of(solids, i, first.time);
-            i != layer->slope && scene::stays_in_place(scene.solids[i].motion) && other.sizes().allFinite())
-          farthest = std::max(farthest, leaves(way, ahead, other));
-      passed = std::max(passed, layer->time_to(farthest));
-    }
+    if (const auto layer = running(scene, first, inflow))
+      passed = std::max(passed, layer->time_to(way_down(scene, first, solids, way, layer->slope, layer->pull)));
+  if (const auto slides = sliding(scene, first))
+    passed = std::max(passed, slides->time_to(way_down(scene, first, solids, way, slides->slope, slides->pull)));
   return passed > 0 ? first.time + passed : 0;
 }
 

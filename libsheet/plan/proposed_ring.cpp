@@ -206,20 +206,21 @@ std::vector<double> events_of(const Scene& scene) {
   return events;
 }
 
-// Until what flows in lands [s]; 0 if it does on nothing. Viscosity holds back what hangs from the inlet: of a length L
-// that flows in at u and is drawn out by its weight, dL/dt = u + k L², k = ρ g/(8 μ), as if it stayed as thick: it
-// lands then at the latest, as it gets thinner where its weight is.
+// Until what flows in lands, or falls beyond an outflow [s]; 0 if it does neither. Viscosity holds back what hangs from
+// the inlet: of a length L that flows in at u and is drawn out by its weight, dL/dt = u + k L², k = ρ g/(8 μ), as if it
+// stayed as thick: so long it takes at the most, as it gets thinner where its weight is. Nor is it faster than it falls
+// freely.
 double landing_time(const Scene& scene, const Frame& first, std::size_t number) {
   const auto landing = landing_of_inflow(scene, first, number);
+  const double fall = std::max(landing ? landing->fall : 0, fall_to_outflow(scene, first, number));
   const double u = scene::inlet_velocity(scene, scene.inflows[number]).speed(first.time);
-  if (!landing || !(u > 0))
-    return 0;
-  const Liquid& liquid = landing->liquid;
   const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm();
-  if (!(liquid.viscosity > 0) || !(liquid.density * gravity > 0))
+  if (!(fall > 0) || !(u > 0))
     return 0;
-  const double k = liquid.density * gravity / (8 * liquid.viscosity);
-  return std::atan(landing->fall * std::sqrt(k / u)) / std::sqrt(k * u);
+  const Liquid& liquid = scene::material_of(scene, sheet_named(scene, scene.inflows[number].sheet));
+  const double freely = (std::sqrt(u * u + 2 * gravity * fall) - u) / gravity;
+  const double k = liquid.viscosity > 0 ? liquid.density * gravity / (8 * liquid.viscosity) : 0;
+  return k > 0 ? std::max(freely, std::atan(fall * std::sqrt(k / u)) / std::sqrt(k * u)) : freely;
 }
 
 // When belts have carried the first sheet and all that enter later past what is in their ways [s].

@@ -247,5 +247,38 @@ TEST(Passing, UntilWhatFlowsDownASlopeHasComePastAWall) {
   EXPECT_EQ(running("", "flow", -4.9), 0);
 }
 
+// Of syrup, 40 by 40 mm and 5 mm thick, that lies on the same board, 0.3 m before an outflow: from Huppert's law for
+// the whole block, from its upper end, less what it is long at the start; into a bath, past a wall; what stands,
+// sticks, is held up by a belt or cools is not waited for.
+TEST(Passing, UntilWhatLiesOnASlopeHasComeToTheEndOfIt) {
+  const auto sliding = [](const std::string& law, const std::string& contact, const std::string& bath,
+                          const std::string& more) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.04, 0.04]\nedge_length = 0.005\nthickness = 0.005\n"
+        "center = [0.02, 0.0025, 0]\n[material]\ndensity = 1400\n" +
+            law + "[environment]\ngravity = [5, -8.66, 0]\n" + bath +
+            "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncontact = \"" + contact + "\"\n" + more,
+        "s");
+    return running_time(scene, first_frame(scene));
+  };
+  const std::string syrup = "viscosity = 14\n", outflow = "[[outflow]]\npoint = [0.34, 0, 0]\nnormal = [1, 0, 0]\n";
+  const auto by_law = [](double way) { // whole beyond it
+    const double area = 0.005 * 0.04;
+    return 4 * 0.01 * (std::pow(0.04 + way, 3) - std::pow(0.04, 3)) / (9 * area * area * 5) + std::sqrt(2 * way / 5);
+  };
+  EXPECT_NEAR(sliding(syrup, "flow", "", outflow), by_law(0.3425), 0.02 * by_law(0.3425));
+  EXPECT_NEAR(sliding(syrup, "flow", "bath = {density = 1000, level = -0.3}\n", ""), by_law(0.611),
+              0.02 * by_law(0.611));
+  const std::string wall = "[[solid]]\nshape = \"box\"\nsize = [0.01, 0.1, 0.02]\ncenter = [0.225, 0.05, 0]\n";
+  EXPECT_NEAR(sliding(syrup, "flow", "", wall), by_law(0.2325), 0.02 * by_law(0.2325));
+  EXPECT_EQ(sliding(syrup, "stick", "", outflow), 0);
+  EXPECT_EQ(sliding(syrup, "flow", "", ""), 0);
+  EXPECT_EQ(sliding(syrup, "flow", "", outflow + "[heat]\nspecific_heat = 2000\ntemperature = 300\nambient = 300\n"),
+            0);
+  const std::string mud = "law = \"bingham\"\nviscosity = 14\nyield_stress = ";
+  EXPECT_GT(sliding(mud + "1\n", "flow", "", outflow), by_law(0.3425));
+  EXPECT_EQ(sliding(mud + "20\n", "flow", "", outflow), 0); // stands where it is 2.9 mm thick: 75 mm farther down
+}
+
 } // namespace
 } // namespace sheet
