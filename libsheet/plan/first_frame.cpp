@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <variant>
+#include <vector>
 
 #include "libsheet/base/error.h"
 #include "libsheet/collide/collide_stage.h"
@@ -154,13 +156,42 @@ std::vector<Vector3> normals_at_vertices(const Frame& frame) {
   return normals;
 }
 
-// What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) Where all
-// that is near lies along upright walls that stay in place, what is closely beside them counts, too: its weight would
-// not press it on. (Of what is near and lies on top, a part alone would be held, into which the rest falls.) So does
-// what is as near above solids where nothing resists its fall onto them.
-void mark_touching(const Scene& scene, Frame& frame) {
+// Of the vertices that no solid touches yet those that are close to one.
+struct NearSolid {
+  std::vector<std::size_t> near, touching;
+  bool all_along;  // all that are near lie along it where it is upright or overhangs, and it stays in place
+  bool all_beside; // where it is upright
+  bool all_above;  // all that are near are above it
+};
+NearSolid near_solid(const solid::Solids& solids, std::size_t i, const Frame& frame, const Vector3& up,
+                     std::span<const Vector3> normals, std::span<const double> thickness,
+                     std::span<const std::int32_t> touch) {
   constexpr double in_reach = 1 + 1e-3, near_enough = 1.5; // of half the thickness
   constexpr double upright = 0.1, along = 0.9;             // sine of the wall's lean; cosine between the normals
+  const auto x = positions(frame);
+  const bool stays = scene::stays_in_place(solids.scene(i).motion);
+  NearSolid found{.near = {}, .touching = {}, .all_along = stays, .all_beside = true, .all_above = true};
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const solid::SolidPoint there = solids.at(i, x[v], frame.time);
+    const double distance = there.distance / (thickness[v] / 2), slope = there.normal.dot(up);
+    if (touch[v] != no_solid || !(distance <= near_enough))
+      continue;
+    found.near.push_back(v);
+    if (distance <= in_reach)
+      found.touching.push_back(v);
+    found.all_along = found.all_along && slope < upright && std::abs(there.normal.dot(normals[v])) > along;
+    found.all_beside = found.all_beside && std::abs(slope) < upright;
+    found.all_above = found.all_above && slope > 0;
+  }
+  return found;
+}
+
+// What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) Where all
+// that is near lies along walls that stay in place, upright or overhanging, what is closely beside or below them
+// counts, too: its weight would not press it on. (Of what is near and lies on top, a part alone would be held, into
+// which the rest falls; what is below a solid and touches another one lies on that.) So does what is as near above
+// solids where nothing resists its fall onto them.
+void mark_touching(const Scene& scene, Frame& frame) {
   const solid::Solids solids(scene);
   const auto up = scene::up(scene.environment);
   const bool falls_at_once = scene::nothing_resists_fall(scene);
@@ -171,28 +202,20 @@ void mark_touching(const Scene& scene, Frame& frame) {
     return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
   });
   std::vector<std::int32_t> touch(frame.vertices, no_solid);
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    if (solids.scene(i).contact == SolidContact::stick)
-      continue;
-    const bool stays = scene::stays_in_place(scene.solids[i].motion);
-    bool all_near = up.has_value();
-    std::vector<std::size_t> near, touching;
-    for (std::size_t v = 0; v < x.size(); ++v) {
-      const solid::SolidPoint there = solids.at(i, x[v], frame.time);
-      const double distance = there.distance / (thickness[v] / 2);
-      if (touch[v] != no_solid || !(distance <= near_enough))
+  const auto touches_others = [&](std::size_t i) {
+    return std::ranges::any_of(
+        touch, [&](std::int32_t solid) { return solid != no_solid && solid != static_cast<std::int32_t>(i); });
+  };
+  for (const bool from_below : {false, true})
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      if (solids.scene(i).contact == SolidContact::stick || (from_below && touches_others(i)))
         continue;
-      near.push_back(v);
-      if (distance <= in_reach)
-        touching.push_back(v);
-      all_near =
-          all_near &&
-          ((stays && std::abs(there.normal.dot(*up)) < upright && std::abs(there.normal.dot(normals[v])) > along) ||
-           (falls_at_once && there.normal.dot(*up) > 0));
+      const NearSolid found = near_solid(solids, i, frame, up.value_or(Vector3::Zero()), normals, thickness, touch);
+      const bool all_near =
+          up && ((found.all_along && (from_below || found.all_beside)) || (falls_at_once && found.all_above));
+      for (const std::size_t v : all_near ? found.near : found.touching)
+        touch[v] = static_cast<std::int32_t>(i);
     }
-    for (const std::size_t v : all_near ? near : touching)
-      touch[v] = static_cast<std::int32_t>(i);
-  }
   if (std::ranges::any_of(touch, [](std::int32_t solid) { return solid != no_solid; }))
     put_touched_solids(frame, touch, solids.size());
 }

@@ -64,6 +64,30 @@ TEST(FirstFrame, WhatLiesCloselyBesideAnUprightWallTouchesIt) {
   EXPECT_EQ(touching(2.1, "normal = [1, 0, 0]\ncenter = [-0.1021, 0, 0]\ncontact = \"flow\"\n"), 0); // by its rim
 }
 
+// A layer under a ceiling, level or leaning; but not where its weight presses it on, nor what lies on a board below.
+TEST(FirstFrame, WhatHangsCloselyBelowASolidTouchesIt) {
+  const std::string ceiling = "normal = [0, 0, 1]\ncontact = \"flow\"\n", down = "0, 0, 9.81";
+  EXPECT_EQ(touching(2.9, ceiling, down), 1);
+  EXPECT_EQ(touching(2.9, ceiling, "0, -5, 8"), 1);
+  EXPECT_EQ(touching(3.1, ceiling, down), 0);
+  EXPECT_EQ(touching(2.9, "normal = [0, 0, 1]\n", down), 0);
+  EXPECT_EQ(touching(2.9, ceiling + "velocity = [0, 0, -0.01]\n", down), 0);
+  EXPECT_EQ(touching(2.9, ceiling, "0, 0, -9.81"), 0);
+  const auto on_a_board = [&](const std::string& gravity) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.2, 0.3]\nplane = \"xy\"\nedge_length = 0.05\nthickness = 0.004\n"
+        "[material]\nviscosity = 20\ndensity = 1000\n[environment]\ngravity = [" +
+            gravity +
+            "]\n[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncenter = [0, 0, -0.0021]\ncontact = \"flow\"\n"
+            "[[solid]]\nshape = \"box\"\nsize = [1, 1, 0.1]\ncenter = [0, 0, 0.0520]\ncontact = \"flow\"\n",
+        "s");
+    const formats::Frame frame = first_frame(scene);
+    return masks(frame, "touch").front();
+  };
+  EXPECT_EQ(on_a_board(down), 2U); // only the box, on which it lies
+  EXPECT_EQ(on_a_board("0, 0, -9.81"), 2U);
+}
+
 // A curtain that hangs in front of a plane from 1 s on, and flows in at its upper side.
 TEST(FirstFrame, WhatFallsAtOnceTouchesTheSolidThatItIsCloselyAbove) {
   const std::string tray = "normal = [0, 0, 1]\ncontact = \"flow\"\n", creeping = "[model]\ninertia = false\n",
@@ -71,9 +95,9 @@ TEST(FirstFrame, WhatFallsAtOnceTouchesTheSolidThatItIsCloselyAbove) {
   EXPECT_EQ(touching(2.9, tray + creeping, down), 1);
   EXPECT_EQ(touching(3.1, tray + creeping, down), 0);
   EXPECT_EQ(touching(2.9, tray + "velocity = [0.1, 0, 0]\n" + creeping, down), 1);
-  EXPECT_EQ(touching(2.9, tray, down), 0);                    // inertia lets it fall
-  EXPECT_EQ(touching(2.9, tray + creeping + held, down), 0);  // its hold carries it
-  EXPECT_EQ(touching(2.9, tray + creeping, "0, -2, 9.6"), 0); // falls off it
+  EXPECT_EQ(touching(2.9, tray, down), 0);                                                 // inertia lets it fall
+  EXPECT_EQ(touching(2.9, tray + creeping + held, down), 0);                               // its hold carries it
+  EXPECT_EQ(touching(2.9, tray + "velocity = [0.1, 0, 0]\n" + creeping, "0, -2, 9.6"), 0); // falls off it
 }
 
 TEST(FirstFrame, TellsOfOutflowsThatTakeAllAway) {
