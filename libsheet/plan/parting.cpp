@@ -57,6 +57,14 @@ double time_to_end(const solid::Solids& solids, std::size_t number, const Vector
   return std::max(time, 0.0);
 }
 
+// Whether an outflow takes up what goes on from x at that velocity within a time [s].
+bool is_taken_up(const Scene& scene, const Vector3d& x, const Vector3d& velocity, double within) {
+  return std::ranges::any_of(scene.outflows, [&](const scene::Outflow& outflow) {
+    const double speed = velocity.dot(outflow.normal);
+    return speed > 0 && outflow.normal.dot(outflow.point - x) < within * speed;
+  });
+}
+
 // When what lands at time t on a face of that normal has been turned under the solid; infinity if not before `until`
 // [s].
 double time_turned_under(const scene::Motion& motion, const Vector3d& normal, double t, double until,
@@ -138,8 +146,9 @@ std::optional<Parting> must_part(const Scene& scene, const formats::Frame& first
   for (const Landing& landing : all) {
     const std::size_t number = landing.solid;
     const double t = first.time + std::sqrt(2 * std::max(0.0, landing.fall - thickness / 2) / gravity.norm());
-    const double end = t + time_to_end(solids, number, landing.place, landing.there.normal, first.time);
-    if (end < ends[number]) {
+    const double way = time_to_end(solids, number, landing.place, landing.there.normal, first.time), end = t + way;
+    if (end < ends[number] &&
+        !is_taken_up(scene, landing.place, solids.belt_velocity(number, landing.there.normal), way)) {
       ends[number] = end;
       densities[number] = landing.liquid.density;
     }

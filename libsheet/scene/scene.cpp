@@ -157,8 +157,16 @@ bool flows_on_solids(const Scene& scene) {
 }
 
 bool is_bottomless(const Scene& scene) {
-  return up(scene.environment) && !scene.environment.bath && scene.outflows.empty() &&
-         std::ranges::none_of(scene.solids, [](const Solid& s) { return std::holds_alternative<HalfSpace>(s.shape); });
+  constexpr double least = 0.1; // of its normal upwards
+  const auto above = up(scene.environment);
+  if (!above || scene.environment.bath)
+    return false;
+  const auto catches = [&](const Solid& solid) {
+    const auto* plane = std::get_if<HalfSpace>(&solid.shape);
+    return plane != nullptr && plane->normal.dot(*above) > least * plane->normal.norm();
+  };
+  return std::ranges::none_of(scene.solids, catches) &&
+         std::ranges::none_of(scene.outflows, [&](const Outflow& outflow) { return outflow.normal.dot(*above) < 0; });
 }
 
 bool nothing_resists_fall(const Scene& scene) {

@@ -422,7 +422,8 @@ struct PlaneAxes {
 // Whether liquid that touches flows or slips along any of the scene's solids.
 [[nodiscard]] bool flows_on_solids(const Scene& scene);
 
-// Whether what comes off the scene's solids falls for ever: no plane, no bath, no outflow takes it up.
+// Whether what comes off the scene's solids falls for ever: no plane, but one that is upright or overhangs, no bath and
+// no outflow that looks down takes it up.
 [[nodiscard]] bool is_bottomless(const Scene& scene);
 
 // Whether there is weight, but no inertia, and nothing but solids on which the sheet would come to rest: what touches

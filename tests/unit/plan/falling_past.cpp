@@ -64,6 +64,12 @@ TEST(FallingOn, FromABeltsEndWhereNothingIsBelow) {
   EXPECT_EQ(warning(0.5, adhesion), "");
   EXPECT_EQ(warning(5, adhesion + "[[outflow]]\npoint = [0, -1, 0]\nnormal = [0, -1, 0]\n"), "");
   EXPECT_EQ(warning(5, adhesion + "[[solid]]\nshape = \"plane\"\ncenter = [0, -1, 0]\n"), "");
+  const auto aside = [&](const std::string& x) { // it falls off before it gets to one that is farther off than the end
+    return warning(5, adhesion + "[[outflow]]\npoint = [" + x + ", 0, 0]\nnormal = [1, 0, 0]\n");
+  };
+  EXPECT_NE(aside("0.5"), "");
+  EXPECT_EQ(aside("0.15"), "");
+  EXPECT_NE(warning(5, adhesion + "[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncenter = [0, 0, -1]\n"), "");
   const std::string ball = adhesion + "[[solid]]\nshape = \"sphere\"\nradius = 0.02\n";
   EXPECT_EQ(warning(5, ball + "center = [0.3, -0.05, 0]\n"), "");
   EXPECT_NE(warning(5, ball + "center = [0.3, -0.02, 0]\n"), "");
