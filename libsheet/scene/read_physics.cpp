@@ -79,7 +79,7 @@ namespace {
 
 Air read_air(TableReader table) {
   Air air;
-  air.density = table.required("density");
+  air.density = table.required("density", Bound::positive, "\"1.2 kg/m^3\"");
   air.drag_coefficient = table.quantity_or("drag_coefficient", air.drag_coefficient, Bound::not_negative);
   air.friction_coefficient = table.quantity_or("friction_coefficient", air.friction_coefficient, Bound::not_negative);
   air.wind = table.timed_velocity("wind").value_or(Timed<Vector3d>{});

@@ -2,6 +2,7 @@
 #include "libsheet/scene/read_temperature_law.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -48,12 +49,12 @@ void read_constants(TableReader& table, const Files& files, TemperatureLaw& law)
     break;
   case TemperatureLawKind::vft:
     law.vft_a = table.quantity("vft_a");
-    law.vft_b = table.required("vft_b");
-    law.vft_temperature = table.required("vft_temperature");
+    law.vft_b = table.required("vft_b", Bound::positive, "\"4330.9 K\"");
+    law.vft_temperature = table.required("vft_temperature", Bound::positive, "\"246.1 degC\"");
     break;
   case TemperatureLawKind::wlf:
-    law.wlf_c1 = table.required("wlf_c1");
-    law.wlf_c2 = table.required("wlf_c2");
+    law.wlf_c1 = table.required("wlf_c1", Bound::positive, "17.44");
+    law.wlf_c2 = table.required("wlf_c2", Bound::positive, "\"51.6 K\"");
     break;
   case TemperatureLawKind::table:
     read_rows(table, files, law);
@@ -73,7 +74,8 @@ void read_temperature_law(TableReader& table, const Files& files, Liquid& liquid
   read_constants(table, files, law);
   if (!law.constant() && law.reference_temperature > 0 &&
       (law.kind != TemperatureLawKind::table || !law.temperatures.empty()))
-    if (const TemperatureRange range = range_of(law); !range.holds(law.reference_temperature))
+    if (const TemperatureRange range = range_of(law);
+        !std::isnan(range.lowest) && !range.holds(law.reference_temperature)) // else a constant is missing
       table.wrong("reference_temperature",
                   fmt::format("the law holds from {:.6g} to {:.6g} K", range.lowest, range.highest));
   table.has_no_meaning(

@@ -320,8 +320,8 @@ Tear read_tear(TableReader table, std::span<const SheetTable> sheets) {
   } else {
     Inclusions& inclusions = tear.inclusions.emplace();
     inclusions.number = sites.value_or(0);
-    inclusions.at_thickness = table.required("at_thickness");
-    inclusions.exponent = table.required("exponent");
+    inclusions.at_thickness = table.required("at_thickness", Bound::positive, "\"0.6 mm\"");
+    inclusions.exponent = table.required("exponent", Bound::positive, "6");
     inclusions.seed = table.seed("seed").value_or(inclusions.seed);
   }
   tear.snap = table.quantity("snap", Bound::positive);

@@ -112,9 +112,12 @@ double TableReader::quantity_or(std::string_view key, double fallback, Bound bou
   return quantity(key, bound).value_or(fallback);
 }
 
-double TableReader::required(std::string_view key, Bound bound) {
+double TableReader::required(std::string_view key, Bound bound, std::string_view example) {
+  const Quantity& kind = *declared(key, {Form::quantity}).quantity;
   if (absent(key))
-    missing(key, fmt::format("\"{}\"", declared(key, {Form::quantity}).quantity->example));
+    missing(key, !example.empty()   ? std::string(example)
+                 : kind.unit == "1" ? std::string(kind.example)
+                                    : fmt::format("\"{}\"", kind.example));
   return quantity(key, bound).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 

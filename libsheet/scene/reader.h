@@ -40,8 +40,9 @@ public:
 
   std::optional<double> quantity(std::string_view key, Bound bound = Bound::any);
   double quantity_or(std::string_view key, double fallback, Bound bound = Bound::any);
-  // Without a good value: NaN, with which every later comparison is false, so that one mistake is one line.
-  double required(std::string_view key, Bound bound = Bound::positive);
+  // Without a good value: NaN, with which every later comparison is false, so that one mistake is one line. `example`:
+  // where that of its quantity is none of this key.
+  double required(std::string_view key, Bound bound = Bound::positive, std::string_view example = {});
   std::optional<Eigen::Vector3d> vector(std::string_view key);
   // All numbers of a list; none if it is absent or one of them is wrong, which is reported.
   std::vector<double> list_or_missing(std::string_view key, Bound bound, std::string_view example);

@@ -132,6 +132,18 @@ TEST(Heat, SaysWhatIsWrong) {
             "s:6:1: missing key \"density\" in [material]: [heat] needs it");
 }
 
+// Not one temperature for another one, or for a difference.
+TEST(Heat, ProposesForEachKeyOfALawWhatItMeans) {
+  const auto with = [](const std::string& law) {
+    return problem(disk + liquid + "reference_temperature = 373\nviscosity_law = \"" + law + "\"\n" + heat_table);
+  };
+  EXPECT_EQ(with("wlf"), "s:6:1: missing key \"wlf_c1\" in [material], such as wlf_c1 = 17.44\n"
+                         "s:6:1: missing key \"wlf_c2\" in [material], such as wlf_c2 = \"51.6 K\"");
+  EXPECT_EQ(with("vft"), "s:6:1: missing key \"vft_b\" in [material], such as vft_b = \"4330.9 K\"\n"
+                         "s:6:1: missing key \"vft_temperature\" in [material], such as vft_temperature = "
+                         "\"246.1 degC\"");
+}
+
 TEST(Heat, SaysWhatIsWrongWithATableOfViscosities) {
   const auto with = [](const std::string& keys) {
     return problem(disk + "[material]\ndensity = 1\nreference_temperature = 2\nviscosity_law = \"table\"\n" + keys +

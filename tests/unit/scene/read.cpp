@@ -377,7 +377,7 @@ TEST(Read, ProblemsOfTheOtherTables) {
             "s:12:1: key \"motion\" has no meaning in [inflow]: an inlet stands; let the solids move past it the other "
             "way ([[solid]] velocity or motion), which is the same as seen from it"},
            {"[environment]\nair = {wind = [1, 0, 0]}",
-            "s:10:7: missing key \"density\" in air, such as density = \"1000 kg/m^3\""},
+            "s:10:7: missing key \"density\" in air, such as density = \"1.2 kg/m^3\""},
            {"[environment]\nair = {density = 1.2, drag_coefficient = 0, friction_coefficient = 0}",
             "s:10:42: drag_coefficient: with neither drag nor friction air does nothing: leave the table out"},
            {"[inflow]", "s:9:1: missing key \"region\" in [inflow], such as region = \"y_max\"\n"
@@ -389,7 +389,9 @@ TEST(Read, ProblemsOfTheOtherTables) {
             "s:11:1: key \"crumbs\" has no meaning in [tear]: only what tears below a thickness comes off in crumbs"},
            {"[tear]", "s:9:1: missing key \"below\" in [tear], such as below = \"0.8 mm\", or sites, or snap"},
            {"[tear]\nsites = 100\nat_thickness = 0.001",
-            "s:9:1: missing key \"exponent\" in [tear], such as exponent = \"0.5\""},
+            "s:9:1: missing key \"exponent\" in [tear], such as exponent = 6"},
+           {"[tear]\nsites = 100\nexponent = 2",
+            "s:9:1: missing key \"at_thickness\" in [tear], such as at_thickness = \"0.6 mm\""},
            {"[tear]\nbelow = 0.001\nseed = 3", "s:11:1: key \"seed\" has no meaning in [tear]: there are no sites"},
            {"[tear]\nsites = \"3 mm\"\nat_thickness = 0.001\nexponent = 6",
             "s:10:9: sites: expected a number per volume such as \"2e4 1/m^3\", got a length (m)"},
@@ -411,7 +413,7 @@ TEST(Read, ProblemsOfFlowLaws) {
     EXPECT_EQ(of(good), "fine");
   for (const auto& [material, expected] : std::vector<Case>{
            {"law = \"power\"\nviscosity = 1",
-            "s:6:1: missing key \"flow_index\" in [material], such as flow_index = \"0.5\""},
+            "s:6:1: missing key \"flow_index\" in [material], such as flow_index = 0.5"},
            {"viscosity = 1\nyield_stress = 3",
             "s:9:1: key \"yield_stress\" has no meaning in [material]: law \"newtonian\" takes viscosity alone"},
            {"law = \"bingham\"\nviscosity = 0\nyield_stress = \"3 Pa*s\"",
