@@ -163,12 +163,17 @@ TEST(Survey, WhatFallsForEverIsNotFollowed) {
   EXPECT_NEAR(lowest(0.4, alone), -0.005, 1e-9);
   EXPECT_NEAR(lowest(4, alone), 3.8, 1e-3); // of the ball
   EXPECT_NEAR(lowest(4, [](Scene& scene) { scene.environment.gravity.reset(); }), -0.005, 1e-9);
-  EXPECT_NEAR(lowest(4, [](Scene& scene) { scene.outflows.resize(1); }), -0.005, 1e-9);
-  EXPECT_NEAR(lowest(4, [](Scene& scene) { scene.environment.bath.emplace(); }), -0.005, 1e-9);
-  const auto with_floor = [](Scene& scene) {
-    scene.solids.emplace_back().shape.emplace<scene::HalfSpace>(Vector3::UnitY());
+  const auto with_outflow = [](const Vector3& normal) {
+    return [=](Scene& scene) { scene.outflows = {{.point = Vector3::Zero(), .normal = normal}}; };
   };
-  EXPECT_NEAR(lowest(4, with_floor), -0.005, 1e-9);
+  EXPECT_NEAR(lowest(4, with_outflow(-Vector3::UnitY())), -0.005, 1e-9);
+  EXPECT_NEAR(lowest(4, with_outflow(Vector3::UnitX())), 3.8, 1e-3);
+  EXPECT_NEAR(lowest(4, [](Scene& scene) { scene.environment.bath.emplace(); }), -0.005, 1e-9);
+  const auto with_plane = [](const Vector3& normal) {
+    return [=](Scene& scene) { scene.solids.emplace_back().shape.emplace<scene::HalfSpace>(normal); };
+  };
+  EXPECT_NEAR(lowest(4, with_plane(Vector3::UnitY())), -0.005, 1e-9);
+  EXPECT_NEAR(lowest(4, with_plane(Vector3::UnitX())), 3.8, 1e-3); // a wall
 }
 
 // A sheet hangs from a clip, then 4 m below it, torn off or not, then when the clip has opened.
