@@ -21,6 +21,7 @@
 #include "libsheet/plan/passing.h"
 #include "libsheet/plan/piling.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/tiers.h"
 #include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/inlet_velocity.h"
@@ -29,6 +30,7 @@
 #include "libsheet/scene/sheet_edges.h"
 #include "libsheet/shape/build.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet {
 
@@ -111,7 +113,7 @@ std::string word_of_blow_up(const Scene& scene, const Frame& first) {
              : "";
 }
 
-constexpr double before_holds_meet = 0.9; // of the time to that
+constexpr double before_holds_meet = 0.9; // each other, or a solid: of the time to that
 
 std::string word_of_holds_that_meet(const Scene& scene, const Frame& first, double until) {
   const auto meet = holds_meet(scene, first, until);
@@ -120,6 +122,15 @@ std::string word_of_holds_that_meet(const Scene& scene, const Frame& first, doub
                            "end before, at {:.2g} s\n  or so.\n",
                            meet->one, meet->other, meet->time, before_holds_meet * meet->time)
              : "";
+}
+
+std::string word_of_hold_in_solid(const Scene& scene, const Frame& first, double until) {
+  const auto meet = hold_in_solid(scene, first, until);
+  return meet ? fmt::format("  [[hold]] {} (from 0) and {} move into each other at about {:.2g} s, where the run ends: "
+                            "end before, at {:.2g} s or so.\n",
+                            meet->hold, solid::Solids(scene).name(meet->solid), meet->time,
+                            before_holds_meet * meet->time)
+              : "";
 }
 
 // Of what creeps so long that its fall, from then on, is short.
@@ -326,9 +337,12 @@ bool few_show(double ended, double fps) {
 double whole_run(const Scene& with_heat, const Frame& first) {
   const double until = until_of(with_heat, first);
   const auto blow_up = blow_up_time_with_heat(with_heat, first);
-  const double end = blow_up ? std::min(until, rounded_down(before_blow_up * *blow_up)) : until;
-  const auto meet = holds_meet(scene::as_it_starts(with_heat), first, end);
-  return meet ? std::min(end, rounded_down(before_holds_meet * meet->time)) : end;
+  double end = blow_up ? std::min(until, rounded_down(before_blow_up * *blow_up)) : until;
+  if (const auto meet = holds_meet(scene::as_it_starts(with_heat), first, end))
+    end = std::min(end, rounded_down(before_holds_meet * meet->time));
+  if (const auto meet = hold_in_solid(with_heat, first, end))
+    end = std::min(end, rounded_down(before_holds_meet * meet->time));
+  return end;
 }
 
 // Soon after the last solid has come through the sheet, where few frames of a whole run would show that: what then runs
@@ -400,7 +414,8 @@ std::string ring_text(const Scene& with_heat, const Frame& first, const RingWish
              "is below {:g} of an edge:\n  sheet-step --tolerance asks for another one, --dt for fixed steps.\n",
              init, ring.until, ring.fps, ring.stages, scene::mean_edge(first), tolerance_at(wishes.quality)) +
          forecast_text(scene, first, ring, tolerance_at(wishes.quality)) + word_of_blow_up(with_heat, first) +
-         word_of_holds_that_meet(scene, first, longest) + word_of_runaway(with_heat, first) + word_of_edges(ring);
+         word_of_holds_that_meet(scene, first, longest) + word_of_hold_in_solid(scene, first, longest) +
+         word_of_runaway(with_heat, first) + word_of_edges(ring);
 }
 
 std::string ring_lines(const Scene& with_heat, const Frame& first, const RingWishes& wishes, const std::string& init) {

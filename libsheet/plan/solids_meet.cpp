@@ -96,6 +96,7 @@ bool is_moved(const scene::Solid& solid) { return moves(solid.motion); }
 // What gives way to nothing: places at the start [m], how they move, and until when [s].
 struct Prescribed {
   std::string name;
+  std::optional<std::size_t> hold; // its number; of inlets none
   std::vector<Vector3> places;
   scene::Motion motion;
   double until;
@@ -122,15 +123,46 @@ std::vector<Prescribed> what_is_prescribed(const Scene& scene, const formats::Fr
   std::vector<Prescribed> all;
   for (std::size_t i = 0; i < scene.holds.size(); ++i)
     if (const scene::Hold& hold = scene.holds[i]; !hold.roll && hold.axes == all_axes)
-      all.push_back({fmt::format("what [[hold]] number {} (from 0) holds", i),
+      all.push_back({fmt::format("what [[hold]] number {} (from 0) holds", i), i,
                      some_places(first, "hold", [i](std::uint64_t bits) { return (bits >> i & 1) != 0; }), hold.motion,
                      hold.until.value_or(forever)});
   for (std::size_t i = 0; i < scene.inflows.size(); ++i)
     all.push_back(
-        {fmt::format("the inlet of inflow {}", i),
+        {fmt::format("the inlet of inflow {}", i), std::nullopt,
          some_places(first, "inlet", [i](std::uint64_t bits) { return (of_inlet(bits, i) & at_inlet_border) != 0; }),
          scene::Fixed{}, scene.inflows[i].until.value_or(forever)});
   return all;
+}
+
+// Of something prescribed with a solid.
+struct HeldMeeting {
+  std::string name;
+  std::optional<std::size_t> hold;
+  std::size_t solid;
+  Meeting when;
+};
+std::vector<HeldMeeting> meetings_with_what_is_held(const Scene& scene, const formats::Frame& first, double until) {
+  std::vector<HeldMeeting> meetings;
+  const scene::Measured sheet = measured(first);
+  if (scene.solids.empty() || !sheet.thickness)
+    return meetings;
+  const solid::Solids solids(scene);
+  for (const Prescribed& held : what_is_prescribed(scene, first))
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const double end = std::min(until, held.until);
+      if ((!is_moved(scene.solids[i]) && !moves(held.motion)) || held.places.empty() || !(end > first.time))
+        continue;
+      const auto depth = [&](double t) {
+        const Eigen::Isometry3d way = scene::motion_between(held.motion, first.time, t);
+        double deepest = -std::numeric_limits<double>::infinity();
+        for (const Vector3& x : held.places)
+          deepest = std::max(deepest, -solids.at(i, way * x, t).distance);
+        return deepest;
+      };
+      if (const auto meeting = meeting_of(depth, first.time, end, *sheet.thickness))
+        meetings.push_back({held.name, held.hold, i, *meeting});
+    }
+  return meetings;
 }
 
 } // namespace
@@ -164,30 +196,21 @@ std::vector<std::string> warnings_of_solids_that_meet(const Scene& scene, const 
 std::vector<std::string> warnings_of_solids_that_meet_what_is_held(const Scene& scene, const formats::Frame& first,
                                                                    double until) {
   std::vector<std::string> warnings;
-  const scene::Measured sheet = measured(first);
-  if (scene.solids.empty() || !sheet.thickness)
-    return warnings;
-  const solid::Solids solids(scene);
-  for (const Prescribed& held : what_is_prescribed(scene, first))
-    for (std::size_t i = 0; i < solids.size(); ++i) {
-      const double end = std::min(until, held.until);
-      if ((!is_moved(scene.solids[i]) && !moves(held.motion)) || held.places.empty() || !(end > first.time))
-        continue;
-      const auto depth = [&](double t) {
-        const Eigen::Isometry3d way = scene::motion_between(held.motion, first.time, t);
-        double deepest = -std::numeric_limits<double>::infinity();
-        for (const Vector3& x : held.places)
-          deepest = std::max(deepest, -solids.at(i, way * x, t).distance);
-        return deepest;
-      };
-      if (const auto meeting = meeting_of(depth, first.time, end, *sheet.thickness))
-        warnings.push_back(
-            fmt::format("{} and {} move into each other, from {:.2g} s on and by up to {} m: what is held "
-                        "there does not give way, and the run stalls or ends there; let them pass each "
-                        "other, or give it an `until`",
-                        held.name, solids.name(i), meeting->begins, scene::brief(meeting->deepest)));
-    }
+  for (const HeldMeeting& held : meetings_with_what_is_held(scene, first, until))
+    warnings.push_back(fmt::format("{} and {} move into each other, from {:.2g} s on and by up to {} m: what is held "
+                                   "there does not give way, and the run stalls or ends there; let them pass each "
+                                   "other, or give it an `until`",
+                                   held.name, solid::Solids(scene).name(held.solid), held.when.begins,
+                                   scene::brief(held.when.deepest)));
   return warnings;
+}
+
+std::optional<HoldInSolid> hold_in_solid(const Scene& scene, const formats::Frame& first, double until) {
+  std::optional<HoldInSolid> earliest;
+  for (const HeldMeeting& held : meetings_with_what_is_held(scene, first, until))
+    if (held.hold && !(earliest && earliest->time <= held.when.begins))
+      earliest = {*held.hold, held.solid, held.when.begins};
+  return earliest;
 }
 
 } // namespace sheet

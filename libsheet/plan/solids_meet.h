@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solids whose motions take them into each other, or into what is held or flows in, judged before anything is run.
 #pragma once
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +21,13 @@ namespace sheet {
 // give way: the solid stands in the liquid there.
 [[nodiscard]] std::vector<std::string>
 warnings_of_solids_that_meet_what_is_held(const Scene& scene, const formats::Frame& first, double until);
+
+struct HoldInSolid {
+  std::size_t hold, solid; // their numbers
+  double time;             // [s]
+};
+
+// The first such [[hold]] and solid: there sheet-collide ends the run.
+[[nodiscard]] std::optional<HoldInSolid> hold_in_solid(const Scene& scene, const formats::Frame& first, double until);
 
 } // namespace sheet

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/proposed_ring.h"
 #include "libsheet/scene/read.h"
 
 namespace sheet {
@@ -43,13 +44,16 @@ TEST(SolidsMeet, NothingIsToldOfWhatIsOneThingOrStands) {
   EXPECT_TRUE(warnings("center = [0, 0.004, 0]\n").empty());
 }
 
-// Of a curtain 20 cm wide whose upper edge is at a height of 30 cm.
-std::vector<std::string> curtain_warnings(const std::string& rest, double until = 1) {
-  const Scene scene = scene::parse_scene(
+// A curtain 20 cm wide whose upper edge is at a height of 30 cm.
+Scene curtain(const std::string& rest) {
+  return scene::parse_scene(
       "[sheet]\nshape = \"rectangle\"\nplane = \"xy\"\nsize = [0.2, 0.1]\nedge_length = 0.01\nthickness = 0.002\n"
       "center = [0, 0.25, 0]\n[material]\nviscosity = 10\ndensity = 1400\n" +
           rest,
       "s");
+}
+std::vector<std::string> curtain_warnings(const std::string& rest, double until = 1) {
+  const Scene scene = curtain(rest);
   return warnings_of_solids_that_meet_what_is_held(scene, first_frame(scene), until);
 }
 
@@ -75,6 +79,17 @@ TEST(SolidsMeet, AClipThatIsLoweredIntoATable) {
   EXPECT_TRUE(curtain_warnings(table).empty());
   EXPECT_TRUE(curtain_warnings(table + down, 0.5).empty());
   EXPECT_TRUE(curtain_warnings(table + down + "axes = \"xz\"\n").empty());
+  const Scene scene = curtain(table + down + "[environment]\ngravity = [0, -9.81, 0]\n");
+  const auto meet = hold_in_solid(scene, first_frame(scene), 1);
+  ASSERT_TRUE(meet);
+  EXPECT_EQ(meet->hold, 0U);
+  EXPECT_EQ(meet->solid, 0U);
+  EXPECT_NEAR(meet->time, 0.6, 0.01);
+  EXPECT_FALSE(hold_in_solid(scene, first_frame(scene), 0.5));
+  EXPECT_LE(proposed_ring(scene, first_frame(scene), {}).until, 0.55);
+  EXPECT_THAT(ring_text(scene, first_frame(scene), {}, "init"),
+              HasSubstr("[[hold]] 0 (from 0) and solid 0 (plane) move "
+                        "into each other at about 0.6"));
 }
 
 } // namespace
