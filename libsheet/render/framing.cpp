@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "libsheet/geometry/area.h"
 #include "libsheet/geometry/disjoint_sets.h"
@@ -126,9 +127,20 @@ Plane ground_below(const Box& subject, const Vector3& up) {
   return {ground_id, subject.middle() - reach * up, up};
 }
 
-Plane bath_surface(double level, const Box& subject, const Vector3& up) {
+bool has_shore(const Scene& scene) {
+  constexpr double least = 0.02, most = 0.9; // its height on a way of one
+  const Vector3 upwards = up_of(&scene);
+  return std::ranges::any_of(scene.solids, [&](const scene::Solid& solid) {
+    const auto* plane = std::get_if<scene::HalfSpace>(&solid.shape);
+    const double lean = plane != nullptr ? plane->normal.normalized().cross(upwards).norm() : 0;
+    return lean > least && lean < most && plane->normal.dot(upwards) > 0;
+  });
+}
+
+Plane bath_surface(double level, const Box& subject, const Vector3& up, bool shore) {
   Plane surface = ground_below(subject, up);
-  surface.point += std::min(0.0, level - surface.point.dot(up)) * up;
+  const double higher = level - surface.point.dot(up);
+  surface.point += (shore ? higher : std::min(0.0, higher)) * up;
   return surface;
 }
 

@@ -44,8 +44,11 @@ private:
 // A ground for a scene that has no plane of its own, a little below the subject.
 [[nodiscard]] Plane ground_below(const Box& subject, const Vector3& up);
 
+// Whether a plane of the scene slopes, as one that goes down into a bath does.
+[[nodiscard]] bool has_shore(const Scene& scene);
+
 // The surface of a bath whose level [m] is measured along `up`; a little below the subject where that lies deeper, for
-// the sheet displaces the bath.
-[[nodiscard]] Plane bath_surface(double level, const Box& subject, const Vector3& up);
+// the sheet displaces the bath, unless there is a shore: what runs down that goes under.
+[[nodiscard]] Plane bath_surface(double level, const Box& subject, const Vector3& up, bool shore);
 
 } // namespace sheet::render

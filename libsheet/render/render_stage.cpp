@@ -374,7 +374,7 @@ struct RenderStage::Impl {
             from_right,
             std::nullopt};
     if (const BathLiquid* bath = bath_in_view(); bath != nullptr)
-      f.ground = bath_surface(bath->level, subject, up);
+      f.ground = bath_surface(bath->level, subject, up, has_shore(*scene));
     else if (options.ground && options.look.is_material() && (!scene || make_planes(*scene, frame.time).empty()))
       f.ground = ground_below(subject, up);
     f.dark = std::ranges::all_of(drawn_liquids(options, scene), [&](const Liquid& l) { return is_clear(l, frame); });

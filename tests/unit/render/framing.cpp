@@ -176,6 +176,30 @@ TEST(Survey, WhatFallsForEverIsNotFollowed) {
   EXPECT_NEAR(lowest(4, with_plane(Vector3::UnitX())), 3.8, 1e-3); // a wall
 }
 
+// What floats displaces the bath, whose surface is below it; what runs down a slope into the bath goes under.
+TEST(Framing, ABathIsAtItsLevelWhereThereIsAShore) {
+  Box subject;
+  subject.add(Vector3(-1, -1, -1));
+  subject.add(Vector3(1, 3, 1));
+  const auto surface_at = [&](double level, bool shore) {
+    return bath_surface(level, subject, Vector3::UnitY(), shore).point.y();
+  };
+  EXPECT_NEAR(surface_at(0.5, true), 0.5, 1e-12);
+  EXPECT_NEAR(surface_at(0.5, false), -1, 0.2);
+  EXPECT_NEAR(surface_at(-2, false), -2, 1e-12);
+  const auto shore = [](const Vector3& gravity, const Vector3& normal) {
+    Scene scene;
+    scene.environment.gravity = gravity;
+    scene.solids.emplace_back().shape.emplace<scene::HalfSpace>(normal);
+    return has_shore(scene);
+  };
+  EXPECT_TRUE(shore({0, -9.81, 0}, {0.5, 0.9, 0}));
+  EXPECT_TRUE(shore({1.7, -9.66, 0}, {0, 1, 0}));
+  EXPECT_FALSE(shore({0, -9.81, 0}, {0, 1, 0})); // its ground
+  EXPECT_FALSE(shore({0, -9.81, 0}, {1, 0, 0})); // the side of a basin
+  EXPECT_FALSE(shore({0, -9.81, 0}, {0.5, -0.9, 0}));
+}
+
 // A sheet hangs from a clip, then 4 m below it, torn off or not, then when the clip has opened.
 TEST(Survey, WhatFallsFromHoldsIsNotFollowed) {
   Scene scene;
