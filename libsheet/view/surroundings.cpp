@@ -68,7 +68,8 @@ Placement place_surroundings(const Scene& scene, const std::vector<PackedSolid>&
   }
   if (const auto& bath = scene.environment.bath) {
     const Eigen::Vector3d up = render::up_of(&scene);
-    placement.surfaces.push_back({"bath", coordinates(bath->level * up), coordinates(up)});
+    placement.surfaces.push_back(
+        {render::has_shore(scene) ? "sea" : "bath", coordinates(bath->level * up), coordinates(up)});
   }
   return placement;
 }

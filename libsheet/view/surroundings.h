@@ -20,7 +20,7 @@ struct PackedSolid {
 [[nodiscard]] std::vector<PackedSolid> pack_solids(const Scene& scene);
 
 struct FlatSurface { // without end
-  std::string kind;  // "plane", "belt" (it stands and its surface moves) or "bath"
+  std::string kind;  // "plane", "belt" (it stands and its surface moves), "bath" or, with a shore, "sea"
   std::array<double, 3> point, normal;
 };
 

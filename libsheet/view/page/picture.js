@@ -59,6 +59,7 @@ function refresh(i) {
 
 const aroundColours = {
   plane: [0.62, 0.64, 0.67, 0.55], belt: [0.45, 0.52, 0.60, 0.6], bath: [0.30, 0.50, 0.68, 0.45],
+  sea: [0.30, 0.50, 0.68, 0.45], // what runs down into it goes under
 };
 const solidColours = [[0.68, 0.66, 0.63], [0.52, 0.58, 0.64], [0.64, 0.57, 0.50], [0.56, 0.61, 0.55]];
 
