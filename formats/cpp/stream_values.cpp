@@ -48,6 +48,7 @@ constexpr std::array standards{
     Standard{"hold_force", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
     Standard{"touch", Place::vertex, Type::uint64, any_number, "1", Transfer::common, false},
     Standard{"touch_force", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
+    Standard{"touch_load", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
     Standard{"touch_overshoot", Place::vertex, Type::float64, 3, "m", Transfer::interpolate, false},
     Standard{"touch_overshoot_time", Place::vertex, Type::float64, 1, "s", Transfer::interpolate, false},
     Standard{"inlet", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},

@@ -375,12 +375,15 @@ struct CollideStage::Impl {
   }
 
   // Vertices whose solid cannot hold them any longer.
-  [[nodiscard]] std::vector<std::uint32_t> coming_off(const Frame& frame, const StepPath& path) const {
-    const Array* force = frame.find("touch_force");
+  [[nodiscard]] std::vector<std::uint32_t> coming_off(Frame& frame, const StepPath& path) const {
+    const Array *force = frame.find("touch_force"), *load = frame.find("touch_load");
     if (force == nullptr || !scene->contact || !scene->contact->adhesion)
       return {};
-    return pulled_off(path, *solids, force->values<Vector3>(), *scene->contact->adhesion,
-                      shares(path.triangles, volumes(frame), path.end).area);
+    std::vector<std::uint32_t> off = pulled_off(
+        path, *solids, force->values<Vector3>(), load != nullptr ? load->values<Vector3>() : std::span<const Vector3>(),
+        *scene->contact->adhesion, shares(path.triangles, volumes(frame), path.end).area);
+    frame.erase("touch_load");
+    return off;
   }
 
   // How each solid moves in the step; none if all stand still.

@@ -235,6 +235,22 @@ EnergySum Assembly::gradient(const Terms& terms, const Unknowns& u, const Constr
   return sum;
 }
 
+Eigen::VectorXd Assembly::external_gradient(const Terms& terms, const Unknowns& u) {
+  prepare(terms, u);
+  std::fill_n(gradients_.get(), gradient_numbers_, 0.0);
+  each_chunk([&](std::size_t, int g, std::size_t first, std::size_t last) {
+    double local[chunk * 12];
+    collect(groups_[g], first, last, u, local);
+    double* gradients = &gradients_[(groups_[g].first + first) * static_cast<std::size_t>(stride_)];
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      if (group_of_term_[t] == g && terms[t]->external())
+        (void)terms[t]->add_gradients(first, last, local, stride_, gradients, false);
+  });
+  Eigen::VectorXd gradient;
+  gather_gradient({}, gradient);
+  return gradient;
+}
+
 EnergySum Assembly::derivatives(const Terms& terms, const Unknowns& u, bool definite, const Constraints& constraints,
                                 Eigen::VectorXd& gradient, SparseLower& matrix) {
   prepare(terms, u);

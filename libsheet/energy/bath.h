@@ -36,6 +36,7 @@ public:
   // reach: as in BathSurface.
   Bath(double density, const Vector3& gravity, double level, bool clings, std::vector<BathReach> reach = {})
       : weight_(density * gravity.norm() / 12), surface_(gravity, level, std::move(reach)), clings_(clings) {}
+  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return "bath"; }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   void begin(const Stage& stage) {

@@ -18,6 +18,7 @@ public:
   // rests: Contact begins them; inertia: it is modelled; adhesion: the springs pull, too.
   ContactDamping(std::shared_ptr<const SpringRests> rests, bool inertia, bool adhesion)
       : rests_(std::move(rests)), inertia_(inertia), adhesion_(adhesion) {}
+  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return "contact damping"; }
   [[nodiscard]] std::size_t size() const { return rests_->springs().size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return spring(i).vertices; }

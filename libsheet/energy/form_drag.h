@@ -29,6 +29,7 @@ class FormDrag {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   explicit FormDrag(OuterFlow flow) : flow_(std::move(flow)) {}
+  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return flow_.name; }
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
 

@@ -11,6 +11,7 @@ class Inertia {
 public:
   static constexpr Stencil stencil = Stencil::vertex;
   static constexpr Kind kind = Kind::inertial;
+  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return "inertia"; }
   [[nodiscard]] std::size_t size() const { return weight_.size(); }
   void begin(const Stage& stage) {

@@ -51,6 +51,7 @@ struct Model {
   std::vector<Wall> walls;       // along which liquid flows
   bool may_squeeze = false;      // several solids, which may leave liquid no room between them
   Reactions reactions = Reactions::none;
+  bool external_reactions = false; // those, too, that hold external forces alone
   std::vector<ContactSpring> contacts;
   bool contacts_adhere = false;
   bool contacts_flow = false;           // they let layers flow along each other, and press them flat

@@ -35,6 +35,7 @@ class Pressure {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
   explicit Pressure(PressureLaw law) : law_(std::move(law)) {}
+  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return "pressure"; }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   void begin(const Stage& stage);

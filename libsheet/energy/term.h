@@ -19,6 +19,8 @@ public:
   [[nodiscard]] virtual const char* name() const = 0;
   [[nodiscard]] virtual Stencil stencil() const = 0;
   [[nodiscard]] virtual bool has(Kind kind) const = 0; // whether a part of the Hessian is of that kind
+  // Whether it acts from outside the sheet or on its mass, not within the sheet or along walls.
+  [[nodiscard]] virtual bool external() const = 0;
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual std::array<std::uint32_t, 4> nodes(std::size_t i) const = 0; // hinge and four only
   virtual void begin(const Stage& stage) = 0;
@@ -69,6 +71,12 @@ public:
       return kind == E::kind;
     else
       return kind == Kind::dissipative;
+  }
+  [[nodiscard]] bool external() const override {
+    if constexpr (requires { E::external; })
+      return E::external;
+    else
+      return false;
   }
   [[nodiscard]] std::size_t size() const override { return element_.size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const override {

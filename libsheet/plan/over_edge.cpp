@@ -40,9 +40,10 @@ bool is_in_the_open(WayAlongSolid way, const Vector3& gravity) {
   return false;
 }
 
-// When what starts there from rest comes down to an edge in the open [s].
+// When what starts there from rest comes down to an edge in the open [s]: a layer h thick, or as thick as it carries
+// that flux [m²/s].
 std::optional<double> time_down(WayAlongSolid way, const Scene& scene, const scene::Solid& solid, const Liquid& liquid,
-                                double h) {
+                                double h, double flux) {
   constexpr double below = 0.8; // cosine between gravity and a face below something round
   const Vector3 gravity = *scene.environment.gravity;
   double time = 0, speed = 0;
@@ -51,9 +52,12 @@ std::optional<double> time_down(WayAlongSolid way, const Scene& scene, const sce
     if (pull < WayAlongSolid::least_slope * gravity.norm() || way.normal().dot(gravity) > below * gravity.norm())
       return std::nullopt;
     const double before = speed;
-    speed = solid.contact == SolidContact::slip
-                ? std::sqrt(before * before + 2 * pull * way.step())
-                : scene::speed_of_layer(liquid, liquid.density * h * pull, h, solid.slip_length);
+    if (solid.contact == SolidContact::slip) {
+      speed = std::sqrt(before * before + 2 * pull * way.step());
+    } else {
+      const double thick = scene::thickness_of_layer(liquid, pull, flux, solid.slip_length, h);
+      speed = scene::speed_of_layer(liquid, liquid.density * thick * pull, thick, solid.slip_length);
+    }
     if (!(speed > 0))
       return std::nullopt;
     time += way.step() / (solid.contact == SolidContact::slip ? (before + speed) / 2 : speed);
@@ -99,14 +103,26 @@ struct OnSolid {
   const formats::Frame& first;
   const solid::Solids& solids;
   std::size_t number;
-  std::vector<Landing> landings; // on it
-  double thickness, from, until;
+  std::vector<Landing> landings;       // on it
+  double thickness, flux, from, until; // flux: of what flows in and lands on it, for each metre across its way [m²/s]
 
   [[nodiscard]] const scene::Solid& solid() const { return solids.scene(number); }
   [[nodiscard]] Vector3 carried(const Vector3& x, double t) const {
     return scene::motion_between(solid().motion, first.time, t) * x;
   }
 };
+
+// The greatest flux of what flows in there until the end, and lands on that solid [m²/s].
+double flux_onto(const Scene& scene, const formats::Frame& first, std::size_t solid, double until) {
+  double flux = 0;
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    const scene::Inflow& inflow = scene.inflows[i];
+    const auto landing = landing_of_inflow(scene, first, i);
+    if (landing && landing->solid == solid && inflow.until.value_or(until) >= until)
+      flux = std::max(flux, inflow.thickness * scene::inlet_velocity(scene, inflow).speed(first.time));
+  }
+  return flux;
+}
 
 std::optional<OverEdge> runs_over(const OnSolid& on) {
   const auto turned_at = when_turned(on.solid().motion, on.first.time, on.until);
@@ -122,7 +138,7 @@ std::optional<OverEdge> runs_over(const OnSolid& on) {
     const double fall = std::max(0.0, landing.fall - on.thickness / 2);
     const double starts = std::max({*turned_at, on.from, on.first.time + std::sqrt(2 * fall / gravity)});
     const WayAlongSolid way(on.scene, on.solids, on.number, starts, on.thickness, on.carried(landing.place, starts));
-    const auto takes = time_down(way, on.scene, on.solid(), landing.liquid, on.thickness);
+    const auto takes = time_down(way, on.scene, on.solid(), landing.liquid, on.thickness, on.flux);
     if (!way.taken_up() && is_turned_over(way.normal(), landing.liquid, *on.scene.environment.gravity, on.thickness))
       return OverEdge{fmt::format("{} turns over with what lies on it", on.solids.name(on.number)), starts,
                       landing.liquid.density};
@@ -272,7 +288,7 @@ std::optional<OverEdge> goes_over_edge(const Scene& scene, const formats::Frame&
   for (std::size_t i = 0; i < solids.size(); ++i) {
     if (!has_edges(scene.solids[i]))
       continue;
-    OnSolid on{scene, first, solids, i, {}, thickness, from, until};
+    OnSolid on{scene, first, solids, i, {}, thickness, flux_onto(scene, first, i, until), from, until};
     std::ranges::copy_if(all, std::back_inserter(on.landings), [&](const Landing& l) { return l.solid == i; });
     consider(runs_over(on));
     consider(flung_over(on));

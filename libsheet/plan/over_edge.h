@@ -20,7 +20,7 @@ struct OverEdge {
 // Of what lies or lands on boxes, cylinders and meshes along which it slips or flows, the first that gets there before
 // `until` [s], on the way
 //   - down the slope, of the solid as it stands when it has turned: from rest without drag where it slips, with the
-//     speed of a layer where it flows (scene/layer_scales.h)
+//     speed of a layer where it flows (scene/layer_scales.h), as thick as the sheet, or as it carries what flows in
 //   - to where a hold goes
 //   - to where an inflow drives it, along an upright wall at rest, past the wall's end
 //   - away from the axis of a solid that turns on, with the speed of a layer that its turning drives, where that pulls

@@ -29,6 +29,19 @@ double speed_of_layer(const Liquid& liquid, double stress, double h, double b) {
   return stress > liquid.law.yield_stress ? wall_flow_of(liquid)->velocity(stress, h, b) : 0;
 }
 
+double thickness_of_layer(const Liquid& liquid, double along, double flux, double b, double least) {
+  constexpr int most_doublings = 40, halvings = 30;
+  const auto carries = [&](double h) { return h * speed_of_layer(liquid, liquid.density * h * along, h, b) >= flux; };
+  double low = least, high = least;
+  for (int i = 0; i < most_doublings && !carries(high); ++i)
+    high *= 2;
+  for (int i = 0; i < halvings && high > least; ++i) {
+    const double middle = (low + high) / 2;
+    (carries(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
 std::optional<LayerScales> layer_scales_of(const Scene& scene, const Scales& scales) {
   if (!scene.environment.gravity || !scales.length || !scales.thickness)
     return {};

@@ -81,6 +81,10 @@ public:
   [[nodiscard]] bool spread_held_motion(const Terms& terms, const Unknowns& target, Unknowns& u);
 
   [[nodiscard]] std::size_t unknowns() const { return assembly_.unknowns(); }
+  // Of the terms that act from outside the sheet or on its mass, constraints or not.
+  [[nodiscard]] Eigen::VectorXd external_gradient(const Terms& terms, const Unknowns& u) {
+    return assembly_.external_gradient(terms, u);
+  }
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
   void clear_seconds() { assembly_.clear_seconds(); }
   [[nodiscard]] const SparseLower& matrix() const { return matrix_; }

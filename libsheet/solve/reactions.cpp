@@ -17,8 +17,13 @@ Eigen::VectorXd prescribed_part(const Constraints& constraints, const Eigen::Vec
   return forces - free;
 }
 
+Vector3 at_vertex(const Eigen::VectorXd& unknowns, std::size_t vertex) {
+  return unknowns.segment<3>(static_cast<Eigen::Index>(3 * vertex));
+}
+
 // The potential's gradient in the prescribed directions, and what walls do along themselves, with the stage as it is.
-std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const Stage& stage, const Unknowns& u) {
+HoldingForces reactions(LinearSystem& system, const Terms& terms, const Model& model, const Stage& stage,
+                        const Unknowns& u) {
   const Constraints constraints = system.constraints();
   for (const auto& term : terms)
     term->begin(stage);
@@ -26,11 +31,17 @@ std::vector<Vector3> reactions(LinearSystem& system, const Terms& terms, const S
   system.constrain({}, 0);
   (void)system.gradient(terms, u, gradient);
   gradient = prescribed_part(constraints, gradient);
-  std::vector<Vector3> result(stage.vertices(), Vector3::Zero());
+  HoldingForces result;
+  result.all.assign(stage.vertices(), Vector3::Zero());
   for (const auto& term : terms)
-    term->add_wall_forces(u, result);
-  for (std::size_t v = 0; v < result.size(); ++v)
-    result[v] += gradient.segment<3>(static_cast<Eigen::Index>(3 * v));
+    term->add_wall_forces(u, result.all);
+  for (std::size_t v = 0; v < result.all.size(); ++v)
+    result.all[v] += at_vertex(gradient, v);
+  if (model.external_reactions) {
+    const Eigen::VectorXd external = prescribed_part(constraints, system.external_gradient(terms, u));
+    for (std::size_t v = 0; v < stage.vertices(); ++v)
+      result.external.push_back(at_vertex(external, v));
+  }
   system.constrain(constraints, system.floor());
   return result;
 }
@@ -56,8 +67,8 @@ std::vector<Vector3> prescribed_accelerations(const Model& model, const Stage& s
 
 } // namespace
 
-std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, const State& start, const State& end,
-                                     double dt, Stage& stage, const Unknowns& u) {
+HoldingForces stage_reactions(LinearSystem& system, const Terms& terms, const Model& model, const State& start,
+                              const State& end, double dt, Stage& stage, const Unknowns& u) {
   // What is prescribed does not obey the scheme, whose accelerations are wrong for it: the mean of the step counts.
   Eigen::VectorXd change = Eigen::VectorXd::Zero(u.size());
   for (std::size_t v = 0; v < stage.vertices(); ++v)
@@ -66,12 +77,12 @@ std::vector<Vector3> stage_reactions(LinearSystem& system, const Terms& terms, c
         stage.inertial[v];
   change = prescribed_part(system.constraints(), change);
   for (std::size_t v = 0; v < stage.vertices(); ++v)
-    stage.inertial[v] += change.segment<3>(static_cast<Eigen::Index>(3 * v));
-  return reactions(system, terms, stage, u);
+    stage.inertial[v] += at_vertex(change, v);
+  return reactions(system, terms, model, stage, u);
 }
 
-std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, const Model& model, const State& start,
-                                   const State& end, double dt, const NewtonOptions& options) {
+HoldingForces end_reactions(LinearSystem& system, const Terms& terms, const Model& model, const State& start,
+                            const State& end, double dt, const NewtonOptions& options) {
   const double duration = instant_part * dt;
   State before = end;
   before.time = end.time - duration; // so that what is prescribed moves as it did until the end
@@ -96,7 +107,7 @@ std::vector<Vector3> end_reactions(LinearSystem& system, const Terms& terms, con
   const std::vector<Vector3> prescribed = prescribed_accelerations(model, instant, end, dt);
   for (std::size_t v = 0; v < end.positions.size(); ++v)
     instant.inertial[v] = instant.position(u, static_cast<std::uint32_t>(v)) - duration * dt * prescribed[v];
-  return reactions(system, terms, instant, u);
+  return reactions(system, terms, model, instant, u);
 }
 
 } // namespace sheet

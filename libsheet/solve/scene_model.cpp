@@ -507,24 +507,29 @@ void put_heat_moved(const State& state, Frame& frame) {
   add_to_account(frame, "heat.moved", "J", amounts);
 }
 
-void put_reactions(std::span<const Vector3> reactions, bool of_holds, Frame& frame) {
-  frame.erase("touch_force");
-  frame.erase("hold_force");
-  if (reactions.empty())
+void put_reactions(const HoldingForces& reactions, bool of_holds, Frame& frame) {
+  for (const char* name : {"touch_force", "touch_load", "hold_force"})
+    frame.erase(name);
+  if (reactions.all.empty())
     return;
   if (of_holds) {
     Array held = formats::make_standard_array("hold_force", frame.vertices);
     const auto holds = sheet::holds(frame);
     for (std::size_t v = 0; v < holds.size(); ++v)
       if (holds[v] != 0)
-        held.values<Vector3>()[v] = reactions[v];
+        held.values<Vector3>()[v] = reactions.all[v];
     frame.put(std::move(held));
   }
-  Array force = formats::make_standard_array("touch_force", frame.vertices);
   const auto touched = touched_solids(frame);
-  for (std::size_t v = 0; v < reactions.size(); ++v)
-    force.values<Vector3>()[v] = touched[v] != no_solid ? reactions[v] : Vector3(Vector3::Zero());
-  frame.put(std::move(force));
+  const auto put = [&](const char* name, const std::vector<Vector3>& forces) {
+    Array array = formats::make_standard_array(name, frame.vertices);
+    for (std::size_t v = 0; v < forces.size(); ++v)
+      array.values<Vector3>()[v] = touched[v] != no_solid ? forces[v] : Vector3(Vector3::Zero());
+    frame.put(std::move(array));
+  };
+  put("touch_force", reactions.all);
+  if (!reactions.external.empty())
+    put("touch_load", reactions.external);
 }
 
 Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh, Bending bending, bool arcs,
@@ -555,6 +560,7 @@ Model model_of(const Scene& scene, const Frame& frame, const Connectivity& mesh,
   else if (scene::has_rolls(scene) ||
            (touching && ((scene.contact && scene.contact->adhesion) || holds_rims(scene) || flows_in_corners(scene))))
     model.reactions = Reactions::of_stage;
+  model.external_reactions = touching && scene.contact && scene.contact->adhesion && flows_on_solids(scene);
   return model;
 }
 

@@ -278,7 +278,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
   if (!sound(end))
     return Outcome::shrinks_to_nothing;
   if (model_.reactions == Reactions::of_stage)
-    report.reactions = stage_reactions(cache_->system, cache_->terms, state, end, dt, stage, last);
+    report.reactions = stage_reactions(cache_->system, cache_->terms, model_, state, end, dt, stage, last);
   else if (model_.reactions == Reactions::at_end)
     report.reactions = end_reactions(cache_->system, cache_->terms, model_, state, end, dt, options_.newton);
   if (level_layers(stage, model_.gravity, model_.holds, model_.faces.has_value(), dt, end))

@@ -95,7 +95,7 @@ private:
     double dt = 0, error = 0;
     std::size_t worst = 0;
     bool flat = false;
-    std::vector<Vector3> reactions;
+    HoldingForces reactions;
     double room = std::numeric_limits<double>::infinity();
   };
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libsheet/geometry/types.h"
+#include "libsheet/solve/holding_forces.h"
 #include "libsheet/solve/newton.h"
 
 namespace sheet {
@@ -31,7 +31,7 @@ struct StepReport {
   // How many times as long the last attempt might have been until SDIRK2's second stage has no reference
   // (energy/stage_setup.h); below 1: was refused for it.
   double room = std::numeric_limits<double>::infinity();
-  std::vector<Vector3> reactions; // if the model wants them: force of what holds it on each vertex [N]
+  HoldingForces reactions; // those that the model wants
   double seconds_analysis = 0;
   // Assembled terms, their element work summed over threads, and gathering; again for what was done without arcs.
   std::vector<TermTime> terms;

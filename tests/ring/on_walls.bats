@@ -305,6 +305,42 @@ self = true
 END
 }
 
+# Pushed together, the layer arches a little, and pulls at the slope by more than half of its weight.
+@test "a layer that is pushed together stays on its slope, however little adhesion holds it" {
+  cat > pushed.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = ["32 mm", "60 mm"]
+edge_length = "8 mm"
+thickness = "16 mm"
+center = [0, "8 mm", 0]
+velocity = ["35 mm/s", 0, 0]
+[material]
+viscosity = "100 Pa*s"
+density = "1020 kg/m^3"
+[environment]
+gravity = ["2.539 m/s^2", "-9.476 m/s^2", 0]
+[inflow]
+region = "x_min"
+velocity = ["35 mm/s", 0, 0]
+[[solid]]
+shape = "plane"
+normal = [0, 1, 0]
+contact = "flow"
+[contact]
+adhesion = "80 Pa"
+END
+  run_scene pushed 5 2 'sheet-emit |'
+  /usr/bin/python3 - "$BATS_TEST_DIRNAME/../../formats/python" pushed.sheet << 'END'
+import sys
+sys.path.insert(0, sys.argv[1])
+import sheetstream
+*_, last = sheetstream.read(sys.argv[2])
+off = (last["touch"] == 0).sum()
+sys.exit(f"{off} of {last.vertices} vertices came off" if off else None)
+END
+}
+
 @test "an inlet a little above its plane lies on it once it is drowned" {
   above > above.toml
   run_scene above 1.5 24 'sheet-emit |'

@@ -58,6 +58,7 @@ _STANDARD = {
     "touch": ("vertex", "uint64", 0, "1", "common"),
     "hold_force": ("vertex", "float64", 3, "N", "conserve"),
     "touch_force": ("vertex", "float64", 3, "N", "conserve"),
+    "touch_load": ("vertex", "float64", 3, "N", "conserve"),
     "touch_overshoot": ("vertex", "float64", 3, "m", "interpolate"),
     "touch_overshoot_time": ("vertex", "float64", 1, "s", "interpolate"),
     "inlet": ("vertex", "uint64", 1, "1", "common"),

@@ -28,10 +28,35 @@ TEST(Release, PulledHarderThanTheAdhesion) {
   const std::vector<Vector3> force = {-tension * area * normal + 100 * along, tension * area * normal,
                                       -1.01 * tension * area * normal, -9 * tension * area * normal, Vector3::Zero()};
   using List = std::vector<std::uint32_t>;
-  EXPECT_EQ(pulled_off(path, solids, force, 1.001 * tension, areas), (List{2}));
-  EXPECT_EQ(pulled_off(path, solids, force, 0.999 * tension, areas), (List{0, 2}));
-  EXPECT_EQ(pulled_off(path, solids, force, 1.02 * tension, areas), List{});
-  EXPECT_EQ(pulled_off(path, solids, force, 0, areas), (List{0, 2}));
+  EXPECT_EQ(pulled_off(path, solids, force, {}, 1.001 * tension, areas), (List{2}));
+  EXPECT_EQ(pulled_off(path, solids, force, {}, 0.999 * tension, areas), (List{0, 2}));
+  EXPECT_EQ(pulled_off(path, solids, force, {}, 1.02 * tension, areas), List{});
+  EXPECT_EQ(pulled_off(path, solids, force, {}, 0, areas), (List{0, 2}));
+}
+
+// What flows in a layer is pulled off by its load where all around it lies on the wall, and by all forces beside what
+// has come off.
+TEST(Release, LayersThatFlowComeOffWhereAirIs) {
+  Scene scene;
+  scene.solids.resize(1);
+  scene.solids[0].shape = scene::HalfSpace{Vector3(0, 1, 0)};
+  const std::vector<Corners> triangles = {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}};
+  StepPath path;
+  path.end.assign(5, Vector3::Zero());
+  path.triangles = triangles;
+  path.touch = {0, 0, 0, 0, no_solid};
+  const std::vector<double> areas(5, 1);
+  const std::vector<Vector3> force(5, Vector3(0, -3, 0)), load(5, Vector3(0, -1, 0));
+  const auto off = [&](SolidContact contact, std::span<const Vector3> of_load, double adhesion) {
+    scene.solids[0].contact = contact;
+    return pulled_off(path, solid::Solids(scene), force, of_load, adhesion, areas);
+  };
+  using List = std::vector<std::uint32_t>;
+  EXPECT_EQ(off(SolidContact::flow, load, 2), (List{2, 3}));
+  EXPECT_EQ(off(SolidContact::slip, load, 2), (List{2, 3}));
+  EXPECT_EQ(off(SolidContact::flow, load, 0.5), (List{0, 1, 2, 3}));
+  EXPECT_EQ(off(SolidContact::flow, {}, 2), (List{0, 1, 2, 3}));
+  EXPECT_EQ(off(SolidContact::stick, load, 2), (List{0, 1, 2, 3}));
 }
 
 } // namespace

@@ -104,6 +104,25 @@ TEST(Parting, OfWhatRunsOverAnEdgeWhenItIsWarm) {
   EXPECT_FALSE(parting("20 degC", 100));
 }
 
+// 0.4 l a second and metre of 10 Pa s run down as a layer of (3 nu q/g_t)^(1/3) = 14.4 mm, and the 120 mm and round the
+// edge with q/h = 27.7 mm/s; a layer of 4 mm takes 57 s.
+TEST(Parting, OfWhatFlowsInAndRunsOverAnEdge) {
+  const auto parting = [](const std::string& inflow, double until) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.06, 0.06]\nedge_length = 0.01\nthickness = 0.004\n"
+        "center = [0, 0.002, 0]\n[material]\nviscosity = 10\ndensity = 1000\n[environment]\ngravity = [4, -9, 0]\n"
+        "[inflow]\nregion = \"x_min\"\nvelocity = [0.1, 0, 0]\n" +
+            inflow +
+            "[[solid]]\nshape = \"box\"\nsize = [0.3, 0.1, 0.3]\ncenter = [0, -0.05, 0]\ncontact = \"flow\"\n",
+        "s");
+    return must_part(scene, checked_first_frame(scene), until);
+  };
+  ASSERT_TRUE(parting("", 10));
+  EXPECT_EQ(parting("", 10)->why, "what lies on solid 0 (box) runs down over its edge, from about 4.4 s on");
+  EXPECT_FALSE(parting("", 4));
+  EXPECT_FALSE(parting("until = 1\n", 10));
+}
+
 // A raft 40 mm wide and 4 mm thick that flows in between a wall and the open bath, 70 mm before the wall's end; of its
 // weight the bath leaves a tenth.
 TEST(Parting, OfWhatFlowsInAlongAWallPastItsEnd) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of holds at the end of a step.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -46,8 +49,8 @@ Grip pulled_and_twisted(int steps) {
     report = stepper.step(s, time / steps);
   Grip grip;
   for (const auto v : m.holds[1].vertices) {
-    grip.force += report.reactions[v];
-    grip.moment += (s.positions[v] - Vector3(length / 2, 0.01, 0)).cross(report.reactions[v]);
+    grip.force += report.reactions.all[v];
+    grip.moment += (s.positions[v] - Vector3(length / 2, 0.01, 0)).cross(report.reactions.all[v]);
   }
   return grip;
 }
@@ -64,6 +67,42 @@ TEST(EndReactions, AreOfSecondOrder) {
     EXPECT_LT(coarse[k], 0.005);
     EXPECT_GT(std::log(coarse[k] / fine[k]) / std::log(6.0), 1.9);
   }
+}
+
+// A strip between two clamps begins to sag: each bears the weight of its vertices, and, besides, what the strip between
+// them hangs on it with.
+TEST(StageReactions, OfExternalForcesAreTheWeightOfWhatIsHeld) {
+  State s = test::at_rest(test::rectangle(0.1, 0.02, 20, 4, 0.2), 0.002);
+  Model m;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
+  m.gravity = {0, 0, -9.81};
+  m.bending = Bending::mid_edge;
+  m.arcs = true;
+  m.reactions = Reactions::of_stage;
+  m.external_reactions = true;
+  m.holds.resize(1);
+  for (std::uint32_t v = 0; v < s.positions.size(); ++v)
+    if (s.positions[v].x() == 0 || s.positions[v].x() == 0.1)
+      m.holds[0].vertices.push_back(v);
+  const double volume = std::accumulate(s.volumes.begin(), s.volumes.end(), 0.0);
+  std::vector<double> mass(s.positions.size(), 0);
+  for (std::size_t t = 0; t < s.volumes.size(); ++t)
+    for (const std::uint32_t v : s.mesh->triangles[t])
+      mass[v] += 1000 * s.volumes[t] / 3;
+  StepReport report;
+  Stepper stepper(m, {});
+  for (int k = 0; k < 10; ++k)
+    report = stepper.step(s, 0.01);
+  ASSERT_EQ(report.reactions.external.size(), s.positions.size());
+  double all = 0;
+  for (std::size_t v = 0; v < s.positions.size(); ++v) {
+    const bool held = std::ranges::find(m.holds[0].vertices, v) != m.holds[0].vertices.end();
+    const Vector3 weight = held ? Vector3(0, 0, 9.81 * mass[v]) : Vector3(0, 0, 0);
+    EXPECT_LT((report.reactions.external[v] - weight).norm(), 1e-9 * 9.81 * mass[v]) << v;
+    all += report.reactions.all[v].z();
+  }
+  EXPECT_GT(all, 0.8 * 9.81 * 1000 * volume); // all but what falls on
 }
 
 } // namespace

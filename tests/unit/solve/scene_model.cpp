@@ -514,7 +514,7 @@ TEST(Reactions, OfWhatIsNotHeldAreZero) {
     frame.erase("hold");
     if (with_holds)
       sheet::put_masks(frame, "hold")[1] = 1;
-    const std::vector<Vector3> forces(frame.vertices, Vector3(1, 2, 3));
+    const HoldingForces forces{.all = std::vector<Vector3>(frame.vertices, Vector3(1, 2, 3)), .external = {}};
     leave_nans_in_memory(frame.vertices * sizeof(Vector3));
     put_reactions(forces, true, frame);
     const auto held = frame.find("hold_force")->values<Vector3>();

@@ -68,7 +68,7 @@ TEST(Walls, ForcesAndMomentumBalance) {
   const StepReport report = stepper.step(s, dt);
   ASSERT_EQ(report.substeps, 1);
   Vector3 force = Vector3::Zero();
-  for (const Vector3& f : report.reactions)
+  for (const Vector3& f : report.reactions.all)
     force += f;
   const Vector3 defect = momentum(s) - before - dt * (mass * m.gravity + force);
   EXPECT_LT(defect.norm(), 1e-10 * before.norm());
@@ -209,7 +209,7 @@ TEST(Walls, StackedLayersShareAParabola) {
       EXPECT_NEAR(s.state.velocities[v + s.upper].x(), (volume(height) - volume(lower)) / upper, 1e-9 * force);
     }
     Vector3 taken = Vector3::Zero();
-    for (const Vector3& f : report.reactions)
+    for (const Vector3& f : report.reactions.all)
       taken += f;
     EXPECT_NEAR(taken.x(), -force * height, 1e-9 * force); // of one square metre
   }
