@@ -75,80 +75,37 @@ std::string warning_of_stuck_slope(const Scene& scene, const solid::Solids& soli
                               way, until));
 }
 
-// A solid that passes along another one, over what lies there.
-struct Passing {
-  std::size_t solid;
-  double gap, speed; // [m], [m/s]
-  Liquid liquid;     // of what lies there
-};
-
-// At time t, over what has landed there, with less room than that is thick.
-std::optional<Passing> passes(const Scene& scene, const solid::Solids& solids, const Landing& landing, double thickness,
-                              double start, double t) {
-  const Vector3d place = scene::motion_between(scene.solids[landing.solid].motion, start, t) * landing.place;
-  const auto facing = solids.facing(landing.solid, place, t, thickness);
-  if (!facing)
-    return std::nullopt;
-  const solid::SolidPoint own = solids.at(landing.solid, place, t);
-  const Vector3d middle = solids.pose(facing->solid, t).translation(); // of what rolls: that is what moves on
-  double speed = 0;
-  for (const Vector3d& velocity : {solids.surface_velocity(facing->solid, place, -own.normal, t),
-                                   scene::velocity_at(scene.solids[facing->solid].motion, t, middle)}) {
-    const Vector3d past = velocity - own.velocity;
-    if (const double along = past.cross(own.normal).norm(); std::abs(past.dot(own.normal)) < along)
-      speed = std::max(speed, along);
-  }
-  return speed > 0 ? std::optional(Passing{facing->solid, facing->gap, speed, landing.liquid}) : std::nullopt;
-}
-
-// With the least room, over what lies on a solid.
-std::optional<Passing> narrowest_passing(const Scene& scene, const solid::Solids& solids, std::size_t number,
-                                         const std::vector<Landing>& all, double thickness, double start,
-                                         double until) {
-  constexpr int times = 100;
-  std::optional<Passing> narrowest;
-  for (int k = 0; k <= times; ++k)
-    for (const Landing& landing : all)
-      if (landing.solid == number && landing.fall < thickness)
-        if (const auto one = passes(scene, solids, landing, thickness, start, start + (until - start) * k / times);
-            one && !(narrowest && narrowest->gap <= one->gap))
-          narrowest = one;
-  return narrowest;
-}
-
 // Of what lies on a solid to which it sticks, where another one passes so low over it that it would push it ahead; else
 // "".
 std::string warning_of_stuck_spreading(const Scene& scene, const solid::Solids& solids, std::size_t number,
                                        const std::vector<Landing>& all, double thickness, double start, double until) {
+  constexpr int times = 100;
   if (scene.solids[number].contact != SolidContact::stick || !solids.may_squeeze())
     return {};
-  const auto passing = narrowest_passing(scene, solids, number, all, thickness, start, until);
-  if (!passing)
-    return {};
-  return question(solids.name(number), fmt::format("{} passes over it with {:.2g} m to spare, less than the sheet is "
-                                                   "thick, and would push it ahead",
-                                                   solids.name(passing->solid), passing->gap));
-}
-
-// Of what flows on a solid that lets go of it where it pulls harder than the scene's adhesion, where another one passes
-// so low over it that the liquid between them pulls harder: by some 6 mu U h/gap², as in a bearing that is as long as
-// the layer is thick [Reynolds 1886]; else "".
-std::string warning_of_weak_adhesion(const Scene& scene, const solid::Solids& solids, std::size_t number,
-                                     const std::vector<Landing>& all, double thickness, double start, double until) {
-  if (scene.solids[number].contact == SolidContact::stick || !scene.contact || !scene.contact->adhesion)
-    return {};
-  const auto passing = narrowest_passing(scene, solids, number, all, thickness, start, until);
-  if (!passing || !(passing->gap > 0))
-    return {};
-  const double rate = passing->speed / passing->gap;
-  const double stress = 6 * viscosity_of(passing->liquid, {rate * rate}) * rate * thickness / passing->gap;
-  if (!(stress > *scene.contact->adhesion))
-    return {};
-  return fmt::format("{} passes over what lies on {} with {:.2g} m to spare, and what is between them pulls there by "
-                     "some 6 mu U h / gap² = {:.2g} Pa, harder than the adhesion of {:.2g} Pa: it comes off {}, and is "
-                     "crushed. Leave adhesion out, or take one above that",
-                     solids.name(passing->solid), solids.name(number), passing->gap, stress, *scene.contact->adhesion,
-                     solids.name(number));
+  const auto passes = [&](const Landing& landing, double t) -> std::optional<solid::Solids::Facing> {
+    const Vector3d place = scene::motion_between(scene.solids[number].motion, start, t) * landing.place;
+    const auto facing = solids.facing(number, place, t, thickness);
+    if (!facing)
+      return std::nullopt;
+    const solid::SolidPoint own = solids.at(number, place, t);
+    const auto goes_along = [&](const Vector3d& velocity) {
+      const Vector3d past = velocity - own.velocity;
+      return std::abs(past.dot(own.normal)) < past.cross(own.normal).norm();
+    };
+    const Vector3d middle = solids.pose(facing->solid, t).translation(); // of what rolls: that is what moves on
+    const bool along = goes_along(solids.surface_velocity(facing->solid, place, -own.normal, t)) ||
+                       goes_along(scene::velocity_at(scene.solids[facing->solid].motion, t, middle));
+    return along ? facing : std::nullopt;
+  };
+  for (int k = 0; k <= times; ++k)
+    for (const Landing& landing : all)
+      if (landing.solid == number && landing.fall < thickness)
+        if (const auto facing = passes(landing, start + (until - start) * k / times))
+          return question(solids.name(number),
+                          fmt::format("{} passes over it with {:.2g} m to spare, less than the sheet is thick, and "
+                                      "would push it ahead",
+                                      solids.name(facing->solid), facing->gap));
+  return {};
 }
 
 // The solid over which a free sheet falls or hangs, so that it falls far onto others.
@@ -193,8 +150,6 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Frame& first
     if (warnings.back().empty())
       warnings.push_back(warning_of_stuck_spreading(scene, solids, i, all, thickness, first.time, until));
   }
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    warnings.push_back(warning_of_weak_adhesion(scene, solids, i, all, thickness, first.time, until));
   warnings.push_back(warning_of_passing_through(scene, solids, first, all, thickness));
   std::erase(warnings, "");
   return warnings;

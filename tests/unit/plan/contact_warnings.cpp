@@ -19,15 +19,14 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // Of dough of 6 mm on a board, and a roller of 25 mm radius.
-std::vector<std::string> warnings_of_roller(const std::string& contact, double gap, const std::string& motion,
-                                            const std::string& touching = "[contact]\nself = true\n") {
+std::vector<std::string> warnings_of_roller(const std::string& contact, double gap, const std::string& motion) {
   const Scene scene = scene::parse_scene(
       fmt::format("[sheet]\nshape = \"disk\"\nradius = 0.06\nedge_length = 0.01\nthickness = 0.006\n"
                   "center = [0, 0.003, 0]\n[material]\nviscosity = 5000\ndensity = 1100\n[environment]\n"
-                  "gravity = [0, -9.81, 0]\n{}[[solid]]\nshape = \"plane\"\ncontact = \"{}\"\n"
+                  "gravity = [0, -9.81, 0]\n[contact]\nself = true\n[[solid]]\nshape = \"plane\"\ncontact = \"{}\"\n"
                   "[[solid]]\nshape = \"cylinder\"\nradius = 0.025\nheight = 0.2\ncenter = [-0.1, {}, 0]\n"
                   "rotation = {{axis = [1, 0, 0], angle = \"90 deg\"}}\n{}",
-                  touching, contact, 0.025 + gap, motion),
+                  contact, 0.025 + gap, motion),
       "s");
   return contact_warnings(scene, first_frame(scene), 2);
 }
@@ -40,18 +39,6 @@ TEST(ContactWarnings, WhatASolidSpreadsMustNotStick) {
   EXPECT_THAT(warnings_of_roller("flow", 0.002, rolls), IsEmpty());
   EXPECT_THAT(warnings_of_roller("stick", 0.007, rolls), IsEmpty());
   EXPECT_THAT(warnings_of_roller("stick", 0.02, "velocity = [0.05, -0.1, 0]\n"), IsEmpty()); // presses
-}
-
-// 6 mu U h/gap² = 4.5 MPa.
-TEST(ContactWarnings, WhatAToolIsDrawnThroughComesOffWithAWeakAdhesion) {
-  const std::string passes = "velocity = [0.1, 0, 0]\n", weak = "[contact]\nself = true\nadhesion = 50\n",
-                    strong = "[contact]\nself = true\nadhesion = 5e6\n";
-  EXPECT_THAT(warnings_of_roller("flow", 0.002, passes, weak),
-              ElementsAre(AllOf(HasSubstr("solid 1 (cylinder) passes over what lies on solid 0 (plane) with 0.002"),
-                                HasSubstr("6 mu U h / gap² = 4"), HasSubstr("harder than the adhesion of 50 Pa"))));
-  EXPECT_THAT(warnings_of_roller("flow", 0.002, passes, strong), IsEmpty());
-  EXPECT_THAT(warnings_of_roller("flow", 0.007, passes, weak), IsEmpty());
-  EXPECT_THAT(warnings_of_roller("flow", 0.02, "velocity = [0.05, -0.1, 0]\n", weak), IsEmpty()); // presses
 }
 
 // A sphere, half of which is steeper than 60 degrees, above a plane.
