@@ -137,6 +137,17 @@ std::optional<Landing> landing_of_inflow(const Scene& scene, const Frame& first,
   return shortest;
 }
 
+double flux_onto(const Scene& scene, const Frame& first, std::size_t solid, double until) {
+  double flux = 0;
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    const scene::Inflow& inflow = scene.inflows[i];
+    const auto landing = landing_of_inflow(scene, first, i);
+    if (landing && landing->solid == solid && inflow.until.value_or(until) >= until)
+      flux = std::max(flux, inflow.thickness * scene::inlet_velocity(scene, inflow).speed(first.time));
+  }
+  return flux;
+}
+
 double fall_to_outflow(const Scene& scene, const Frame& first, std::size_t number) {
   const Vector3d down = scene.environment.gravity.value_or(Vector3d::Zero()).normalized();
   const solid::Solids solids(scene);

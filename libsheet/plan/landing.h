@@ -41,6 +41,10 @@ struct Landing {
 [[nodiscard]] std::optional<Landing> landing_of_inflow(const Scene& scene, const formats::Frame& first,
                                                        std::size_t number);
 
+// The greatest flux of what flows in until that time [s] at least, and lands on that solid, for each metre across its
+// way [m²/s].
+[[nodiscard]] double flux_onto(const Scene& scene, const formats::Frame& first, std::size_t solid, double until);
+
 // Of what stands there above no solid the longest fall, each to the first outflow below it [m]; 0 if there is none.
 [[nodiscard]] double fall_to_outflow(const Scene& scene, const formats::Frame& first, std::size_t number);
 

@@ -112,18 +112,6 @@ struct OnSolid {
   }
 };
 
-// The greatest flux of what flows in there until the end, and lands on that solid [m²/s].
-double flux_onto(const Scene& scene, const formats::Frame& first, std::size_t solid, double until) {
-  double flux = 0;
-  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
-    const scene::Inflow& inflow = scene.inflows[i];
-    const auto landing = landing_of_inflow(scene, first, i);
-    if (landing && landing->solid == solid && inflow.until.value_or(until) >= until)
-      flux = std::max(flux, inflow.thickness * scene::inlet_velocity(scene, inflow).speed(first.time));
-  }
-  return flux;
-}
-
 std::optional<OverEdge> runs_over(const OnSolid& on) {
   const auto turned_at = when_turned(on.solid().motion, on.first.time, on.until);
   const bool held = std::ranges::any_of(on.scene.holds, [](const scene::Hold& hold) { return !hold.until; });

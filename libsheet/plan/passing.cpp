@@ -170,6 +170,13 @@ double way_down(const Scene& scene, const formats::Frame& first, const solid::So
   return farthest;
 }
 
+// How far the front of a box is from the lower end of its slope, if that has one [m].
+double way_to_end(const Box3& box, const Box3& slope, const Vector3& pull) {
+  const Vector3 ahead = pull.normalized();
+  const double way = ahead.dot(slope.center() - box.center()) + ahead.cwiseAbs().dot(slope.sizes() - box.sizes()) / 2;
+  return std::isfinite(way) ? std::max(0.0, way) : 0;
+}
+
 // The mean place of what a hold holds [m].
 Vector3 middle(const formats::Frame& frame, std::size_t hold) {
   const auto held = masks(frame, "hold");
@@ -351,8 +358,11 @@ double running_time(const Scene& scene, const formats::Frame& first) {
   const Box3 way = falling_way(scene, first);
   double passed = 0;
   for (std::size_t inflow = 0; inflow < scene.inflows.size() && !way.isEmpty(); ++inflow)
-    if (const auto layer = running(scene, first, inflow))
-      passed = std::max(passed, layer->time_to(way_down(scene, first, solids, way, layer->slope, layer->pull)));
+    if (const auto layer = running(scene, first, inflow)) {
+      const double past = way_down(scene, first, solids, way, layer->slope, layer->pull),
+                   to_end = way_to_end(way, box_of(solids, layer->slope, first.time), layer->pull);
+      passed = std::max(passed, layer->time_to(std::max(past, to_end)));
+    }
   if (const auto slides = sliding(scene, first))
     passed = std::max(passed, slides->time_to(way_down(scene, first, solids, way, slides->slope, slides->pull)));
   return passed > 0 ? first.time + passed : 0;

@@ -23,7 +23,8 @@ namespace sheet {
 [[nodiscard]] double carrying_time(const Scene& scene, const formats::Frame& first);
 
 // When what flows in, and runs down a slope where it lands, has come past the last of the solids that stay in its way,
-// a wall with a gate, blocks, a roller, into the bath and to the last outflow [s]; 0 if there is none. As wide as its
+// a wall with a gate, blocks, a roller, into the bath, to the last outflow and to the slope's end [s]; 0 if there is
+// none. As wide as its
 // inlet it is a layer of h³ = 3 ν q/g_t, whose front goes at q/h [Nusselt 1916]; when all has flowed in, A = q t_end,
 // it comes to x at 4 ν x³/(9 A² g_t) [Huppert 1982]. Likewise, without heat, of a sheet that lies on a slope from the
 // start, or falls on it: by its front, which has gone so far, and not of what stands on its way, as it yields.

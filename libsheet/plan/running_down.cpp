@@ -161,7 +161,7 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
   const scene::FrameLiquids liquids(scene, first);
   const std::vector<std::uint32_t> numbers = liquids.numbers_at_vertices(first);
   std::vector<bool> lying(liquids.all().size(), false);
-  double lies = 0, along = 0, slip = 0, all = 0;
+  double lies = 0, along = 0, slip = 0, all = 0, flux = 0;
   for (std::size_t v = 0; v < x.size(); v += stride, ++all)
     for (std::size_t i = 0; i < solids.size(); ++i) {
       const solid::SolidPoint point = solids.at(i, x[v], first.time);
@@ -176,17 +176,19 @@ std::optional<RunningDown> runs_down(const Scene& scene, const formats::Frame& f
       const Vector3 pull = gravity + scene::outward_pull(scene.solids[i].motion, t, place);
       along += (pull - pull.dot(normal) * normal).norm();
       slip += scene.solids[i].slip_length;
-      ++lies;
+      if (lies++ == 0)
+        flux = flux_onto(scene, first, i, std::numeric_limits<double>::infinity());
       lying[numbers.empty() ? 0 : numbers[v]] = true;
       break;
     }
   if (lies < least_part * all || along < least_slope * gravity.norm() * lies)
     return std::nullopt;
-  const double h = *sheet.thickness;
   double speed = 0;
   for (std::size_t i = 0; i < lying.size(); ++i)
-    if (const Liquid& liquid = liquids.all()[i]; lying[i])
+    if (const Liquid& liquid = liquids.all()[i]; lying[i]) {
+      const double h = scene::thickness_of_layer(liquid, along / lies, flux, slip / lies, *sheet.thickness);
       speed = std::max(speed, scene::speed_of_layer(liquid, liquid.density * h * along / lies, h, slip / lies));
+    }
   if (!(speed > 0) || !std::isfinite(speed))
     return std::nullopt;
   return RunningDown{speed, *sheet.length / speed};

@@ -12,8 +12,8 @@
 namespace sheet {
 
 struct RunningDown {
-  double speed; // of a layer as thick as the sheet under its weight (scene/layer_scales.h), of the liquid that runs
-                // fastest [m/s]
+  double speed; // of a layer as thick as the sheet, or as it carries what flows in for ever, under its weight
+                // (scene/layer_scales.h), of the liquid that runs fastest [m/s]
   double time;  // in which it runs by its length [s]
 };
 

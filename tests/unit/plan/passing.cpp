@@ -247,6 +247,18 @@ TEST(Passing, UntilWhatFlowsDownASlopeHasComePastAWall) {
   EXPECT_EQ(running("", "flow", -4.9), 0);
 }
 
+// The same honey on a board that ends 0.28 m before what flows in.
+TEST(Passing, UntilWhatFlowsDownASlopeHasComeToItsEnd) {
+  const Scene scene = scene::parse_scene(
+      "[sheet]\nshape = \"rectangle\"\nsize = [0.02, 0.04]\nedge_length = 0.005\nthickness = 0.005\n"
+      "center = [0.01, 0.0025, 0]\n[material]\nviscosity = 14\ndensity = 1400\n[environment]\n"
+      "gravity = [4.9, -8.5, 0]\n[[inflow]]\nregion = \"x_min\"\nvelocity = [0.01, 0, 0]\n"
+      "[[solid]]\nshape = \"box\"\nsize = [0.6, 0.1, 0.3]\ncenter = [0, -0.05, 0]\ncontact = \"flow\"\n",
+      "s");
+  const double flux = 0.005 * 0.01, speed = flux / std::cbrt(3 * 0.01 * flux / 4.9), way = 0.28 - 0.0025;
+  EXPECT_NEAR(running_time(scene, first_frame(scene)), way / speed, 0.01 * way / speed);
+}
+
 // Of syrup, 40 by 40 mm and 5 mm thick, that lies on the same board, 0.3 m before an outflow: from Huppert's law for
 // the whole block, from its upper end, less what it is long at the start; into a bath, past a wall; what stands,
 // sticks, is held up by a belt or cools is not waited for.

@@ -169,6 +169,23 @@ TEST(RunningDown, ASheetOfAnotherLiquidRunsAsThat) {
   EXPECT_NEAR(glaze->speed, u, 1e-9 * u);
 }
 
+// What flows in for ever runs as thick as it carries that, (3 nu q/g_t)^(1/3); what ends, as the sheet is.
+TEST(RunningDown, WhatFlowsInRunsAsThickAsItCarriesThat) {
+  const auto running = [](const std::string& until) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.02, 0.04]\nedge_length = 0.005\nthickness = 0.004\n"
+        "center = [0, 0.002, 0]\n[material]\nviscosity = 10\ndensity = 1000\n[environment]\n"
+        "gravity = [4.905, -8.496, 0]\n[[inflow]]\nregion = \"x_min\"\nvelocity = [0.1, 0, 0]\n" +
+            until + "[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\ncontact = \"flow\"\n",
+        "s");
+    return runs_down(scene, first_frame(scene), 0)->speed;
+  };
+  const double flux = 0.004 * 0.1, speed = flux / std::cbrt(3 * 0.01 * flux / 4.905);
+  EXPECT_NEAR(running(""), speed, 1e-6 * speed);
+  const double thin = 1000 * 4.905 * 0.004 * 0.004 / (3 * 10);
+  EXPECT_NEAR(running("until = 1\n"), thin, 1e-9 * thin);
+}
+
 // Icing of 40 ml, 8 mm thick, that lands on a cake of 100 by 100 mm, 70 mm high.
 TEST(RunningDown, WhatLandsOnATopComesOverItsEdgeLater) {
   const auto late = [](const std::string& of_liquid, const std::string& tables, double until) {
