@@ -22,8 +22,8 @@ struct LayerScales {
 // stands there.
 [[nodiscard]] double speed_of_layer(const Liquid& liquid, double stress, double h, double b);
 
-// How thick a layer is that carries this flux [m²/s] down a wall along which gravity pulls with `along` [m/s²], at least
-// `least` [m]: (3 nu q/g_t)^(1/3) of a Newtonian liquid without slip [Nusselt 1916].
+// How thick a layer is that carries this flux [m²/s] down a wall along which gravity pulls with `along` [m/s²], at
+// least `least` [m]: (3 nu q/g_t)^(1/3) of a Newtonian liquid without slip [Nusselt 1916].
 [[nodiscard]] double thickness_of_layer(const Liquid& liquid, double along, double flux, double b, double least);
 
 // Nothing without such a solid, liquid that does not slip freely, gravity, length and thickness.
