@@ -88,6 +88,7 @@ public:
     changed_.assign(path.start.size(), 0);
     caught_.assign(path.start.size(), 0);
     between_ = squeezed();
+    passes_ = passing();
     carried_.assign(path.start.size(), 0);
     active_.resize(path.triangles.size());
     std::iota(active_.begin(), active_.end(), 0U);
@@ -211,6 +212,19 @@ private:
     return between;
   }
 
+  // Of each vertex, whether it shares a triangle with one that touches another solid: there the sheet goes on to that.
+  [[nodiscard]] std::vector<std::uint8_t> passing() const {
+    std::vector<std::uint8_t> passes(rides_.size(), 0);
+    const auto other = [&](std::uint32_t v, std::uint32_t w) {
+      return rides_[w] != no_solid && rides_[w] != rides_[v];
+    };
+    for (const Corners& corners : path_.triangles)
+      for (const std::uint32_t v : corners)
+        if (std::ranges::any_of(corners, [&](std::uint32_t w) { return other(v, w); }))
+          passes[v] = 1;
+    return passes;
+  }
+
   [[nodiscard]] bool is_squeezed(std::uint32_t v) const {
     return rides_[v] != no_solid && solids_.facing(static_cast<std::size_t>(rides_[v]), path_.start[v],
                                                    path_.start_time, path_.thickness[v], edges_[v]);
@@ -255,14 +269,16 @@ private:
   // (wall_distance.h), what sticks that at which it starts: from a quarter of the thickness to nine tenths of it. Set
   // to half each time, it would sink as the sheet thins until a triangle beside it is too near and pushes it out, and
   // come back at once, at every few steps; and where a sheet stands on its rim the row that touches would rise as it
-  // grows thicker, and grow thicker as it rises. Nor is it brought in when chords beside it become shallower, by up
-  // to a half: it would jump whenever a triangle beside it is pushed.
+  // grows thicker, and grow thicker as it rises; likewise where a layer stands beside an upright face of the solid on
+  // which it lies. Nor is it brought in when chords beside it become shallower, by up to a half: it would jump whenever
+  // a triangle beside it is pushed.
   [[nodiscard]] double kept_distance(std::uint32_t v, const Vector3& own) const {
     const double half = path_.half_thickness(v), thickness = path_.thickness[v];
-    const double least = half - thickness / 4;
+    const double start = own_view(v).shape().nearest(own_view(v).own(0, path_.start[v])).distance;
+    const double quarter = half - thickness / 4;
+    const double least = start > 0 && stands_beside_own(v) ? std::min(start, quarter) : quarter;
     if (slides(v))
       return std::max(own_view(v).shape().nearest(own).distance, least);
-    const double start = own_view(v).shape().nearest(own_view(v).own(0, path_.start[v])).distance;
     return std::clamp(start, least, half + 0.4 * thickness + path_.stand_off[v]);
   }
 
@@ -313,13 +329,34 @@ private:
     return std::isfinite(gap) && solids_.at(own, end, path_.end_time).distance < gap;
   }
 
+  // Whether the face of a solid that is nearest to where a vertex starts is upright, as the side of a dish, and the
+  // vertex flows beside it. Where the sheet goes on to another solid it is to come away from the corner.
+  [[nodiscard]] bool flows_beside(std::uint32_t v, const SolidView& view) const {
+    constexpr double upright = 0.3; // cosine between its normal and gravity
+    const Vector3 normal = view.turned_at_end(view.shape().nearest(view.own(0, path_.start[v])).normal);
+    return slides(v) && passes_[v] == 0 && std::abs(path_.gravity.dot(normal)) < upright * path_.gravity.norm();
+  }
+
+  // Whether such a face is that of its own solid, but across the sheet: it stands there with its rim, and lies on
+  // another face.
+  [[nodiscard]] bool stands_beside_own(std::uint32_t v) const {
+    constexpr double least_lying = 0.5; // cosine between the normals of the face and the sheet
+    const SolidView& view = own_view(v);
+    if (!flows_beside(v, view))
+      return false;
+    const Vector3 across = view.own(0, path_.facing[v]) - view.own(0, Vector3::Zero());
+    return std::abs(across.dot(view.shape().nearest(view.own(0, path_.start[v])).normal)) < least_lying;
+  }
+
   // The distance that a vertex on one solid keeps from another one: that at which it would touch it, unless it starts
-  // nearer.
+  // nearer. Beside upright ones, which bear nothing, it may be as near as it starts: put farther off as the layer
+  // grows thicker, its rim would make that thicker still.
   [[nodiscard]] double beside_distance(std::uint32_t v, const SolidView& other) const {
     const double half = path_.half_thickness(v);
     const Vector3 start = other.own(0, path_.start[v]);
     const double before = other.shape().distance(start, half);
-    return std::clamp(before, half / 2, catching_distance(path_, other, v, start, 2 * half));
+    const double least = before > 0 && flows_beside(v, other) ? std::min(before, half / 2) : half / 2;
+    return std::clamp(before, least, std::max(least, catching_distance(path_, other, v, start, 2 * half)));
   }
 
   // As near to `end` as the axes allow that a [[hold]] prescribes: along the others back to half the thickness from the
@@ -554,6 +591,7 @@ private:
   std::vector<SolidView> views_;
   std::vector<std::int32_t> rides_;                      // the solid that each vertex moves with, or none
   std::vector<std::uint8_t> changed_, carried_, caught_; // per vertex; bits would not be safe to write in parallel
+  std::vector<std::uint8_t> passes_;                     // per vertex: beside one that touches another solid
   std::vector<std::uint8_t> between_;                    // per vertex: squeezed between two solids at the start
   std::vector<double> edges_;                            // the longest at each vertex [m]
   std::vector<std::uint32_t> active_;                    // triangles to be looked at

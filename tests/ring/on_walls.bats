@@ -305,6 +305,16 @@ self = true
 END
 }
 
+# Its rim was put a quarter of its thickness off the side, and became thicker by that: single triangles of 30 to 75 mm.
+@test "the surface of a dish that spins is a parabola" {
+  cp "$BATS_TEST_DIRNAME"/../everyday/more/spin-dish.{toml,obj} .
+  run_scene spin-dish 1.5 24
+  # omega^2 r^2/(2 g) and its volume: 8.7 to 16.3 mm out to a radius of 96.9 mm.
+  echo "$(last spin-dish thickness_min) to $(last spin-dish thickness_max) m, at most $(greatest spin-dish thickness_max)"
+  awk -v low="$(last spin-dish thickness_min)" -v high="$(greatest spin-dish thickness_max)" '
+    BEGIN { exit !(low > 0.0082 && low < 0.0092 && high < 0.021) }'
+}
+
 # Pushed together, the layer arches a little, and pulls at the slope by more than half of its weight.
 @test "a layer that is pushed together stays on its slope, however little adhesion holds it" {
   cat > pushed.toml << 'END'

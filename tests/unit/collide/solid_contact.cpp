@@ -88,6 +88,29 @@ TEST(SolidContact, WhatComesDownAWallLiesOnTheFloor) {
   EXPECT_EQ(touched_after({-6.93, -6.94, 0}), 11U); // a groove
 }
 
+// The rim of a layer on a floor, a fifth of its thickness from another solid: an upright one, as the side of a dish,
+// lets it stand there, one that leans puts it off.
+TEST(SolidContact, BesideASideARimStaysAsNearAsItIs) {
+  constexpr double near = thickness_of_sheet / 5;
+  const auto nearest = [near](const Vector3& normal) {
+    FallingSheet sheet = falling(0, thickness_of_sheet / 2);
+    std::ranges::fill(sheet.path.touch, 0);
+    sheet.path.gravity = {0, -9.81, 0};
+    const Vector3 rim(-0.05, thickness_of_sheet / 2, 0);
+    scene::Solid floor = solid(scene::HalfSpace{{0, 1, 0}}),
+                 side = solid(scene::HalfSpace{normal}, rim - near * normal);
+    floor.contact = side.contact = SolidContact::flow;
+    const solid::Solids solids = solids_of({floor, side});
+    resolve_solids(sheet.path, solids);
+    double least = 1;
+    for (std::size_t v = 0; v < sheet.path.start.size(); ++v)
+      least = std::min(least, distance_at_end(sheet, solids, v, 1));
+    return least;
+  };
+  EXPECT_NEAR(nearest({1, 0, 0}), near, 1e-9);
+  EXPECT_NEAR(nearest({0.8, 0.6, 0}), thickness_of_sheet / 4, 1e-3 * thickness_of_sheet);
+}
+
 // Between two plates a sheet of 2 mm touches the lower one. Where the upper one leaves it less room than that it
 // slides, though it sticks to solids; where it leaves less than half, that is counted.
 TEST(SolidContact, WhatIsSqueezedBetweenSolidsSlidesAndIsCounted) {
