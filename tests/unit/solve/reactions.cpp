@@ -16,6 +16,17 @@
 namespace sheet {
 namespace {
 
+Model that_sags(Reactions reactions) {
+  Model m;
+  m.liquid.viscosity = 100;
+  m.liquid.density = 1000;
+  m.gravity = {0, 0, -9.81};
+  m.bending = Bending::mid_edge;
+  m.arcs = true;
+  m.reactions = reactions;
+  return m;
+}
+
 struct Grip {
   Vector3 force = Vector3::Zero(), moment = Vector3::Zero(); // [N], about the strip's middle [N m]
 };
@@ -25,13 +36,7 @@ struct Grip {
 Grip pulled_and_twisted(int steps) {
   constexpr double length = 0.1, time = 0.2;
   State s = test::at_rest(test::rectangle(length, 0.02, 20, 4, 0.2), 0.002);
-  Model m;
-  m.liquid.viscosity = 100;
-  m.liquid.density = 1000;
-  m.gravity = {0, 0, -9.81};
-  m.bending = Bending::mid_edge;
-  m.arcs = true;
-  m.reactions = Reactions::at_end;
+  Model m = that_sags(Reactions::at_end);
   m.holds.resize(2);
   for (std::uint32_t v = 0; v < s.positions.size(); ++v)
     for (const std::size_t end : {0, 1})
@@ -73,13 +78,7 @@ TEST(EndReactions, AreOfSecondOrder) {
 // them hangs on it with.
 TEST(StageReactions, OfExternalForcesAreTheWeightOfWhatIsHeld) {
   State s = test::at_rest(test::rectangle(0.1, 0.02, 20, 4, 0.2), 0.002);
-  Model m;
-  m.liquid.viscosity = 100;
-  m.liquid.density = 1000;
-  m.gravity = {0, 0, -9.81};
-  m.bending = Bending::mid_edge;
-  m.arcs = true;
-  m.reactions = Reactions::of_stage;
+  Model m = that_sags(Reactions::of_stage);
   m.external_reactions = true;
   m.holds.resize(1);
   for (std::uint32_t v = 0; v < s.positions.size(); ++v)
