@@ -339,6 +339,7 @@ struct CollideStage::Impl {
       for (const std::uint32_t v : off)
         path.touch[v] = no_solid;
       put_touched_solids(frame, path.touch, scene->solids.size());
+      frame.erase("touch_load"); // of this step alone
       add_overshoots(path, frame);
     }
     std::copy(path.end.begin(), path.end.end(), positions(frame).begin());
@@ -375,15 +376,13 @@ struct CollideStage::Impl {
   }
 
   // Vertices whose solid cannot hold them any longer.
-  [[nodiscard]] std::vector<std::uint32_t> coming_off(Frame& frame, const StepPath& path) const {
+  [[nodiscard]] std::vector<std::uint32_t> coming_off(const Frame& frame, const StepPath& path) const {
     const Array *force = frame.find("touch_force"), *load = frame.find("touch_load");
     if (force == nullptr || !scene->contact || !scene->contact->adhesion)
       return {};
-    std::vector<std::uint32_t> off = pulled_off(
-        path, *solids, force->values<Vector3>(), load != nullptr ? load->values<Vector3>() : std::span<const Vector3>(),
-        *scene->contact->adhesion, shares(path.triangles, volumes(frame), path.end).area);
-    frame.erase("touch_load");
-    return off;
+    return pulled_off(path, *solids, force->values<Vector3>(),
+                      load != nullptr ? load->values<Vector3>() : std::span<const Vector3>(), *scene->contact->adhesion,
+                      shares(path.triangles, volumes(frame), path.end).area);
   }
 
   // How each solid moves in the step; none if all stand still.

@@ -21,7 +21,7 @@ std::vector<std::uint8_t> beside_free(const StepPath& path) {
 
 std::vector<std::uint32_t> pulled_off(const StepPath& path, const solid::Solids& solids, std::span<const Vector3> force,
                                       std::span<const Vector3> load, double adhesion, std::span<const double> area) {
-  const std::vector<std::uint8_t> air = beside_free(path);
+  const std::vector<std::uint8_t> air = load.empty() ? std::vector<std::uint8_t>{} : beside_free(path);
   std::vector<std::uint32_t> off;
   for (std::uint32_t v = 0; v < force.size(); ++v) {
     if (path.touch[v] == no_solid || force[v].isZero(0))

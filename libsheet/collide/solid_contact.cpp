@@ -274,12 +274,13 @@ private:
   // a triangle beside it is pushed.
   [[nodiscard]] double kept_distance(std::uint32_t v, const Vector3& own) const {
     const double half = path_.half_thickness(v), thickness = path_.thickness[v];
-    const double start = own_view(v).shape().nearest(own_view(v).own(0, path_.start[v])).distance;
     const double quarter = half - thickness / 4;
-    const double least = start > 0 && stands_beside_own(v) ? std::min(start, quarter) : quarter;
-    if (slides(v))
-      return std::max(own_view(v).shape().nearest(own).distance, least);
-    return std::clamp(start, least, half + 0.4 * thickness + path_.stand_off[v]);
+    if (slides(v)) {
+      const double distance = own_view(v).shape().nearest(own).distance;
+      return distance < quarter ? std::max(distance, least_on_wall(v, quarter)) : distance;
+    }
+    const double start = own_view(v).shape().nearest(own_view(v).own(0, path_.start[v])).distance;
+    return std::clamp(start, quarter, half + 0.4 * thickness + path_.stand_off[v]);
   }
 
   // Puts the vertex's end where it holds on to its solid: near that place of the solid's frame, at this distance from
@@ -329,23 +330,26 @@ private:
     return std::isfinite(gap) && solids_.at(own, end, path_.end_time).distance < gap;
   }
 
-  // Whether the face of a solid that is nearest to where a vertex starts is upright, as the side of a dish, and the
-  // vertex flows beside it. Where the sheet goes on to another solid it is to come away from the corner.
-  [[nodiscard]] bool flows_beside(std::uint32_t v, const SolidView& view) const {
-    constexpr double upright = 0.3; // cosine between its normal and gravity
-    const Vector3 normal = view.turned_at_end(view.shape().nearest(view.own(0, path_.start[v])).normal);
-    return slides(v) && passes_[v] == 0 && std::abs(path_.gravity.dot(normal)) < upright * path_.gravity.norm();
+  // Whether a vertex flows beside a face of a solid that is upright, as the side of a dish. `normal`: of the face, in
+  // the solid's frame. Where the sheet goes on to another solid it is to come away from the corner.
+  [[nodiscard]] bool flows_beside(std::uint32_t v, const SolidView& view, const Vector3& normal) const {
+    constexpr double upright = 0.3; // cosine between the normal and gravity
+    return slides(v) && passes_[v] == 0 &&
+           std::abs(path_.gravity.dot(view.turned_at_end(normal))) < upright * path_.gravity.norm();
   }
 
-  // Whether such a face is that of its own solid, but across the sheet: it stands there with its rim, and lies on
-  // another face.
-  [[nodiscard]] bool stands_beside_own(std::uint32_t v) const {
+  // How near a vertex that slides may end to its own solid: a quarter of the thickness, or as near as it starts, where
+  // it stands with its rim beside an upright face of the solid, across the sheet, and lies on another one.
+  [[nodiscard]] double least_on_wall(std::uint32_t v, double quarter) const {
     constexpr double least_lying = 0.5; // cosine between the normals of the face and the sheet
+    if (path_.facing.empty())           // what sticks slides only where it is squeezed
+      return quarter;
     const SolidView& view = own_view(v);
-    if (!flows_beside(v, view))
-      return false;
+    const solid::Near start = view.shape().nearest(view.own(0, path_.start[v]));
     const Vector3 across = view.own(0, path_.facing[v]) - view.own(0, Vector3::Zero());
-    return std::abs(across.dot(view.shape().nearest(view.own(0, path_.start[v])).normal)) < least_lying;
+    const bool lies = std::abs(across.dot(start.normal)) >= least_lying;
+    return start.distance > 0 && !lies && flows_beside(v, view, start.normal) ? std::min(start.distance, quarter)
+                                                                              : quarter;
   }
 
   // The distance that a vertex on one solid keeps from another one: that at which it would touch it, unless it starts
@@ -355,8 +359,9 @@ private:
     const double half = path_.half_thickness(v);
     const Vector3 start = other.own(0, path_.start[v]);
     const double before = other.shape().distance(start, half);
-    const double least = before > 0 && flows_beside(v, other) ? std::min(before, half / 2) : half / 2;
-    return std::clamp(before, least, std::max(least, catching_distance(path_, other, v, start, 2 * half)));
+    if (before > 0 && before < half / 2 && flows_beside(v, other, other.shape().nearest(start).normal))
+      return before;
+    return std::clamp(before, half / 2, catching_distance(path_, other, v, start, 2 * half));
   }
 
   // As near to `end` as the axes allow that a [[hold]] prescribes: along the others back to half the thickness from the

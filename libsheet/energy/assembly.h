@@ -36,7 +36,7 @@ public:
   [[nodiscard]] EnergySum value(const Terms& terms, const Unknowns& u);
   // Value and gradient, without the Hessian's cost.
   EnergySum gradient(const Terms& terms, const Unknowns& u, const Constraints& constraints, Eigen::VectorXd& gradient);
-  // That of the terms alone that are external.
+  // The gradient of those terms alone that act from outside the sheet or on its mass (Term::external), unconstrained.
   [[nodiscard]] Eigen::VectorXd external_gradient(const Terms& terms, const Unknowns& u);
   // Gradient and Hessian are those of what the constraints leave free.
   EnergySum derivatives(const Terms& terms, const Unknowns& u, bool definite, const Constraints& constraints,

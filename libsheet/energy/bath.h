@@ -31,12 +31,12 @@ namespace sheet {
 class Bath {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
+  static constexpr bool external = true;
   static constexpr Kind kind = Kind::elastic;
   // gravity [m/s²]; level: height of the rest plane along the upward direction [m]; clings: it pulls what is above it;
   // reach: as in BathSurface.
   Bath(double density, const Vector3& gravity, double level, bool clings, std::vector<BathReach> reach = {})
       : weight_(density * gravity.norm() / 12), surface_(gravity, level, std::move(reach)), clings_(clings) {}
-  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return "bath"; }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   void begin(const Stage& stage) {

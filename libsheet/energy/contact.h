@@ -29,10 +29,10 @@ inline void set_along(const ContactSpring& spring, double k, MatrixN<12>& hessia
 class Contact {
 public:
   static constexpr Stencil stencil = Stencil::four;
+  static constexpr bool external = true;
   static constexpr Kind kind = Kind::elastic;
   // adhesion: the springs pull, too; else they only push.
   Contact(std::shared_ptr<SpringRests> rests, bool adhesion) : rests_(std::move(rests)), adhesion_(adhesion) {}
-  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return "contact"; }
   [[nodiscard]] std::size_t size() const { return rests_->springs().size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return spring(i).vertices; }

@@ -15,10 +15,10 @@ namespace sheet {
 class ContactDamping {
 public:
   static constexpr Stencil stencil = Stencil::four;
+  static constexpr bool external = true;
   // rests: Contact begins them; inertia: it is modelled; adhesion: the springs pull, too.
   ContactDamping(std::shared_ptr<const SpringRests> rests, bool inertia, bool adhesion)
       : rests_(std::move(rests)), inertia_(inertia), adhesion_(adhesion) {}
-  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return "contact damping"; }
   [[nodiscard]] std::size_t size() const { return rests_->springs().size(); }
   [[nodiscard]] std::array<std::uint32_t, 4> nodes(std::size_t i) const { return spring(i).vertices; }

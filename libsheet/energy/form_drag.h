@@ -28,8 +28,8 @@ struct OuterFlow {
 class FormDrag {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  explicit FormDrag(OuterFlow flow) : flow_(std::move(flow)) {}
   static constexpr bool external = true;
+  explicit FormDrag(OuterFlow flow) : flow_(std::move(flow)) {}
   [[nodiscard]] const char* name() const { return flow_.name; }
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
 

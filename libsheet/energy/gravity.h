@@ -9,9 +9,9 @@ namespace sheet {
 class Gravity {
 public:
   static constexpr Stencil stencil = Stencil::vertex;
+  static constexpr bool external = true;
   static constexpr bool linear = true;
   explicit Gravity(const Vector3& gravity) : gravity_(gravity) {}
-  static constexpr bool external = true;
   [[nodiscard]] const char* name() const { return "gravity"; }
   [[nodiscard]] std::size_t size() const { return volumes_.size(); }
   void begin(const Stage& stage) {

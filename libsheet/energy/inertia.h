@@ -10,8 +10,8 @@ namespace sheet {
 class Inertia {
 public:
   static constexpr Stencil stencil = Stencil::vertex;
-  static constexpr Kind kind = Kind::inertial;
   static constexpr bool external = true;
+  static constexpr Kind kind = Kind::inertial;
   [[nodiscard]] const char* name() const { return "inertia"; }
   [[nodiscard]] std::size_t size() const { return weight_.size(); }
   void begin(const Stage& stage) {

@@ -34,8 +34,8 @@ struct PressureLaw {
 class Pressure {
 public:
   static constexpr Stencil stencil = Stencil::triangle;
-  explicit Pressure(PressureLaw law) : law_(std::move(law)) {}
   static constexpr bool external = true;
+  explicit Pressure(PressureLaw law) : law_(std::move(law)) {}
   [[nodiscard]] const char* name() const { return "pressure"; }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   void begin(const Stage& stage);

@@ -112,8 +112,7 @@ TEST(Parting, OfWhatFlowsInAndRunsOverAnEdge) {
         "[sheet]\nshape = \"rectangle\"\nsize = [0.06, 0.06]\nedge_length = 0.01\nthickness = 0.004\n"
         "center = [0, 0.002, 0]\n[material]\nviscosity = 10\ndensity = 1000\n[environment]\ngravity = [4, -9, 0]\n"
         "[inflow]\nregion = \"x_min\"\nvelocity = [0.1, 0, 0]\n" +
-            inflow +
-            "[[solid]]\nshape = \"box\"\nsize = [0.3, 0.1, 0.3]\ncenter = [0, -0.05, 0]\ncontact = \"flow\"\n",
+            inflow + "[[solid]]\nshape = \"box\"\nsize = [0.3, 0.1, 0.3]\ncenter = [0, -0.05, 0]\ncontact = \"flow\"\n",
         "s");
     return must_part(scene, checked_first_frame(scene), until);
   };

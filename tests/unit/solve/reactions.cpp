@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces of holds at the end of a step.
+// Forces of holds at the end of a step, and in its last stage.
 #include <algorithm>
 #include <array>
 #include <cmath>
