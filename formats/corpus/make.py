@@ -244,6 +244,8 @@ passed = {
     "drops": stream(drops(drop_start_position=Array(np.zeros((2, 3)), "frame", "m", "drop"))),
     "touch_overshoot_time": with_array("touch_overshoot_time", Array(np.array([0, 0.125, 0], "f8"), "vertex", "s",
                                                                      "interpolate")),
+    "solid_force": with_array("solid_force", Array(np.array([[0, 0.5, 0], [0.25, -0.125, 0]], "f8"), "frame", "N",
+                                                   "copy")),
 }
 
 failed = {

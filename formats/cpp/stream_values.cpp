@@ -49,6 +49,7 @@ constexpr std::array standards{
     Standard{"touch", Place::vertex, Type::uint64, any_number, "1", Transfer::common, false},
     Standard{"touch_force", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
     Standard{"touch_load", Place::vertex, Type::float64, 3, "N", Transfer::conserve, false},
+    Standard{"solid_force", Place::frame, Type::float64, 3, "N", Transfer::copy, false},
     Standard{"touch_overshoot", Place::vertex, Type::float64, 3, "m", Transfer::interpolate, false},
     Standard{"touch_overshoot_time", Place::vertex, Type::float64, 1, "s", Transfer::interpolate, false},
     Standard{"inlet", Place::vertex, Type::uint64, 1, "1", Transfer::common, false},
@@ -132,9 +133,9 @@ std::string find_triangle_error(const Frame& frame, const Array& array) {
 }
 
 // Rows of an array at place frame. The contact arrays go together: whichever is there has as many as contact_vertex;
-// those of drops as many as drop_volume. Health has any number.
+// those of drops as many as drop_volume. Health and forces of solids have any number.
 std::uint64_t rows_wanted(const Frame& frame, const Standard& standard, const Array& array) {
-  if (standard.name == "health")
+  if (standard.name == "health" || standard.name == "solid_force")
     return array.rows;
   for (const auto& [kind, leader] : {std::pair<std::string_view, std::string_view>{"contact_", "contact_vertex"},
                                      std::pair<std::string_view, std::string_view>{"drop_", "drop_volume"}})

@@ -226,8 +226,8 @@ private:
   }
 
   [[nodiscard]] bool is_squeezed(std::uint32_t v) const {
-    return rides_[v] != no_solid && solids_.facing(static_cast<std::size_t>(rides_[v]), path_.start[v],
-                                                   path_.start_time, path_.thickness[v], edges_[v]);
+    return rides_[v] != no_solid && solids_.squeezed(static_cast<std::size_t>(rides_[v]), path_.start[v],
+                                                     path_.start_time, path_.thickness[v], edges_[v]);
   }
 
   // Where a vertex goes that hits a solid and slides on: what is left of its path, along the surface.

@@ -11,7 +11,8 @@
 // the gap that the layer would begin to fill there. The layer feels -∇(p g) from the areas and p ∇g from the gaps: -g
 // ∇p together, which with the drag of two walls is Reynolds' equation of lubrication [Reynolds 1886; Batchelor 1967,
 // section 4.8]. Round plates of radius R that close at the rate e have p = 3 μ e (R² - s²)/g² at the radius s [Stefan
-// 1874], so that x stays below 4e-3 there.
+// 1874], so that x stays below 4e-3 there. The own wall, of the normal n, pushes the layer by p n, the facing one by
+// p (∇g - n): by ∂W/∂g each, as far as its motion widens the gap.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -20,6 +21,7 @@
 #include "libsheet/base/each.h"
 #include "libsheet/energy/channels.h"
 #include "libsheet/energy/element.h"
+#include "libsheet/energy/gap_forces.h"
 #include "libsheet/geometry/area.h"
 
 namespace sheet {
@@ -31,7 +33,8 @@ public:
   [[nodiscard]] std::size_t size() const { return triangles_; }
 
   void begin(const Stage& stage) {
-    const auto& triangles = stage.start->mesh->triangles;
+    mesh_ = stage.start->mesh;
+    const auto& triangles = mesh_->triangles;
     triangles_ = triangles.size();
     gaps_.assign(stage.channels.empty() ? 0 : triangles.size(), {});
     const double rate = stage.channel_rate;
@@ -48,7 +51,8 @@ public:
         const double part = channel != nullptr ? channel->filled : 0;
         gap.corners[c].free = (1 - part) * free;
         if (part > 0) {
-          gap.corners[c] = {(1 - part) * free, part * channel->gap, channel->slope / channel->gap, channel->place};
+          gap.corners[c] = {(1 - part) * free, part * channel->gap, channel->slope / channel->gap, channel->place,
+                            site_at(stage, corners[c])->normal / channel->gap};
           diameter = std::max(diameter, channel->diameter);
         }
         mean += (gap.corners[c].free + gap.corners[c].width) / 3;
@@ -101,12 +105,34 @@ public:
     return 0.5 * k * over * over;
   }
 
+  void add_gap_forces(const Unknowns& x, GapForces& forces) const {
+    for (std::size_t t = 0; t < gaps_.size(); ++t) {
+      if (free(t))
+        continue;
+      const Corners& corners = mesh_->triangles[t];
+      VectorN<9> u;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        u.segment<3>(3 * c) = Stage::position(x, corners[static_cast<std::size_t>(c)]);
+      const Gap& gap = gaps_[t];
+      const double area = TriangleArea(u.segment<3>(0), u.segment<3>(3), u.segment<3>(6)).area;
+      const Vector3 widths = gap.widths(u);
+      const double mean = gap.mean(widths);
+      const double work = gap.stiffness * gap.excess(area, mean) * gap.volume / (area * mean);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double share = work * widths[static_cast<Eigen::Index>(c)] / (3 * mean);
+        forces.own[corners[c]] += share * gap.corners[c].normal;
+        forces.facing[corners[c]] += share * (gap.corners[c].slope - gap.corners[c].normal);
+      }
+    }
+  }
+
 private:
   static constexpr double modulus = 50;
 
   struct Corner {
     double free = 0, width = 0;                               // parts of the gap: with a free face; at `place` [m]
     Vector3 slope = Vector3::Zero(), place = Vector3::Zero(); // of its logarithm [1/m]; predicted [m]
+    Vector3 normal = Vector3::Zero();                         // of the own wall, over the gap [1/m]
   };
 
   struct Gap {
@@ -165,6 +191,7 @@ private:
     return start + stage.ratio * (first - start);
   }
 
+  std::shared_ptr<const Connectivity> mesh_;
   std::size_t triangles_ = 0;
   std::vector<Gap> gaps_; // of each triangle; empty where nothing lies between walls
 };

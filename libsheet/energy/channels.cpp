@@ -14,7 +14,6 @@ namespace sheet {
 
 namespace {
 
-constexpr double touch = 1.05;     // gaps that a layer fills, in its thicknesses
 constexpr double relief = 10;      // of the rate at which walls move
 constexpr double least_gap = 0.05; // of the thickness: narrower gaps count as so wide
 
@@ -135,7 +134,7 @@ ChannelDrag channel_drag(double gap, double slip, double facing_slip) {
 }
 
 double filled_part(double thickness, double gap) {
-  return std::clamp((near_touch * thickness - gap) / ((near_touch - touch) * thickness), 0.0, 1.0);
+  return std::clamp((near_touch * thickness - gap) / ((near_touch - filled_gap) * thickness), 0.0, 1.0);
 }
 
 void set_channels(const std::vector<Wall>& walls, std::span<const double> thickness,
@@ -150,6 +149,7 @@ void set_channels(const std::vector<Wall>& walls, std::span<const double> thickn
     const ChannelDrag drag = channel_drag(channel->gap, site.slip_length, facing.slip_length);
     channel->filled = filled_part(thickness[site.vertex], channel->gap);
     channel->depth = drag.depth;
+    channel->facing_part = drag.part;
     channel->carried = site.carried + drag.part * (carried(facing, site.vertex) - site.carried);
     site.channel = static_cast<std::uint32_t>(stage.channels.size());
     stage.channels.push_back(*channel);

@@ -5,6 +5,9 @@
 //   3 μ (u - U)/D,   D = g (1 + 4 s + 12 p)/(4 (1 + s)),   U = U1 + (U2 - U1) (g/2 + b1)/(g + b1 + b2),
 // s = (b1 + b2)/g, p = b1 b2/g² [plane Couette and Poiseuille flow with Navier's slip; Batchelor 1967, section 4.2]: D
 // = g/4 and the walls' mean velocity without slip. With b2 = infinity it is the layer with a free face (wall_drag.h).
+// The second wall bears the part (g/2 + b1)/(g + b1 + b2) of that drag, the first one the rest, and besides liquid is
+// sheared between the two: the second wall drags it by μ (U2 - U1)/(g + b1 + b2), and the first one by as much against
+// that (the same profile's slopes at the walls).
 // What lies in the gap is in its middle, and no thicker than it is wide (channel_pressure.h).
 //
 // What is too thick for its gap at once, as where a solid stands in the sheet at the start, gives way at ten times the
@@ -26,7 +29,7 @@ inline constexpr double near_touch = 1.1; // gaps that a layer begins to fill, i
 // What the second wall adds to a site.
 struct ChannelDrag {
   double depth = 0; // D [m], infinite between two walls along which liquid slips freely
-  double part = 0;  // of the way from U1 to U2 that U is
+  double part = 0;  // of the way from U1 to U2 that U is, and of the drag that the second wall bears
 };
 
 // The gap [m], the slip lengths [m] of a wall and of that which faces it, each finite or free_slip.

@@ -13,6 +13,7 @@
 //   void follow(const Unknowns&, const Unknowns& step);       optional: see term.h
 //   void rest_at(std::span<const double> rates);              optional: see term.h
 //   void add_wall_forces(const Unknowns&, span<Vector3>) const;   optional: what walls do along themselves, see term.h
+//   void add_gap_forces(const Unknowns&, GapForces&) const;   optional: what two walls do, see term.h
 //   void add_dissipated(const Unknowns&, span<double>) const; optional: of each triangle, see term.h
 //   void finish(const Unknowns&, State&);                     optional: what a step leaves in the state, see term.h
 //   double rank_one(const Unknowns&, VectorXd&) const;        optional: what couples all unknowns, see term.h

@@ -45,6 +45,7 @@ struct Channel {
   double filled = 0;                    // the part in which the layer touches both
   double diameter = 0;                  // hydraulic, of all that lies between walls around it [m]
   double depth = 0;                     // of the drag of both [m]
+  double facing_part = 0;               // of that drag that the facing wall bears (channels.h)
   Vector3 place = Vector3::Zero();      // predicted, of the vertex [m]
   Vector3 slope = Vector3::Zero();      // of the gap along the wall
   Vector3 carried = Vector3::Zero();    // as WallSite::carried, by both walls [m]

@@ -10,6 +10,7 @@
 
 #include "libsheet/energy/element.h"
 #include "libsheet/energy/energy_sum.h"
+#include "libsheet/energy/gap_forces.h"
 
 namespace sheet {
 
@@ -43,6 +44,8 @@ public:
                            double* hessians) const = 0;
   // Adds to each vertex' force what walls do to it along themselves [N].
   virtual void add_wall_forces(const Unknowns&, std::span<Vector3>) const {}
+  // Adds to each vertex' forces how two walls share that between them, and their pressure.
+  virtual void add_gap_forces(const Unknowns&, GapForces&) const {}
   // Adds to each triangle what its viscosity has dissipated in the stage that leads to u [J].
   virtual void add_dissipated(const Unknowns&, std::span<double>) const {}
   // What else a step leaves in the state, to whose end `last` the last stage led.
@@ -104,6 +107,11 @@ public:
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const override {
     if constexpr (requires { element_.add_wall_forces(u, force); })
       element_.add_wall_forces(u, force);
+  }
+
+  void add_gap_forces(const Unknowns& u, GapForces& forces) const override {
+    if constexpr (requires { element_.add_gap_forces(u, forces); })
+      element_.add_gap_forces(u, forces);
   }
 
   void add_dissipated(const Unknowns& u, std::span<double> energy) const override {

@@ -7,7 +7,8 @@
 // the wall, x̄ where the corner had been carried by the wall (WallSite::carried). F is the foot on which a triangle
 // stands, of its edges there whose both ends touch, of the length l: belts carry along what stands on them. Where
 // another wall faces it across the gap g, 1/(ĥ + 3 b) becomes (1 - f)/(g + 3 b) + f/D, f the part filled, and x̄ the
-// mean with these weights of where the one wall and both carry it (channels.h).
+// mean with these weights of where the one wall and both carry it (channels.h). Each of the two walls bears its part of
+// that drag, of liquids that are not Newtonian as if they had the viscosity that the drag shows.
 //
 // μ is that which the layer has for what it carries along: where it is warmer it flows more easily (stage_setup.h).
 //
@@ -22,6 +23,7 @@
 #include "libsheet/energy/channels.h"
 #include "libsheet/energy/curved_drag.h"
 #include "libsheet/energy/element.h"
+#include "libsheet/energy/gap_forces.h"
 #include "libsheet/energy/walls.h"
 
 namespace sheet {
@@ -134,15 +136,18 @@ public:
   }
 
   void add_wall_forces(const Unknowns& u, std::span<Vector3> force) const {
-    for (std::size_t t = 0; t < corners_.size(); ++t) {
-      const Corners& corners = mesh_->triangles[t];
-      VectorN<9> x, pull;
-      for (Eigen::Index c = 0; c < 3; ++c)
-        x.segment<3>(3 * c) = Stage::position(u, corners[static_cast<std::size_t>(c)]);
-      (void)gradient(t, x, pull);
-      for (Eigen::Index c = 0; c < 3; ++c)
-        force[corners[static_cast<std::size_t>(c)]] -= pull.segment<3>(3 * c);
-    }
+    each_slide(u, [&](std::uint32_t v, const Corner&, double stiffness, const Vector3& slid) {
+      force[v] -= stiffness * slid;
+    });
+  }
+
+  void add_gap_forces(const Unknowns& u, GapForces& forces) const {
+    each_slide(u, [&](std::uint32_t v, const Corner& corner, double stiffness, const Vector3& slid) {
+      const Touched& wall = walls_[corner.site];
+      const Vector3 of_facing = stiffness * (wall.facing_sheared - wall.facing_part * (slid - wall.facing_ahead));
+      forces.facing[v] += of_facing;
+      forces.own[v] -= of_facing;
+    });
   }
 
 private:
@@ -150,6 +155,10 @@ private:
   struct Touched {
     Vector3 normal, carried; // of the wall; as in WallSite [m]
     double depth = 0;        // in place of the layer's, where another wall faces it; else 0 [m]
+    // What that wall bears: this part of the drag, of how far liquid has slid past where both walls carry it, which is
+    // so far ahead of `carried` [m]; and the shear between the walls, as if it had slid so far [m].
+    double facing_part = 0;
+    Vector3 facing_ahead = Vector3::Zero(), facing_sheared = Vector3::Zero();
   };
 
   struct Corner {
@@ -178,7 +187,15 @@ private:
     const double one = (1 - channel->filled) / (channel->gap + 3 * site.slip_length);
     const double both = channel->filled / channel->depth, sum = one + both;
     const double part = sum > 0 ? both / sum : 0;
-    return {site.normal, site.carried + part * (channel->carried - site.carried), 1 / sum};
+    Vector3 moved = channel->carried - site.carried;
+    moved -= site.normal.dot(moved) * site.normal;
+    Touched result{site.normal, site.carried + part * (channel->carried - site.carried), 1 / sum};
+    if (part > 0) {
+      result.facing_part = part * channel->facing_part;
+      result.facing_ahead = (1 - part) * moved;
+      result.facing_sheared = channel->filled / (3 * (channel->gap / 2 + site.slip_length) * sum) * moved;
+    }
+    return result;
   }
 
   // Of the edges at a corner whose both ends touch its wall, at the start of the step [m].
@@ -198,9 +215,23 @@ private:
       const Corner& corner = corners_[i][static_cast<std::size_t>(c)];
       if (corner.stiffness == 0)
         continue;
-      const auto& [normal, carried, depth] = walls_[corner.site];
-      const Vector3 moved = u.segment<3>(3 * static_cast<Eigen::Index>(c)) - carried;
-      visit(static_cast<int>(c), Vector3(moved - normal.dot(moved) * normal), normal);
+      const Touched& wall = walls_[corner.site];
+      const Vector3 moved = u.segment<3>(3 * static_cast<Eigen::Index>(c)) - wall.carried;
+      visit(static_cast<int>(c), Vector3(moved - wall.normal.dot(moved) * wall.normal), wall.normal);
+    }
+  }
+
+  // Visits what is dragged: vertex, corner, stiffness [N/m], how far it has slid past the wall [m].
+  template <class Visit> void each_slide(const Unknowns& u, Visit&& visit) const {
+    for (std::size_t t = 0; t < corners_.size(); ++t) {
+      const Corners& vertices = mesh_->triangles[t];
+      VectorN<9> x;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        x.segment<3>(3 * c) = Stage::position(u, vertices[static_cast<std::size_t>(c)]);
+      each_corner(t, x, [&](int c, const Vector3& slid, const Vector3&) {
+        const Corner& corner = corners_[t][static_cast<std::size_t>(c)];
+        visit(vertices[static_cast<std::size_t>(c)], corner, slide_of(corner, slid).stiffness, slid);
+      });
     }
   }
 

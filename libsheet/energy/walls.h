@@ -31,6 +31,7 @@ struct WallPoint {
 // One solid on which liquid flows.
 struct Wall {
   std::vector<std::uint32_t> vertices; // those that touch it; none: it only faces another wall (channels.h)
+  std::uint32_t solid = 0;             // the number of the scene's solid that it is
   std::vector<Vector3> forces;         // of solids on each of them at the end of the step before [N]; none: not known
   double slip_length = 0;              // [m], or free_slip
   double wetting = 2;                  // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs

@@ -29,7 +29,7 @@ std::vector<NamedForce> SceneForces::of(const formats::Frame& frame) {
   if (!wanted_)
     return forces;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const formats::Array *held = frame.find("hold_force"), *touched = frame.find("touch_force");
+  const formats::Array *held = frame.find("hold_force"), *of_solids = frame.find("solid_force");
   const auto bits = holds(frame);
   for (std::size_t i = 0; i < holds_; ++i) {
     NamedForce& sum =
@@ -38,13 +38,10 @@ std::vector<NamedForce> SceneForces::of(const formats::Frame& frame) {
       if ((bits[v] >> i & 1) != 0)
         sum.force += held->values<Vector3>()[v];
   }
-  const auto solids = touched_solids(frame, solids_);
   for (std::size_t i = 0; i < solids_; ++i) {
-    NamedForce& sum =
-        forces.emplace_back(NamedForce{"solid " + std::to_string(i), Eigen::Vector3d::Constant(touched ? 0 : unknown)});
-    for (std::size_t v = 0; touched != nullptr && v < solids.size(); ++v)
-      if (solids[v] == static_cast<std::int32_t>(i))
-        sum.force += touched->values<Vector3>()[v];
+    const bool known = of_solids != nullptr && i < of_solids->values<Vector3>().size();
+    forces.emplace_back(NamedForce{"solid " + std::to_string(i),
+                                   known ? of_solids->values<Vector3>()[i] : Vector3(Vector3::Constant(unknown))});
   }
   return forces;
 }

@@ -15,7 +15,8 @@ struct NamedForce {
   Eigen::Vector3d force; // on the sheet at the end of the frame's step [N]; NaN where no step has been
 };
 
-// Sums of the arrays hold_force and touch_force. Remembers the last scene, which rarely changes within a stream.
+// Sums of the array hold_force, and the rows of solid_force. Remembers the last scene, which rarely changes within a
+// stream.
 class SceneForces {
 public:
   // None where the scene does not ask, or cannot be read.

@@ -375,8 +375,6 @@ std::vector<std::string> left_out_of(const Scene& scene, const Scales& scales) {
   if (scene.environment.gravity && !(scene.contact && scene.contact->adhesion) &&
       std::ranges::any_of(scene.solids, has_an_underside))
     left_out.push_back("what comes to hang below a solid never drips off ([contact] adhesion)");
-  if (scene.model.forces && solids_squeeze(scene))
-    left_out.push_back("the forces of solids are without the pressure of what they squeeze between them");
   if (scene.merge)
     left_out.push_back("layers become one where one lies wholly on another; tight folds stay two");
   else if (scene.contact && scene.contact->self)

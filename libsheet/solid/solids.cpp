@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include "libsheet/base/overloaded.h"
-#include "libsheet/geometry/facing_walls.h"
 #include "libsheet/scene/words.h"
 #include "libsheet/solid/mesh.h"
 #include "libsheet/solid/shapes.h"

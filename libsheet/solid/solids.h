@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "libsheet/geometry/facing_walls.h"
 #include "libsheet/scene/scene.h"
 #include "libsheet/solid/distance.h"
 
@@ -64,6 +65,12 @@ public:
   // `room` [m]: across the point, or beside an edge of the other one by the longest edge of the mesh there [m].
   [[nodiscard]] std::optional<Facing> facing(std::size_t solid, const Vector3& x, double t, double room,
                                              double longest_edge = 0) const;
+  // Whether another one leaves what sticks to `solid` there no room: it faces it across a gap that a layer of this
+  // thickness [m] fills.
+  [[nodiscard]] bool squeezed(std::size_t solid, const Vector3& x, double t, double thickness,
+                              double longest_edge) const {
+    return facing(solid, x, t, filled_gap * thickness, longest_edge).has_value();
+  }
 
 private:
   struct Entry {

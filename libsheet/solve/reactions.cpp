@@ -21,6 +21,19 @@ Vector3 at_vertex(const Eigen::VectorXd& unknowns, std::size_t vertex) {
   return unknowns.segment<3>(static_cast<Eigen::Index>(3 * vertex));
 }
 
+void add_gap_forces(const Terms& terms, const Model& model, const Stage& stage, const Unknowns& u,
+                    HoldingForces& result) {
+  const std::vector<Vector3> none(stage.vertices(), Vector3::Zero());
+  GapForces forces{none, none};
+  for (const auto& term : terms)
+    term->add_gap_forces(u, forces);
+  result.of_gap = std::move(forces.own);
+  result.facing = std::move(forces.facing);
+  result.facing_solid.assign(stage.vertices(), no_index);
+  for (const Channel& channel : stage.channels)
+    result.facing_solid[channel.vertex] = model.walls[channel.facing].solid;
+}
+
 // The potential's gradient in the prescribed directions, and what walls do along themselves, with the stage as it is.
 HoldingForces reactions(LinearSystem& system, const Terms& terms, const Model& model, const Stage& stage,
                         const Unknowns& u) {
@@ -37,6 +50,8 @@ HoldingForces reactions(LinearSystem& system, const Terms& terms, const Model& m
     term->add_wall_forces(u, result.all);
   for (std::size_t v = 0; v < result.all.size(); ++v)
     result.all[v] += at_vertex(gradient, v);
+  if (!stage.channels.empty())
+    add_gap_forces(terms, model, stage, u, result);
   if (model.external_reactions) {
     const Eigen::VectorXd external = prescribed_part(constraints, system.external_gradient(terms, u));
     for (std::size_t v = 0; v < stage.vertices(); ++v)

@@ -105,6 +105,7 @@ Wall wall_of(const std::shared_ptr<const solid::Solids>& solids, std::size_t i, 
   const scene::Solid& solid = solids->scene(i);
   Wall wall;
   wall.vertices = std::move(touching);
+  wall.solid = static_cast<std::uint32_t>(i);
   wall.slip_length = solid.contact == SolidContact::slip ? free_slip : solid.slip_length;
   wall.wetting = solid.contact_angle ? 1 - std::cos(*solid.contact_angle) : 2;
   wall.hollow = std::holds_alternative<scene::SolidMesh>(solid.shape);
@@ -167,7 +168,7 @@ std::vector<std::uint32_t> take_squeezed(const solid::Solids& solids, std::size_
   });
   const std::vector<double> edges = longest_edges(x, corners);
   std::erase_if(vertices, [&](std::uint32_t v) {
-    const bool no_room = solids.facing(i, x[v], frame.time, thickness[v], edges[v]).has_value();
+    const bool no_room = solids.squeezed(i, x[v], frame.time, thickness[v], edges[v]);
     if (no_room)
       squeezed.push_back(v);
     return no_room;
@@ -419,6 +420,25 @@ Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   return model;
 }
 
+// Of each solid, its forces on what touches it and on what it faces across a gap.
+void put_solid_forces(const HoldingForces& reactions, std::span<const std::int32_t> touched, std::size_t solids,
+                      Frame& frame) {
+  if (solids == 0)
+    return;
+  Array array = formats::make_standard_array("solid_force", solids);
+  const auto force = array.values<Vector3>();
+  for (std::size_t v = 0; v < touched.size(); ++v) {
+    if (touched[v] == no_solid)
+      continue;
+    force[static_cast<std::size_t>(touched[v])] += reactions.all[v];
+    if (!reactions.facing.empty() && reactions.facing_solid[v] != no_index) {
+      force[static_cast<std::size_t>(touched[v])] += reactions.of_gap[v];
+      force[reactions.facing_solid[v]] += reactions.facing[v];
+    }
+  }
+  frame.put(std::move(array));
+}
+
 } // namespace
 
 State state_of(const Frame& frame, std::shared_ptr<const Connectivity> mesh) {
@@ -507,11 +527,12 @@ void put_heat_moved(const State& state, Frame& frame) {
   add_to_account(frame, "heat.moved", "J", amounts);
 }
 
-void put_reactions(const HoldingForces& reactions, bool of_holds, Frame& frame) {
-  for (const char* name : {"touch_force", "touch_load", "hold_force"})
+void put_reactions(const HoldingForces& reactions, bool of_holds, std::size_t solids, Frame& frame) {
+  for (const char* name : {"touch_force", "touch_load", "hold_force", "solid_force"})
     frame.erase(name);
   if (reactions.all.empty())
     return;
+  const auto touched = touched_solids(frame, solids);
   if (of_holds) {
     Array held = formats::make_standard_array("hold_force", frame.vertices);
     const auto holds = sheet::holds(frame);
@@ -519,8 +540,8 @@ void put_reactions(const HoldingForces& reactions, bool of_holds, Frame& frame) 
       if (holds[v] != 0)
         held.values<Vector3>()[v] = reactions.all[v];
     frame.put(std::move(held));
+    put_solid_forces(reactions, touched, solids, frame);
   }
-  const auto touched = touched_solids(frame);
   const auto put = [&](const char* name, const std::vector<Vector3>& forces) {
     Array array = formats::make_standard_array(name, frame.vertices);
     for (std::size_t v = 0; v < forces.size(); ++v)

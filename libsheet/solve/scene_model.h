@@ -28,9 +28,9 @@ void put_heat_moved(const State& state, formats::Frame& frame);
 void make_up_for_overshoot(const formats::Frame& frame, const Model& model, State& state);
 
 // Writes the forces of solids on what touches them, [N] a vertex (array "touch_force"), the part of them that holds
-// external forces, if that is known ("touch_load"), and, if wanted, those of holds ("hold_force"); takes the arrays
-// away where there are none.
-void put_reactions(const HoldingForces& reactions, bool of_holds, formats::Frame& frame);
+// external forces, if that is known ("touch_load"), and, if wanted, those of holds ("hold_force") and the sum of those
+// of each of the scene's solids ("solid_force"); takes the arrays away where there are none.
+void put_reactions(const HoldingForces& reactions, bool of_holds, std::size_t solids, formats::Frame& frame);
 
 // The terms that the scene asks for, and its holds that are in force at the frame's time: those of the scene's [[hold]]
 // tables (array "hold"), the vertices that touch a solid and move with it (array "touch"), those in the inlet (array

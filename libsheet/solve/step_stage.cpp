@@ -234,7 +234,7 @@ struct StepStage::Impl {
     tell_of_gas(start, frame);
     fly_drops(frame, scenes.of(frame), start.time);
     put_heat_moved(state, frame);
-    put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), frame);
+    put_reactions(report.reactions, scene::wants_forces(scenes.of(frame)), scenes.of(frame).solids.size(), frame);
   }
 
   void refuse_impossible_speed(const Frame& frame, const State& start, const State& end) const {

@@ -59,6 +59,7 @@ _STANDARD = {
     "hold_force": ("vertex", "float64", 3, "N", "conserve"),
     "touch_force": ("vertex", "float64", 3, "N", "conserve"),
     "touch_load": ("vertex", "float64", 3, "N", "conserve"),
+    "solid_force": ("frame", "float64", 3, "N", "copy"),
     "touch_overshoot": ("vertex", "float64", 3, "m", "interpolate"),
     "touch_overshoot_time": ("vertex", "float64", 1, "s", "interpolate"),
     "inlet": ("vertex", "uint64", 1, "1", "common"),
@@ -345,7 +346,7 @@ def _find_standard_error(frame: Frame, name: str, array: Array) -> str | None:
         return f'array "triangle": triangle {i} names vertex {t[0] if t[0] == t[1] else t[2]} twice'
     if place == "frame" and kind != "text":
         rows = _rows_wanted(frame, name)
-        if array.rows != rows and name != "health":
+        if array.rows != rows and name not in ("health", "solid_force"):
             return f'array "{name}" has {array.rows} rows, it must have {rows}'
     if name.startswith("drop_"):
         for other in ("drop_position", "drop_volume"):

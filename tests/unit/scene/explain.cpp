@@ -123,22 +123,6 @@ TEST(Explain, ABathHasNoTensionOfItsOwn) {
                         "viscosity"));
 }
 
-TEST(Explain, ForcesOfSolidsAreWithoutWhatTheySqueeze) {
-  const auto left_out = [](const std::string& motion, const std::string& forces) {
-    return of(disk + liquid + "[model]\nforces = " + forces +
-              "\n[[solid]]\nshape = \"plane\"\ncenter = [0, -1, 0]\n[[solid]]\nshape = \"sphere\"\nradius = 0.1\n"
-              "center = [0, 1, 0]\n" +
-              motion)
-        .left_out;
-  };
-  const auto told =
-      testing::Contains("the forces of solids are without the pressure of what they squeeze between them");
-  const std::string moves = "velocity = [0, -1, 0]\n";
-  EXPECT_THAT(left_out(moves, "true"), told);
-  EXPECT_THAT(left_out(moves, "false"), testing::Not(told));
-  EXPECT_THAT(left_out("", "true"), testing::Not(told));
-}
-
 TEST(Explain, ContactAnglesNeedTension) {
   const auto warnings = [](const std::string& more) {
     return of(disk + liquid + more + "[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\ncontact_angle = 1\n").warnings;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -102,6 +103,77 @@ TEST(StageReactions, OfExternalForcesAreTheWeightOfWhatIsHeld) {
     all += report.reactions.all[v].z();
   }
   EXPECT_GT(all, 0.8 * 9.81 * 1000 * volume); // all but what falls on
+}
+
+constexpr double gap = 0.01;
+
+// Fills the gap between the plane z = 0, its first wall, and one at the height gap (1 - t closing) that moves along x.
+Model between_walls(const State& s, double closing, double speed) {
+  Model m;
+  m.liquid.viscosity = 2;
+  m.bending = Bending::none;
+  m.reactions = Reactions::at_end;
+  m.walls.resize(2);
+  m.walls[0].vertices.resize(s.positions.size());
+  std::iota(m.walls[0].vertices.begin(), m.walls[0].vertices.end(), 0);
+  m.walls[0].solid = 4;
+  m.walls[0].nearest = [](double, const Vector3& x) { return WallPoint{x.z(), Vector3::UnitZ()}; };
+  m.walls[1].solid = 7;
+  m.walls[1].nearest = [=](double t, const Vector3& x) {
+    return WallPoint{gap * (1 - t * closing) - x.z(), -Vector3::UnitZ()};
+  };
+  m.walls[1].motion = [=](double from, double to) {
+    return RigidMotion{Matrix3::Identity(), (to - from) * Vector3(speed, 0, -gap * closing)};
+  };
+  m.walls[1].velocity = [=](double, const Vector3&) { return Vector3(speed, 0, -gap * closing); };
+  return m;
+}
+
+struct OfBoth {
+  Vector3 first = Vector3::Zero(), second = Vector3::Zero(); // of each wall on the layer [N]
+};
+
+OfBoth forces_after(State s, const Model& m, double duration, int steps) {
+  StepReport report;
+  Stepper stepper(m, {});
+  for (int k = 0; k < steps; ++k)
+    report = stepper.step(s, duration / steps);
+  OfBoth sum;
+  for (std::size_t v = 0; v < s.positions.size(); ++v) {
+    EXPECT_EQ(report.reactions.facing_solid[v], 7u);
+    sum.first += report.reactions.all[v] + report.reactions.of_gap[v];
+    sum.second += report.reactions.facing[v];
+  }
+  return sum;
+}
+
+// Round plates that close at the rate e: 3 π μ e R⁴/(2 g²) on each [Stefan 1874; Batchelor 1967, section 4.8].
+TEST(EndReactions, OfPlatesThatCloseAreStefans) {
+  constexpr double rate = 1, duration = 1e-3;
+  State s = test::at_rest(test::disk(1, 12, 0.1), gap);
+  for (Vector3& x : s.positions)
+    x.z() = gap / 2;
+  const double end_gap = gap * (1 - rate * duration);
+  const OfBoth of = forces_after(s, between_walls(s, rate, 0), duration, 2);
+  const double force = 1.5 * std::numbers::pi * 2 * rate / (end_gap * end_gap);
+  EXPECT_NEAR(of.second.z() / force, -1, 0.02);
+  EXPECT_NEAR(of.first.z() / force, 1, 0.02);
+  EXPECT_LT((of.first + of.second).norm(), 1e-9 * force);
+}
+
+// A plate that slides over liquid which another holds back without slip, or with it: μ U A/(g + b).
+TEST(EndReactions, OfPlatesThatSlideAreThoseOfShear) {
+  for (const double slip : {0.0, gap / 2}) {
+    State s = test::at_rest(test::rectangle(1, 0.5, 10, 5, 0.0), gap);
+    for (Vector3& x : s.positions)
+      x.z() = gap / 2;
+    Model m = between_walls(s, 0, 3);
+    m.walls[0].slip_length = slip;
+    const OfBoth of = forces_after(s, m, 1e-3, 4);
+    const double force = 2 * 3 * 0.5 / (gap + slip);
+    EXPECT_LT((of.second - Vector3(force, 0, 0)).norm(), 1e-6 * force);
+    EXPECT_LT((of.first + Vector3(force, 0, 0)).norm(), 1e-6 * force);
+  }
 }
 
 } // namespace

@@ -514,13 +514,33 @@ TEST(Reactions, OfWhatIsNotHeldAreZero) {
     frame.erase("hold");
     if (with_holds)
       sheet::put_masks(frame, "hold")[1] = 1;
-    const HoldingForces forces{.all = std::vector<Vector3>(frame.vertices, Vector3(1, 2, 3)), .external = {}};
+    HoldingForces forces;
+    forces.all.assign(frame.vertices, Vector3(1, 2, 3));
     leave_nans_in_memory(frame.vertices * sizeof(Vector3));
-    put_reactions(forces, true, frame);
+    put_reactions(forces, true, 0, frame);
     const auto held = frame.find("hold_force")->values<Vector3>();
     for (std::size_t v = 0; v < held.size(); ++v)
       EXPECT_EQ(held[v], with_holds && v == 1 ? Vector3(1, 2, 3) : Vector3(0, 0, 0)) << v;
   }
+}
+
+// Of two solids that squeeze the second vertex, the first touches all three.
+TEST(Reactions, OfSolidsAreSumsOfWhatTouchesThemAndWhatTheyFace) {
+  Frame frame = two_squares();
+  HoldingForces forces;
+  forces.all.assign(frame.vertices, Vector3(1, 2, 3));
+  forces.of_gap.assign(frame.vertices, Vector3(0, 0, 10));
+  forces.facing.assign(frame.vertices, Vector3(0, 0, -5));
+  forces.facing_solid.assign(frame.vertices, no_index);
+  forces.facing_solid[1] = 1;
+  put_touched_solids(frame, std::vector<std::int32_t>{0, 0, 0, no_solid, no_solid, no_solid}, 2);
+  put_reactions(forces, true, 2, frame);
+  const auto of_solid = frame.find("solid_force")->values<Vector3>();
+  ASSERT_EQ(of_solid.size(), 2u);
+  EXPECT_EQ(of_solid[0], Vector3(3, 6, 19));
+  EXPECT_EQ(of_solid[1], Vector3(0, 0, -5));
+  put_reactions(forces, false, 2, frame);
+  EXPECT_EQ(frame.find("solid_force"), nullptr);
 }
 
 TEST(Arrays, StartAsZeros) {
