@@ -124,6 +124,38 @@ double steps_of_motion(const Scene& scene, const Frame& first, double until, dou
   return acceleration > 0 ? std::min(end, until) / std::sqrt(tolerance * edge / acceleration) : 0;
 }
 
+// By how much a motion turns until then [rad].
+double turned(const scene::Motion& motion, double from, double until) {
+  constexpr int parts = 1000;
+  double angle = 0;
+  for (int k = 0; k < parts; ++k) {
+    const double t = from + (k + 0.5) / parts * (until - from);
+    const Vector3 middle = scene::velocity_at(motion, t, Vector3::Zero());
+    double squares = 0; // of ω x e over three axes: 2 ω²
+    for (int axis = 0; axis < 3; ++axis)
+      squares += (scene::velocity_at(motion, t, Vector3::Unit(axis)) - middle).squaredNorm();
+    angle += std::sqrt(squares / 2) * (until - from) / parts;
+  }
+  return angle;
+}
+
+// Of layers that flow or slip on what turns: a step's velocities are means over a part of it, of directions that turn,
+// so they are wrong by (ω τ)² ω R, R the distance from the axis; and nothing may slide by more than half an edge.
+double steps_of_turning(const Scene& scene, const Frame& first, double until, double edge) {
+  const double across = *measured(first).length;
+  std::vector<std::int32_t> under = touched_solids(first, scene.solids.size());
+  for (const Landing& landing : landings(scene, first))
+    under.push_back(static_cast<std::int32_t>(landing.solid));
+  std::ranges::sort(under);
+  under.erase(std::unique(under.begin(), under.end()), under.end());
+  double steps = 0;
+  for (const std::int32_t i : under)
+    if (i != no_solid && scene.solids[static_cast<std::size_t>(i)].contact != SolidContact::stick)
+      steps = std::max(steps, turned(scene.solids[static_cast<std::size_t>(i)].motion, first.time, first.time + until) /
+                                  std::cbrt(edge / across));
+  return steps;
+}
+
 // With so many digits, but for those before the point.
 std::string roughly(double value, int digits) {
   const double unit = value > 0 ? std::pow(10, std::floor(std::log10(value)) + 1 - digits) : 1;
@@ -144,7 +176,9 @@ Forecast forecast(const Scene& scene, const Frame& first, const ProposedRing& ri
   run.frames = 1 + std::ceil(until * ring.fps * (1 - 1e-9));
   run.vertices = start + entered / 2 + vertices_of_sheets_that_enter(scene, until);
   run.bytes = run.frames * (of_a_frame + run.vertices * bytes_of_a_vertex(scene));
-  run.steps = run.frames - 1 + steps_of_motion(scene, first, until, edge, tolerance);
+  run.steps =
+      run.frames - 1 +
+      std::max(steps_of_motion(scene, first, until, edge, tolerance), steps_of_turning(scene, first, until, edge));
   double slower = 1;
   for (const Liquid& liquid : scene::liquids_of(scene))
     slower = std::max(slower, liquid.law.newtonian() ? 1 : liquid.law.yields() ? with_yield : with_a_law);

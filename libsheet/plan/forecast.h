@@ -23,9 +23,10 @@ struct Forecast {
 // Each output time ends a step. What moves takes steps more, of sqrt(tolerance l/a): an acceleration a that begins
 // or ends is an error of a dt² of an edge's length l. Sheets that fall freely have a = g, for 2.25 times their fall,
 // by which time most of them have come to rest; whatever else is driven has a = V²/L (scene/scales.h), until the
-// end, or until its inflow ends. Most scenes take a third to three times as many (docs/model.md): strands, thin
-// films and what crumples take more, films on rolls and what is blown fewer. A step of a liquid that is not Newtonian
-// takes three times as long, in the mean: as long where it hardly thins or stands, ten times where it falls and folds.
+// end, or until its inflow ends. Layers that flow or slip on a solid that turns take steps of (l/2R)^(1/3) radians, R
+// half their size. Most scenes take a third to three times as many (docs/model.md): strands, thin films and what
+// crumples take more, films on rolls and what is blown fewer. A step of a liquid that is not Newtonian takes three
+// times as long, in the mean: as long where it hardly thins or stands, ten times where it falls and folds.
 [[nodiscard]] Forecast forecast(const Scene& scene, const formats::Frame& first, const ProposedRing& ring,
                                 double tolerance);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/plan/forecast.h"
 
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -63,6 +64,25 @@ TEST(Forecast, WhatLiesOnASlopeCreepsAlsoWhereItIsHeld) {
   EXPECT_LT(steps("flow", ""), 200);
   EXPECT_LT(steps("flow", hold), 200);
   EXPECT_GT(steps("stick", hold), 1000);
+}
+
+// A layer on a disk that turns by 4 rad/s, speeding up for a second, and slows down again after ten: 40 rad in all, in
+// steps of the third root of an edge over the layer's size.
+TEST(Forecast, WhatFlowsOnADiskThatTurnsTakesStepsOfItsTurning) {
+  const auto steps = [](const std::string& contact) {
+    const Scene scene = scene::parse_scene(
+        scene::disk + scene::liquid +
+            "[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\nshape = \"cylinder\"\nradius = 3\nheight = 1\ncenter "
+            "= [0, -0.5, 0]\nmotion = {kind = \"rotating\", axis = [0, 1, 0], rate = [[0, 0], [1, 4], [10, 4], [11, "
+            "0]]}\n" +
+            contact,
+        "s");
+    const formats::Frame first = first_frame(scene);
+    const double part = std::cbrt(scene::mean_edge(first) / *measured(first).length);
+    return (forecast(scene, first, {.until = 20, .fps = 0.05, .stages = ""}, 0.01).steps - 1) * part;
+  };
+  EXPECT_NEAR(steps("contact = \"flow\"\n"), 40, 0.1);
+  EXPECT_LT(steps("contact = \"stick\"\n"), 39);
 }
 
 } // namespace
