@@ -103,12 +103,26 @@ bool goes_with(const Wall& one, const Wall& other, const Stage& stage, std::uint
   return (of_one - velocity(other)).norm() <= 1e-9 * of_one.norm();
 }
 
+// Whether another wall that stands on the own one comes towards a vertex there, as a plough does, or turns beside it.
+// What leaves a gap below it, as a blade, passes over the layer (channels.h).
+bool pushes(const Wall& one, const Wall& other, const Stage& stage, std::uint32_t vertex, double thickness) {
+  constexpr double least = 0.05; // gap, of the thickness
+  const Vector3& x = stage.start->positions[vertex];
+  const double t = stage.start->time;
+  const auto at = [t](const Wall& of) { return [&of, t](const Vector3& y) { return of.nearest(t, y); }; };
+  const Vector3 normal = other.nearest(t, x).normal, velocity = velocity_at(other, t, x) - velocity_at(one, t, x);
+  return normal.dot(one.nearest(t, x).normal) > -least_facing && velocity.dot(normal) >= -1e-9 * velocity.norm() &&
+         height_of_wall(x, at(one), at(other)) < least * thickness;
+}
+
 // Whether another wall may hold the vertex of a site beside its own one. A tool that nothing touches yet may not: what
 // it comes to goes out of its way, or is caught as it meets it.
-bool may_hold(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site, std::uint32_t other) {
+bool may_hold(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site, std::uint32_t other,
+              double thickness) {
   const Channel* channel = channel_of(stage, site);
   return other != site.wall && (channel == nullptr || other != channel->facing) &&
-         (!walls[other].vertices.empty() || goes_with(walls[other], walls[site.wall], stage, site.vertex));
+         (!walls[other].vertices.empty() || goes_with(walls[other], walls[site.wall], stage, site.vertex) ||
+          pushes(walls[site.wall], walls[other], stage, site.vertex, thickness));
 }
 
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
@@ -122,12 +136,17 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, double t
   if (walls[site.wall].hollow && channel_of(stage, site) == nullptr)
     keep_off_face_beside(walls[site.wall], stage, own, thickness, site);
   for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w)
-    if (may_hold(walls, stage, site, w) && !(walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
+    if (may_hold(walls, stage, site, w, thickness) &&
+        !(walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
       if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
         const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
         if (!holds(site, other, kept))
           continue;
         add_plane_of(site, other, x, kept);
+        if (site.across.size() == 2) {
+          site.second_wall = w;
+          site.second_normal = other.normal;
+        }
         site.beside_upright = site.across.size() == 2 && std::abs(other.normal.dot(point.normal)) < upright;
       }
 }

@@ -19,6 +19,19 @@ inline constexpr double filled_gap = 1.05;  // gaps that a layer fills, in its t
   return turned < 1 ? own + other / (cosine * (1 - turned * turned)) : std::numeric_limits<double>::infinity();
 }
 
+// The place of a wall nearest to x, of its distance and normal there.
+template <class Point> [[nodiscard]] Vector3 foot_on(const Point& point, const Vector3& x) {
+  return x - point.distance * point.normal;
+}
+
+// How high above the foot of x on its own wall another wall begins [m]: 0 where it stands on that one. own, other: give
+// distance and normal of the walls at a place.
+template <class Own, class Other>
+[[nodiscard]] double height_of_wall(const Vector3& x, const Own& own, const Other& other) {
+  const Vector3 foot = foot_on(own(x), x);
+  return own(foot_on(other(foot), foot)).distance;
+}
+
 // The gap that another wall leaves a layer beside its edge: of a blade, a plate or a box above the own wall.
 struct GapBeside {
   double gap = std::numeric_limits<double>::infinity(); // [m]
@@ -36,7 +49,6 @@ struct GapBeside {
 template <class Own, class Other>
 [[nodiscard]] GapBeside gap_beside(const Vector3& x, const Own& own, const Other& other, double longest_edge,
                                    double least) {
-  const auto foot_on = [](const auto& point, const Vector3& at) { return Vector3(at - point.distance * point.normal); };
   const auto at = own(x);
   const Vector3 foot = foot_on(at, x), edge = foot_on(other(foot), foot);
   const auto below = own(edge);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "libsheet/solve/reactions.h"
 
+#include "libsheet/energy/channels.h"
 #include "libsheet/energy/stage_setup.h"
 
 namespace sheet {
@@ -21,17 +22,33 @@ Vector3 at_vertex(const Eigen::VectorXd& unknowns, std::size_t vertex) {
   return unknowns.segment<3>(static_cast<Eigen::Index>(3 * vertex));
 }
 
-void add_gap_forces(const Terms& terms, const Model& model, const Stage& stage, const Unknowns& u,
-                    HoldingForces& result) {
+// What lies between two walls (channels.h).
+void add_forces_in_gaps(const Terms& terms, const Model& model, const Stage& stage, const Unknowns& u,
+                        std::vector<SolidForce>& more) {
   const std::vector<Vector3> none(stage.vertices(), Vector3::Zero());
   GapForces forces{none, none};
   for (const auto& term : terms)
     term->add_gap_forces(u, forces);
-  result.of_gap = std::move(forces.own);
-  result.facing = std::move(forces.facing);
-  result.facing_solid.assign(stage.vertices(), no_index);
-  for (const Channel& channel : stage.channels)
-    result.facing_solid[channel.vertex] = model.walls[channel.facing].solid;
+  for (const WallSite& site : stage.sites)
+    if (const Channel* channel = channel_of(stage, site)) {
+      more.push_back({model.walls[site.wall].solid, forces.own[site.vertex]});
+      more.push_back({model.walls[channel->facing].solid, forces.facing[site.vertex]});
+    }
+}
+
+// What another wall holds beside the own one, as a blade pushes a layer along its floor: of what holds it the part
+// along that wall's normal n2 and the own one's n1, f = f1 n1 + f2 n2, is each wall's.
+void add_forces_beside(const Model& model, const Stage& stage, const Eigen::VectorXd& holding,
+                       std::vector<SolidForce>& more) {
+  for (const WallSite& site : stage.sites) {
+    if (site.second_wall == no_index)
+      continue;
+    const Vector3& along = site.across[1];
+    const Vector3 push =
+        at_vertex(holding, site.vertex).dot(along) / site.second_normal.dot(along) * site.second_normal;
+    more.push_back({model.walls[site.second_wall].solid, push});
+    more.push_back({model.walls[site.wall].solid, -push});
+  }
 }
 
 // The potential's gradient in the prescribed directions, and what walls do along themselves, with the stage as it is.
@@ -51,7 +68,8 @@ HoldingForces reactions(LinearSystem& system, const Terms& terms, const Model& m
   for (std::size_t v = 0; v < result.all.size(); ++v)
     result.all[v] += at_vertex(gradient, v);
   if (!stage.channels.empty())
-    add_gap_forces(terms, model, stage, u, result);
+    add_forces_in_gaps(terms, model, stage, u, result.more);
+  add_forces_beside(model, stage, gradient, result.more);
   if (model.external_reactions) {
     const Eigen::VectorXd external = prescribed_part(constraints, system.external_gradient(terms, u));
     for (std::size_t v = 0; v < stage.vertices(); ++v)

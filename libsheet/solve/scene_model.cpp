@@ -420,22 +420,18 @@ Model numbers_of(const Scene& scene, Bending bending, bool arcs) {
   return model;
 }
 
-// Of each solid, its forces on what touches it and on what it faces across a gap.
+// Of each solid all that it does to the sheet.
 void put_solid_forces(const HoldingForces& reactions, std::span<const std::int32_t> touched, std::size_t solids,
                       Frame& frame) {
   if (solids == 0)
     return;
   Array array = formats::make_standard_array("solid_force", solids);
   const auto force = array.values<Vector3>();
-  for (std::size_t v = 0; v < touched.size(); ++v) {
-    if (touched[v] == no_solid)
-      continue;
-    force[static_cast<std::size_t>(touched[v])] += reactions.all[v];
-    if (!reactions.facing.empty() && reactions.facing_solid[v] != no_index) {
-      force[static_cast<std::size_t>(touched[v])] += reactions.of_gap[v];
-      force[reactions.facing_solid[v]] += reactions.facing[v];
-    }
-  }
+  for (std::size_t v = 0; v < touched.size(); ++v)
+    if (touched[v] != no_solid)
+      force[static_cast<std::size_t>(touched[v])] += reactions.all[v];
+  for (const auto& [solid, more] : reactions.more)
+    force[solid] += more;
   frame.put(std::move(array));
 }
 

@@ -524,15 +524,12 @@ TEST(Reactions, OfWhatIsNotHeldAreZero) {
   }
 }
 
-// Of two solids that squeeze the second vertex, the first touches all three.
-TEST(Reactions, OfSolidsAreSumsOfWhatTouchesThemAndWhatTheyFace) {
+// Of two solids the first touches three vertices, and the second squeezes or pushes something.
+TEST(Reactions, OfSolidsAreSumsOfWhatTouchesThemAndOfMore) {
   Frame frame = two_squares();
   HoldingForces forces;
   forces.all.assign(frame.vertices, Vector3(1, 2, 3));
-  forces.of_gap.assign(frame.vertices, Vector3(0, 0, 10));
-  forces.facing.assign(frame.vertices, Vector3(0, 0, -5));
-  forces.facing_solid.assign(frame.vertices, no_index);
-  forces.facing_solid[1] = 1;
+  forces.more = {{1, Vector3(0, 0, -5)}, {0, Vector3(0, 0, 10)}};
   put_touched_solids(frame, std::vector<std::int32_t>{0, 0, 0, no_solid, no_solid, no_solid}, 2);
   put_reactions(forces, true, 2, frame);
   const auto of_solid = frame.find("solid_force")->values<Vector3>();
