@@ -172,8 +172,6 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
     if (distance[site.vertex] == 0 || (corner && !(site.beside_upright && bears_nothing(site.across[1], gravity))))
       continue;
     const WallPoint point = walls[site.wall].nearest(end.time, end.positions[site.vertex]);
-    if (site.beside_upright && distance[site.vertex] > point.distance)
-      continue; // beside another wall it sinks only
     const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
     shifts.of[site.vertex] = std::clamp(distance[site.vertex] - point.distance, -most, most) * point.normal;
   }

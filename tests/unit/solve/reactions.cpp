@@ -175,5 +175,39 @@ TEST(EndReactions, OfPlatesThatSlideAreThoseOfShear) {
   }
 }
 
+// A wall pushes a layer along its floor: what it gives the layer, drag takes. The layer's weight is the floor's.
+TEST(EndReactions, OfAPloughAreItsPush) {
+  State s = test::at_rest(test::rectangle(1, 0.5, 20, 10, 0.1), 0.1);
+  Model m;
+  m.liquid.viscosity = 5;
+  m.liquid.density = 100;
+  m.inertia = false;
+  m.gravity = {0, 0, -9};
+  m.bending = Bending::none;
+  m.reactions = Reactions::at_end;
+  m.walls.resize(2);
+  for (Vector3& x : s.positions)
+    x.z() = 0.05;
+  m.walls[0].vertices.resize(s.positions.size());
+  std::iota(m.walls[0].vertices.begin(), m.walls[0].vertices.end(), 0);
+  m.walls[0].nearest = [](double, const Vector3& x) { return WallPoint{x.z(), Vector3::UnitZ()}; };
+  m.walls[1].solid = 3;
+  m.walls[1].nearest = [](double t, const Vector3& x) { return WallPoint{x.x() + 0.04 - 0.1 * t, Vector3::UnitX()}; };
+  m.walls[1].velocity = [](double, const Vector3&) { return Vector3(0.1, 0, 0); };
+  StepReport report;
+  Stepper stepper(m, {});
+  for (int k = 0; k < 10; ++k)
+    report = stepper.step(s, 0.05);
+  std::array<Vector3, 4> of{Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  for (const Vector3& force : report.reactions.all)
+    of[0] += force;
+  for (const auto& [solid, force] : report.reactions.more)
+    of[solid] += force;
+  // At least the drag of what has gone 0.05 as fast as the wall: 3 μ U/h on so much of the floor.
+  EXPECT_GT(of[3].x(), 3 * 5 * 0.1 / 0.1 * 0.05 * 0.5);
+  EXPECT_LT((of[0] + of[3] - Vector3(0, 0, 100 * 9 * 0.05)).norm(), 1e-6 * of[3].x());
+  EXPECT_NEAR(of[3].z(), 0, 1e-9 * of[3].x());
+}
+
 } // namespace
 } // namespace sheet

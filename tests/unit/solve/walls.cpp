@@ -300,23 +300,26 @@ TEST(Walls, ACornerHoldsALine) {
 }
 
 // What a side holds lies on its floor half as high as it is thick, like all else: a layer that a gate dams up sinks
-// with the rest, or it would be farther from its floor than it is thick one day, and touch it no more.
-TEST(Walls, WhatStandsBesideASideSinksWithTheRest) {
-  State s = resting(0.1);
-  for (double& volume : s.volumes)
-    volume /= 2; // at twice the height at which it lies
-  Model m = heavy_layer();
-  m.inertia = false;
-  m.gravity = {1.5, 0, -9};
-  m.walls.push_back(floor_of(s));
-  Wall side;
-  side.nearest = [](double, const Vector3& x) { return WallPoint{1.03 - x.x(), -Vector3::UnitX()}; };
-  m.walls.push_back(side);
-  Stepper stepper(m, {});
-  for (int k = 0; k < 5; ++k)
-    (void)stepper.step(s, 0.001);
-  for (const Vector3& x : s.positions)
-    EXPECT_NEAR(x.z(), 0.025, 1e-3);
+// with the rest, or it would be farther from its floor than it is thick one day, and touch it no more; and what a
+// plough piles up rises with the rest, or what is before it would slope down to it, steeper than what lies may.
+TEST(Walls, WhatStandsBesideASideSinksAndRisesWithTheRest) {
+  for (const double part : {0.5, 1.5}) { // of the thickness as which it begins
+    State s = resting(0.1);
+    for (double& volume : s.volumes)
+      volume *= part;
+    Model m = heavy_layer();
+    m.inertia = false;
+    m.gravity = {1.5, 0, -9};
+    m.walls.push_back(floor_of(s));
+    Wall side;
+    side.nearest = [](double, const Vector3& x) { return WallPoint{1.03 - x.x(), -Vector3::UnitX()}; };
+    m.walls.push_back(side);
+    Stepper stepper(m, {});
+    for (int k = 0; k < 5; ++k)
+      (void)stepper.step(s, 0.001);
+    for (const Vector3& x : s.positions)
+      EXPECT_NEAR(x.z(), 0.05 * part, 1e-3);
+  }
 }
 
 // A layer on the floor of a dish, whose rim stands beside the dish's side and is nearer to that: floor and side are one
@@ -349,21 +352,27 @@ TEST(Walls, ALayerStandsBesideTheSideOfItsDish) {
     EXPECT_NEAR(lying[v], by_the_side(s.positions[v]) ? 0 : thickness, 1e-12);
 }
 
-// One that nothing touches holds what comes near it beside another wall that stands still with it, as a dish's side; a
-// tool that comes does not, whose way would be cut into short steps.
-TEST(Walls, WhatNothingTouchesHoldsWhereItStandsStill) {
+// One that nothing touches holds what comes near it beside another wall: as a dish's side does, which stands still with
+// its floor, and what stands on the floor and comes along it, as a plough, or slides past, not what moves away. What
+// comes with a gap below it does not: what it comes to passes below it.
+TEST(Walls, WhatNothingTouchesHoldsAsASideOrAPlough) {
   const State s = resting(0.1);
-  Wall side;
-  side.nearest = [](double, const Vector3& x) { return WallPoint{1.03 - x.x(), -Vector3::UnitX()}; };
-  Wall tool = side;
-  tool.velocity = [](double, const Vector3&) { return Vector3(-0.1, 0, 0); };
-  const auto held_by = [&](const Wall& wall) {
+  const auto held_by = [&](double begins, const Vector3& velocity) { // how high over the floor; its velocity
+    Wall wall;
+    wall.velocity = [=](double, const Vector3&) { return velocity; };
+    wall.nearest = [=](double, const Vector3& x) {
+      const Vector3 way(1.03 - x.x(), 0, std::max(begins - x.z(), 0.0));
+      return WallPoint{way.norm(), -way.normalized()};
+    };
     Stage stage = first_stage(s, heavy_layer().liquid, 0.01, 0.01, true);
     set_wall_sites({floor_of(s), wall}, stage);
     return std::ranges::count_if(stage.sites, [](const WallSite& site) { return site.across.size() > 1; });
   };
-  EXPECT_EQ(held_by(side), 6);
-  EXPECT_EQ(held_by(tool), 0);
+  EXPECT_EQ(held_by(0, {0, 0, 0}), 6);
+  EXPECT_EQ(held_by(0, {-0.1, 0, 0}), 6);
+  EXPECT_EQ(held_by(0, {0, 0.1, 0}), 6);
+  EXPECT_EQ(held_by(0, {0.1, 0, 0}), 0);
+  EXPECT_EQ(held_by(0.04, {-0.1, 0, 0}), 0);
 }
 
 // A hollow wall's corner holds a line, as that of two walls does: of its faces that beside the nearest one, too.
