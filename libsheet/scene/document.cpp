@@ -101,6 +101,11 @@ std::string remedy_of(std::string_view reason, std::string_view line, std::size_
 } // namespace
 
 Node parse_toml(std::string_view text, std::string_view name) {
+  if (text.starts_with("SHEETFRM") || text.starts_with("SHEETEND") || text.starts_with("sheet-text"))
+    fail(ExitCode::bad_input,
+         "{}: this is a sheet stream, not a scene: sheet-info tells what is in it, sheet-loop --resume goes on with "
+         "it{}",
+         name, text.starts_with('S') ? "" : " (its text form: sheet-parse makes a stream of it)");
   const AsciiToml ascii = to_ascii(text, name);
   try {
     return convert(toml::parse(ascii.text), ascii);
