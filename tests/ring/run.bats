@@ -179,9 +179,11 @@ make_slow() {
   [[ $(film --until 0.05 --fps 40 -o life) != *'as the run'* ]]
 }
 
-@test "a folder is no scene" {
+@test "a folder is no scene, and a pipe none that can be read again" {
   run -6 --separate-stderr sheet-run .
   [[ $stderr == *'.: this is a folder; give a scene file in it'* ]]
+  run -6 timeout 10 sheet-run <(cat 'my scene.toml') -o piped
+  [[ $output == *'this is no regular file'*'save it as one' && ! -e piped ]]
 }
 
 @test "a later --until makes the run longer, and the film" {
