@@ -186,6 +186,26 @@ make_slow() {
   [[ $output == *'this is no regular file'*'save it as one' && ! -e piped ]]
 }
 
+@test "what lies in the folder under the names of a run, and is none, is told, and stays" {
+  run_draft() { run "-$1" --separate-stderr sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 40 "${@:2}"; }
+  mkdir theirs
+  echo theirs > theirs/run.sheet
+  run_draft 2 --film no -o theirs
+  [[ $stderr == "sheet-run: theirs has a run.sheet that is no run of sheet-run's: move it away, or give another folder by -o" ]]
+  [[ $(ls theirs) == run.sheet && $(cat theirs/run.sheet) == theirs ]]
+  mkdir -p other/run.sheet
+  run_draft 2 --film no -o other
+  [[ $stderr == *"no run of sheet-run's"* ]]
+  mkdir -p film/film.mp4
+  run_draft 6 --film 64x36 -o film
+  [[ $stderr == *'cannot write film/film.mp4 '* && -z $(ls film/film.mp4) ]]
+  run_draft 0 --film no -o whole
+  cp whole/run.sheet straight.sheet
+  : > whole/run.sheet # by a crash of the machine
+  run_draft 0 --film no -o whole
+  cmp whole/run.sheet straight.sheet
+}
+
 @test "a later --until makes the run longer, and the film" {
   sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 100 -o run
   sheet-run -q 'my scene.toml' --quality draft --until 0.1 --fps 100 -o run
