@@ -472,6 +472,12 @@ END
     grep -q "^pipelines/$script: \|--quick" "$BATS_TEST_TMPDIR/log"
     ! grep -q 'Traceback\|line [0-9]*:' "$BATS_TEST_TMPDIR/log"
   done
+  for script in tests/install tests/run packaging/make packaging/try; do
+    run -0 timeout 10 "$script" --help
+    [[ $output == *"$script "* ]]
+  done
+  run -2 timeout 10 tests/install --alll
+  run -2 timeout 10 packaging/make --nonsense
   run -6 pipelines/account none.sheet
   [[ $output == 'pipelines/account: none.sheet: No such file or directory' ]]
   run -4 pipelines/account README.md
@@ -484,7 +490,7 @@ END
   [[ $output == 'pipelines/reckon: e=x: x is not a number' ]]
   run -2 pipelines/own/run --until
   [[ $output == 'pipelines/own/run: --until needs a value'* ]]
-  OUT=$BATS_TEST_TMPDIR/own run -2 pipelines/own/run tests/everyday/stir.toml a/stir.toml
+  OUT=$BATS_TEST_TMPDIR/own run -2 pipelines/own/run tests/everyday/more/stir.toml a/stir.toml
   [[ $output == 'pipelines/own/run: two scenes are called stir,'* ]]
 }
 
