@@ -11,6 +11,26 @@ if [[ ${1:-} == -h || ${1:-} == --help ]]; then # the comment that heads the scr
   sed -n '3,/^[^#]/s/^# \{0,1\}//p' "${BASH_SOURCE[1]}"
   exit 0
 fi
+# check_arguments [ARGUMENT...]: refuses more of them, up to a --, than the script's head names, as [EDGE [UNTIL]], and
+# lengths and times that are no numbers above 0. What is empty has its default.
+check_arguments() {
+  local script usage names name
+  [[ " $* " != *' -- '* ]] || set -- "${@:1:$(printf '%s\n' "$@" | grep -nxm1 -e -- | cut -d: -f1) - 1}"
+  script=$(realpath --relative-to="$(dirname "${BASH_SOURCE[0]}")/.." "${BASH_SOURCE[2]}")
+  usage=$(sed -n '3,/^[^#]/s/^#  *pipelines\/[^ ]* *\(\[[][A-Z_ ]*\]\).*/\1/p' "${BASH_SOURCE[2]}" | head -1)
+  read -ra names <<< "${usage//[][]/ }"
+  ((${#names[@]} > 0)) || return 0 # the script reads its arguments itself
+  (($# <= ${#names[@]})) ||
+    { echo "$script: argument ${*:${#names[@]}+1:1} is one too many: $usage (see --help)" >&2; exit 2; }
+  for name in "${names[@]:0:$#}"; do
+    if [[ -n $1 && $name == @(EDGE|UNTIL|TOLERANCE|TIME|DT) ]]; then
+      [[ $1 =~ ^[0-9]*\.?[0-9]*([eE][-+]?[0-9]+)?$ && $1 =~ ^[0.]*[1-9] ]] ||
+        { echo "$script: $name: $1 is not a number above 0 (see --help)" >&2; exit 2; }
+    fi
+    shift
+  done
+}
+check_arguments "$@"
 [[ -z ${OUT:-} ]] || OUT=$(realpath -m "$OUT")
 [[ -z ${SHEET_BIN:-} ]] || SHEET_BIN=$(realpath -m "$SHEET_BIN")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
       "--failed", o.failed, "FILE",
       "where a frame goes whose step fails, by default beside the stream that sheet-loop writes; '' for nowhere",
       sheet::Tool::Provenance::omit);
+  tool.may_be_empty();
   tool.example("sheet-init a.toml | sheet-loop --until 2 --fps 24 -- 'sheet-step --tolerance 1e-3' > run.sheet",
                "two seconds, steps as the error asks for");
   tool.example("sheet-step --dt 0.01 < a.sheet > b.sheet", "one step");

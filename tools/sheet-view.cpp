@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   tool.option("-o,--output", o.output, "FILE",
               "file to write; - for standard output. Its folder is made if it is missing");
   tool.option("--title", o.title, "TEXT", "title of the page; without it, the names of the streams");
+  tool.may_be_empty();
   sheet::declare_wanted(tool, o.wanted);
   sheet::render::declare_materials(
       tool, o.materials,

@@ -374,6 +374,10 @@ failed = {
     "drop_rows": stream(drops(volumes=(1e-9,))),
     "drop_alone": with_array("drop_volume", Array(np.full(2, 1e-9), "frame", "m^3", "copy")),
     "drop_liquid_type": stream(drops(drop_liquid=Array(np.zeros(2, "i4"), "frame", "1", "copy"))),
+    "gzip": b"\x1f\x8b\x08\0" + bytes(100),
+    "xz": b"\xfd7zXZ\0" + bytes(100),
+    "bzip2": b"BZh9" + bytes(100),
+    "bytes_of_no_kind": bytes(range(100)),
 }
 
 

@@ -127,8 +127,8 @@ MeshImport import_stl(std::string_view bytes, const std::string& name) {
                                                                              bytes.data() + 80, ByteOrder::little)};
   if (!size_fits) {
     bytes = without_mark(bytes);
-    if (is_utf16(bytes))
-      mesh_fail(name, "", utf16_remedy);
+    if (const std::string error = find_no_text(bytes); !error.empty())
+      mesh_fail(name, "", error);
   }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   const bool says_solid = first != bytes.npos && is_word(bytes.substr(first, 5), "solid") &&

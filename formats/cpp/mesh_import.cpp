@@ -63,8 +63,8 @@ MeshImport import_mesh(const std::string& path, WantedArrays arrays) {
 MeshImport import_mesh(std::string_view bytes, MeshFormat format, const std::string& name, WantedArrays arrays) {
   if (format != MeshFormat::stl) { // which may be binary and begin with anything
     bytes = without_mark(bytes);
-    if (is_utf16(bytes))
-      throw MeshFileError(MeshFileError::Kind::content, name + ": " + utf16_remedy);
+    if (const std::string error = find_no_text(bytes); !error.empty())
+      throw MeshFileError(MeshFileError::Kind::content, name + ": " + error);
   }
   switch (format) {
   case MeshFormat::obj:

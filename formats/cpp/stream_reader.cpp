@@ -12,6 +12,7 @@
 #include <xxhash.h>
 
 #include "formats/cpp/stream_layout.h"
+#include "formats/cpp/text_start.h"
 
 namespace sheet::formats {
 
@@ -38,6 +39,17 @@ std::string printable(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return name;
+}
+
+// What stands where a frame should: `head` is its first bytes, `first` whether nothing was before.
+std::string what_else(std::string_view head, bool first) {
+  if (const std::string program(compressor_of(head)); !program.empty())
+    return fmt::format("this is {0}-compressed: read it through {0} -dc", program);
+  if (head.starts_with("sheet-text"))
+    return "this is the text form: read it through sheet-parse";
+  const bool text = std::ranges::all_of(head, [](char c) { return (c & 0xE0) != 0 || (c >= '\t' && c <= '\r'); });
+  return fmt::format("not a sheet stream: a frame starts with SHEETFRM{}",
+                     first && text ? "; this is text: of a scene, sheet-init makes the first frame" : "");
 }
 
 std::string find_version_error(std::uint16_t major, std::uint32_t critical_flags) {
@@ -188,9 +200,7 @@ bool StreamReader::read_header(layout::FrameHeader& h) {
     if (frame_magic.starts_with(head) || end_magic.starts_with(head))
       corrupt(consumed_, "the stream was cut short: a frame or end mark has just begun");
     if (!head.starts_with(frame_magic))
-      corrupt(position_, head.starts_with("\x28\xb5\x2f\xfd") ? "this is zstd-compressed: read it through zstd -dc"
-                         : head.starts_with("sheet-text")     ? "this is the text form: read it through sheet-parse"
-                                                              : "not a sheet stream: a frame starts with SHEETFRM");
+      corrupt(position_, what_else(head, position_ == 0));
     constexpr std::size_t rest = sizeof h - sizeof(layout::EndMark);
     if (got < sizeof(layout::EndMark) || fill(raw + sizeof(layout::EndMark), rest) < rest)
       corrupt(consumed_, "the frame header is cut short");

@@ -77,6 +77,7 @@ private:
   bool again_ = false;                 // the current line is the next one once more
   bool started_ = false;               // the line sheet-text has been read
   bool ended_ = false;                 // the last item was `end`
+  bool returns_ = false;               // lines end with CR LF, as some programs write them: so did the first
 };
 
 } // namespace sheet::formats

@@ -114,9 +114,12 @@ bool TextParser::read_line() {
   }
   if (++number_ == 1) {
     line_ = without_mark(line_);
-    if (is_utf16(line_))
-      fail(line_, utf16_remedy);
+    if (const std::string error = find_no_text(line_); !error.empty())
+      fail(line_, error);
+    returns_ = line_.ends_with('\r');
   }
+  if (returns_ && line_.ends_with('\r'))
+    line_.remove_suffix(1);
   return true;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one table of error classes and their exit codes (docs/behaviour: 0 ok, 1 internal, 2 usage, 3 bad input, ...).
+// The one table of error classes and their exit codes.
 #pragma once
 #include <stdexcept>
 #include <string>

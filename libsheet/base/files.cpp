@@ -157,8 +157,8 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
 
 std::string read_utf8_file(const std::string& path, std::size_t limit) {
   std::string text = read_text_file(path, limit);
-  if (formats::is_utf16(text))
-    fail(ExitCode::bad_input, "{}: {}", path == "-" ? "standard input" : path, formats::utf16_remedy);
+  if (const std::string error = formats::find_no_text(text); !error.empty())
+    fail(ExitCode::bad_input, "{}: {}", path == "-" ? "standard input" : path, error);
   text.erase(0, text.size() - formats::without_mark(text).size());
   return text;
 }

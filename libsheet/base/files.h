@@ -59,7 +59,7 @@ private:
 [[nodiscard]] std::string read_text_file(const std::string& path, std::size_t limit = std::size_t{1} << 30);
 
 // The same of a text, without the byte order mark that some programs put before UTF-8. Throws Error also (bad_input) if
-// it is UTF-16.
+// it is UTF-16 or compressed.
 [[nodiscard]] std::string read_utf8_file(const std::string& path, std::size_t limit = std::size_t{1} << 30);
 
 // Grows a pipe's buffer to 1 MiB where the system allows it, so that a frame needs few switches between programs.

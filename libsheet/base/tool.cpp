@@ -133,6 +133,8 @@ void Tool::option(std::string_view names, std::string& value, std::string_view p
       names, placeholder, text, [&value](const std::string& s) { value = s; }, [&value] { return value; }, provenance);
 }
 
+void Tool::may_be_empty() { options_.back().may_be_empty = true; }
+
 void Tool::option(std::string_view names, std::vector<std::string>& values, std::string_view placeholder,
                   std::string_view text, std::vector<std::string> completions) {
   Option o;
@@ -271,6 +273,8 @@ void Tool::parse(int argc, char** argv) {
     const auto set = [&option](const CLI::results_t& values) {
       for (const std::string& value : values) {
         try {
+          if (value.empty() && !option.may_be_empty)
+            fail(ExitCode::usage, "nothing is given: \"\" is what a variable gives that is not set");
           option.set(value);
         } catch (const Error& error) {
           fail(ExitCode::usage, "{}: {} (see {} --help)", option.names, error.what(), log::program());

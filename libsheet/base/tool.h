@@ -33,8 +33,10 @@ public:
               Provenance provenance = Provenance::record);
   void option(std::string_view names, std::optional<std::int64_t>& value, std::string_view placeholder,
               std::string_view text, Provenance provenance = Provenance::record);
+  // A text must not be empty, which is what a variable of a script gives that is not set, unless may_be_empty().
   void option(std::string_view names, std::string& value, std::string_view placeholder, std::string_view text,
               Provenance provenance = Provenance::record);
+  void may_be_empty(); // the option that was declared last
   // May be given again and again. `completions`: what the shell offers for a value.
   void option(std::string_view names, std::vector<std::string>& values, std::string_view placeholder,
               std::string_view text, std::vector<std::string> completions = {});
@@ -84,7 +86,7 @@ public:
 private:
   struct Option {
     std::string names, placeholder, text, default_text;
-    bool is_flag = false, is_list = false, is_argument = false, is_required = false;
+    bool is_flag = false, is_list = false, is_argument = false, is_required = false, may_be_empty = false;
     Provenance provenance = Provenance::record;
     std::vector<std::string> words;                // that the shell offers for a value
     std::function<void(const std::string&)> set;   // called once a value

@@ -47,7 +47,8 @@ constexpr std::array table{
          .counted = "",
          .noted = {.worst = 1, .share = 0, .times = 3},
          .serious = {.worst = 2, .share = 0, .times = 3},
-         .remedy = "shorter edges (edge_length in [sheet]): triangles span the solid instead of lying on it"},
+         .remedy = "shorter edges: edge_length in [sheet], or --edge-length of sheet-remesh; triangles span the solid "
+                   "instead of lying on it"},
     Kind{.trouble = Trouble::short_steps,
          .name = "short steps",
          .least = true,

@@ -25,7 +25,8 @@ using formats::StreamWriter;
 std::unique_ptr<KeptStream> KeptStream::resume(const std::string& path, Frame& last) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0)
-    fail(ExitCode::io, "cannot open {} for writing: {}", path, std::strerror(errno));
+    fail(ExitCode::io, "cannot open {} for writing: {}{}", path, std::strerror(errno),
+         errno == ENOENT ? ": --resume goes on with a stream that is there; -o FILE begins one" : "");
   lock_for_writing(descriptor, path); // what another run still writes must not be taken for a torn end
   std::uint64_t frames = 0, bytes = 0;
   {
@@ -43,7 +44,11 @@ std::unique_ptr<KeptStream> KeptStream::resume(const std::string& path, Frame& l
       // A run that was cut off leaves a torn last frame, or no end mark: mended. Damage before that is not ours to
       // drop.
       const off_t damage = ::lseek(input.descriptor(), 0, SEEK_CUR);
-      if (damage < ::lseek(input.descriptor(), 0, SEEK_END))
+      const bool torn = damage == ::lseek(input.descriptor(), 0, SEEK_END);
+      if (!torn && reader.frames() == 0)
+        fail(ExitCode::corrupt, "{}; there is nothing to go on with: start the run anew, or give another stream",
+             error.what());
+      if (!torn)
         fail(ExitCode::corrupt,
              "{}; more follows behind it, so the file is left as it is: save what is before with "
              "sheet-select --first {} and resume that",

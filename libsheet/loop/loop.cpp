@@ -142,6 +142,14 @@ public:
     finish(pipeline, sent, returned, rounds, elapsed);
     output_->end();
     progress.end(frame_.time, frame_.step, output_->frames(), "done");
+    tell_of_end(rounds);
+    tell_of_health();
+    return 0;
+  }
+
+private:
+  // Why the run has ended, where its options do not say.
+  void tell_of_end(std::uint64_t rounds) const {
     if (nothing_left_)
       log::note("{}", all_has_left());
     else if (stop_)
@@ -149,11 +157,8 @@ public:
     else if (rounds == 0 && begins_beyond_end())
       log::note("nothing was left to do: it starts at step {}, t = {} s; give a later --until, or more --steps",
                 frame_.step, frame_.time);
-    tell_of_health();
-    return 0;
   }
 
-private:
   // Reads the first frame, opens the output.
   void start() {
     if (!options_.resume.empty()) {

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 #include <fcntl.h>
@@ -54,6 +55,18 @@ std::string path_with_own_folder() {
   return (path == nullptr ? "/usr/bin:/bin" : path) + (error ? std::string() : ":" + self.parent_path().string());
 }
 
+// A stage of Sheet's own that writes to a file: the ring would wait for its frames for ever.
+void refuse_output_to_file(const std::string& stage) {
+  static const std::regex to_file(
+      R"(sheet-(collide|emit|merge|pass|remesh|step|tear|watch)\s(.*\s)?(-o\s*|--output[\s=]+))"
+      R"((?!-(\s|$)|/dev/stdout|\s)\S.*)");
+  if (std::regex_match(stage, to_file))
+    fail(ExitCode::usage,
+         "stage \"{}\" writes to a file, and the ring waits for its frames: leave that option out; sheet-loop -o keeps "
+         "frames",
+         stage);
+}
+
 } // namespace
 
 std::vector<std::string> split_pipeline(const std::string& command) {
@@ -94,8 +107,10 @@ std::vector<std::string> split_pipeline(const std::string& command) {
 }
 
 Pipeline::Pipeline(const std::string& command) {
-  for (const std::string& stage : split_pipeline(command))
+  for (const std::string& stage : split_pipeline(command)) {
+    refuse_output_to_file(stage);
     stages_.push_back({stage, -1, false, false, 0, 0});
+  }
   auto [first_read, first_write] = make_pipe();
   auto [report_read, report_write] = make_pipe();
   input_ = first_write;

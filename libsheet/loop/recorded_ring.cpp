@@ -86,7 +86,7 @@ std::string without_threads(const std::string& pipeline) {
 bool is_harmless(const std::string& pipeline) {
   static const std::string value = "[0-9A-Za-z.+][0-9A-Za-z.+-]*";
   static const std::string word = "(-[qv]|--(?!output|failed)[a-z-]+(=" + value + ")?|" + value + ")";
-  static const std::string stage = " *sheet-(collide|emit|pass|remesh|step|tear)( +" + word + ")* *";
+  static const std::string stage = " *sheet-(collide|emit|merge|pass|remesh|step|tear)( +" + word + ")* *";
   static const std::regex whole(stage + "(\\|" + stage + ")*");
   return std::regex_match(pipeline, whole);
 }

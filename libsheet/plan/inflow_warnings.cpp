@@ -10,6 +10,7 @@
 #include "libsheet/geometry/area.h"
 #include "libsheet/plan/inlet_width.h"
 #include "libsheet/plan/landing.h"
+#include "libsheet/plan/mesh_warnings.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/scene/brief.h"
 #include "libsheet/scene/inlet_velocity.h"
@@ -56,9 +57,8 @@ std::string warning_of_ribs(const Scene& scene, const Frame& first, std::size_t 
     return {};
   return fmt::format(
       "inflow {} is drawn by {} from {:.2g} to {:.2g} m/s on a way of some {:.2g} m, and edges are {:.2g} "
-      "m long: it comes out in ribs, by turns thick and thin. edge_length = {:.2g} in [sheet] draws it "
-      "evenly",
-      number, solid::Solids(scene).name(landing->solid), speed, belt, way, edge, way);
+      "m long: it comes out in ribs, by turns thick and thin. {} draws it evenly",
+      number, solid::Solids(scene).name(landing->solid), speed, belt, way, edge, setting_of_edges(scene, way));
 }
 
 // Of a sheet that starts slower than what flows in behind it. With u the difference, the sheet is taken along from the

@@ -104,10 +104,10 @@ std::string warning_of_narrow_solids(const Scene& scene, const solid::Solids& so
   const bool thick = *measured(first).thickness > 2 * width[least];
   return fmt::format(
       "{}{}{} narrower ({:.3g} m) than edges are long ({:.3g} m), so triangles span {} instead of lying on "
-      "{}: edge_length = {:.2g} in [sheet]{}",
+      "{}: {}{}",
       solids.name(least), narrow > 1 ? fmt::format(" and {} more are", narrow - 1) : " is",
       is_mesh(scene.solids[least]) ? " in parts" : "", width[least], edge, narrow > 1 ? "them" : "it",
-      narrow > 1 ? "them" : "it", width[least],
+      narrow > 1 ? "them" : "it", setting_of_edges(scene, width[least]),
       thick ? "; and thinner than the sheet: a groove that it draws within the layer is not modelled" : "");
 }
 
@@ -117,6 +117,12 @@ std::string hint_of_scale(const std::string& what, double length) {
   return length > large && std::isfinite(length)
              ? fmt::format("{} is {:.3g} m long: if its mesh is in millimetres, give it scale = 0.001", what, length)
              : std::string();
+}
+
+std::string setting_of_edges(const Scene& scene, double length) {
+  return std::ranges::all_of(scene.sheets, is_mesh_sheet)
+             ? fmt::format("sheet-remesh --edge-length {:.2g} in the ring", length)
+             : fmt::format("edge_length = {:.2g} in [sheet]", length);
 }
 
 std::string seam_warning(const Scene& scene, const Frame& first) {

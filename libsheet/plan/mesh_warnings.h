@@ -12,6 +12,10 @@ namespace sheet {
 // Of a mesh that is longer than a sheet or a solid is likely to be: that its scale may be wrong; else "".
 [[nodiscard]] std::string hint_of_scale(const std::string& what, double length);
 
+// What gives edges of that length: a key of the scene, or where all sheets are meshes, which are taken as they are,
+// sheet-remesh.
+[[nodiscard]] std::string setting_of_edges(const Scene& scene, double length);
+
 // Of meshes of sheets whose borders lie on each other but are not joined, as where each triangle has vertices of its
 // own: with the place and the remedy; else "".
 [[nodiscard]] std::string seam_warning(const Scene& scene, const formats::Frame& first);

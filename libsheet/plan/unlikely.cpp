@@ -74,7 +74,7 @@ std::vector<std::string> unlikely_values(const Scene& scene) {
     tell(fmt::format("air of {:.3g} kg/m^3: that around us has 1.2 kg/m^3; a liquid below the sheet is a bath",
                      scene.environment.air->density));
   if (const double gravity = scene.environment.gravity.value_or(Vector3::Zero()).norm(); gravity > strongest)
-    tell(fmt::format("a gravity of {:.3g} m/s^2 is {:.0f} times that of the Earth, 9.81 m/s^2", gravity,
+    tell(fmt::format("a gravity of {:.3g} m/s^2 is {:.4g} times that of the Earth, 9.81 m/s^2", gravity,
                      gravity / 9.81));
   for (const scene::Inflow& inflow : scene.inflows)
     if (const double speed = scene::inlet_velocity(scene, inflow).speed(0); speed > fastest)

@@ -82,13 +82,42 @@ std::string_view value_at(std::string_view line, std::size_t column) {
   return trimmed(line.substr(begin, std::min(line.find_first_of(",]}", at), line.size()) - begin));
 }
 
-// What to write instead, where a text has no quotes, as 4 mm, or a number has a comma; "" where it is neither.
+// What to write instead, where the parser's reason says enough; else "".
+std::string_view remedy_of(std::string_view reason) {
+  const auto says = [&](std::string_view words) { return reason.find(words) != reason.npos; };
+  if (says("string: ") && (says("control characters") || says("end-of-file")))
+    return ": a text ends on its line, with the quote that it begins with";
+  if (says("escape"))
+    return ": a text in double quotes has \\\\ for a backslash; folders are separated by /";
+  if (says("expected '=', saw") || says("expected value, saw"))
+    return ": a line is KEY = VALUE";
+  if (says("parsing boolean"))
+    return ": true and false are written so";
+  return "";
+}
+
+// Whether it is a number without a digit on one side of its point.
+bool has_bare_point(std::string_view number) {
+  const auto digit = [&](std::size_t i) { return i < number.size() && number[i] >= '0' && number[i] <= '9'; };
+  const std::size_t point = number.find('.');
+  return point != number.npos && number.find_first_not_of("+-.0123456789eE") == number.npos &&
+         !(point > 0 && digit(point - 1) && digit(point + 1));
+}
+
+// What to write instead, where a text has no quotes, as 4 mm, or a number or a comment is written as elsewhere; ""
+// where it is none of these.
 std::string remedy_of(std::string_view reason, std::string_view line, std::size_t column) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
   const std::string_view value = value_at(line, column);
   const std::size_t letter = value.find_first_of(letters);
+  if (const std::string_view remedy = remedy_of(reason); !remedy.empty())
+    return std::string(remedy);
   if (value.empty() || value.find_first_of("\"'") != value.npos)
     return "";
+  if (value.find("//") != value.npos || value.find(" --") != value.npos)
+    return ": a comment begins with #";
+  if (has_bare_point(value))
+    return ": a number has digits on both sides of its point, as 0.5 or 5.0";
   if (letter == 0 && reason.ends_with("could not determine value type")) // else a key, or a heading
     return fmt::format(": a text is written in quotes, \"{}\"", value);
   if (value.find_first_of("+-.0123456789") != 0)
@@ -101,6 +130,11 @@ std::string remedy_of(std::string_view reason, std::string_view line, std::size_
 } // namespace
 
 Node parse_toml(std::string_view text, std::string_view name) {
+  if (text.starts_with("SHEETFRM") || text.starts_with("SHEETEND") || text.starts_with("sheet-text"))
+    fail(ExitCode::bad_input,
+         "{}: this is a sheet stream, not a scene: sheet-info tells what is in it, sheet-loop --resume goes on with "
+         "it{}",
+         name, text.starts_with('S') ? "" : " (its text form: sheet-parse makes a stream of it)");
   const AsciiToml ascii = to_ascii(text, name);
   try {
     return convert(toml::parse(ascii.text), ascii);

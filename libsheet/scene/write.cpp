@@ -121,11 +121,7 @@ void write_perturbations(Writer& out, const SheetTable& sheet) {
   out.line("perturbation", "[" + tables + "]");
 }
 
-void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) {
-  out.open(header);
-  if (!sheet.name.empty())
-    out.line("name", toml_text(sheet.name));
-  out.line("shape", word(words::sheet_shapes, sheet.shape.index()));
+void write_measures(Writer& out, const SheetShape& shape) {
   std::visit(Overloaded{[&](const Rectangle& s) {
                           out.line("size", fmt::format("[{}, {}]", number(s.size_first), number(s.size_second)));
                         },
@@ -148,15 +144,10 @@ void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) 
                           out.line("file", toml_text(s.file));
                           out.line("scale", s.scale);
                         }},
-             sheet.shape);
-  out.line("edge_length", sheet.edge_length);
-  if (sheet.segments)
-    out.line("segments", fmt::format("[{}, {}]", (*sheet.segments)[0], (*sheet.segments)[1]));
-  if (!std::holds_alternative<SheetMesh>(sheet.shape)) {
-    out.line("pattern", word(words::patterns, sheet.pattern));
-    if (sheet.pattern == Pattern::irregular)
-      out.line("seed", fmt::format("{}", sheet.seed));
-  }
+             shape);
+}
+
+void write_thickness(Writer& out, const SheetTable& sheet) {
   std::visit(
       Overloaded{[&](double uniform) { out.line("thickness", uniform); },
                  [&](const ThicknessData& t) {
@@ -171,6 +162,23 @@ void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) 
                                 : fmt::format("{{along = {}, rows = {}}}", word(words::directions, t.over), rows));
                  }},
       sheet.thickness);
+}
+
+void write_sheet(Writer& out, const SheetTable& sheet, std::string_view header) {
+  out.open(header);
+  if (!sheet.name.empty())
+    out.line("name", toml_text(sheet.name));
+  out.line("shape", word(words::sheet_shapes, sheet.shape.index()));
+  write_measures(out, sheet.shape);
+  out.line("edge_length", sheet.edge_length);
+  if (sheet.segments)
+    out.line("segments", fmt::format("[{}, {}]", (*sheet.segments)[0], (*sheet.segments)[1]));
+  if (!std::holds_alternative<SheetMesh>(sheet.shape)) {
+    out.line("pattern", word(words::patterns, sheet.pattern));
+    if (sheet.pattern == Pattern::irregular)
+      out.line("seed", fmt::format("{}", sheet.seed));
+  }
+  write_thickness(out, sheet);
   if (sheet.temperature)
     std::visit(Overloaded{[&](double uniform) { out.line("temperature", uniform); },
                           [&](const TemperatureData& t) {
@@ -390,6 +398,38 @@ void write_heat(Writer& out, const Heat& heat) {
     out.line("viscous_heating", flag(true));
 }
 
+void write_inflow(Writer& out, const Inflow& inflow, std::string_view header) {
+  out.open(header);
+  if (!inflow.sheet.empty())
+    out.line("sheet", toml_text(inflow.sheet));
+  out.line("region", std::visit(Overloaded{[](Border border) { return word(words::borders, border); }, array_region},
+                                inflow.region));
+  if (!inflow.velocity.entries.empty())
+    out.line("velocity", timed(inflow.velocity));
+  if (!inflow.radial_velocity.entries.empty())
+    out.line("radial_velocity", timed(inflow.radial_velocity));
+  out.line("thickness", inflow.thickness);
+  if (inflow.temperature)
+    out.line("temperature", timed(*inflow.temperature));
+  out.line("until", inflow.until);
+}
+
+void write_tear(Writer& out, const Tear& tear) {
+  out.open("[tear]");
+  out.line("below", tear.below);
+  if (tear.below)
+    out.line("crumbs", word(words::crumbs, tear.drop_crumbs ? 1UL : 0UL));
+  if (const auto& inclusions = tear.inclusions) {
+    out.line("sites", inclusions->number);
+    out.line("at_thickness", inclusions->at_thickness);
+    out.line("exponent", inclusions->exponent);
+    out.line("seed", fmt::format("{}", inclusions->seed));
+  }
+  out.line("snap", tear.snap);
+  if (tear.drops)
+    out.line("drops", flag(true));
+}
+
 } // namespace
 
 std::string to_toml(const Scene& scene) {
@@ -413,41 +453,15 @@ std::string to_toml(const Scene& scene) {
     write_hold(out, hold);
   for (const Solid& solid : scene.solids)
     write_solid(out, solid);
-  for (const Inflow& inflow : scene.inflows) {
-    out.open(scene.inflows.size() > 1 ? "[[inflow]]" : "[inflow]");
-    if (!inflow.sheet.empty())
-      out.line("sheet", toml_text(inflow.sheet));
-    out.line("region", std::visit(Overloaded{[](Border border) { return word(words::borders, border); }, array_region},
-                                  inflow.region));
-    if (!inflow.velocity.entries.empty())
-      out.line("velocity", timed(inflow.velocity));
-    if (!inflow.radial_velocity.entries.empty())
-      out.line("radial_velocity", timed(inflow.radial_velocity));
-    out.line("thickness", inflow.thickness);
-    if (inflow.temperature)
-      out.line("temperature", timed(*inflow.temperature));
-    out.line("until", inflow.until);
-  }
+  for (const Inflow& inflow : scene.inflows)
+    write_inflow(out, inflow, scene.inflows.size() > 1 ? "[[inflow]]" : "[inflow]");
   for (const Outflow& outflow : scene.outflows) {
     out.open("[[outflow]]");
     out.line("point", list(outflow.point));
     out.line("normal", list(outflow.normal));
   }
-  if (const auto& tear = scene.tear) {
-    out.open("[tear]");
-    out.line("below", tear->below);
-    if (tear->below)
-      out.line("crumbs", word(words::crumbs, tear->drop_crumbs ? 1UL : 0UL));
-    if (const auto& inclusions = tear->inclusions) {
-      out.line("sites", inclusions->number);
-      out.line("at_thickness", inclusions->at_thickness);
-      out.line("exponent", inclusions->exponent);
-      out.line("seed", fmt::format("{}", inclusions->seed));
-    }
-    out.line("snap", tear->snap);
-    if (tear->drops)
-      out.line("drops", flag(true));
-  }
+  if (scene.tear)
+    write_tear(out, *scene.tear);
   if (const auto& merge = scene.merge) {
     out.open("[merge]");
     out.line("after", merge->after);

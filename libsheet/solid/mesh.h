@@ -22,7 +22,7 @@ struct SolidSurface {
 // Error (io, bad_input) naming the file. Says in a warning what the reader dropped or merged.
 [[nodiscard]] SolidSurface read_surface(const scene::SolidMesh& mesh);
 
-// The distance of the surface in its file, checked (solid_check.h), its field from the cache where it is there.
+// The distance of the surface in its file, checked (check.h), its field from the cache where it is there.
 // `name` stands for the solid in messages. As long as somebody has it, others get the same and no file is read.
 [[nodiscard]] std::shared_ptr<const SolidDistance> shared_distance(const scene::SolidMesh& mesh,
                                                                    const std::string& name);

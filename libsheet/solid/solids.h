@@ -30,7 +30,7 @@ struct SolidPoint {
 class Solids {
 public:
   // Reads the meshes and fields that the scene names, unless others are there that have read them (mesh.h). Throws
-  // Error (io, bad_input) where one of them is missing or is not the surface of a solid (solid_mesh.h).
+  // Error (io, bad_input) where one of them is missing or is not the surface of a solid (check.h).
   explicit Solids(const Scene& scene);
 
   [[nodiscard]] std::size_t size() const { return solids_.size(); }

@@ -52,7 +52,17 @@ setup() {
 
 @test "an option that has nothing behind its = has an empty value, not the next word" {
   run -2 --separate-stderr "$PROGRAM" --threads= 1
-  [[ $stderr == "$PROGRAM: "*"--threads: "*"is not a whole number"* ]]
+  [[ $stderr == "$PROGRAM: "*"--threads: "*"nothing is given"* ]]
+}
+
+@test "an empty text in the place of a name or a value is refused with what it comes of, and nothing is written" {
+  mkdir here && cd here
+  run -2 --separate-stderr "$PROGRAM" ''
+  [[ $stderr == "$PROGRAM: "*": nothing is given: \"\" is what a variable gives that is not set"* && $output == "" ]]
+  [[ $("$PROGRAM" --help) == *--output* ]] || return 0
+  run -2 --separate-stderr "$PROGRAM" -o '' none.sheet
+  [[ $stderr == "$PROGRAM: "*-o*": nothing is given"* && $output == "" ]]
+  [[ -z $(ls -A) ]]
 }
 
 @test "--help to a full disk is an error" {

@@ -313,3 +313,27 @@ END
   run -3 sheet-render six.sheet --frames=6-9 --ppm --size 16x9
   run -3 sheet-select --index=6-9 six.sheet
 }
+
+@test "a stream, a scene, and what is compressed are told by what they are, where another kind is wanted" {
+  cp scene.toml a.toml
+  sheet-print a.sheet > a.txt
+  refused() { # CODE MESSAGE COMMAND...
+    run "-$1" "${@:3}"
+    [[ $output == *"$2"* ]] || { echo "$output"; false; }
+  }
+  refused 4 'this is text: of a scene, sheet-init makes the first frame' sheet-info a.toml
+  refused 4 'there is nothing to go on with' sheet-loop --steps 1 --resume a.toml -- sheet-pass
+  refused 6 '-o FILE begins one' sheet-loop --steps 1 --resume none.sheet -- sheet-pass
+  for file in a.sheet a.txt; do
+    refused 3 "$file: this is a sheet stream, not a scene" sheet-init "$file"
+    refused 3 "$file: this is a sheet stream, not a scene" sheet-run "$file"
+  done
+  for program in gzip xz bzip2; do
+    for file in a.sheet a.toml a.txt; do
+      "$program" -c "$file" > "$file.packed"
+    done
+    refused 4 "this is $program-compressed: read it through $program -dc" sheet-info a.sheet.packed
+    refused 3 "a.toml.packed: it is compressed: $program -dc OLD > NEW" sheet-init a.toml.packed
+    refused 3 "it is compressed: $program -dc OLD > NEW" sheet-parse a.txt.packed
+  done
+}

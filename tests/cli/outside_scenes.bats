@@ -442,6 +442,58 @@ END
   done
 }
 
+@test "a pipeline refuses arguments that are too many, and lengths that are none, before it runs anything" {
+  export OUT=$PWD/out
+  mapfile -t scripts < <(cd "$SHEET_SOURCE" && grep -lr 'common.sh"' pipelines --include=* | grep -v '^pipelines/own/')
+  ((${#scripts[@]} > 40))
+  for script in "${scripts[@]}"; do
+    run -2 timeout 10 "$SHEET_SOURCE/$script" 1 1 1 1 1 1
+    [[ $output == "$script: argument 1 is one too many: ["*"] (see --help)" && ! -e out ]]
+    grep -qF "$script [EDGE" "$SHEET_SOURCE/$script" || continue
+    for edge in 0 -0.1 x '5 mm' 1e 0x1; do
+      run -2 timeout 10 "$SHEET_SOURCE/$script" "$edge"
+      [[ $output == "$script: EDGE: $edge is not a number above 0 (see --help)" && ! -e out ]]
+    done
+  done
+  run -2 timeout 10 "$SHEET_SOURCE/pipelines/bursting/run" 0.1 x 3 -- --engine plain
+  [[ $output == "pipelines/bursting/run: UNTIL: x is not a number above 0"* ]]
+}
+
+@test "scripts for runs tell how they are called, and what is wrong, without a traceback" {
+  cd "$SHEET_SOURCE"
+  for script in account folds height-map mid-span radius reckon meshes quickstart gallery film sweep fit design own/run \
+    speed-error speed-error-page speed-error-plots speed-error-split; do
+    run -0 timeout 10 "pipelines/$script" --help
+    [[ $output == *pipelines/* ]]
+    [[ $script != @(sweep|fit|design|film) ]] || continue
+    code=0
+    timeout 10 "pipelines/$script" nonesuch nonesuch '' &> "$BATS_TEST_TMPDIR/log" < /dev/null || code=$?
+    [[ $code == [26] ]]
+    grep -q "^pipelines/$script: \|--quick" "$BATS_TEST_TMPDIR/log"
+    ! grep -q 'Traceback\|line [0-9]*:' "$BATS_TEST_TMPDIR/log"
+  done
+  for script in tests/install tests/run packaging/make packaging/try; do
+    run -0 timeout 10 "$script" --help
+    [[ $output == *"$script "* ]]
+  done
+  run -2 timeout 10 tests/install --alll
+  run -2 timeout 10 packaging/make --nonsense
+  run -6 pipelines/account none.sheet
+  [[ $output == 'pipelines/account: none.sheet: No such file or directory' ]]
+  run -4 pipelines/account README.md
+  [[ $output == 'pipelines/account: README.md: frame 0, byte 0: not a sheet stream'* ]]
+  run -2 pipelines/folds none.sheet low a.csv b.csv
+  [[ $output == 'pipelines/folds: BELT: low is not a number' ]]
+  run -2 pipelines/reckon '1 / e' e=0
+  [[ $output == 'pipelines/reckon: 1 / e with e=0: '*'division by zero' ]]
+  run -2 pipelines/reckon e=x
+  [[ $output == 'pipelines/reckon: e=x: x is not a number' ]]
+  run -2 pipelines/own/run --until
+  [[ $output == 'pipelines/own/run: --until needs a value'* ]]
+  OUT=$BATS_TEST_TMPDIR/own run -2 pipelines/own/run tests/everyday/more/stir.toml a/stir.toml
+  [[ $output == 'pipelines/own/run: two scenes are called stir,'* ]]
+}
+
 @test "25: a run goes on with another scene as sheet-print's help says" {
   sheet-init disk.toml -o run.sheet
   sheet-print --help | tr -s ' \n' ' ' | grep -q "viscosity = 50/' | sheet-parse > b.sheet another scene, to go on with"

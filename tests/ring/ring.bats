@@ -43,6 +43,13 @@ steps_of() { sheet-print "$1" | sed -n 's/^step //p' | tr '\n' ' '; }
   run -2 sheet-loop -i start.sheet --steps 3 -- ''
   run -2 sheet-loop -i start.sheet --step 3 -- cat
   [[ $output == *'did you mean --steps?'* ]]
+  for stage in 'sheet-pass -o x' 'sheet-pass --output=x' 'sheet-remesh --edge-length 1 -ox' \
+    'sheet-pass -q --output x -v'; do
+    run -2 timeout 20 sheet-loop -i start.sheet --steps 3 -o run.sheet -- "sheet-pass | $stage | sheet-pass"
+    [[ $output == *"stage \"$stage\" writes to a file, and the ring waits for its frames: leave that option out"* ]]
+    [[ ! -e x ]]
+  done
+  sheet-loop -q -i start.sheet --steps 1 -o run.sheet -- 'sheet-pass -o - | sheet-pass --output /dev/stdout'
   run -2 sheet-loop -i start.sheet --steps 1 -o start.sheet -- cat
   [[ $output == *'input and output at once'* ]]
   sheet-pass -q start.sheet > /dev/null

@@ -179,9 +179,31 @@ make_slow() {
   [[ $(film --until 0.05 --fps 40 -o life) != *'as the run'* ]]
 }
 
-@test "a folder is no scene" {
+@test "a folder is no scene, and a pipe none that can be read again" {
   run -6 --separate-stderr sheet-run .
   [[ $stderr == *'.: this is a folder; give a scene file in it'* ]]
+  run -6 timeout 10 sheet-run <(cat 'my scene.toml') -o piped
+  [[ $output == *'this is no regular file'*'save it as one' && ! -e piped ]]
+}
+
+@test "what lies in the folder under the names of a run, and is none, is told, and stays" {
+  run_draft() { run "-$1" --separate-stderr sheet-run -q 'my scene.toml' --quality draft --until 0.05 --fps 40 "${@:2}"; }
+  mkdir theirs
+  echo theirs > theirs/run.sheet
+  run_draft 2 --film no -o theirs
+  [[ $stderr == "sheet-run: theirs has a run.sheet that is no run of sheet-run's: move it away, or give another folder by -o" ]]
+  [[ $(ls theirs) == run.sheet && $(cat theirs/run.sheet) == theirs ]]
+  mkdir -p other/run.sheet
+  run_draft 2 --film no -o other
+  [[ $stderr == *"no run of sheet-run's"* ]]
+  mkdir -p film/film.mp4
+  run_draft 6 --film 64x36 -o film
+  [[ $stderr == *'cannot write film/film.mp4 '* && -z $(ls film/film.mp4) ]]
+  run_draft 0 --film no -o whole
+  cp whole/run.sheet straight.sheet
+  : > whole/run.sheet # by a crash of the machine
+  run_draft 0 --film no -o whole
+  cmp whole/run.sheet straight.sheet
 }
 
 @test "a later --until makes the run longer, and the film" {

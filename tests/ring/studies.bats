@@ -12,7 +12,7 @@ setup() {
 @test "arithmetic of scripts: numbers by name, rows of CSV with columns by name" {
   [[ $(pipelines/reckon 'e * 0.7' 'u / 4' e=0.005 u=1) == '0.0035 0.25' ]]
   [[ $(pipelines/reckon -f '[%d,%d]' '0.4 / e + 0.5' 'sqrt(4)' e=0.03) == '[13,2]' ]]
-  run -1 pipelines/reckon 'e * 0.7' f=1
+  run -2 pipelines/reckon 'e * 0.7' f=1
   printf 'a [m],kind,b\n1,x,\n2,y,3\n' > "$BATS_TEST_TMPDIR/rows.csv"
   PYTHONPATH=pipelines /usr/bin/python3 - "$BATS_TEST_TMPDIR/rows.csv" << 'END'
 import math, sys, columns

@@ -222,6 +222,19 @@ class Frame:
         self.arrays["provenance"] = Array("\n".join(lines), "frame")
 
 
+def _what_else(head: bytes, first: bool) -> str:
+    """What stands where a frame should: `head` is its first bytes, `first` whether nothing was before."""
+    for beginning, program in ((b"\x28\xb5\x2f\xfd", "zstd"), (b"\x1f\x8b", "gzip"), (b"\xfd7zXZ\0", "xz"),
+                               (b"BZh", "bzip2")):
+        if head.startswith(beginning):
+            return f"this is {program}-compressed: read it through {program} -dc"
+    if head.startswith(b"sheet-text"):
+        return "this is the text form: read it through sheet-parse"
+    text = all(c >= 32 or 9 <= c <= 13 for c in head)
+    return ("not a sheet stream: a frame starts with SHEETFRM" +
+            ("; this is text: of a scene, sheet-init makes the first frame" if first and text else ""))
+
+
 def _padded(size: int) -> int:
     return (size + 63) // 64 * 64
 
@@ -538,12 +551,7 @@ class Reader:
             if b"SHEETFRM".startswith(block) or b"SHEETEND".startswith(block):
                 self._corrupt(self._consumed, "the stream was cut short: a frame or end mark has just begun")
             if not block.startswith(b"SHEETFRM"):
-                self._corrupt(self._position,
-                              "this is zstd-compressed: read it through zstd -dc"
-                              if block.startswith(b"\x28\xb5\x2f\xfd")
-                              else "this is the text form: read it through sheet-parse"
-                              if block.startswith(b"sheet-text")
-                              else "not a sheet stream: a frame starts with SHEETFRM")
+                self._corrupt(self._position, _what_else(bytes(block), self._position == 0))
             if len(block) == 64:
                 block += self._take(64)
             if len(block) < 128:

@@ -102,6 +102,18 @@ TEST(StreamText, MayBeWrittenByHand) {
   EXPECT_EQ(parse_text(text), encode({frame}));
 }
 
+TEST(StreamText, MayHaveCarriageReturnsAtAllLinesEnds) {
+  const auto with_returns = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
+      text.insert(at, "\r");
+    return text;
+  };
+  const std::string text = with_note("| a\n|\n| b\n");
+  EXPECT_EQ(parse_text(with_returns(text)), parse_text(text));
+  const std::string kept = with_note("| a\r\n| b\n"); // of the text, where other lines have none
+  EXPECT_EQ(print_text(parse_text(kept)), kept);
+}
+
 TEST(StreamText, TextOfNoLineAndOfOneEmptyLineIsEmpty) {
   EXPECT_EQ(parse_text(with_note("")), parse_text(with_note("|\n")));
   EXPECT_EQ(print_text(parse_text(with_note("|\n"))), with_note(""));

@@ -33,7 +33,7 @@ TEST(RecordedRing, IsTheLastOne) {
 
 TEST(RecordedRing, RunsSheetsOwnStagesOnly) {
   for (const char* ours : {"sheet-step", "sheet-remesh --smooth|sheet-emit | sheet-step --tolerance 1e-3 -v",
-                           " sheet-step --dt=0.01 | sheet-collide | sheet-tear "})
+                           " sheet-step --dt=0.01 | sheet-collide | sheet-tear ", "sheet-merge | sheet-pass"})
     EXPECT_TRUE(is_harmless(ours)) << ours;
   for (const char* others :
        {"", "rm x", "sheet-step; rm x", "sheet-step $(rm x)", "sheet-step `rm x`", "sheet-step > x", "sheet-step -o x",

@@ -41,6 +41,18 @@ TEST(MeshWarnings, OfSolidsNarrowerThanEdges) {
   EXPECT_TRUE(two[0].ends_with("a groove that it draws within the layer is not modelled")) << two[0];
 }
 
+// Of a mesh edge_length would be refused.
+TEST(MeshWarnings, RemedyOfLongEdgesIsOneThatTheSceneTakes) {
+  std::string scene = "[sheet]\nshape = \"rectangle\"\nsize = [1, 1]\nedge_length = 0.1\nthickness = 0.01\n"
+                      "[material]\nviscosity = 1\ndensity = 1000\n";
+  EXPECT_EQ(setting_of_edges(scene::parse_scene(scene, "s"), 0.012), "edge_length = 0.012 in [sheet]");
+  const std::string file = test::own_path("one.obj");
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
+  scene = "[sheet]\nshape = \"mesh\"\nfile = \"" + file +
+          "\"\nthickness = 0.01\n[material]\nviscosity = 1\ndensity = 1000\n";
+  EXPECT_EQ(setting_of_edges(scene::parse_scene(scene, "s"), 0.012), "sheet-remesh --edge-length 0.012 in the ring");
+}
+
 // The corners of a box, numbered from `first` on, and its faces, in the words of an OBJ file.
 std::string obj_box(int first, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   constexpr std::array sides{std::array{0, 1, 3, 2}, std::array{4, 6, 7, 5}, std::array{0, 4, 5, 1},

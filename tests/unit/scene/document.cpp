@@ -89,7 +89,20 @@ TEST(Document, TellsHowATextWithoutQuotesIsWritten) {
   EXPECT_EQ(ending("a = 0,5"), "write a decimal point, not a comma");
   EXPECT_EQ(ending("a = 1/2"), "expected digit, saw '/'"); // neither
   EXPECT_EQ(ending("[sheet\n").find("quotes"), std::string::npos);
-  EXPECT_EQ(ending("shape disk").find("quotes"), std::string::npos);
+  EXPECT_EQ(ending("shape disk"), "a line is KEY = VALUE");
+  EXPECT_EQ(ending("thickness: 0.5"), "a line is KEY = VALUE");
+  EXPECT_EQ(ending("thickness =\nb = 1"), "a line is KEY = VALUE");
+  for (const char* number : {".5", "-.5", "5.", "5.e-3", "[1, .5]"})
+    EXPECT_EQ(ending(fmt::format("a = {}\nb = 1\n", number)),
+              "a number has digits on both sides of its point, as 0.5 or 5.0");
+  for (const char* text : {"\"5 mm", "'5 mm", "[\"5 mm, 3]"})
+    EXPECT_EQ(ending(fmt::format("a = {}\nb = 1\n", text)),
+              "a text ends on its line, with the quote that it begins with");
+  EXPECT_EQ(ending("a = \"C:\\meshes\\m.obj\""),
+            "a text in double quotes has \\\\ for a backslash; folders are separated by /");
+  EXPECT_EQ(ending("a = True"), "true and false are written so");
+  EXPECT_EQ(ending("a = 5 // metres"), "a comment begins with #");
+  EXPECT_EQ(ending("a = 5 -- metres"), "a comment begins with #");
   EXPECT_TRUE(ending("a = 4 'mm'").starts_with("expected a comment or whitespace"));
 }
 
