@@ -48,6 +48,8 @@ std::optional<double> time_under(const Liquid& liquid, const Pressing& law, cons
   };
   if (!(rate_at(0) > 0))
     return {};
+  if (liquid.law.newtonian() && borne == 0)
+    return round.c / (rate_at(0) * (1 - law.falls + round.sides));
   double time = 0, part = 0, at = 0.5 * step;
   do {
     const double rate = rate_at(at);

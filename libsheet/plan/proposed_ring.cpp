@@ -79,17 +79,18 @@ std::string pipeline_at(const Scene& scene, Quality quality, const std::optional
   return pipeline;
 }
 
+constexpr double round_off = 1e-9; // within which a number already is such a one
+
 // A number that one likes to type: its first two digits.
 double rounded(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  constexpr double as_good_as = 1 - 1e-9; // that it is already such a number, but for its last bits
-  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit * as_good_as) * unit));
+  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit * (1 - round_off)) * unit));
 }
 
 // The same, not above the value.
 double rounded_down(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return std::stod(fmt::format("{:.2g}", std::floor(value / unit) * unit));
+  return std::stod(fmt::format("{:.2g}", std::floor(value / unit * (1 + round_off)) * unit));
 }
 
 constexpr double before_blow_up = 0.9; // of the time to it
