@@ -16,7 +16,9 @@
 #include "libsheet/base/filter.h"
 #include "libsheet/base/log.h"
 #include "libsheet/base/shell_words.h"
+#include "libsheet/plan/bath_clinging.h"
 #include "libsheet/plan/bath_crushing.h"
+#include "libsheet/plan/beside_walls.h"
 #include "libsheet/plan/contact_warnings.h"
 #include "libsheet/plan/drawing_up.h"
 #include "libsheet/plan/face_warnings.h"
@@ -185,7 +187,8 @@ std::string explained(Source source, bool ring_alone) {
         sheet::falling_behind_rolls_warning(scene, frame), sheet::drawing_up_warning(scene, frame, until),
         sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until),
         sheet::bath_crushing_warning(scene, frame), sheet::held_whole_warning(scene, frame),
-        sheet::overlapping_warning(scene), sheet::open_rim_warning(scene, frame)})
+        sheet::overlapping_warning(scene), sheet::open_rim_warning(scene, frame),
+        sheet::beside_walls_warning(scene, frame), sheet::bath_clinging_warning(scene, frame)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :

@@ -406,6 +406,12 @@ private:
     return rigid_velocity(fixed, path_.mass, asked, momentum(fixed, path_.mass, asked, prescribed, center), center);
   }
 
+  // Whether anything moves a vertex whose velocity is prescribed: not a solid where all of them stand still. What
+  // slides along one that is aslant to the axes is prescribed along all of these, but slides by itself.
+  [[nodiscard]] bool is_driven(std::uint32_t v) const {
+    return prescribed_[v] != 0 && !(solids_.motions.empty() && path_.touch[v] != no_solid);
+  }
+
   // Along each axis over the vertices whose velocity is prescribed along it; 0 without any.
   template <class Velocity>
   [[nodiscard]] Vector3 mean_along_prescribed(const std::vector<std::uint32_t>& vertices, Velocity&& velocity) const {
@@ -431,7 +437,7 @@ private:
       mass += path_.mass[v];
       along += path_.mass[v] * change.dot(seen);
       square += path_.mass[v] * change.squaredNorm() / 2;
-      if (prescribed_[v] != 0)
+      if (is_driven(v))
         fastest =
             std::max(fastest, with_fixed(prescribed_[v], prescribed[v] - frame(asked[v]), Vector3::Zero()).norm());
     }

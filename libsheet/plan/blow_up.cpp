@@ -29,14 +29,33 @@ std::optional<Pressing> pressing(const scene::Pressure& pressure, double radius)
   return {}; // a given amount of gas ends where its pressure does
 }
 
-// The integral of c/rate(s) over ln r from the start on, s = (tension/c) (r/r0)^k; none if it does not yield.
-std::optional<double> time_under(const Liquid& liquid, double tension, double c, double k) {
+// What is blown up round: a sphere, or about that, or a tube.
+struct Round {
+  double radius, thickness; // at the start
+  double sides;             // along which it is curved: 2 of a sphere, 1 of a tube
+  double c;                 // c (dr/dt)/r is its rate of strain
+};
+
+// The integral of c/rate(s) over ln r from the start on, s = (p r - 2 sides gamma)/(c h); none if it does not yield, or
+// comes to where its surface tension bears the pressure.
+std::optional<double> time_under(const Liquid& liquid, const Pressing& law, const Round& round) {
   constexpr double step = 0.05, enough = 1e-4; // of ln r; of what is summed up
-  if (!(driven_rate(liquid, tension / c) > 0))
+  const double borne = 2 * round.sides * liquid.surface_tension;
+  const auto rate_at = [&](double x) { // ln r less that at the start
+    const double tension = law.value * round.radius * std::exp((1 - law.falls) * x) - borne;
+    const double thickness = round.thickness * std::exp(-round.sides * x);
+    return tension > 0 ? driven_rate(liquid, tension / (round.c * thickness)) : 0;
+  };
+  if (!(rate_at(0) > 0))
     return {};
+  if (liquid.law.newtonian() && borne == 0)
+    return round.c / (rate_at(0) * (1 - law.falls + round.sides));
   double time = 0, part = 0, at = 0.5 * step;
   do {
-    part = c * step / driven_rate(liquid, tension / c * std::exp(k * at));
+    const double rate = rate_at(at);
+    if (!(rate > 0))
+      return {};
+    part = round.c * step / rate;
     time += part;
     at += step;
   } while (part > enough * time);
@@ -80,28 +99,37 @@ std::optional<double> blow_up_time_of_flat(const scene::SheetTable& sheet, const
   return time;
 }
 
+// Of one that is not flat. A cap that is held at its rim has its least radius as a half sphere over that.
+std::optional<Round> round_one(const scene::SheetTable& sheet, const Scene& scene) {
+  const auto* thickness = std::get_if<double>(&sheet.thickness);
+  if (thickness == nullptr)
+    return {};
+  if (const auto* tube = std::get_if<scene::Tube>(&sheet.shape))
+    return Round{tube->radius, *thickness, 1, 2};
+  constexpr double of_sphere = 2 * std::numbers::sqrt3;
+  if (const auto* sphere = std::get_if<scene::Sphere>(&sheet.shape))
+    return Round{sphere->radius, *thickness, 2, of_sphere};
+  if (const auto* cap = std::get_if<scene::Cap>(&sheet.shape)) {
+    const bool shallow = cap->angle < std::numbers::pi / 2 && is_held_at_rim(sheet, scene);
+    return Round{cap->radius * (shallow ? std::sin(cap->angle) : 1), *thickness, 2, of_sphere};
+  }
+  return {};
+}
+
 // Of one that the pressure acts on, from when it is there.
 std::optional<double> blow_up_time_of(const scene::SheetTable& sheet, const Scene& scene) {
   const auto* thickness = std::get_if<double>(&sheet.thickness);
   if (thickness != nullptr && half_width(sheet.shape))
     return blow_up_time_of_flat(sheet, scene, *thickness);
-  const auto* sphere = std::get_if<scene::Sphere>(&sheet.shape);
-  const auto* cap = std::get_if<scene::Cap>(&sheet.shape);
-  const auto* tube = std::get_if<scene::Tube>(&sheet.shape);
-  if (thickness == nullptr || (sphere == nullptr && cap == nullptr && tube == nullptr))
+  const auto round = round_one(sheet, scene);
+  const auto law = round ? pressing(*scene.environment.pressure, round->radius) : std::nullopt;
+  if (!law || (round->sides == 1 && law->falls > 0))
     return {};
-  const double radius = sphere != nullptr ? sphere->radius : cap != nullptr ? cap->radius : tube->radius;
-  const auto law = pressing(*scene.environment.pressure, radius);
-  const double tension = 2 * scene.material.surface_tension * (tube != nullptr ? 1 : 2) / radius;
-  if (!law || !(law->value > tension) || (tube != nullptr && law->falls > 0))
-    return {};
-  // dr/dt = p r^n / c, h having thinned: with it r passes every bound at c / ((n - 1) p r^(n - 1)).
-  if (!scene.material.law.newtonian())
-    return tube != nullptr
-               ? time_under(scene.material, law->value * radius / *thickness, 2, 2)
-               : time_under(scene.material, law->value * radius / *thickness, 2 * std::numbers::sqrt3, 3 - law->falls);
-  const double viscous = scene.material.viscosity * *thickness / (law->value * radius);
-  return tube != nullptr ? 2 * viscous : 12 / (3 - law->falls) * viscous;
+  const auto creeping = time_under(scene.material, *law, *round);
+  if (!creeping || !scene.model.inertia)
+    return creeping;
+  const double driving = law->value - 2 * round->sides * scene.material.surface_tension / round->radius;
+  return *creeping + std::sqrt(2 * scene.material.density * round->thickness * round->radius / driving);
 }
 
 // To which side the pressure drives a flat sheet; none of one that is not flat.

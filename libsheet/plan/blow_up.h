@@ -8,19 +8,19 @@
 
 namespace sheet {
 
-// The time at which the scene's pressure has blown a sheet up [s], without inertia and without what resists beside
-// viscosity; none where no closed form is known, or the sheet does not blow up. With r the radius, h the thickness and
-// mu the viscosity, the volume of liquid constant:
-//   sphere, constant pressure p: dr/dt = p r²/(12 mu h), so 4 mu h/(p r); caps likewise, in about that time
+// The time at which the scene's pressure has blown a sheet up [s]; none where no closed form is known, or the sheet
+// does not blow up, as where its surface tension gamma bears the pressure. With r the radius, h the thickness and mu
+// the viscosity, the volume of liquid constant, and without tension:
+//   sphere, constant pressure p: dr/dt = p r²/(12 mu h), so 4 mu h/(p r); caps likewise, in about that time, with the
+//   radius of the rim where that is held and they are less than a half sphere
 //   sphere, p = value (reference/r)²: 12 mu h/(p r)
 //   tube, constant pressure, its length kept or its ends free: 2 mu h/(p r)
 //   flat sheet held at its rim, constant pressure: a cap over the circle of its half width a, evenly thick, of the area
-//   A; the power of the pressure is what stretching dissipates, 3 mu ((dA/dt)/A)² in a volume, so 1.5 pi mu h/(|p| a);
-//   with inertia sqrt(2 rho h a/|p|) more, in which it is thrown so far
-// In general the rate of strain c (dr/dt)/r is that of the stress tau (r/r0)^k, tau = p r/(c h) at the start, with c =
-// 2 sqrt(3), k = 3 or 1 for spheres and c = 2, k = 2 for tubes, and the time is the integral of c/rate over ln r; of a
-// flat sheet c s/((1 + s²) rate) over s, its height over a, with tau = p a (1 + s²)²/(2 c h s). Where tau is below a
-// yield stress nothing is blown up.
+//   A; the power of the pressure is what stretching dissipates, 3 mu ((dA/dt)/A)² in a volume, so 1.5 pi mu h/(|p| a)
+// In general the rate of strain c (dr/dt)/r is that of the stress tau = (p r - m gamma)/(c h), with c = 2 sqrt(3), m =
+// 4 for spheres and c = 2, m = 2 for tubes, and the time is the integral of c/rate over ln r; of a flat sheet c s/((1 +
+// s²) rate) over s, its height over a, with tau = p a (1 + s²)²/(2 c h s). Where tau is below a yield stress nothing is
+// blown up. With inertia sqrt(2 rho h r/(p - m gamma/r)) more, or sqrt(2 rho h a/|p|), in which it is thrown so far.
 [[nodiscard]] std::optional<double> blow_up_time(const Scene& scene);
 
 // Whether solids stand around the first frame's sheet, as a mould does, and end that: three quarters of the ways out

@@ -14,7 +14,9 @@
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/scene/brief.h"
 #include "libsheet/scene/inlet_velocity.h"
+#include "libsheet/scene/layer_scales.h"
 #include "libsheet/scene/sheet_edges.h"
+#include "libsheet/solid/solids.h"
 
 namespace sheet {
 
@@ -135,6 +137,44 @@ std::string warning_of_floating(const Scene& scene, const Frame& first, std::siz
       number, std::abs(off), off < 0 ? "under" : "above", -floats, off - floats);
 }
 
+// Of what flows in along a solid, but so far from it that it does not lie on that, and brings more than its weight and
+// the solid carry off: it bends down at the inlet, and folds there.
+std::string warning_of_hovering(const Scene& scene, const Frame& first, std::size_t number, const Vector3& up) {
+  constexpr double steepest = 0.5, flattest = 0.3; // parts of a direction along the solid's normal
+  constexpr double nearest = 0.75, farthest = 1.5; // thicknesses; what is farther is poured on it
+  const scene::InletVelocity velocity = scene::inlet_velocity(scene, scene.inflows[number]);
+  const double h = scene.inflows[number].thickness, speed = velocity.speed(first.time);
+  const Liquid& liquid = scene::material_of(scene, sheet_named(scene, scene.inflows[number].sheet));
+  const solid::Solids solids(scene);
+  const auto x = positions(first);
+  const auto bits = masks(first, "inlet");
+  for (std::size_t s = 0; s < solids.size() && speed > 0; ++s) {
+    double height = 0, across = 0, carried = 0, count = 0;
+    Vector3 normal = Vector3::Zero();
+    for (std::size_t v = 0; v < bits.size(); ++v)
+      if ((of_inlet(bits[v], number) & at_inlet_border) != 0) {
+        const solid::SolidPoint there = solids.at(s, x[v], first.time);
+        const Vector3 along = velocity.at(first.time, x[v]).normalized();
+        height += there.distance;
+        across += std::abs(along.dot(there.normal));
+        carried += along.dot(there.velocity);
+        normal += there.normal;
+        ++count;
+      }
+    if (count == 0 || across > steepest * count || up.dot(normal) < flattest * count || height < nearest * h * count ||
+        height > farthest * h * count)
+      continue;
+    const double slope = up.cross(normal.normalized()).norm();
+    const double stress = liquid.density * scene.environment.gravity->norm() * slope * h;
+    if (speed > scene::speed_of_layer(liquid, stress, h, 0) + carried / count)
+      return fmt::format("inflow {} comes in {:.3g} m from {}, along it, and the middle of what lies there is half a "
+                         "thickness, {:.3g} m, from it: it bends down at the inlet, and folds there, as it brings more "
+                         "than runs away. A center of the sheet that is {:.3g} m nearer lets it lie there",
+                         number, height / count, solids.name(s), h / 2, height / count - h / 2);
+  }
+  return {};
+}
+
 } // namespace
 
 std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first) {
@@ -163,6 +203,9 @@ std::vector<std::string> inflow_warnings(const Scene& scene, const Frame& first)
   for (std::size_t i = 0; i < scene.inflows.size() && up; ++i)
     if (const std::string floating = warning_of_floating(scene, first, i, *up); !floating.empty())
       warnings.push_back(floating);
+  for (std::size_t i = 0; i < scene.inflows.size() && up; ++i)
+    if (const std::string hovering = warning_of_hovering(scene, first, i, *up); !hovering.empty())
+      warnings.push_back(hovering);
   for (std::size_t i = 0; i < scene.inflows.size(); ++i)
     if (const std::string start = warning_of_start(scene, first, i); !start.empty())
       warnings.push_back(start);

@@ -15,6 +15,7 @@
 #include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/layer_scales.h"
 #include "libsheet/scene/motion.h"
+#include "libsheet/sheet/sheet.h"
 #include "libsheet/solid/solids.h"
 
 namespace sheet {

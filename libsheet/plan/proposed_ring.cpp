@@ -79,17 +79,18 @@ std::string pipeline_at(const Scene& scene, Quality quality, const std::optional
   return pipeline;
 }
 
+constexpr double round_off = 1e-9; // within which a number already is such a one
+
 // A number that one likes to type: its first two digits.
 double rounded(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  constexpr double as_good_as = 1 - 1e-9; // that it is already such a number, but for its last bits
-  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit * as_good_as) * unit));
+  return std::stod(fmt::format("{:.2g}", std::ceil(value / unit * (1 - round_off)) * unit));
 }
 
 // The same, not above the value.
 double rounded_down(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return std::stod(fmt::format("{:.2g}", std::floor(value / unit) * unit));
+  return std::stod(fmt::format("{:.2g}", std::floor(value / unit * (1 + round_off)) * unit));
 }
 
 constexpr double before_blow_up = 0.9; // of the time to it
@@ -194,6 +195,13 @@ double with_heat(const Scene& scene, const Frame& first, const std::function<dou
   return warming ? std::min(as_it_starts, warming->time + time_of(warming->warm)) : as_it_starts;
 }
 
+// That end, or when what flows until then has set before.
+double until_set(const Scene& scene, const Frame& first, double until) {
+  constexpr double longer = 100; // so long what has set goes on creeping
+  const auto set = scene::setting_time(scene, measured(first).thickness.value_or(0));
+  return set && until < longer * *set ? std::min(until, *set + 4 * fall_time(scene, landings(scene, first))) : until;
+}
+
 // The longest of the sheets' lengths [m].
 double length_of(const Scene& scene, const Frame& first) {
   double length = 0;
@@ -246,9 +254,9 @@ double all_carried_time(const Scene& scene, const Frame& first) {
   return time;
 }
 
-// Some times of the flow, of the fall and of what comes in, which overruns the tiers that it lands on; until whatever
-// ends by the clock has ended, whatever moves on for ever has come through or round, belts and slopes have carried
-// it past all, and what lies on level ground has spread and levelled.
+// Some times of the flow, until that sets, of the fall and of what comes in, which overruns the tiers that it lands on;
+// until whatever ends by the clock has ended, whatever moves on for ever has come through or round, belts and slopes
+// have carried it past all, and what lies on level ground has spread and levelled.
 double until_of(const Scene& scene, const Frame& first) {
   double at_rest = first.time; // all solids
   for (const scene::Solid& solid : scene.solids)
@@ -261,6 +269,7 @@ double until_of(const Scene& scene, const Frame& first) {
   until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_down(of, first, at_rest); }));
   until = std::max(until, time_spread(scene, first));
   until = std::max(until, time_level(scene, first, until));
+  until = until_set(scene, first, until);
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };
   for (const scene::Hold& hold : scene.holds)
     ends(hold.until.value_or(0));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numbers>
 #include <utility>
@@ -294,7 +295,7 @@ std::vector<std::string> warnings_of_sheet(const Scene& scene, const SheetTable&
 }
 
 // Of what is turned more than once round.
-std::optional<std::string> warning_of_angle(const std::optional<Rotation>& rotation, const std::string& what) {
+std::optional<std::string> warning_of_angle(const std::optional<Rotation>& rotation, std::string_view what) {
   constexpr double rounding = 1e-9;
   if (!rotation || !(std::abs(rotation->angle) > 2 * std::numbers::pi * (1 + rounding)))
     return std::nullopt;
@@ -306,6 +307,40 @@ std::optional<std::string> warning_of_angle(const std::optional<Rotation>& rotat
 
 bool tense(const Scene& scene) {
   return std::ranges::any_of(liquids_of(scene), [](const Liquid& liquid) { return liquid.surface_tension > 0; });
+}
+
+// Of one of a kind, by its number from 0 and what it is called.
+using WarningOf = std::function<std::optional<std::string>(std::size_t number, std::string_view thing)>;
+
+// Of each of a kind, told once of all of whom the same is said.
+std::vector<std::string> warnings_of_each(std::string_view kind, std::size_t count, const WarningOf& warning_of) {
+  std::vector<std::pair<std::string, std::vector<std::size_t>>> alike; // what is said, but of whom; of whom
+  for (std::size_t i = 0; i < count; ++i)
+    if (const auto words = warning_of(i, "")) {
+      const auto same = std::ranges::find(alike, *words, &decltype(alike)::value_type::first);
+      (same == alike.end() ? alike.emplace_back(*words, std::vector<std::size_t>()) : *same).second.push_back(i);
+    }
+  std::vector<std::string> warnings;
+  for (const auto& [words, numbers] : alike) {
+    const std::string more = numbers.size() > 1 ? fmt::format(" (and {} more alike)", numbers.size() - 1) : "";
+    warnings.push_back(*warning_of(numbers.front(), fmt::format("{} {}{}", kind, numbers.front(), more)));
+  }
+  return warnings;
+}
+
+std::optional<std::string> warning_of_turning(const Scene& scene, std::size_t i, std::string_view thing) {
+  return warning_of_angle(scene.solids[i].rotation, thing);
+}
+
+std::optional<std::string> warning_of_level(const Scene& scene, std::size_t i, std::string_view thing) {
+  const auto level = level_plane_in_doubt(scene, i);
+  return level ? std::optional(fmt::format("{} (plane): {}", thing, *level)) : std::nullopt;
+}
+
+std::optional<std::string> warning_of_contact_angle(const Scene& scene, std::size_t i, std::string_view thing) {
+  if (!scene.solids[i].contact_angle || tense(scene))
+    return std::nullopt;
+  return fmt::format("contact_angle of {} does nothing: there is no surface_tension in [material]", thing);
 }
 
 constexpr double coldest_likely = 200; // that a liquid starts at [K]
@@ -321,24 +356,18 @@ std::vector<std::string> warnings_of(const Scene& scene, std::span<const Scales>
     if (const auto angle = warning_of_angle(scene.sheets[i].rotation, name.empty() ? "the sheet" : name))
       warn(*angle);
   }
-  const auto warn_of_motion = [&](const Motion& motion, const std::string& thing) {
-    for (const auto& warning : {warning_of_jumps(motion, thing), warning_of_abrupt_ends(motion, thing)})
-      if (warning)
-        warn(*warning);
+  const auto warn_of_each = [&](std::string_view kind, std::size_t count, const WarningOf& warning_of) {
+    std::ranges::copy(warnings_of_each(kind, count, warning_of), std::back_inserter(warnings));
   };
-  for (std::size_t i = 0; i < scene.holds.size(); ++i)
-    warn_of_motion(scene.holds[i].motion, fmt::format("hold {}", i));
-  for (std::size_t i = 0; i < scene.solids.size(); ++i)
-    warn_of_motion(scene.solids[i].motion, fmt::format("solid {}", i));
-  for (std::size_t i = 0; i < scene.solids.size(); ++i)
-    if (const auto angle = warning_of_angle(scene.solids[i].rotation, fmt::format("solid {}", i)))
-      warn(*angle);
-  for (std::size_t i = 0; i < scene.solids.size(); ++i)
-    if (const auto level = level_plane_in_doubt(scene, i))
-      warn(fmt::format("solid {} (plane): {}", i, *level));
-  for (std::size_t i = 0; i < scene.solids.size(); ++i)
-    if (scene.solids[i].contact_angle && !tense(scene))
-      warn(fmt::format("contact_angle of solid {} does nothing: there is no surface_tension in [material]", i));
+  for (const auto warning_of : {warning_of_jumps, warning_of_abrupt_ends}) {
+    warn_of_each("hold", scene.holds.size(),
+                 [&](std::size_t i, std::string_view thing) { return warning_of(scene.holds[i].motion, thing); });
+    warn_of_each("solid", scene.solids.size(),
+                 [&](std::size_t i, std::string_view thing) { return warning_of(scene.solids[i].motion, thing); });
+  }
+  for (const auto warning_of : {warning_of_turning, warning_of_level, warning_of_contact_angle})
+    warn_of_each("solid", scene.solids.size(),
+                 [&](std::size_t i, std::string_view thing) { return warning_of(scene, i, thing); });
   if (std::ranges::all_of(scales, [](const Scales& s) { return s.speed == 0; }) && !scene.environment.pressure &&
       !scene.environment.gravity)
     warn("nothing drives the sheet: it stays as it is");

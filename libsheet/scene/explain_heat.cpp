@@ -145,6 +145,41 @@ double change_of_viscosity(const Scene& scene, double time, double until) {
   return std::exp(most);
 }
 
+std::optional<double> setting_time(const Scene& scene, double thickness) {
+  constexpr double set = 1000; // times the viscosity
+  const bool later = !scene.inflows.empty() || std::ranges::any_of(scene.sheets, [](const SheetTable& sheet) {
+    return sheet.enters.has_value();
+  });
+  if (!scene.heat || later || !(temperatures_around(scene).second <= start_temperature(scene)))
+    return {};
+  const double start = start_temperature(scene);
+  double slope = 0, sum = 0; // of both faces [W/(m² K)]; weighted with what is around
+  bool even = true;
+  const auto add = [&](double least, const Varying& around) {
+    const auto [low, high] = range_of(around);
+    even = even && low == high;
+    slope += least;
+    sum += least * high;
+  };
+  for (const HeatedFace* face : {&scene.heat->upper, &scene.heat->lower}) {
+    if (face->transfers())
+      add(range_of(face->transfer).first, face->ambient);
+    if (const double cold = range_of(face->radiant).second; face->emissivity > 0)
+      add(face->emissivity * stefan_boltzmann * (start * start + cold * cold) * (start + cold), face->radiant);
+  }
+  double solid = 0; // the temperature at which the last of the liquids has set [K]
+  for (const Liquid& liquid : liquids_of(scene)) {
+    const ViscosityShift shift(liquid.temperature_law);
+    const double cold = slope > 0 ? sum / slope : start;
+    if (!even || liquid.temperature_law.constant() || !(shift.factor(cold) > set * shift.factor(start)))
+      return {};
+    const double sets = shift.temperature_of(set * shift.factor(start), cold, start);
+    solid = solid == 0 ? sets : std::min(solid, sets);
+  }
+  const double around = sum / slope, capacity = scene.material.density * scene.heat->specific_heat;
+  return capacity * thickness / slope * std::log((start - around) / (solid - around));
+}
+
 std::optional<Warming> warming_of(const Scene& scene, double thickness) {
   constexpr double near = 3; // times of warming: but for a twentieth
   if (!scene.heat ||

@@ -22,6 +22,12 @@ struct Warming {
 // warms it, or viscosity does not depend on temperature. `thickness` [m].
 [[nodiscard]] std::optional<Warming> warming_of(const Scene& scene, double thickness);
 
+// In which a sheet that cools everywhere sets, so that nothing flows any more: to a thousand times its viscosity, as
+// its temperature goes from the start's to what is around by exp(-t/time), time rho c h/H of both faces, H in the mean
+// over that way; it takes no longer where solids cool it, too. None where anything warms it, the faces' surroundings
+// change over time or place, sheets or liquid come in later, or it does not set by that. `thickness` [m].
+[[nodiscard]] std::optional<double> setting_time(const Scene& scene, double thickness);
+
 // The times of all rows of temperatures, and of what transfers heat [s].
 [[nodiscard]] std::vector<double> heat_events(const Scene& scene);
 

@@ -15,10 +15,10 @@
 namespace sheet {
 namespace {
 
-Scene blown(const std::string& shape, const std::string& law) {
+Scene blown(const std::string& shape, const std::string& law, const std::string& more = "") {
   return scene::parse_scene("[sheet]\n" + shape +
                                 "radius = 0.1\nedge_length = 0.05\nthickness = 0.01\n[material]\ndensity = 1000\n" +
-                                law + "[environment]\npressure = {law = \"constant\", value = 100}\n",
+                                law + "[environment]\npressure = {law = \"constant\", value = 100}\n" + more,
                             "s");
 }
 
@@ -29,8 +29,30 @@ TEST(BlowUp, OfAPowerLawByTheClosedForm) {
   const std::string power = "law = \"power\"\nviscosity = 400\nflow_index = 0.5\n";
   const double tension = 100 * 0.1 / 0.01, c = 2 * std::numbers::sqrt3;
   const double of_sphere = c * 0.5 / 3 * std::pow(400 * c / tension, 2), of_tube = 0.5 * std::pow(400 * 2 / tension, 2);
-  EXPECT_NEAR(*blow_up_time(blown(spherical, power)), of_sphere, 5e-3 * of_sphere);
-  EXPECT_NEAR(*blow_up_time(blown(tubular, power)), of_tube, 5e-3 * of_tube);
+  const std::string creeping = "[model]\ninertia = false\n";
+  EXPECT_NEAR(*blow_up_time(blown(spherical, power, creeping)), of_sphere, 5e-3 * of_sphere);
+  EXPECT_NEAR(*blow_up_time(blown(tubular, power, creeping)), of_tube, 5e-3 * of_tube);
+}
+
+// Surface tension: dr/dt = (p r - 4 gamma) r³/(12 mu h0 r0²), so 12 mu h0/(p r0) times the integral of 1/(u³(u - b))
+// from 1, b = 4 gamma/(p r0), which is -ln(1 - b)/b³ - 1/b² - 1/(2 b). Inertia: thrown by its radius.
+TEST(BlowUp, OfWhatTensionHoldsBack) {
+  const auto tense = [](double gamma) { return "viscosity = 400\nsurface_tension = " + std::to_string(gamma) + "\n"; };
+  const auto model = std::string("[model]\ninertia = false\n");
+  const double b = 0.5, viscous = 12 * 400 * 0.01 / (100 * 0.1);
+  const double creeping = viscous * (-std::log(1 - b) / (b * b * b) - 1 / (b * b) - 1 / (2 * b));
+  const double thrown = std::sqrt(2 * 1000 * 0.01 * 0.1 / (100 * (1 - b)));
+  EXPECT_NEAR(*blow_up_time(blown(spherical, tense(1.25), model)), creeping, 5e-3 * creeping);
+  EXPECT_NEAR(*blow_up_time(blown(spherical, tense(1.25))), creeping + thrown, 5e-3 * creeping);
+  EXPECT_NEAR(*blow_up_time(blown(spherical, tense(0), model)), viscous / 3, 5e-3 * viscous);
+  EXPECT_FALSE(blow_up_time(blown(spherical, tense(2.51))));
+  EXPECT_TRUE(blow_up_time(blown(tubular, tense(2.51))));
+  EXPECT_FALSE(blow_up_time(blown(tubular, tense(5.01))));
+  // one of 0.1 m and 30 degrees ends as a part of a sphere, where that is less than a half of one over its rim
+  const std::string shallow = "shape = \"cap\"\nangle = \"30 deg\"\n", held = "[[hold]]\nregion = \"rim\"\n";
+  EXPECT_FALSE(blow_up_time(blown(shallow, tense(1.3), held)));
+  EXPECT_TRUE(blow_up_time(blown(shallow, tense(1.2), held)));
+  EXPECT_TRUE(blow_up_time(blown(shallow, tense(1.3))));
 }
 
 TEST(BlowUp, NotOfWhatStands) {

@@ -113,5 +113,26 @@ TEST(InflowWarnings, OfOneThatFloatsAtAnotherHeightThanItComesIn) {
   EXPECT_THAT(warnings_of("0", "[1e-5, -1e-5, 0]"), testing::IsEmpty());
 }
 
+// Down a slope of 10 degrees, 0.3 m thick: half of that from it, or poured on it from above.
+TEST(InflowWarnings, OfOneThatComesInAboveTheSolidAlongWhichItFlows) {
+  const auto warnings_of = [](const std::string& height, const std::string& velocity) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [3, 2]\nedge_length = 0.25\nthickness = 0.3\ncenter = [0, " + height +
+            ", 0]\nrotation = {axis = [0, 0, 1], angle = \"-10 deg\"}\n[material]\nviscosity = 1000\ndensity = 2600\n"
+            "[environment]\ngravity = [0, -9.81, 0]\n[inflow]\nregion = \"x_min\"\nvelocity = " +
+            velocity + "\n[[solid]]\nshape = \"plane\"\nnormal = [0.17365, 0.98481, 0]\ncontact = \"flow\"\n",
+        "s");
+    return inflow_warnings(scene, first_frame(scene));
+  };
+  EXPECT_THAT(warnings_of("0.3", "[0.3, -0.053, 0]"),
+              testing::ElementsAre(testing::AllOf(testing::StartsWith("inflow 0 comes in 0.295 m from solid 0 (plane)"),
+                                                  testing::HasSubstr("is 0.145 m nearer"))));
+  EXPECT_THAT(warnings_of("0.1523", "[0.3, -0.053, 0]"), testing::IsEmpty());
+  EXPECT_THAT(warnings_of("0.2", "[0.3, -0.053, 0]"), testing::IsEmpty());
+  EXPECT_THAT(warnings_of("1", "[0.3, -0.053, 0]"), testing::IsEmpty());
+  EXPECT_THAT(warnings_of("0.3", "[0.3, -0.3, 0]"), testing::IsEmpty());
+  EXPECT_THAT(warnings_of("0.3", "[0.1, -0.0176, 0]"), testing::IsEmpty()); // 0.133 m/s run away
+}
+
 } // namespace
 } // namespace sheet

@@ -35,7 +35,8 @@ Forecast forecast_of(const Scene& scene) {
 }
 
 TEST(SeveralSheets, TheFirstThatIsBlownUpEndsTheRun) {
-  const std::string pressure = "[environment]\npressure = {law = \"constant\", value = 100}\n";
+  const std::string pressure =
+      "[environment]\npressure = {law = \"constant\", value = 100}\n[model]\ninertia = false\n";
   const double thick = *blow_up_time(with_liquid(sphere(0.1, 0.01) + pressure));
   EXPECT_DOUBLE_EQ(*blow_up_time(with_liquid(sphere(0.1, 0.01) + sphere(0.2, 0.001) + pressure)), thick / 20);
   EXPECT_DOUBLE_EQ(*blow_up_time(with_liquid(sphere(0.1, 0.01) + sphere(0.2, 0.001, "enters = 0.5\n") + pressure)),

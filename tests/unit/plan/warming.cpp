@@ -43,7 +43,20 @@ TEST(Warming, EndsWhenWhatIsWarmHasFlowed) {
 
 TEST(Warming, WhatCoolsGoesByItsStart) {
   const double start = until(pane("temperature = \"750 degC\"\nambient = \"750 degC\"\ntransfer = 20\n"));
-  EXPECT_EQ(until(pane("temperature = \"750 degC\"\nambient = \"20 degC\"\ntransfer = 20\n")), start);
+  EXPECT_EQ(until(pane("temperature = \"750 degC\"\nambient = \"700 degC\"\ntransfer = 20\n")), start);
+}
+
+// From 750 degrees to where it has 1,000 times its viscosity, by exp(-t/time), time rho c h/(2 H) to 20 degrees. Its
+// weight would go on for some 1000 s where nothing cools it.
+TEST(Warming, EndsWhenWhatCoolsHasSet) {
+  const std::string start = "temperature = \"750 degC\"\ntransfer = 80\nambient = ";
+  const double set = 2500 * 1250 * 0.004 / (2 * 80);
+  const double stiff = 4330.9 / (4330.9 / (750 - 246.1) + 3) + 246.1;
+  const double falls = until(pane(start + "\"750 degC\"\n"));
+  EXPECT_NEAR(until(pane(start + "\"20 degC\"\n")), set * std::log(730 / (stiff - 20)), 0.03 * set);
+  EXPECT_GT(until(pane(start + "[[0, \"20 degC\"], [1, \"30 degC\"]]\n")), falls / 2); // by rows
+  const std::string inflow = "[inflow]\nregion = \"x_max\"\nvelocity = [-0.001, 0, 0]\n";
+  EXPECT_GT(until(pane(start + "\"20 degC\"\n" + inflow)), falls / 2);
 }
 
 TEST(Warming, WarmSolidsCount) {

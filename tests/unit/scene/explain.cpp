@@ -61,6 +61,9 @@ TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
   EXPECT_TRUE(warned(of(led("step")), "solid 0 jumps at its rows"));
   EXPECT_FALSE(warned(of(led("smooth")), "jumps"));
   EXPECT_FALSE(warned(of(led("linear")), "jumps"));
+  const std::string two = led("smooth") + led("smooth").substr((disk + liquid).size());
+  EXPECT_EQ(std::ranges::count_if(of(two).warnings, [](const std::string& w) { return w.find("sets off") != w.npos; }), 1);
+  EXPECT_TRUE(warned(of(two), "solid 0 (and 1 more alike) sets off at 1 m/s at 0 s and stops from"));
   EXPECT_TRUE(warned(of(led("smooth")), "solid 0 sets off at 1 m/s at 0 s and stops from 1 m/s at 1 s, at once"));
   EXPECT_FALSE(warned(of(led("linear")), "sets off"));
   const auto along = [](const std::string& rows) {
@@ -130,6 +133,8 @@ TEST(Explain, ContactAnglesNeedTension) {
   const std::string word = "contact_angle of solid 0 does nothing: there is no surface_tension in [material]";
   EXPECT_THAT(warnings(""), testing::Contains(word));
   EXPECT_THAT(warnings("surface_tension = 0.03\n"), testing::Not(testing::Contains(word)));
+  EXPECT_THAT(warnings("[[solid]]\nshape = \"sphere\"\nradius = 1\ncontact = \"flow\"\ncontact_angle = 1\n"),
+              testing::Contains(testing::StartsWith("contact_angle of solid 0 (and 1 more alike) does nothing")));
 }
 
 TEST(Explain, WarnsOfEverySheetByItsName) {
