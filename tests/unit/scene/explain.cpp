@@ -62,7 +62,8 @@ TEST(Explain, WarnsOfJumpsAndOfSheetsInMillimetres) {
   EXPECT_FALSE(warned(of(led("smooth")), "jumps"));
   EXPECT_FALSE(warned(of(led("linear")), "jumps"));
   const std::string two = led("smooth") + led("smooth").substr((disk + liquid).size());
-  EXPECT_EQ(std::ranges::count_if(of(two).warnings, [](const std::string& w) { return w.find("sets off") != w.npos; }), 1);
+  EXPECT_EQ(std::ranges::count_if(of(two).warnings, [](const std::string& w) { return w.find("sets off") != w.npos; }),
+            1);
   EXPECT_TRUE(warned(of(two), "solid 0 (and 1 more alike) sets off at 1 m/s at 0 s and stops from"));
   EXPECT_TRUE(warned(of(led("smooth")), "solid 0 sets off at 1 m/s at 0 s and stops from 1 m/s at 1 s, at once"));
   EXPECT_FALSE(warned(of(led("linear")), "sets off"));
