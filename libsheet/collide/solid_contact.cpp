@@ -330,12 +330,24 @@ private:
     return std::isfinite(gap) && solids_.at(own, end, path_.end_time).distance < gap;
   }
 
-  // Whether a vertex flows beside a face of a solid that is upright, as the side of a dish. `normal`: of the face, in
-  // the solid's frame. Where the sheet goes on to another solid it is to come away from the corner.
+  // Whether a vertex flows beside a face of a solid that is upright, as the side of a dish, or that comes along its own
+  // solid, as a scraper, which may lean. `normal`: of the face, in the solid's frame. Where the sheet goes on to
+  // another solid it is to come away from the corner.
   [[nodiscard]] bool flows_beside(std::uint32_t v, const SolidView& view, const Vector3& normal) const {
-    constexpr double upright = 0.3; // cosine between the normal and gravity
-    return slides(v) && passes_[v] == 0 &&
-           std::abs(path_.gravity.dot(view.turned_at_end(normal))) < upright * path_.gravity.norm();
+    constexpr double upright = 0.3, leaning = 0.9; // cosine between the normal and gravity
+    const Vector3 outward = view.turned_at_end(normal);
+    const double steep = std::abs(path_.gravity.dot(outward)) / path_.gravity.norm();
+    return slides(v) && passes_[v] == 0 && (steep < upright || (steep < leaning && comes_along(v, view, outward)));
+  }
+
+  // Whether a solid of that normal comes towards the vertex' own one, or slides past.
+  [[nodiscard]] bool comes_along(std::uint32_t v, const SolidView& view, const Vector3& normal) const {
+    const auto velocity = [&](std::size_t solid) {
+      return solids_.at(solid, path_.start[v], path_.start_time).velocity;
+    };
+    const Vector3 relative =
+        velocity(static_cast<std::size_t>(&view - views_.data())) - velocity(static_cast<std::size_t>(rides_[v]));
+    return relative.norm() > 0 && relative.dot(normal) >= -1e-9 * relative.norm();
   }
 
   // How near a vertex that slides may end to its own solid: a quarter of the thickness, or as near as it starts, where

@@ -58,6 +58,13 @@ bool bears_nothing(const Vector3& normal, const Vector3& gravity) {
   return std::abs(normal.dot(gravity)) < least_lying_cosine * gravity.norm();
 }
 
+// The way on which what stands beside a second wall rises by a metre from its own one [m]: along that wall, or, below
+// one that overhangs, straight on, as liquid fills the room there.
+Vector3 rise_beside(const WallSite& site) {
+  const double cosine = std::max(0.0, site.normal.dot(site.second_normal));
+  return (site.normal - cosine * site.second_normal) / (1 - cosine * cosine);
+}
+
 // By holds that have nothing to do with walls.
 std::vector<char> held_elsewhere(std::vector<Hold> holds, const Stage& stage) {
   std::erase_if(holds, [](const Hold& hold) { return hold.of_wall; });
@@ -173,7 +180,8 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
       continue;
     const WallPoint point = walls[site.wall].nearest(end.time, end.positions[site.vertex]);
     const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
-    shifts.of[site.vertex] = std::clamp(distance[site.vertex] - point.distance, -most, most) * point.normal;
+    shifts.of[site.vertex] =
+        std::clamp(distance[site.vertex] - point.distance, -most, most) * (corner ? rise_beside(site) : point.normal);
   }
   const std::vector<double> growth = unforeseen_growth(contacts, gravity, stage, end);
   for (int layer = 0; layer < most_layers && shifts.pass_on(contacts, growth); ++layer) {

@@ -9,6 +9,7 @@
 #include "libsheet/energy/channels.h"
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/facing_walls.h"
+#include "libsheet/geometry/longest_edges.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/heat/surroundings.h"
 
@@ -103,52 +104,71 @@ bool goes_with(const Wall& one, const Wall& other, const Stage& stage, std::uint
   return (of_one - velocity(other)).norm() <= 1e-9 * of_one.norm();
 }
 
+// At a vertex [m].
+struct Around {
+  double thickness, longest_edge;
+};
+
 // Whether another wall that stands on the own one comes towards a vertex there, as a plough does, or turns beside it.
 // What leaves a gap below it, as a blade, passes over the layer (channels.h).
-bool pushes(const Wall& one, const Wall& other, const Stage& stage, std::uint32_t vertex, double thickness) {
+bool pushes(const Wall& one, const Wall& other, const Stage& stage, std::uint32_t vertex, const Around& around) {
   constexpr double least = 0.05; // gap, of the thickness
   const Vector3& x = stage.start->positions[vertex];
   const double t = stage.start->time;
   const auto at = [t](const Wall& of) { return [&of, t](const Vector3& y) { return of.nearest(t, y); }; };
-  const Vector3 normal = other.nearest(t, x).normal, velocity = velocity_at(other, t, x) - velocity_at(one, t, x);
-  return normal.dot(one.nearest(t, x).normal) > -least_facing && velocity.dot(normal) >= -1e-9 * velocity.norm() &&
-         height_of_wall(x, at(one), at(other)) < least * thickness;
+  const WallPoint own = one.nearest(t, x), there = other.nearest(t, x);
+  const Vector3 velocity = velocity_at(other, t, x) - velocity_at(one, t, x);
+  const double facing = own.normal.dot(there.normal);
+  if (facing <= -least_facing || facing > bluntest_corner || velocity.dot(there.normal) < -1e-9 * velocity.norm())
+    return false;
+  const Vector3 towards = (facing * own.normal - there.normal).normalized();
+  return least_height(foot_on(own, x), (there.distance + around.longest_edge) * towards, at(one), at(other)) <
+         least * around.thickness;
 }
 
-// Whether another wall may hold the vertex of a site beside its own one. A tool that nothing touches yet may not: what
-// it comes to goes out of its way, or is caught as it meets it.
-bool may_hold(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site, std::uint32_t other,
-              double thickness) {
+// How another wall may hold the vertex of a site beside its own one. A tool that nothing touches yet may not, unless it
+// pushes: what it comes to goes out of its way, or is caught as it meets it.
+enum class Beside { not_at_all, as_a_side, as_a_plough };
+
+Beside beside(const std::vector<Wall>& walls, const Stage& stage, const WallSite& site, std::uint32_t other,
+              const Around& around) {
   const Channel* channel = channel_of(stage, site);
-  return other != site.wall && (channel == nullptr || other != channel->facing) &&
-         (!walls[other].vertices.empty() || goes_with(walls[other], walls[site.wall], stage, site.vertex) ||
-          pushes(walls[site.wall], walls[other], stage, site.vertex, thickness));
+  if (other == site.wall || (channel != nullptr && other == channel->facing))
+    return Beside::not_at_all;
+  if (!walls[other].vertices.empty() || goes_with(walls[other], walls[site.wall], stage, site.vertex))
+    return Beside::as_a_side;
+  return pushes(walls[site.wall], walls[other], stage, site.vertex, around) ? Beside::as_a_plough : Beside::not_at_all;
 }
 
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
 // moves it across, but one that faces its own and would come too near.
-void keep_distances(const std::vector<Wall>& walls, const Stage& stage, double thickness, WallSite& site) {
+void keep_distances(const std::vector<Wall>& walls, const Stage& stage, const Around& around, WallSite& site) {
   const Vector3 &x0 = stage.start->positions[site.vertex], &x = stage.predicted[site.vertex];
   const double own = walls[site.wall].nearest(stage.start->time, x0).distance;
   const WallPoint point = walls[site.wall].nearest(stage.end_time, x);
   site.normal = point.normal;
   add_plane_of(site, point, x, kept_distance(stage, site, own));
   if (walls[site.wall].hollow && channel_of(stage, site) == nullptr)
-    keep_off_face_beside(walls[site.wall], stage, own, thickness, site);
-  for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w)
-    if (may_hold(walls, stage, site, w, thickness) &&
-        !(walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
-      if (const WallPoint other = walls[w].nearest(stage.end_time, x); other.distance < in_reach * own) {
-        const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
-        if (!holds(site, other, kept))
-          continue;
-        add_plane_of(site, other, x, kept);
-        if (site.across.size() == 2) {
-          site.second_wall = w;
-          site.second_normal = other.normal;
-        }
-        site.beside_upright = site.across.size() == 2 && std::abs(other.normal.dot(point.normal)) < upright;
-      }
+    keep_off_face_beside(walls[site.wall], stage, own, around.thickness, site);
+  for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w) {
+    if (w == site.wall || (walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
+      continue;
+    const WallPoint other = walls[w].nearest(stage.end_time, x);
+    if (!(other.distance < in_reach * own))
+      continue;
+    const Beside holding = beside(walls, stage, site, w, around);
+    const double kept = std::min(own, walls[w].nearest(stage.start->time, x0).distance);
+    if (holding == Beside::not_at_all || !holds(site, other, kept))
+      continue;
+    add_plane_of(site, other, x, kept);
+    const bool second = site.across.size() == 2;
+    if (second) {
+      site.second_wall = w;
+      site.second_normal = other.normal;
+    }
+    site.beside_upright =
+        second && (holding == Beside::as_a_plough || std::abs(other.normal.dot(point.normal)) < upright);
+  }
 }
 
 // Where the wall takes a vertex that sticks to it from the start of the step on.
@@ -313,8 +333,9 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
   std::ranges::sort(stage.sites, {}, &WallSite::vertex);
   const std::vector<double> thickness = predicted_around(stage);
   find_channels(walls, thickness, stage);
+  const std::vector<double> edges = longest_edges(stage.start->positions, stage.start->mesh->triangles);
   for (WallSite& site : stage.sites)
-    keep_distances(walls, stage, thickness[site.vertex], site);
+    keep_distances(walls, stage, {thickness[site.vertex], edges[site.vertex]}, site);
   for (std::uint32_t s = 0; s < stage.sites.size(); ++s)
     stage.site_of[stage.sites[s].vertex] = s;
   set_wall_turns(stage);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two walls that face each other across what lies between them.
 #pragma once
+#include <algorithm>
 #include <limits>
 
 #include "libsheet/geometry/types.h"
@@ -24,12 +25,17 @@ template <class Point> [[nodiscard]] Vector3 foot_on(const Point& point, const V
   return x - point.distance * point.normal;
 }
 
-// How high above the foot of x on its own wall another wall begins [m]: 0 where it stands on that one. own, other: give
-// distance and normal of the walls at a place.
+// How high another wall is above its own one where it is lowest, on a way along the own one from `foot` on [m]: 0 where
+// it stands there. own, other: give distance and normal of the walls at a place.
 template <class Own, class Other>
-[[nodiscard]] double height_of_wall(const Vector3& x, const Own& own, const Other& other) {
-  const Vector3 foot = foot_on(own(x), x);
-  return own(foot_on(other(foot), foot)).distance;
+[[nodiscard]] double least_height(const Vector3& foot, const Vector3& way, const Own& own, const Other& other) {
+  constexpr int parts = 16;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= parts; ++k) {
+    const Vector3 place = foot + static_cast<double>(k) / parts * way;
+    least = std::min(least, own(foot_on(other(place), place)).distance);
+  }
+  return least;
 }
 
 // The gap that another wall leaves a layer beside its edge: of a blade, a plate or a box above the own wall.
@@ -44,8 +50,8 @@ struct GapBeside {
 //   gap = g (1 + 2 s/l)/(1 - (s/(2 l))²),
 // l the longest edge of the mesh there: as if the edge were rounded over so much. Infinite from s = 2 l on, where the
 // other wall does not face the own one across that place, as in a corner between them, where the own wall turns away on
-// the way there, as on top of a rod over a floor, and where g is less than `least` [m]. own, other: give distance and
-// normal of the walls at a place.
+// the way there, as on top of a rod over a floor, and where g is less than `least` [m], or becomes so within an edge of
+// the mesh behind, as below a scraper that leans. own, other: give distance and normal of the walls at a place.
 template <class Own, class Other>
 [[nodiscard]] GapBeside gap_beside(const Vector3& x, const Own& own, const Other& other, double longest_edge,
                                    double least) {
@@ -59,7 +65,8 @@ template <class Own, class Other>
     return {};
   const auto above = other(beneath);
   const double gap = gap_between(0, below.normal, above.distance, above.normal);
-  if (gap < least)
+  const double ahead = way.norm();
+  if (gap < least || (ahead > 0 && least_height(beneath, -longest_edge / ahead * way, own, other) < least))
     return {};
   const double narrowing = 1 - part * part, widened = (1 + 4 * part) / narrowing;
   const double slope = gap / reach * (4 + 2 * part * widened) / narrowing;

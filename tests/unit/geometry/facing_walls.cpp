@@ -78,5 +78,30 @@ TEST(GapBeside, IsNotInCorners) {
             std::numeric_limits<double>::infinity());
 }
 
+// A scraper 1 mm thick that leans by 30 degrees: its lower face rises from the board to 0.5 mm at the edge that it goes
+// ahead with. Nothing goes below it over edges of the mesh longer than that face; over shorter ones there is a gap.
+TEST(GapBeside, IsNotBeforeWhatClosesWithinAnEdge) {
+  const Vector3 lower(std::sin(std::numbers::pi / 6), -std::cos(std::numbers::pi / 6), 0),
+      front(-lower.y(), lower.x(), 0);
+  const auto scraper = [&](const Vector3& x) { // its edge at (0, 0.5 mm), everything behind both faces
+    const Vector3 from = x - Vector3(0, 5e-4, 0);
+    const double ahead = front.dot(from), under = lower.dot(from);
+    if (ahead > 0 && under > 0)
+      return Point{from.norm(), from.normalized()};
+    return ahead > under ? Point{ahead, front} : Point{under, lower};
+  };
+  const Vector3 x(1e-4, 1.5e-3, 0);
+  EXPECT_EQ(gap_beside(x, board, scraper, 4e-3, 2e-4).gap, std::numeric_limits<double>::infinity());
+  EXPECT_LT(gap_beside(x, board, scraper, 2e-4, 2e-4).gap, 5e-3);
+}
+
+// Over a blade's way to its edge and beyond it.
+TEST(LeastHeight, IsThatOfTheLowestPlace) {
+  EXPECT_NEAR(least_height(Vector3(-2e-3, 0, 0), Vector3(4e-3, 0, 0), board, blade(gap)), gap, 1e-15);
+  const auto leans = half_space(Vector3(-std::cos(0.5), -std::sin(0.5), 0)); // over the board, down to it at the origin
+  EXPECT_GT(least_height(Vector3(-2e-3, 0, 0), Vector3(1e-3, 0, 0), board, leans), 1e-4);
+  EXPECT_NEAR(least_height(Vector3(-2e-3, 0, 0), Vector3(2e-3, 0, 0), board, leans), 0, 1e-15);
+}
+
 } // namespace
 } // namespace sheet
