@@ -207,7 +207,7 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
     }
     hold.of_wall = true;
     if (solid.contact == SolidContact::flow && !solid.receding)
-      hold.vertices = held_rims(frame, mesh, touching[i]);
+      hold.vertices = held_rims(scene, frame, mesh, touching[i]);
     if (solid.contact == SolidContact::flow)
       std::ranges::copy_if(touching[i], std::back_inserter(hold.vertices), [&](std::uint32_t v) { return films[v]; });
     model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
