@@ -321,12 +321,11 @@ private:
   // Whether an edge of another solid is above what is at a place at the end: there, too, sheet-step keeps it in the
   // gap.
   [[nodiscard]] bool passes_below(std::uint32_t v, std::size_t other, const Vector3& end) const {
-    constexpr double least = 0.05; // gap, of the thickness
     const auto own = static_cast<std::size_t>(rides_[v]);
     const auto of = [&](std::size_t s) {
       return [this, s](const Vector3& x) { return solids_.at(s, x, path_.end_time); };
     };
-    const double gap = gap_beside(end, of(own), of(other), edges_[v], least * path_.thickness[v]).gap;
+    const double gap = gap_beside(end, of(own), of(other), edges_[v], least_gap * path_.thickness[v]).gap;
     return std::isfinite(gap) && solids_.at(own, end, path_.end_time).distance < gap;
   }
 

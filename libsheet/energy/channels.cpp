@@ -14,8 +14,7 @@ namespace sheet {
 
 namespace {
 
-constexpr double relief = 10;      // of the rate at which walls move
-constexpr double least_gap = 0.05; // of the thickness: narrower gaps count as so wide
+constexpr double relief = 10; // of the rate at which walls move
 
 // Of two walls at a point of time: straight across it or beside an edge of the second one, whichever is narrower.
 GapBeside gap_of(const Wall& wall, const Wall& facing, double t, const Vector3& x, double longest_edge, double least) {

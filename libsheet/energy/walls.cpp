@@ -97,11 +97,9 @@ void keep_off_face_beside(const Wall& wall, const Stage& stage, double own, doub
 
 // Whether two walls stand still towards each other at a vertex, as the sides of a dish.
 bool goes_with(const Wall& one, const Wall& other, const Stage& stage, std::uint32_t vertex) {
-  const auto velocity = [&](const Wall& wall) -> Vector3 {
-    return wall.velocity ? wall.velocity(stage.start->time, stage.start->positions[vertex]) : Vector3::Zero();
-  };
-  const Vector3 of_one = velocity(one);
-  return (of_one - velocity(other)).norm() <= 1e-9 * of_one.norm();
+  const double t = stage.start->time;
+  const Vector3 &x = stage.start->positions[vertex], of_one = velocity_at(one, t, x);
+  return (of_one - velocity_at(other, t, x)).norm() <= 1e-9 * of_one.norm();
 }
 
 // At a vertex [m].
@@ -112,7 +110,6 @@ struct Around {
 // Whether another wall that stands on the own one comes towards a vertex there, as a plough does, or turns beside it.
 // What leaves a gap below it, as a blade, passes over the layer (channels.h).
 bool pushes(const Wall& one, const Wall& other, const Stage& stage, std::uint32_t vertex, const Around& around) {
-  constexpr double least = 0.05; // gap, of the thickness
   const Vector3& x = stage.start->positions[vertex];
   const double t = stage.start->time;
   const auto at = [t](const Wall& of) { return [&of, t](const Vector3& y) { return of.nearest(t, y); }; };
@@ -123,7 +120,7 @@ bool pushes(const Wall& one, const Wall& other, const Stage& stage, std::uint32_
     return false;
   const Vector3 towards = (facing * own.normal - there.normal).normalized();
   return least_height(foot_on(own, x), (there.distance + around.longest_edge) * towards, at(one), at(other)) <
-         least * around.thickness;
+         least_gap * around.thickness;
 }
 
 // How another wall may hold the vertex of a site beside its own one. A tool that nothing touches yet may not, unless it

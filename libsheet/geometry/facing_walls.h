@@ -10,6 +10,7 @@ namespace sheet {
 
 inline constexpr double least_facing = 0.5; // cosine of the angle up to which two walls face each other: 60 degrees
 inline constexpr double filled_gap = 1.05;  // gaps that a layer fills, in its thicknesses
+inline constexpr double least_gap = 0.05;   // likewise: narrower ones count as so wide, and beside an edge as none
 
 // How wide the gap is at a point between two walls [m], of which one is at the distance `own`, the other at `other`
 // [m], with these unit normals out of the walls. Beyond an edge of the other wall it widens, to infinity where the two

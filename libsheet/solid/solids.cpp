@@ -47,7 +47,6 @@ SolidPoint Solids::at(std::size_t solid, const Vector3& x, double t) const {
 
 std::optional<Solids::Facing> Solids::facing(std::size_t solid, const Vector3& x, double t, double room,
                                              double longest_edge) const {
-  constexpr double least = 0.05; // of the room
   const double reach = room + 2 * longest_edge;
   std::optional<Facing> nearest;
   for (std::size_t i = 0; i < solids_.size(); ++i) {
@@ -57,7 +56,7 @@ std::optional<Solids::Facing> Solids::facing(std::size_t solid, const Vector3& x
     double gap = gap_between(own.distance, own.normal, other.distance, other.normal);
     if (longest_edge > 0) {
       const auto of = [&](std::size_t s) { return [this, s, t](const Vector3& y) { return at(s, y, t); }; };
-      gap = std::min(gap, gap_beside(x, of(solid), of(i), longest_edge, least * room).gap);
+      gap = std::min(gap, gap_beside(x, of(solid), of(i), longest_edge, least_gap * room).gap);
     }
     if (gap < room && (!nearest || gap < nearest->gap))
       nearest = {i, gap};
