@@ -16,6 +16,7 @@
 #include "libsheet/collide/touch_distance.h"
 #include "libsheet/geometry/facing_walls.h"
 #include "libsheet/geometry/longest_edges.h"
+#include "libsheet/solid/corners.h"
 
 namespace sheet::collide {
 namespace {
@@ -89,6 +90,7 @@ public:
     caught_.assign(path.start.size(), 0);
     between_ = squeezed();
     passes_ = passing();
+    turns_ = turning();
     carried_.assign(path.start.size(), 0);
     active_.resize(path.triangles.size());
     std::iota(active_.begin(), active_.end(), 0U);
@@ -151,7 +153,9 @@ private:
       for (auto v = static_cast<std::uint32_t>(range.begin()); v < range.end(); ++v) {
         if (held(v))
           continue;
-        if (rides_[v] != no_solid && is_off(v))
+        if (turns_[v] != no_solid)
+          turn(v);
+        else if (rides_[v] != no_solid && is_off(v))
           rides_[v] = path_.touch[v] = no_solid;
         if (const auto floor = floor_below(v))
           come_to_touch(v, *floor);
@@ -192,6 +196,25 @@ private:
     const double angle = wall.dot(floor), load = -path_.gravity.dot(floor);
     const bool corner = angle < flattest_corner && angle > -least_facing;
     return corner && load > 0 && load >= -path_.gravity.dot(wall) * same_load ? hit : std::nullopt;
+  }
+
+  // Of each vertex, the solid in whose corner with its own one it turns, as sheet-step has it (walls.h), or no_solid.
+  [[nodiscard]] std::vector<std::int32_t> turning() const {
+    std::vector<std::int32_t> flowing(rides_.size(), no_solid);
+    for (std::uint32_t v = 0; v < flowing.size(); ++v)
+      if (slides(v) && between_[v] == 0)
+        flowing[v] = rides_[v];
+    return solid::turned_to(
+        solids_, {path_.start, path_.triangles, path_.thickness, edges_, flowing, path_.start_time, path_.gravity});
+  }
+
+  // From then on such a vertex flows along the one of the two solids that is nearer at the end.
+  void turn(std::uint32_t v) {
+    const auto end = [&](std::int32_t solid) {
+      return solids_.at(static_cast<std::size_t>(solid), path_.end[v], path_.end_time).distance;
+    };
+    if (end(turns_[v]) < end(rides_[v]))
+      rides_[v] = turns_[v];
   }
 
   // Whether what touches the vertex' solid flows along it.
@@ -306,7 +329,8 @@ private:
         break;
       end = view.world_at_end(settle(view.shape(), view.own(view.pieces(), end), distance));
     }
-    path_.end[v] = prescribed_[v] == 0 ? end : beside_hold(v, end);
+    const bool between = prescribed_[v] != 0 && turns_[v] == no_solid;
+    path_.end[v] = between ? beside_hold(v, end) : with_fixed(prescribed_[v], path_.end[v], end);
   }
 
   // Whether another solid faces the own one across a point, at the end. What flows between two such solids sheet-step
@@ -578,7 +602,9 @@ private:
       if (slides(static_cast<std::uint32_t>(v))) {
         if (carried_[v] == 0)
           path_.fixed[v] = axes_across(normal) | prescribed_[v];
-        velocity = path_.velocity[v] + normal.dot(velocity - path_.velocity[v]) * normal;
+        velocity = turns_[v] != no_solid
+                       ? path_.velocity[v]
+                       : Vector3(path_.velocity[v] + normal.dot(velocity - path_.velocity[v]) * normal);
       }
       path_.velocity[v] = with_fixed(prescribed_[v], path_.velocity[v], velocity);
       ++report_.touching;
@@ -607,6 +633,7 @@ private:
   std::vector<SolidView> views_;
   std::vector<std::int32_t> rides_;                      // the solid that each vertex moves with, or none
   std::vector<std::uint8_t> changed_, carried_, caught_; // per vertex; bits would not be safe to write in parallel
+  std::vector<std::int32_t> turns_;                      // per vertex: the solid in whose corner it turns, or none
   std::vector<std::uint8_t> passes_;                     // per vertex: beside one that touches another solid
   std::vector<std::uint8_t> between_;                    // per vertex: squeezed between two solids at the start
   std::vector<double> edges_;                            // the longest at each vertex [m]

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "libsheet/energy/spring_rests.h"
 #include "libsheet/energy/stage_setup.h"
@@ -17,9 +18,20 @@ constexpr double longest_rise = 0.1; // of a layer in a step, as part of its edg
 constexpr int most_passes = 20;
 constexpr int most_layers = 100; // that lie on each other
 
+// Whether all corners of a triangle touch one wall, or turn in the corner of the same two.
+bool on_one_wall(const Stage& stage, const Corners& c) {
+  if (common_wall(stage, c) != no_index)
+    return true;
+  const WallSite* first = site_at(stage, c[0]);
+  return first != nullptr && std::ranges::all_of(c, [&](std::uint32_t v) {
+           const WallSite* site = site_at(stage, v);
+           return site != nullptr && (site->wall == first->wall || site->rounded_with == first->wall);
+         });
+}
+
 // The area of a triangle as the wall sees it that all its corners touch [m²]; 0 where it does not lie on one.
 double lying_area(const Stage& stage, const State& end, const Corners& c) {
-  if (common_wall(stage, c) == no_index)
+  if (!on_one_wall(stage, c))
     return 0;
   const auto& x = end.positions;
   const Vector3 whole = 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
@@ -51,6 +63,27 @@ void flatten(const Stage& stage, const State& end, std::vector<double>& distance
       for (const int high : {0, 1})
         lowered = lower(e, high) || lowered;
   }
+}
+
+// In a rounded corner the distance is the mean of those around, and where none is known that at which each is: what is
+// thin there would be drawn into the corner, below what is thick beside it, and be passed by that.
+void even_out_in_corners(const std::vector<Wall>& walls, const Stage& stage, const State& end,
+                         std::vector<double>& distance) {
+  if (std::ranges::all_of(stage.sites, [](const WallSite& site) { return site.rounded_with == no_index; }))
+    return;
+  std::vector<double> known(distance), sum(distance.size(), 0), count(distance.size(), 0);
+  for (const WallSite& site : stage.sites)
+    if (known[site.vertex] == 0)
+      known[site.vertex] = wall_point(walls, site, end.time, end.positions[site.vertex]).distance;
+  for (const auto& [a, b] : end.mesh->edges)
+    for (const auto& [at, other] : {std::pair(a, b), std::pair(b, a)})
+      if (known[a] > 0 && known[b] > 0) {
+        sum[at] += known[other];
+        ++count[at];
+      }
+  for (const WallSite& site : stage.sites)
+    if (const auto v = site.vertex; site.rounded_with != no_index && known[v] > 0)
+      distance[v] = (known[v] + sum[v]) / (1 + count[v]);
 }
 
 // Whether a wall with this normal is so steep that what stands beside it lies on another one alone: not in a groove.
@@ -170,6 +203,7 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
   for (const Channel& channel : stage.channels)
     distance[channel.vertex] = std::min(distance[channel.vertex], channel.gap / 2);
   flatten(stage, end, distance);
+  even_out_in_corners(walls, stage, end, distance);
   const std::vector<char> held = held_elsewhere(holds, stage);
   const Eigen::VectorXd lengths = step_scale(end, static_cast<Eigen::Index>(3 * stage.vertices()));
   Shifts shifts(stage.vertices());
@@ -178,7 +212,7 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
     const bool corner = site.across.size() > 1;
     if (distance[site.vertex] == 0 || (corner && !(site.beside_upright && bears_nothing(site.across[1], gravity))))
       continue;
-    const WallPoint point = walls[site.wall].nearest(end.time, end.positions[site.vertex]);
+    const WallPoint point = wall_point(walls, site, end.time, end.positions[site.vertex]);
     const double most = longest_rise * lengths[3 * static_cast<Eigen::Index>(site.vertex)];
     shifts.of[site.vertex] =
         std::clamp(distance[site.vertex] - point.distance, -most, most) * (corner ? rise_beside(site) : point.normal);

@@ -10,6 +10,7 @@
 #include "libsheet/energy/stage_setup.h"
 #include "libsheet/geometry/facing_walls.h"
 #include "libsheet/geometry/longest_edges.h"
+#include "libsheet/geometry/rounded_corner.h"
 #include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/heat/surroundings.h"
 
@@ -107,6 +108,54 @@ struct Around {
   double thickness, longest_edge;
 };
 
+// The wall that is the solid of this number, or no_index.
+std::uint32_t wall_of_solid(const std::vector<Wall>& walls, std::int32_t solid) {
+  for (std::uint32_t w = 0; w < walls.size(); ++w)
+    if (static_cast<std::int32_t>(walls[w].solid) == solid)
+      return w;
+  return no_index;
+}
+
+// The radius with which corners are rounded at each site, as long as the longest edge there or half the layer's thickness,
+// and nearly the same beside it: what is thicker would turn before what is ahead of it [m].
+std::vector<double> roundings(const Stage& stage, std::span<const Around> around) {
+  constexpr double steepest = 0.3;
+  constexpr int most_rounds = 20;
+  std::vector<double> radius(around.size(), 0);
+  for (const WallSite& site : stage.sites)
+    radius[site.vertex] = std::max(around[site.vertex].longest_edge, around[site.vertex].thickness / 2);
+  bool raised = true;
+  for (int pass = 0; pass < most_rounds && raised; ++pass) {
+    raised = false;
+    for (const auto& [a, b] : stage.start->mesh->edges) {
+      if (radius[a] == 0 || radius[b] == 0)
+        continue;
+      const double least =
+          std::max(radius[a], radius[b]) - steepest * (stage.start->positions[b] - stage.start->positions[a]).norm();
+      double& smaller = radius[a] < radius[b] ? radius[a] : radius[b];
+      raised = raised || smaller < least;
+      smaller = std::max(smaller, least);
+    }
+  }
+  return radius;
+}
+
+// Sets in which corners sites turn, and how those are rounded.
+void round_corners(const std::vector<Wall>& walls, std::span<const Around> around, Stage& stage) {
+  if (std::ranges::all_of(stage.sites, [](const WallSite& site) { return site.rounded_with == no_index; }))
+    return;
+  const std::vector<double> radius = roundings(stage, around);
+  for (WallSite& site : stage.sites)
+    if (site.rounded_with != no_index && channel_of(stage, site) != nullptr)
+      site.rounded_with = no_index;
+    else if (site.rounded_with != no_index) {
+      const auto at_start = [&](std::uint32_t wall) {
+        return walls[wall].nearest(stage.start->time, stage.start->positions[site.vertex]);
+      };
+      site.rounding = rounding_at(at_start(site.wall), at_start(site.rounded_with), radius[site.vertex]);
+    }
+}
+
 // Whether another wall that stands on the own one comes towards a vertex there, as a plough does, or turns beside it.
 // What leaves a gap below it, as a blade, passes over the layer (channels.h).
 bool pushes(const Wall& one, const Wall& other, const Stage& stage, std::uint32_t vertex, const Around& around) {
@@ -141,14 +190,14 @@ Beside beside(const std::vector<Wall>& walls, const Stage& stage, const WallSite
 // moves it across, but one that faces its own and would come too near.
 void keep_distances(const std::vector<Wall>& walls, const Stage& stage, const Around& around, WallSite& site) {
   const Vector3 &x0 = stage.start->positions[site.vertex], &x = stage.predicted[site.vertex];
-  const double own = walls[site.wall].nearest(stage.start->time, x0).distance;
-  const WallPoint point = walls[site.wall].nearest(stage.end_time, x);
+  const double own = wall_point(walls, site, stage.start->time, x0).distance;
+  const WallPoint point = wall_point(walls, site, stage.end_time, x);
   site.normal = point.normal;
   add_plane_of(site, point, x, kept_distance(stage, site, own));
   if (walls[site.wall].hollow && channel_of(stage, site) == nullptr)
     keep_off_face_beside(walls[site.wall], stage, own, around.thickness, site);
   for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w) {
-    if (w == site.wall || (walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
+    if (w == site.wall || w == site.rounded_with || (walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
       continue;
     const WallPoint other = walls[w].nearest(stage.end_time, x);
     if (!(other.distance < in_reach * own))
@@ -206,6 +255,14 @@ Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint3
     if (held[3 * std::size_t{v} + static_cast<std::size_t>(a)] != 0)
       free[a] = 0;
   return free;
+}
+
+WallPoint wall_point(const std::vector<Wall>& walls, const WallSite& site, double t, const Vector3& x) {
+  const WallPoint own = walls[site.wall].nearest(t, x);
+  if (site.rounded_with == no_index)
+    return own;
+  const InCorner corner = in_corner(own, walls[site.rounded_with].nearest(t, x), site.rounding);
+  return corner.rounded ? WallPoint{corner.distance, corner.normal} : own;
 }
 
 double wall_shift(const Stage& stage, std::size_t triangle, const WallSite& site) {
@@ -321,6 +378,8 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
       site.wall = w;
       if (!walls[w].forces.empty())
         site.force = walls[w].forces[i];
+      if (!walls[w].turned_to.empty())
+        site.rounded_with = wall_of_solid(walls, walls[w].turned_to[i]);
       site.slip_length = walls[w].slip_length;
       site.wetting = walls[w].wetting;
       site.stuck = stuck_to(walls[w], stage, v);
@@ -328,13 +387,17 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
       stage.sites.push_back(std::move(site));
     }
   std::ranges::sort(stage.sites, {}, &WallSite::vertex);
+  for (std::uint32_t s = 0; s < stage.sites.size(); ++s)
+    stage.site_of[stage.sites[s].vertex] = s;
   const std::vector<double> thickness = predicted_around(stage);
   find_channels(walls, thickness, stage);
   const std::vector<double> edges = longest_edges(stage.start->positions, stage.start->mesh->triangles);
+  std::vector<Around> around(stage.vertices());
+  for (std::size_t v = 0; v < around.size(); ++v)
+    around[v] = {thickness[v], edges[v]};
+  round_corners(walls, around, stage);
   for (WallSite& site : stage.sites)
-    keep_distances(walls, stage, {thickness[site.vertex], edges[site.vertex]}, site);
-  for (std::uint32_t s = 0; s < stage.sites.size(); ++s)
-    stage.site_of[stage.sites[s].vertex] = s;
+    keep_distances(walls, stage, around[site.vertex], site);
   set_wall_turns(stage);
 }
 

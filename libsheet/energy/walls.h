@@ -33,6 +33,8 @@ struct Wall {
   std::vector<std::uint32_t> vertices; // those that touch it; none: it only faces another wall (channels.h)
   std::uint32_t solid = 0;             // the number of the scene's solid that it is
   std::vector<Vector3> forces;         // of solids on each of them at the end of the step before [N]; none: not known
+  // Of each of them, the number of the other solid in whose corner with this one it turns, or -1; none: nothing does.
+  std::vector<std::int32_t> turned_to;
   double slip_length = 0;              // [m], or free_slip
   double wetting = 2;                  // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs
   std::function<WallPoint(double t, const Vector3& x)> nearest;
@@ -43,6 +45,9 @@ struct Wall {
   std::function<RigidMotion(double from, double to)> motion;
   std::function<Vector3(double t, const Vector3& x)> velocity;
 };
+
+// Where x is towards the wall of a site, or the rounding of the corner between that and another one.
+[[nodiscard]] WallPoint wall_point(const std::vector<Wall>& walls, const WallSite& site, double t, const Vector3& x);
 
 // Sets the stage's sites, from where it is predicted to end: predicted places, raised metrics, end time.
 void set_wall_sites(const std::vector<Wall>& walls, Stage& stage);

@@ -304,6 +304,8 @@ void EditableSheet::write_vertex_rows(const Edit& edit) {
       continue;
     row_.resize(row_size(array));
     transfer_row(array, edit.parents, row_.data());
+    if (array.name == "touch")
+      keep_on_walls(array, edit.parents);
     grow_rows(array, position_.size());
     std::memcpy(row_at(array, edit.vertex), row_.data(), row_.size());
     if (array.transfer == formats::Transfer::conserve && edit.kind == Edit::Kind::split)

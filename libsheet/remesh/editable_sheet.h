@@ -88,6 +88,8 @@ private:
   void commit(const Edit& edit);
   void write_vertex_rows(const Edit& edit);
   void write_triangle_rows(const Edit& edit);
+  // What is new between parents that each flow along a solid is on one of those: row_, its row of `touch`.
+  void keep_on_walls(formats::Array& touch, std::span<const Parent> parents);
   void write_means(const Edit& edit);
   void make_grid();
   [[nodiscard]] Box box_of(const Corners& corners) const;

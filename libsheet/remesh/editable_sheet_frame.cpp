@@ -136,6 +136,13 @@ std::uint32_t EditableSheet::grip_of(std::uint32_t v) {
   return static_cast<std::uint32_t>(it - grips_.begin());
 }
 
+void EditableSheet::keep_on_walls(Array& touch, std::span<const Parent> parents) {
+  if (std::ranges::all_of(parents, [&](const Parent& p) {
+        return wall_in(scene_, row_at(touch, p.row), row_size(touch)) != no_index;
+      }))
+    std::memcpy(row_.data(), row_at(touch, std::ranges::max(parents, {}, &Parent::weight).row), row_.size());
+}
+
 // A [[hold]] holds its axes; what else holds a vertex holds it in all, but for a solid along which it flows.
 Axes EditableSheet::axes_of(std::uint32_t v) {
   for (Array& array : vertex_rows_)

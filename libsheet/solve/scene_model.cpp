@@ -22,6 +22,7 @@
 #include "libsheet/sheet/directors.h"
 #include "libsheet/sheet/overshoot.h"
 #include "libsheet/sheet/sheet.h"
+#include "libsheet/solid/corners.h"
 #include "libsheet/solve/bath_reach.h"
 #include "libsheet/solve/held_rims.h"
 #include "libsheet/solve/pressure_laws.h"
@@ -156,17 +157,22 @@ std::vector<char> thin_films(const Frame& frame) {
   return films;
 }
 
+// Of the triangles around each vertex [m].
+std::vector<double> thickness_at(const Frame& frame) {
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  return thickness_around(x.size(), corners, volumes(frame), [&](std::uint32_t t) {
+    return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
+  });
+}
+
 // Of the vertices that stick to solid i, takes away those that lie between it and another solid which leaves them no
 // room, and gives them: they flow out from there, without slip.
 std::vector<std::uint32_t> take_squeezed(const solid::Solids& solids, std::size_t i, const Frame& frame,
                                          std::vector<std::uint32_t>& vertices) {
   std::vector<std::uint32_t> squeezed;
   const auto x = positions(frame);
-  const auto corners = triangles(frame);
-  const std::vector<double> thickness = thickness_around(x.size(), corners, volumes(frame), [&](std::uint32_t t) {
-    return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
-  });
-  const std::vector<double> edges = longest_edges(x, corners);
+  const std::vector<double> thickness = thickness_at(frame), edges = longest_edges(x, triangles(frame));
   std::erase_if(vertices, [&](std::uint32_t v) {
     const bool no_room = solids.squeezed(i, x[v], frame.time, thickness[v], edges[v]);
     if (no_room)
@@ -174,6 +180,21 @@ std::vector<std::uint32_t> take_squeezed(const solid::Solids& solids, std::size_
     return no_room;
   });
   return squeezed;
+}
+
+// Of each vertex, the solid in whose corner with the one that it touches it turns (corners.h), or no_solid.
+std::vector<std::int32_t> turning(const Scene& scene, const Frame& frame, const solid::Solids* solids,
+                                  std::vector<std::int32_t> touched) {
+  if (solids == nullptr || scene.solids.size() < 2 || !flows_on_solids(scene) || !scene.environment.gravity)
+    return std::vector<std::int32_t>(touched.size(), no_solid);
+  for (std::int32_t& solid : touched)
+    if (solid != no_solid && scene.solids[static_cast<std::size_t>(solid)].contact == SolidContact::stick)
+      solid = no_solid;
+  const auto x = positions(frame);
+  const auto corners = triangles(frame);
+  const std::vector<double> thickness = thickness_at(frame), edges = longest_edges(x, corners);
+  return solid::turned_to(*solids,
+                          {x, corners, thickness, edges, touched, frame.time, *scene.environment.gravity});
 }
 
 // What touches a solid moves with its surface, without slip [Batty et al. 2012, section 3.5], or flows along it. Gives
@@ -187,6 +208,7 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
       touching[static_cast<std::size_t>(touched[v])].push_back(v);
   const Array* forces = frame.find("touch_force");
   const std::vector<char> films = flows_on_solids(scene) ? thin_films(frame) : std::vector<char>{};
+  const std::vector<std::int32_t> turned_to = turning(scene, frame, solids.get(), touched);
   std::vector<char> listed(touching.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i < touching.size(); ++i) {
@@ -208,12 +230,16 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
     hold.of_wall = true;
     if (solid.contact == SolidContact::flow && !solid.receding)
       hold.vertices = held_rims(scene, frame, mesh, touching[i]);
+    std::erase_if(hold.vertices, [&](std::uint32_t v) { return turned_to[v] != no_solid; }); // pushed round the corner
     if (solid.contact == SolidContact::flow)
       std::ranges::copy_if(touching[i], std::back_inserter(hold.vertices), [&](std::uint32_t v) { return films[v]; });
     model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
+    Wall& wall = model.walls.back();
     if (forces != nullptr)
-      for (const std::uint32_t v : model.walls.back().vertices)
-        model.walls.back().forces.push_back(forces->values<Vector3>()[v]);
+      for (const std::uint32_t v : wall.vertices)
+        wall.forces.push_back(forces->values<Vector3>()[v]);
+    for (const std::uint32_t v : wall.vertices)
+      wall.turned_to.push_back(turned_to[v]);
     listed[i] = 1;
     if (!hold.vertices.empty())
       model.holds.push_back(std::move(hold));

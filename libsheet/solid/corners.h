@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Corners between two solids in which liquid turns: what runs down the side of one goes on along another one, on which
+// that stands.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libsheet/solid/solids.h"
+
+namespace sheet::solid {
+
+// A sheet on solids at the time t [s], under gravity [m/s²].
+struct SheetOnSolids {
+  std::span<const Vector3> x; // of its vertices [m]
+  std::span<const Corners> triangles;
+  std::span<const double> thickness, longest_edges; // at each vertex [m]
+  std::span<const std::int32_t> rides;              // the solid along which each flows, or no_solid
+  double t;
+  Vector3 gravity;
+};
+
+// Of each vertex, the other solid in whose corner with its own one it turns, or no_solid: one that rests beside it, at
+// an angle, along which liquid flows, not farther off than its own one by more than two edges or thicknesses; and that
+// bears more of the weight, or less, if the sheet has come from there: if it shares a triangle with what flows along
+// that.
+[[nodiscard]] std::vector<std::int32_t> turned_to(const Solids& solids, const SheetOnSolids& sheet);
+
+} // namespace sheet::solid
