@@ -567,8 +567,8 @@ private:
       if (held(v) || rides_[v] == no_solid)
         continue;
       path_.fixed[v] = all_axes;
-      if (carried_[v] != 0 && path_.touch[v] == no_solid)
-        continue;
+      if (carried_[v] != 0 && path_.touch[v] != rides_[v])
+        continue; // for this step only
       const auto solid = static_cast<std::size_t>(rides_[v]);
       path_.touch[v] = rides_[v];
       if (caught_[v] != 0 && !slides(static_cast<std::uint32_t>(v)))

@@ -774,3 +774,41 @@ END
       exit !(way > 0.99*law && way < 1.01*law) }'
   done
 }
+
+# usage: layer GRAVITY SIZE CENTER: 5 mm thick, on y = 0, of 3 Pa s
+layer() {
+  cat << END
+[material]
+viscosity = "3 Pa*s"
+density = "1050 kg/m^3"
+[model]
+forces = true
+[environment]
+gravity = $1
+[sheet]
+shape = "rectangle"
+size = $2
+edge_length = "4 mm"
+thickness = "5 mm"
+center = $3
+[contact]
+self = false
+END
+}
+
+# usage: on_belt: a strip on a belt that goes to x = 0 at 30 mm/s
+on_belt() {
+  layer '[0, -9.81, 0]' '["200 mm", "8 mm"]' '["-110 mm", "2.5 mm", 0]'
+  printf '[[hold]]\nregion = "%s"\naxes = "z"\n' z_min z_max
+  printf '[[solid]]\nshape = "plane"\ncontact = "flow"\nsurface_velocity = ["30 mm/s", 0, 0]\n[[solid]]\nshape = "box"\n'
+}
+
+# What sheet-collide carried with the scraper for a step stuck to it for good, and the film after it: 0.02 mm of 2 mm.
+@test "a scraper that leans over a belt goes on to leave a film" {
+  { on_belt && printf '%s\n' 'size = ["20 mm", "80 mm", "60 mm"]' 'rotation = {axis = [0, 0, 1], angle = "20 deg"}' \
+    'center = ["-4.2839 mm", "43.0079 mm", 0]'; } > scraper.toml
+  run_scene scraper 3 24
+  read -r film most <<< "$(film scraper.sheet 4 60)"
+  echo "film of $film mm, at most $most"
+  awk -v film="$film" -v most="$most" 'BEGIN { exit !(film > 1.5 && most < 2.3) }'
+}
