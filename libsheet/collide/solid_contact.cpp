@@ -98,8 +98,9 @@ public:
 
   SolidReport run() {
     hold_vertices();
+    const auto mends = [this](std::uint32_t t, std::uint32_t solid) { return !stands_beside(t, solid); };
     for (int round = 0; round < rounds && !active_.empty(); ++round) {
-      auto hits = find_hits(path_, views_, rides_, active_, {.mend = true});
+      auto hits = find_hits(path_, views_, rides_, active_, {.mends = mends});
       std::ranges::stable_sort(hits, earlier); // whatever the order of the triangles
       count_across(hits);
       push(hits);
@@ -387,6 +388,23 @@ private:
                                                                               : quarter;
   }
 
+  // Whether a triangle that is nearer to a solid than triangles may come is so with corners only that lie on another
+  // one and stand beside this one: what piles up there gets thicker than it is far off, and would be put off by that.
+  [[nodiscard]] bool stands_beside(std::uint32_t t, std::uint32_t solid) const {
+    const SolidView& view = views_[solid];
+    bool any = false;
+    for (const std::uint32_t v : path_.triangles[t]) {
+      const Vector3 start = view.own(0, path_.start[v]);
+      const double within = clearance_part * path_.half_thickness(v);
+      if (view.shape().distance(start, within) >= within)
+        continue;
+      if (rides_[v] == static_cast<std::int32_t>(solid) || !flows_beside(v, view, view.shape().nearest(start).normal))
+        return false;
+      any = true;
+    }
+    return any;
+  }
+
   // The distance that a vertex on one solid keeps from another one: that at which it would touch it, unless it starts
   // nearer. Beside upright ones, which bear nothing, it may be as near as it starts: put farther off as the layer
   // grows thicker, its rim would make that thicker still.
@@ -394,8 +412,9 @@ private:
     const double half = path_.half_thickness(v);
     const Vector3 start = other.own(0, path_.start[v]);
     const double before = other.shape().distance(start, half);
-    if (before > 0 && before < half / 2 && flows_beside(v, other, other.shape().nearest(start).normal))
-      return before;
+    const double least = least_beside * half;
+    if (before > -least && before < half / 2 && flows_beside(v, other, other.shape().nearest(start).normal))
+      return std::max(before, least);
     return std::clamp(before, half / 2, catching_distance(path_, other, v, start, 2 * half));
   }
 
@@ -497,9 +516,9 @@ private:
     const solid::Near& near = hit.point.near;
     if (hit.kind == FoundHit::Kind::across && std::ranges::any_of(corners, [&](std::uint32_t v) { return held(v); }))
       return; // out of what a [[hold]] keeps in nothing comes
-    // Out to the target along the normal, without speed, what an impulse of this round at the same place (an edge that
-    // two triangles share) has not yet brought it out.
-    const double out = std::max(0.0, target * lever.half - near.distance);
+    // Out to what it keeps along the normal, without speed, what an impulse of this round at the same place (an edge
+    // that two triangles share) has not yet brought it out.
+    const double out = std::max(0.0, hit.keeps - near.distance);
     const double already = std::clamp((lever.end - hit.place).dot(near.normal), 0.0, out);
     const bool sticks = solids_.scene(hit.solid).contact == SolidContact::stick;
     Vector3 move = (out - already) * near.normal; // in the solid's frame
@@ -591,8 +610,8 @@ private:
       if (held(v) || rides_[v] == no_solid)
         continue;
       path_.fixed[v] = all_axes;
-      if (carried_[v] != 0 && path_.touch[v] == no_solid)
-        continue;
+      if (carried_[v] != 0 && path_.touch[v] != rides_[v])
+        continue; // for this step only
       const auto solid = static_cast<std::size_t>(rides_[v]);
       path_.touch[v] = rides_[v];
       if (caught_[v] != 0 && !slides(static_cast<std::uint32_t>(v)))
@@ -681,7 +700,7 @@ std::vector<std::uint32_t> unsafe_triangles(const StepPath& path, const solid::S
   std::vector<std::uint32_t> all(path.triangles.size()), result;
   std::iota(all.begin(), all.end(), 0U);
   // A little less than what resolve_solids keeps, so that round-off raises no alarm.
-  for (const FoundHit& hit : find_hits(path, views, rides, all, {0.8 * clearance_part, 0.1 * clearance_part}))
+  for (const FoundHit& hit : find_hits(path, views, rides, all, {0.8 * clearance_part, 0.1 * clearance_part, {}}))
     result.push_back(hit.triangle);
   return result;
 }

@@ -94,18 +94,25 @@ public:
   TriangleSweep(const StepPath& path, const SolidView& view, std::uint32_t triangle, std::array<bool, 3> rides)
       : path_(path), view_(view), triangle_(triangle), rides_(rides) {}
 
-  [[nodiscard]] std::optional<FoundHit> first(double clearance, double slack, bool mend) const {
-    const double wanted = clearance;
+  // `half`: of the thickness. `mends`: whether what starts nearer than the clearance must not end so.
+  template <class Mends>
+  [[nodiscard]] std::optional<FoundHit> first(double half, const Nearness& nearness, const Mends& mends) const {
+    const double wanted = nearness.clearance * half;
+    double clearance = wanted, slack = nearness.slack * half, keeps = target * half;
     solid::MovingTriangle moving{at(0), at(1)};
     double starts_with = std::numeric_limits<double>::infinity();
+    bool mend = false;
     for (std::size_t k = 0; k < view_.pieces(); ++k) {
       if (k > 0)
         moving = {moving.end, at(k + 1)};
       auto hit = view_.shape().first_hit(moving, clearance, slack);
       if (k == 0 && hit && hit->s == 0) {
         starts_with = std::min(clearance, view_.shape().separation(moving.start, clearance, measured * clearance));
+        mend = mends();
+        if (!mend)
+          keeps = std::max(starts_with, least_beside * half);
         if (starts_with == 0)
-          return at_end(FoundHit::Kind::across, clearance, slack);
+          return at_end(FoundHit::Kind::across, mend ? clearance : (1 - 2 * measured) * keeps, slack, keeps);
         hit = view_.shape().first_hit(moving, 0.9 * starts_with, 0.05 * starts_with);
         clearance = 0.9 * starts_with;
         slack = 0.05 * starts_with;
@@ -117,13 +124,14 @@ public:
                       0,
                       (static_cast<double>(k) + hit->s) / static_cast<double>(view_.pieces()),
                       hit->point,
-                      solid::point_of(moving.at(hit->s), hit->point.weights)};
+                      solid::point_of(moving.at(hit->s), hit->point.weights),
+                      keeps};
     }
     if (starts_with == std::numeric_limits<double>::infinity())
       return std::nullopt;
     const double ends_with = mend ? wanted : starts_with;
     if (view_.shape().separation(moving.end, ends_with, measured * ends_with) < (1 - 2 * measured) * ends_with)
-      return at_end(FoundHit::Kind::closing, clearance, slack);
+      return at_end(FoundHit::Kind::closing, clearance, slack, keeps);
     return std::nullopt;
   }
 
@@ -139,12 +147,13 @@ private:
     return result;
   }
 
-  [[nodiscard]] std::optional<FoundHit> at_end(FoundHit::Kind kind, double clearance, double slack) const {
+  [[nodiscard]] std::optional<FoundHit> at_end(FoundHit::Kind kind, double clearance, double slack,
+                                               double keeps) const {
     const solid::Triangle3 last = at(view_.pieces());
     const solid::TrianglePoint deepest = view_.shape().deepest(last, slack);
     if (kind == FoundHit::Kind::across && deepest.near.distance >= clearance)
       return std::nullopt;
-    return FoundHit{kind, triangle_, 0, 1, deepest, solid::point_of(last, deepest.weights)};
+    return FoundHit{kind, triangle_, 0, 1, deepest, solid::point_of(last, deepest.weights), keeps};
   }
 
   const StepPath& path_;
@@ -174,7 +183,7 @@ std::optional<FoundHit> first_hit(const StepPath& path, std::span<const SolidVie
       continue;
     const auto on_this = [&](std::size_t c) { return rides[corners[c]] == static_cast<std::int32_t>(i); };
     const TriangleSweep sweep(path, views[i], triangle, {on_this(0), on_this(1), on_this(2)});
-    auto hit = sweep.first(nearness.clearance * half, nearness.slack * half, nearness.mend);
+    auto hit = sweep.first(half, nearness, [&] { return nearness.mends && nearness.mends(triangle, i); });
     if (!hit || (first && first->s <= hit->s))
       continue;
     first = hit;

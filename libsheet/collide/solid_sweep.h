@@ -2,6 +2,7 @@
 // Where the vertices and triangles of a step first meet solids.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,7 @@ namespace sheet::collide {
 inline constexpr double clearance_part = 0.25; // of triangles: what is guaranteed
 inline constexpr double hit_slack = 0.125;     // between this more and the guarantee, a hit may or may not be found
 inline constexpr double target = 0.5;          // how far out a triangle that has hit is brought
+inline constexpr double least_beside = 0.02;   // of a rim beside an upright face, which bears nothing
 inline constexpr double vertex_slack = 1e-6;   // a vertex this much beyond half the thickness touches: round-off
 
 // The earliest s at which a point on its way from a to b is within `offset` of the solid, to a millionth, by
@@ -46,12 +48,15 @@ struct FoundHit {
   double s;                   // the part of the step until then
   solid::TrianglePoint point; // near in the solid's frame
   Vector3 place;              // of the point, in the solid's frame, at that time
+  double keeps;               // how far off the triangle is to be kept [m]
 };
 
 // How near triangles may come, as parts of half the thickness.
 struct Nearness {
   double clearance = clearance_part, slack = hit_slack;
-  bool mend = false; // what starts nearer than the clearance must not end so
+  // Whether a triangle that starts nearer to a solid than the clearance must not end so, but at the target; else as far
+  // off as it starts, or as a rim may be. Absent: none must.
+  std::function<bool(std::uint32_t triangle, std::uint32_t solid)> mends;
 };
 
 // The earliest hit of one triangle; vertices ride on the solid that `rides` names, or go straight. A triangle that

@@ -20,12 +20,20 @@ namespace {
 struct RimSide {
   Vector3 middle, outward; // outward: unit, along the triangle
   double length, thickness;
+  std::int32_t flows_on; // the solid along which it flows, or no_solid
 };
 
-std::vector<RimSide> free_rim(const formats::Frame& first, const Connectivity& mesh) {
+std::vector<RimSide> free_rim(const Scene& scene, const formats::Frame& first, const Connectivity& mesh) {
   const auto x = positions(first);
   const auto held = holds(first);
   const auto volume = volumes(first);
+  const auto touch = touched_solids(first, scene.solids.size());
+  const auto flows_on = [&](std::uint32_t a, std::uint32_t b) {
+    const std::int32_t solid = touch[a] == touch[b] ? touch[a] : no_solid;
+    const bool flows =
+        solid != no_solid && scene.solids[static_cast<std::size_t>(solid)].contact != SolidContact::stick;
+    return flows ? solid : no_solid;
+  };
   const auto is_held = [&](std::uint32_t v) { return !held.empty() && held[v] != 0; };
   std::vector<RimSide> sides;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
@@ -37,7 +45,7 @@ std::vector<RimSide> free_rim(const formats::Frame& first, const Connectivity& m
     const TriangleArea triangle(x[c[0]], x[c[1]], x[c[2]]);
     const Vector3 along = x[b] - x[a], inward = (x[c[0]] + x[c[1]] + x[c[2]]) / 3 - x[a];
     const Vector3 out = along.dot(inward) / along.squaredNorm() * along - inward;
-    sides.push_back({(x[a] + x[b]) / 2, out.normalized(), along.norm(), volume[t] / triangle.area});
+    sides.push_back({(x[a] + x[b]) / 2, out.normalized(), along.norm(), volume[t] / triangle.area, flows_on(a, b)});
   }
   return sides;
 }
@@ -54,8 +62,10 @@ std::string beside_walls_warning(const Scene& scene, const formats::Frame& first
   const solid::Solids solids(scene);
   std::vector<double> lost(solids.size(), 0), nearest(solids.size(), 0); // [m²]; [m]
   double thickness = 0;
-  for (const RimSide& side : free_rim(first, mesh))
+  for (const RimSide& side : free_rim(scene, first, mesh))
     for (std::size_t s = 0; s < solids.size(); ++s) {
+      if (side.flows_on != no_solid && side.flows_on != static_cast<std::int32_t>(s))
+        continue; // it stays where it is
       const solid::SolidPoint there = solids.at(s, side.middle, first.time);
       if (there.distance > side.thickness / 8 || std::abs(up->dot(there.normal)) > upright ||
           -side.outward.dot(there.normal) < edge_on)

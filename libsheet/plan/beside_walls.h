@@ -9,8 +9,9 @@
 namespace sheet {
 
 // Of the solid beside which the sheet's free rim loses most: a rim that starts nearer to an upright face than an eighth
-// of the thickness is put up to a quarter of it off that in the first step (solid_contact.h), and the layer becomes
-// thicker by the room that it loses. "" where all solids together take less than a twentieth of its area.
+// of the thickness is put up to a quarter of it off that in the first step (solid_contact.h), unless it flows along
+// another solid, and the layer becomes thicker by the room that it loses. "" where all solids together take less than a
+// twentieth of its area.
 [[nodiscard]] std::string beside_walls_warning(const Scene& scene, const formats::Frame& first);
 
 } // namespace sheet

@@ -88,11 +88,10 @@ TEST(SolidContact, WhatComesDownAWallLiesOnTheFloor) {
   EXPECT_EQ(touched_after({-6.93, -6.94, 0}), 11U); // a groove
 }
 
-// The rim of a layer on a floor, a fifth of its thickness from another solid: an upright one, as the side of a dish,
-// lets it stand there, one that leans puts it off.
+// The rim of a layer on a floor, so far from another solid: an upright one, as the side of a dish, lets it stand there,
+// however near it is, from a hundredth of the thickness on, one that leans puts it off.
 TEST(SolidContact, BesideASideARimStaysAsNearAsItIs) {
-  constexpr double near = thickness_of_sheet / 5;
-  const auto nearest = [near](const Vector3& normal) {
+  const auto nearest = [](double near, const Vector3& normal) {
     FallingSheet sheet = falling(0, thickness_of_sheet / 2);
     std::ranges::fill(sheet.path.touch, 0);
     sheet.path.gravity = {0, -9.81, 0};
@@ -107,8 +106,12 @@ TEST(SolidContact, BesideASideARimStaysAsNearAsItIs) {
       least = std::min(least, distance_at_end(sheet, solids, v, 1));
     return least;
   };
-  EXPECT_NEAR(nearest({1, 0, 0}), near, 1e-9);
-  EXPECT_NEAR(nearest({0.8, 0.6, 0}), thickness_of_sheet / 4, 1e-3 * thickness_of_sheet);
+  constexpr double h = thickness_of_sheet;
+  EXPECT_NEAR(nearest(h / 5, {1, 0, 0}), h / 5, 1e-9);
+  EXPECT_NEAR(nearest(h / 10, {1, 0, 0}), h / 10, 1e-9); // nearer than triangles may come elsewhere
+  EXPECT_NEAR(nearest(h / 50, {1, 0, 0}), h / 50, 1e-9);
+  EXPECT_NEAR(nearest(0, {1, 0, 0}), h / 100, 1e-9);
+  EXPECT_NEAR(nearest(h / 5, {0.8, 0.6, 0}), h / 4, 1e-3 * h);
 }
 
 // Between two plates a sheet of 2 mm touches the lower one. Where the upper one leaves it less room than that it

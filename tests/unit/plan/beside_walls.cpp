@@ -15,8 +15,9 @@ namespace {
 
 // Of a layer of 0.6 m by 0.4 m, 0.1 m thick, between two boards that are so far from it. At both sides it loses a
 // strip of 25 mm less that, of 0.4 m.
-std::string beside(double gap, const std::string& normal = "0", const std::string& hold = "") {
-  const std::string plane = "[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n";
+std::string beside(double gap, const std::string& normal = "0", const std::string& hold = "",
+                   const std::string& contact = "stick") {
+  const std::string plane = "[[solid]]\nshape = \"plane\"\ncontact = \"" + contact + "\"\n";
   const Scene scene = scene::parse_scene(
       fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.6, 0.4]\nedge_length = 0.05\nthickness = 0.1\n"
                   "center = [0, 0.05, 0]\n[material]\nviscosity = 10\ndensity = 1000\n[environment]\n"
@@ -36,6 +37,7 @@ TEST(BesideWalls, WhatFillsItsFormIsPutOffItsSides) {
   EXPECT_EQ(beside(0.1), "");
   EXPECT_EQ(beside(0, "1"), ""); // sides that lean bear the layer
   EXPECT_EQ(beside(0, "0", "[[hold]]\nregion = \"rim\"\n"), "");
+  EXPECT_EQ(beside(0, "0", "", "flow"), ""); // stays where it is
 }
 
 } // namespace
