@@ -774,3 +774,59 @@ END
       exit !(way > 0.99*law && way < 1.01*law) }'
   done
 }
+
+# Flat, and off its wall as its band is thick: the thin part carries itself, rho g h = 3.5 of 5 Pa, as the wall bears it.
+@test "paint on a door stays where it is thin, though a band of it is thick" {
+  cat > door.toml << 'END'
+[sheet]
+shape = "rectangle"
+size = ["20 cm", "30 cm"]
+plane = "xy"
+edge_length = "20 mm"
+center = [0, 0, "0.4 mm"]
+thickness = {along = "y", rows = [["4 cm", "0.3 mm"], ["6 cm", "1.2 mm"], ["9 cm", "1.2 mm"], ["11 cm", "0.3 mm"]]}
+[material]
+law = "bingham"
+viscosity = "2 Pa*s"
+yield_stress = "5 Pa"
+density = "1200 kg/m^3"
+[environment]
+gravity = [0, -9.81, 0]
+[[solid]]
+shape = "plane"
+normal = [0, 0, 1]
+contact = "flow"
+END
+  sheet-init --check door.toml > check.txt
+  run -1 grep "falls for ever" check.txt
+  run_scene door 0.3 20
+  awk -v thin="$(least door thickness_min)" -v low="$(least door y_min)" \
+    'BEGIN { exit !(thin > 0.00029 && low > -0.151) }'
+}
+
+# Its weight is 334 Pa, all around.
+@test "a coat round a rod to which it sticks stays below it, too" {
+  cat > coat.toml << 'END'
+[sheet]
+shape = "tube"
+radius = "31 cm"
+height = "20 cm"
+rotation = {axis = [1, 0, 0], angle = "90 deg"}
+edge_length = "35 mm"
+thickness = "2 cm"
+[material]
+viscosity = "30 Pa*s"
+density = "1700 kg/m^3"
+[environment]
+gravity = [0, -9.81, 0]
+[[solid]]
+shape = "cylinder"
+radius = "30 cm"
+height = "22 cm"
+rotation = {axis = [1, 0, 0], angle = "90 deg"}
+[contact]
+adhesion = "1 kPa"
+END
+  run_scene coat 0.2 20
+  awk -v low="$(least coat y_min)" 'BEGIN { exit !(low > -0.312) }'
+}
