@@ -36,6 +36,7 @@
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/proposed_ring.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/plan/sinking_back.h"
 #include "libsheet/plan/slopes.h"
 #include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/symmetry.h"
@@ -188,7 +189,8 @@ std::string explained(Source source, bool ring_alone) {
         sheet::thick_stream_warning(scene, frame, until), sheet::wetting_warning(scene, frame, until),
         sheet::bath_crushing_warning(scene, frame), sheet::held_whole_warning(scene, frame),
         sheet::overlapping_warning(scene), sheet::open_rim_warning(scene, frame),
-        sheet::beside_walls_warning(scene, frame), sheet::bath_clinging_warning(scene, frame)})
+        sheet::beside_walls_warning(scene, frame), sheet::bath_clinging_warning(scene, frame),
+        sheet::sinking_back_warning(scene, frame, until), sheet::drawing_along_warning(scene, frame, until)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :

@@ -28,8 +28,9 @@ constexpr double least_across = 1e-6;
 // Why an inflow points out of the sheet, and what to do.
 std::string_view why_outward(const Frame& frame, const InletChain& chain) {
   if (!chain.row.empty())
-    return "what has flowed in was turned over there, as by a solid that comes to the inlet or by what piles up below "
-           "it; give it room";
+    return "what has flowed in was turned over there, as by a solid that comes to the inlet, by what piles up below "
+           "it, by its weight as it is drawn up, or by a solid that drags it along the inlet faster than it comes in; "
+           "give it room, or edges so short that a row has entered before it is dragged as far";
   if (frame.step > 0)
     return "the sheet was turned over there before anything had entered; let it start at the inflow's velocity "
            "(velocity in [sheet]), and give it room";

@@ -34,6 +34,24 @@ public:
     for (std::size_t v = 0; v < x.size(); v += stride)
       if (const auto solid = under(x[v]))
         lying_.push_back({x[v], *solid});
+    for (std::size_t v = 0; v < x.size(); v += stride)
+      if (!under(x[v]) &&
+          std::ranges::any_of(lying_, [&](const Lying& what) { return (what.x - x[v]).norm() < beside * thickness_; }))
+        spanning_.push_back(x[v]);
+  }
+
+  // Whether it comes from above to something that spans a gap, and leaves that place.
+  [[nodiscard]] bool draws_along(std::size_t tool) const {
+    return std::ranges::any_of(spanning_, [&](const Vector3& x) {
+      bool touched = false;
+      for (int i = 0; i <= times; ++i) {
+        const solid::SolidPoint point = solids_.at(tool, x, start_ + (until_ - start_) * i / times);
+        if (touched && point.distance > risen * thickness_)
+          return true;
+        touched = touched || (point.distance < near_enough * thickness_ && point.normal.dot(up_) < -upright);
+      }
+      return false;
+    });
   }
 
   // The solid on which something lies that this one comes to, not from below, and rises from.
@@ -101,6 +119,7 @@ private:
   static constexpr int times = 200;
   static constexpr double near_enough = 0.75; // thicknesses: from a solid, of what touches it
   static constexpr double risen = 2;          // thicknesses
+  static constexpr double beside = 2;         // thicknesses: of what spans a gap, from what lies on a solid
   static constexpr int marched = 100;         // steps of sphere tracing
   static constexpr double near_solid = 1e-3;  // thicknesses
   static constexpr double upright = 0.5;      // cosine between a face that looks up, and up
@@ -108,6 +127,7 @@ private:
   Vector3 up_;
   double start_, until_, thickness_;
   std::vector<Lying> lying_;
+  std::vector<Vector3> spanning_;
 };
 
 } // namespace
@@ -124,6 +144,23 @@ std::string drawing_up_warning(const Scene& scene, const formats::Frame& first, 
             "or without: a sheet stays with the solid that it touched first. What is to rise with a tool "
             "lies on it from the start",
             tools.name(i), tools.name(*from));
+  return {};
+}
+
+std::string drawing_along_warning(const Scene& scene, const formats::Frame& first, double until) {
+  const bool comes_off = scene.contact && scene.contact->adhesion;
+  if (!scene::up(scene.environment) || scene.solids.size() < 2 || first.vertices == 0 || comes_off)
+    return {};
+  const Tools tools(scene, first, until);
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    if (!std::holds_alternative<scene::Fixed>(scene.solids[i].motion) && tools.draws_along(i)) {
+      const Liquid& liquid = scene::material_of(scene, scene.sheets.front());
+      const double weight = liquid.density * scene.environment.gravity->norm() * *measured(first).thickness;
+      return fmt::format("{} comes from above to what spans a gap, and goes on: a sheet stays with the solid that it "
+                         "touched first, and is drawn out behind it without end. adhesion = \"{:.2g} Pa\" in [contact] "
+                         "lets it come off",
+                         tools.name(i), weight / 2);
+    }
   return {};
 }
 

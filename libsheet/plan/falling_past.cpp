@@ -2,18 +2,25 @@
 #include "libsheet/plan/falling_past.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "libsheet/geometry/area.h"
+#include "libsheet/geometry/vertex_shares.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/hanging.h"
 #include "libsheet/plan/landing.h"
 #include "libsheet/plan/parting.h"
 #include "libsheet/plan/way_of_sheet.h"
 #include "libsheet/scene/brief.h"
+#include "libsheet/scene/explain_heat.h"
 #include "libsheet/scene/inlet_velocity.h"
 #include "libsheet/scene/motion.h"
 #include "libsheet/scene/sheet_edges.h"
@@ -49,14 +56,18 @@ bool falls_straight_down(const Scene& scene, const Frame& first, const Vector3d&
          (!moves || std::ranges::all_of(velocities(first), [&](const Vector3d& v) { return is_along(v, down); }));
 }
 
-// Whether any of it lies on a solid from the start, as paint on an upright wall.
+// Whether any of it lies on a solid from the start, as paint on an upright wall, as thick as it is there.
 bool lies_on_solid(const Scene& scene, const Frame& first) {
   constexpr double near_enough = 0.75; // thicknesses
   const solid::Solids solids(scene);
-  const double reach = near_enough * measured(first).thickness.value_or(0);
+  const auto x = positions(first);
+  const auto corners = triangles(first);
+  const std::vector<double> thickness = thickness_around(first.vertices, corners, volumes(first), [&](std::uint32_t t) {
+    return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
+  });
   return std::ranges::any_of(probes_of(first), [&](std::size_t v) {
     for (std::size_t i = 0; i < solids.size(); ++i)
-      if (solids.at(i, positions(first)[v], first.time).distance < reach)
+      if (solids.at(i, x[v], first.time).distance < near_enough * thickness[v])
         return true;
     return false;
   });
@@ -88,6 +99,22 @@ std::optional<Vector3d> end_of_hold(const Scene& scene, const Frame& first, std:
   return last;
 }
 
+// What comes off a solid before `until`, or hangs over its edge from the start and is drawn out by then; "" if nothing.
+std::string why_it_comes_off(const Scene& scene, const Frame& first, double until) {
+  Scene parting = scene;
+  if (parting.contact)
+    parting.contact->adhesion.reset();
+  if (const auto comes_off = must_part(parting, first, until))
+    return comes_off->thrown ? "" : comes_off->why;
+  const Scene cold = scene::as_it_starts(scene);
+  const auto hangs = overhang(cold, first, landings(cold, first));
+  if (!hangs || !(hangs->time + std::sqrt(2 * hangs->length / scene.environment.gravity->norm()) < until))
+    return "";
+  return fmt::format("the sheet starts {:.2g} m over the edge of {}: its weight draws out what hangs there, to any "
+                     "length, within about {:.2g} s",
+                     hangs->length, solid::Solids(scene).name(hangs->solid), hangs->time);
+}
+
 } // namespace
 
 std::string falling_past_warning(const Scene& scene, const Frame& first) {
@@ -108,11 +135,8 @@ std::string falling_past_warning(const Scene& scene, const Frame& first) {
 std::string falling_on_warning(const Scene& scene, const Frame& first, double until) {
   if (scene.solids.empty() || !scene::is_bottomless(scene) || first.vertices == 0)
     return "";
-  Scene parting = scene;
-  if (parting.contact)
-    parting.contact->adhesion.reset();
-  const auto comes_off = must_part(parting, first, until);
-  if (!comes_off || comes_off->thrown)
+  const std::string why = why_it_comes_off(scene, first, until);
+  if (why.empty())
     return "";
   const Vector3d up = *scene::up(scene.environment);
   const solid::Solids solids(scene);
@@ -131,7 +155,7 @@ std::string falling_on_warning(const Scene& scene, const Frame& first, double un
   const Vector3d point = all.center() - below * up;
   return fmt::format("{}. Nothing is below: what falls there falls for ever, in steps of its fall. [[outflow]] point = "
                      "[{}, {}, {}], normal = [{}, {}, {}] ends it",
-                     comes_off->why, scene::brief(point.x()), scene::brief(point.y()), scene::brief(point.z()),
+                     why, scene::brief(point.x()), scene::brief(point.y()), scene::brief(point.z()),
                      scene::brief(-up.x()), scene::brief(-up.y()), scene::brief(-up.z()));
 }
 

@@ -66,8 +66,10 @@ std::string scale_in_doubt(const Scene& scene, const solid::Solids& solids, std:
 }
 
 // Where gravity pulls towards a positive coordinate, as by a forgotten sign, or is tilted, as for a slope, and a plane
-// looks against it; else "".
-std::string gravity_in_doubt(const Scene& scene, std::size_t i) {
+// looks against it, or a sheet lies across it and edge-on to that face of the solid (its outward normal); else "".
+std::string gravity_in_doubt(const Scene& scene, std::size_t i, const Vector3& face) {
+  if (const auto edge_on = scene::sheet_edge_on_in_doubt(scene, face))
+    return fmt::format(" ({})", *edge_on);
   const auto* plane = std::get_if<scene::HalfSpace>(&scene.solids[i].shape);
   const auto up = scene::up(scene.environment);
   Eigen::Index axis = 0;
@@ -105,23 +107,26 @@ void check_triangle_outside(const Scene& scene, const solid::Solids& solids, std
          solids.name(i), t, place.x(), place.y(), place.z(), -near.distance, scale_in_doubt(scene, solids, i, frame));
 }
 
-// What is held, or stands in the inlet, may begin in a nozzle or a clamp.
+// What is held, or stands in the inlet, may begin in a nozzle or a clamp. A vertex is free that does neither.
+auto free_vertices(const Frame& frame) {
+  return [held = holds(frame), inlet = masks(frame, "inlet")](std::size_t v) {
+    return (held.empty() || held[v] == 0) && (inlet.empty() || inlet[v] == 0);
+  };
+}
+
 void check_outside_solids(const Scene& scene, const Frame& frame) {
   const solid::Solids solids(scene);
   const auto x = positions(frame);
-  const auto held = holds(frame), inlet = masks(frame, "inlet");
-  const auto is_free = [&](std::size_t v) {
-    return (held.empty() || held[v] == 0) && (inlet.empty() || inlet[v] == 0);
-  };
+  const auto is_free = free_vertices(frame);
   for (std::size_t i = 0; i < solids.size(); ++i) {
     for (std::size_t v = 0; v < x.size(); ++v)
-      if (const double distance = is_free(v) ? solids.at(i, x[v], frame.time).distance : 0;
-          distance < -place_rounding * x[v].norm())
+      if (const solid::SolidPoint there = is_free(v) ? solids.at(i, x[v], frame.time) : solid::SolidPoint{};
+          there.distance < -place_rounding * x[v].norm())
         fail(ExitCode::bad_input,
              "the sheet starts inside {}: vertex {} at ({:g}, {:g}, {:g}) m lies {:.2g} m under its surface; move one "
              "of them{}{}",
-             solids.name(i), v, x[v].x(), x[v].y(), x[v].z(), -distance, scale_in_doubt(scene, solids, i, frame),
-             gravity_in_doubt(scene, i));
+             solids.name(i), v, x[v].x(), x[v].y(), x[v].z(), -there.distance, scale_in_doubt(scene, solids, i, frame),
+             gravity_in_doubt(scene, i, there.normal));
     for (std::size_t t = 0; t < frame.triangles; ++t)
       if (std::ranges::all_of(triangles(frame)[t], is_free))
         check_triangle_outside(scene, solids, i, frame, t);
@@ -159,44 +164,67 @@ std::vector<Vector3> normals_at_vertices(const Frame& frame) {
 // Of the vertices that no solid touches yet those that are close to one.
 struct NearSolid {
   std::vector<std::size_t> near, touching;
-  bool all_along;  // all that are near lie along it where it is upright or overhangs, and it stays in place
-  bool all_beside; // where it is upright
-  bool all_above;  // all that are near are above it
+  std::vector<std::size_t> hanging; // of what touches: what lies along it and beside or below it
+  bool all_along;                   // all that are near lie along it where it is upright or overhangs, and it stays
+  bool all_beside;                  // where it is upright
+  bool all_above;                   // all that are near are above it
 };
+// As near as one and a half times half the thickness, or half of the greatest thickness that touches: a sheet without
+// bends along a solid is as far from it as its thickest part.
 NearSolid near_solid(const solid::Solids& solids, std::size_t i, const Frame& frame, const Vector3& up,
                      std::span<const Vector3> normals, std::span<const double> thickness,
                      std::span<const std::int32_t> touch) {
   constexpr double in_reach = 1 + 1e-3, near_enough = 1.5; // of half the thickness
   constexpr double upright = 0.1, along = 0.9;             // sine of the wall's lean; cosine between the normals
   const auto x = positions(frame);
-  const bool stays = scene::stays_in_place(solids.scene(i).motion);
-  NearSolid found{.near = {}, .touching = {}, .all_along = stays, .all_beside = true, .all_above = true};
+  std::vector<solid::SolidPoint> there;
+  double thickest = 0; // of what touches
   for (std::size_t v = 0; v < x.size(); ++v) {
-    const solid::SolidPoint there = solids.at(i, x[v], frame.time);
-    const double distance = there.distance / (thickness[v] / 2), slope = there.normal.dot(up);
-    if (touch[v] != no_solid || !(distance <= near_enough))
+    there.push_back(solids.at(i, x[v], frame.time));
+    if (touch[v] == no_solid && there[v].distance <= in_reach * thickness[v] / 2)
+      thickest = std::max(thickest, thickness[v]);
+  }
+  const bool stays = scene::stays_in_place(solids.scene(i).motion);
+  NearSolid found{.near = {}, .touching = {}, .hanging = {}, .all_along = stays, .all_beside = true, .all_above = true};
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const double distance = there[v].distance, slope = there[v].normal.dot(up);
+    if (touch[v] != no_solid || !(distance <= std::max(near_enough * thickness[v], in_reach * thickest) / 2))
       continue;
+    const bool lies_along = slope < upright && std::abs(there[v].normal.dot(normals[v])) > along;
     found.near.push_back(v);
-    if (distance <= in_reach)
+    if (distance <= in_reach * thickness[v] / 2) {
       found.touching.push_back(v);
-    found.all_along = found.all_along && slope < upright && std::abs(there.normal.dot(normals[v])) > along;
+      if (lies_along)
+        found.hanging.push_back(v);
+    }
+    found.all_along = found.all_along && lies_along;
     found.all_beside = found.all_beside && std::abs(slope) < upright;
     found.all_above = found.all_above && slope > 0;
   }
   return found;
 }
 
-// What starts in contact with a solid that holds it across only. (What sticks would be stuck from the start.) Where all
-// that is near lies along walls that stay in place, upright or overhanging, what is closely beside or below them
-// counts, too: its weight would not press it on. (Of what is near and lies on top, a part alone would be held, into
-// which the rest falls; what is below a solid and touches another one lies on that.) So does what is as near above
-// solids where nothing resists its fall onto them.
+// Whether another solid is in reach of a vertex, on which it would lie.
+bool touches_another(const solid::Solids& solids, std::size_t i, const Vector3& x, double thickness, double time) {
+  for (std::size_t other = 0; other < solids.size(); ++other)
+    if (other != i && solids.at(other, x, time).distance <= thickness)
+      return true;
+  return false;
+}
+
+// What starts in contact with a solid that holds it across only. Where all that is near lies along walls that stay in
+// place, upright or overhanging, what is closely beside or below them counts, too: its weight would not press it on.
+// (Of what is near and lies on top, a part alone would be held, into which the rest falls; what is below a solid and
+// touches another one lies on that.) So does what is as near above solids where nothing resists its fall onto them. Of
+// what sticks, what touches and lies along the solid, beside or below it, as a coat around a rod: what lies on top
+// comes to stick by its weight.
 void mark_touching(const Scene& scene, Frame& frame) {
   const solid::Solids solids(scene);
   const auto up = scene::up(scene.environment);
   const bool falls_at_once = scene::nothing_resists_fall(scene);
   const auto x = positions(frame);
   const auto corners = triangles(frame);
+  const auto is_free = free_vertices(frame);
   const std::vector<Vector3> normals = normals_at_vertices(frame);
   const std::vector<double> thickness = thickness_around(frame.vertices, corners, volumes(frame), [&](std::uint32_t t) {
     return TriangleArea(x[corners[t][0]], x[corners[t][1]], x[corners[t][2]]).area;
@@ -208,9 +236,16 @@ void mark_touching(const Scene& scene, Frame& frame) {
   };
   for (const bool from_below : {false, true})
     for (std::size_t i = 0; i < solids.size(); ++i) {
-      if (solids.scene(i).contact == SolidContact::stick || (from_below && touches_others(i)))
+      const bool sticks = solids.scene(i).contact == SolidContact::stick;
+      if (from_below && (sticks || touches_others(i)))
         continue;
       const NearSolid found = near_solid(solids, i, frame, up.value_or(Vector3::Zero()), normals, thickness, touch);
+      if (sticks) {
+        for (const std::size_t v : found.hanging)
+          if (is_free(v) && !touches_another(solids, i, x[v], thickness[v], frame.time))
+            touch[v] = static_cast<std::int32_t>(i);
+        continue;
+      }
       const bool all_near =
           up && ((found.all_along && (from_below || found.all_beside)) || (falls_at_once && found.all_above));
       for (const std::size_t v : all_near ? found.near : found.touching)
@@ -285,7 +320,7 @@ void check_outflows(const Scene& scene, const Frame& frame) {
 
 Frame first_frame(const Scene& scene) {
   Frame frame = build_frame(scene);
-  if (flows_on_solids(scene))
+  if (!scene.solids.empty())
     mark_touching(scene, frame);
   if (encloses_gas(scene)) {
     const solid::Solids solids(scene);

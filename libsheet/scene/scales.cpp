@@ -42,6 +42,12 @@ void offer(Scales& scales, const Motion& motion, std::string_view source) {
   offer(scales, most.speed + most.turning * scales.length.value_or(0), source);
 }
 
+// The speed that gravity gives without drag on a way of the sheet's length, with inertia [m/s].
+double freely(const Scene& scene, const Scales& scales) {
+  return scene.model.inertia && scene.material.density > 0 ? std::sqrt(2 * scales.gravity * scales.length.value_or(0))
+                                                           : std::numeric_limits<double>::infinity();
+}
+
 void offer_forces(Scales& scales, const Scene& scene) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   const double density = scene.material.density;
@@ -107,7 +113,7 @@ Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& me
   }
   offer_forces(scales, scene);
   if (const auto layer = scales.lies ? layer_scales_of(scene, scales) : std::nullopt)
-    offer(scales, layer->speed, "its weight on the solid");
+    offer(scales, std::min(layer->speed, freely(scene, scales)), "its weight on the solid");
   const auto rate = scales.rate();
   scales.viscosity = rate ? viscosity_of(scene.material, {*rate * *rate}) : scene.material.viscosity;
   return scales;

@@ -36,6 +36,8 @@ struct Scales {
 //   surface tension  2 gamma L/(mu h)   sqrt(2 gamma/(rho h))  [Taylor 1959, Culick 1960]
 //   pressure         p L²/(mu h)        sqrt(p L/(rho h))
 //   wind             likewise, its pressure; on what floats its friction on one face, over the bath's drag at most
+//   its weight       on a solid along which it flows, the speed of the layer (layer_scales.h), not more than sqrt(2 g
+//   L)
 // Of a liquid that is not Newtonian the rate of each balance, V/L, is that of its stress, rho g L, 2 gamma/h or p L/h
 // (material/driven_rate.h): none where it is borne by the yield stress.
 [[nodiscard]] Scales scales_of(const Scene& scene, const SheetTable& sheet, const Measured& measured);

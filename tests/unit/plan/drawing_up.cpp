@@ -47,5 +47,30 @@ TEST(DrawingUp, NotOfAPinThatRollsOn) {
   EXPECT_NE(drawing(rolls("[[0, 0, 0, 0.05], [1, 0, 0, 0.05], [1.1, 0, 0.05, 0.05]]"), aside, radius), "");
 }
 
+// Sealant of 5 mm over a joint, and a round tool 2 mm above its boards that is drawn along it, or stays above.
+TEST(DrawingAlong, OfAToolThatComesToWhatSpansAJoint) {
+  const auto warning = [](const std::string& height, const std::string& gap, const std::string& more = "",
+                          const std::string& way = "[0, 0, 0.05]") {
+    const std::string board = "[[solid]]\nshape = \"box\"\nsize = [0.04, 0.01, 0.12]\ncontact = \"flow\"\ncenter = [";
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.014, 0.08]\nedge_length = 0.0025\nthickness = 0.005\n"
+        "center = [0, 0.003, 0]\n[material]\ndensity = 1000\nviscosity = 80\n[environment]\n"
+        "gravity = [0, -10, 0]\n" +
+            board + "-" + gap + ", -0.005, 0]\n" + board + gap +
+            ", -0.005, 0]\n[[solid]]\nshape = \"sphere\"\nradius = 0.008\ncenter = [0, " + height +
+            ", -0.06]\nvelocity = " + way + "\n" + more,
+        "s");
+    return drawing_along_warning(scene, first_frame(scene), 2);
+  };
+  EXPECT_EQ(
+      warning("0.01", "0.024"),
+      "solid 2 (sphere) comes from above to what spans a gap, and goes on: a sheet stays with the solid that it "
+      "touched first, and is drawn out behind it without end. adhesion = \"25 Pa\" in [contact] lets it come off");
+  EXPECT_EQ(warning("0.01", "0.02"), ""); // no gap
+  EXPECT_EQ(warning("0.02", "0.024"), "");
+  EXPECT_EQ(warning("0.01", "0.024", "[contact]\nadhesion = 20\n"), "");
+  EXPECT_EQ(warning("0.01", "0.024", "", "[0, 0, 0.001]"), ""); // does not come so far
+}
+
 } // namespace
 } // namespace sheet

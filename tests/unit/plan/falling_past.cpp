@@ -89,6 +89,43 @@ TEST(FallingPast, NotOfWhatMayComeToASolidOtherwise) {
   EXPECT_NE(warning("[0, 0, -9.81]", "", wall + "40, 0]\n"), "");
 }
 
+// As near to the wall as its thick part is thick, and farther than its mean thickness.
+TEST(FallingPast, NotOfASheetThatLiesOnAWallWhereItIsThick) {
+  const auto of = [](const std::string& distance) {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.2, 0.3]\nplane = \"xy\"\nedge_length = 0.02\n"
+        "thickness = {along = \"y\", rows = [[0, 0.001], [0.05, 0.004], [0.07, 0.004], [0.1, 0.001]]}\n"
+        "center = [0, 0, " +
+            distance +
+            "]\n[material]\nviscosity = 20\ndensity = 1000\n[environment]\ngravity = [0, -9.81, 0]\n"
+            "[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncontact = \"flow\"\n",
+        "s");
+    return falling_past_warning(scene, first_frame(scene));
+  };
+  EXPECT_EQ(of("0.0019"), "");
+  EXPECT_NE(of("0.0031"), "");
+}
+
+// A disk, a quarter of which is over the edge of a table.
+TEST(FallingOn, OverAnEdgeFromTheStart) {
+  const auto warning = [](const std::string& x, const std::string& liquid, const std::string& more = "") {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"disk\"\nradius = 0.08\nedge_length = 0.01\nthickness = 0.01\ncenter = [" + x +
+            ", 0.006, 0]\n[environment]\ngravity = [0, -9.81, 0]\n[[solid]]\nshape = \"box\"\n"
+            "size = [0.4, 0.03, 0.4]\ncenter = [-0.2, -0.015, 0]\ncontact = \"flow\"\n" +
+            more + "[material]\ndensity = 1100\n" + liquid,
+        "s");
+    return falling_on_warning(scene, first_frame(scene), 0.75);
+  };
+  const std::string thin = "viscosity = 1.5\n";
+  EXPECT_THAT(warning("-0.04", thin), testing::AllOf(testing::HasSubstr("over the edge of solid 0 (box): its weight "),
+                                                     testing::HasSubstr("[[outflow]] point = [")));
+  EXPECT_EQ(warning("-0.2", thin), "");
+  EXPECT_EQ(warning("-0.04", "viscosity = 1e4\n"), "");
+  EXPECT_EQ(warning("-0.04", "viscosity = 1.5\nlaw = \"bingham\"\nyield_stress = 2000\n"), "");
+  EXPECT_EQ(warning("-0.04", thin, "[[solid]]\nshape = \"plane\"\ncenter = [0, -1, 0]\n"), "");
+}
+
 // Of a film, 0.3 m long, whose roll ends 10 mm behind it.
 TEST(FallingBehindRolls, WhereNothingTakesUpWhatTheyDraw) {
   const auto warning = [](const std::string& more, const std::string& roll = "roll = true\n") {

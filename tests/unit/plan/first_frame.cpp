@@ -64,6 +64,73 @@ TEST(FirstFrame, WhatLiesCloselyBesideAnUprightWallTouchesIt) {
   EXPECT_EQ(touching(2.1, "normal = [1, 0, 0]\ncenter = [-0.1021, 0, 0]\ncontact = \"flow\"\n"), 0); // by its rim
 }
 
+// Of a coat of paint, thick in a band, at half the band's thickness from the wall.
+TEST(FirstFrame, AFlatSheetAlongAWallTouchesItWhereItIsThin) {
+  const auto part = [](double distance) {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[sheet]\nshape = \"rectangle\"\nsize = [0.2, 0.3]\nplane = \"xy\"\nedge_length = 0.02\n"
+                    "thickness = {{along = \"y\", rows = [[0, 0.001], [0.05, 0.004], [0.1, 0.004], [0.15, 0.001]]}}\n"
+                    "center = [0, 0, {}]\n[material]\nviscosity = 20\ndensity = 1000\n[environment]\n"
+                    "gravity = [0, -9.81, 0]\n[[solid]]\nshape = \"plane\"\nnormal = [0, 0, 1]\ncontact = \"flow\"\n",
+                    distance),
+        "s");
+    const formats::Frame frame = first_frame(scene);
+    return static_cast<double>(std::ranges::count(masks(frame, "touch"), 1U)) / static_cast<double>(frame.vertices);
+  };
+  EXPECT_EQ(part(0.0018), 1);
+  EXPECT_EQ(part(0.0031), 0);
+}
+
+// On a wall, below a ceiling, and around a rod; but not what lies on top, which comes to stick by its weight, nor what
+// another solid carries.
+TEST(FirstFrame, WhatStartsBesideOrBelowASolidToWhichItSticksIsStuck) {
+  const std::string plane = "normal = [0, 0, 1]\n";
+  EXPECT_EQ(touching(2, plane), 1);
+  EXPECT_EQ(touching(2, plane, "0, 0, 9.81"), 1);
+  EXPECT_EQ(touching(2, plane, "0, 0, -9.81"), 0);
+  EXPECT_EQ(touching(2, plane + "[[hold]]\nregion = {box = [[-1, -1, -1], [1, 1, 1]]}\n"), 0); // as in a clamp
+  EXPECT_EQ(
+      touching(2, plane + "[[solid]]\nshape = \"plane\"\nnormal = [0, 0, -1]\ncenter = [0, 0, 0.004]\n", "0, 0, 9.81"),
+      0);
+  const Scene scene = scene::parse_scene(
+      "[sheet]\nshape = \"tube\"\nradius = 0.31\nheight = 0.2\nplane = \"xy\"\nedge_length = 0.03\n"
+      "thickness = 0.02\n[material]\nviscosity = 30\ndensity = 1700\n[environment]\ngravity = [0, -9.81, 0]\n"
+      "[[solid]]\nshape = \"cylinder\"\nradius = 0.3\nheight = 0.3\n"
+      "rotation = {axis = [1, 0, 0], angle = \"90 deg\"}\nangular_velocity = [0, 0, 1]\n",
+      "s");
+  const formats::Frame frame = first_frame(scene);
+  const auto touch = masks(frame, "touch");
+  ASSERT_FALSE(touch.empty());
+  for (std::size_t v = 0; v < frame.vertices; ++v)
+    EXPECT_EQ(touch[v] != 0, positions(frame)[v].y() < 0.1 * positions(frame)[v].head<2>().norm()) << v;
+}
+
+// Under gravity tilted by 70 degrees a sheet lies in the plane most nearly across it, which is not along the slope.
+TEST(FirstFrame, TellsOfASheetThatLiesEdgeOnToItsSlope) {
+  const auto fault = [](const std::string& of_sheet, const std::string& gravity) -> std::string {
+    const Scene scene = scene::parse_scene(
+        "[sheet]\nshape = \"rectangle\"\nsize = [0.1, 0.06]\nedge_length = 0.01\nthickness = 0.001\n"
+        "center = [0, 0.0006, 0]\n" +
+            of_sheet + "[material]\nviscosity = 10\ndensity = 2500\n[environment]\ngravity = " + gravity +
+            "\n[[solid]]\nshape = \"plane\"\nnormal = [0, 1, 0]\n",
+        "s");
+    try {
+      (void)checked_first_frame(scene);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(
+      fault("", "[9.22, -3.36, 0]"),
+      testing::HasSubstr("(the sheet lies in yz, as that is most nearly across gravity, which is along no axis: "
+                         "plane = \"xz\" in [sheet] lays it along that solid)"));
+  EXPECT_EQ(fault("plane = \"xz\"\n", "[9.22, -3.36, 0]"), "");
+  EXPECT_EQ(fault("", "[3.36, -9.22, 0]"), "");
+  EXPECT_THAT(fault("plane = \"xy\"\n", "[9.22, -3.36, 0]"),
+              testing::AllOf(testing::HasSubstr("starts inside"), testing::Not(testing::HasSubstr("most nearly"))));
+}
+
 // A layer under a ceiling, level or leaning; but not where its weight presses it on, nor what lies on a board below.
 TEST(FirstFrame, WhatHangsCloselyBelowASolidTouchesIt) {
   const std::string ceiling = "normal = [0, 0, 1]\ncontact = \"flow\"\n", down = "0, 0, 9.81";

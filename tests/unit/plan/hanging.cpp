@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "libsheet/plan/first_frame.h"
@@ -49,6 +50,27 @@ TEST(Hanging, NotOfWhatStandsOrIsCaught) {
   EXPECT_FALSE(runaway(newtonian, weight));
   EXPECT_FALSE(runaway(newtonian, weight + from_above + "until = 9\n"));
   EXPECT_FALSE(runaway(newtonian, weight + from_above + "[[solid]]\nshape = \"plane\"\ncenter = [0, -1, 0]\n"));
+}
+
+// A hollow gob of glass on a pipe that turns, with some gas in it: D = 78 mm, 3 mu/(rho g D) = 0.45 s.
+TEST(Hanging, AGobOnItsPipe) {
+  const auto gob = [](const std::string& axis, double gas, double transfer = 10) {
+    const Scene scene = scene::parse_scene(
+        fmt::format("[sheet]\nshape = \"cap\"\nradius = 0.04\nangle = \"160 deg\"\nedge_length = 0.007\n"
+                    "thickness = 0.005\nrotation = {{axis = [1, 0, 0], angle = \"180 deg\"}}\n[material]\n"
+                    "viscosity = 800\ndensity = 2500\nviscosity_law = \"exponential\"\n"
+                    "reference_temperature = \"1000 degC\"\ntemperature_coefficient = 0.02\n[environment]\n"
+                    "gravity = [0, -9.81, 0]\npressure = {{law = \"gas\", value = {}}}\n[[hold]]\nregion = \"rim\"\n"
+                    "motion = {{kind = \"rotating\", axis = {}, rate = 3}}\n[heat]\nspecific_heat = 1200\n"
+                    "temperature = \"1050 degC\"\nambient = \"30 degC\"\ntransfer = {}\n",
+                    gas, axis, transfer),
+        "s");
+    return runaway_time(scene, first_frame(scene));
+  };
+  EXPECT_NEAR(gob("[0, 1, 0]", 150).value_or(0), 3 * 800 / std::exp(1.0) / (2500 * 9.81 * 0.079), 0.02);
+  EXPECT_FALSE(gob("[1, 0, 0]", 150));
+  EXPECT_FALSE(gob("[0, 1, 0]", 900));      // is blown up
+  EXPECT_FALSE(gob("[0, 1, 0]", 150, 1e5)); // sets before
 }
 
 // Creeping, it is drawn out, and then falls within some times of free fall, sqrt(L/g), which is all there is to see.

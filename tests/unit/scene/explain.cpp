@@ -236,6 +236,17 @@ TEST(Explain, TheGroundCarriesWhatLiesOnIt) {
   EXPECT_FALSE(warned(explain(scene, std::array{lies}), "inertia is off"));
 }
 
+// As thin as molten lead a layer would spread at 1 km/s by its drag alone: it is not faster than sqrt(2 g L).
+TEST(Explain, NothingSpreadsFasterThanItFalls) {
+  const Scene scene = parse_scene(disk + "[material]\nviscosity = 0.0025\ndensity = 10600\n[environment]\n"
+                                         "gravity = [0, -10, 0]\n[[solid]]\nshape = \"plane\"\ncontact = \"flow\"\n",
+                                  "s");
+  Measured lies{.length = 1, .thickness = 0.02, .curvature = {}};
+  lies.lies = true;
+  EXPECT_DOUBLE_EQ(scale(explain(scene, std::array{lies}), "V"), std::sqrt(2 * 10 * 1));
+  EXPECT_GT(scale(explain(scene, std::array{lies}), "U"), 100);
+}
+
 // p = cd rho_a v²/2 = 6.48 Pa. What is held creeps in the wind; what is free goes along with it.
 TEST(Explain, WindTakesAlongWhatIsFree) {
   const std::string windy = disk + "[material]\nviscosity = 1e6\ndensity = 1000\n[environment]\n"
