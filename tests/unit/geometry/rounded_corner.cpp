@@ -9,18 +9,18 @@
 namespace sheet {
 namespace {
 
-struct Point {
+struct WallPlane {
   double distance;
   Vector3 normal;
 };
 
-constexpr double radius = 4e-3;
+constexpr double turning_radius = 4e-3;
 
 // A floor y < 0 and a side that leans by this angle off upright, away from it, through the origin.
 struct Walls {
   explicit Walls(double leaning) : side(std::cos(leaning), std::sin(leaning), 0) {}
-  [[nodiscard]] InCorner at(const Vector3& x, double r = radius) const {
-    return in_corner(Point{side.dot(x), side}, Point{x.y(), Vector3::UnitY()}, r);
+  [[nodiscard]] InCorner at(const Vector3& x, double r = turning_radius) const {
+    return in_corner(WallPlane{side.dot(x), side}, WallPlane{x.y(), Vector3::UnitY()}, r);
   }
   Vector3 side;
 };
@@ -32,13 +32,13 @@ TEST(RoundedCorner, IsAnArcBetweenWalls) {
   for (const double leaning : {-0.4, 0.0, 0.6}) {
     const Walls walls(leaning);
     constexpr double off = 1.5e-3;
-    const Vector3 centre = line(walls, off + radius);
+    const Vector3 centre = line(walls, off + turning_radius);
     const double from = std::atan2(-walls.side.y(), -walls.side.x()), to = -std::numbers::pi / 2;
     const double first = from > 0 ? from - 2 * std::numbers::pi : from;
     for (const double part : {0.1, 0.5, 0.9}) {
       const double angle = first + part * (to - first);
       const Vector3 out(std::cos(angle), std::sin(angle), 0);
-      const InCorner corner = walls.at(centre + radius * out);
+      const InCorner corner = walls.at(centre + turning_radius * out);
       EXPECT_TRUE(corner.rounded);
       EXPECT_NEAR(corner.distance, off, 1e-15);
       EXPECT_LT((corner.normal + out).norm(), 1e-12);
@@ -59,7 +59,7 @@ TEST(RoundedCorner, IsTheNearerWallElsewhere) {
 
 TEST(RoundedCorner, BeginsWithoutAJump) {
   const Walls walls(0);
-  const double end = 1e-3 + radius; // 1 mm off the side, above the floor
+  const double end = 1e-3 + turning_radius; // 1 mm off the side, above the floor
   const InCorner before = walls.at({1e-3, end * (1 + 1e-9), 0}), after = walls.at({1e-3, end * (1 - 1e-9), 0});
   EXPECT_NE(before.rounded, after.rounded);
   EXPECT_NEAR(before.distance, after.distance, 1e-11);
@@ -70,12 +70,12 @@ TEST(RoundedCorner, LeavesHalfTheDistanceOfThePlace) {
   for (const double leaning : {-0.4, 0.0, 0.6}) {
     const Walls walls(leaning);
     const Vector3 deep = line(walls, 1e-3) + Vector3(0.3e-3, 0, 0);
-    const Point side{walls.side.dot(deep), walls.side}, floor{deep.y(), Vector3::UnitY()};
-    const double least = rounding_at(side, floor, 1.0);
-    EXPECT_NEAR(walls.at(deep, least).distance, 0.5e-3, 1e-12);
+    const WallPlane side{walls.side.dot(deep), walls.side}, floor{deep.y(), Vector3::UnitY()};
+    const double greatest = rounding_at(side, floor, 1.0);
+    EXPECT_NEAR(walls.at(deep, greatest).distance, 0.5e-3, 1e-12);
     EXPECT_EQ(rounding_at(side, floor, 1e-4), 1e-4);
   }
-  EXPECT_EQ(rounding_at(Point{-1e-3, Vector3::UnitX()}, Point{1e-3, Vector3::UnitY()}, 1.0), 0);
+  EXPECT_EQ(rounding_at(WallPlane{-1e-3, Vector3::UnitX()}, WallPlane{1e-3, Vector3::UnitY()}, 1.0), 0);
 }
 
 } // namespace

@@ -195,6 +195,33 @@ formats::Frame open_fan(double degrees) {
   return frame;
 }
 
+// What is split between vertices on two solids along which it flows is on one of them; where it sticks, on neither.
+TEST(CornerCase, WhatIsNewBetweenTwoWallsIsOnOne) {
+  Scene scene;
+  scene.solids.resize(2);
+  for (scene::Solid& solid : scene.solids)
+    solid.shape = scene::HalfSpace{{0, 0, 1}};
+  const auto touch_of_new = [&] {
+    formats::Frame frame = frame_of({{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {0.5, -0.8, 0}}, {{0, 1, 2}, {1, 0, 3}});
+    const std::span<std::uint64_t> touch = put_masks(frame, "touch");
+    std::ranges::fill(touch, 1);
+    touch[1] = 2;
+    EditableSheet sheet(frame, &scene);
+    Edit edit;
+    std::uint32_t side = 0;
+    while (sheet.mesh().from(side) + sheet.mesh().to(side) != 1)
+      ++side;
+    propose_split(sheet, side, edit);
+    EXPECT_TRUE(sheet.make(edit, {.thickness = 1.3, .sharpest = 1, .facing = 0.3}));
+    sheet.put(frame);
+    return masks(frame, "touch")[4];
+  };
+  EXPECT_EQ(touch_of_new(), 0U);
+  for (scene::Solid& solid : scene.solids)
+    solid.contact = SolidContact::flow;
+  EXPECT_TRUE(touch_of_new() == 1U || touch_of_new() == 2U);
+}
+
 // Where the liquid flows along a wall, beside an inlet or as its ends come together, if it is narrower than edges are
 // long, and no blunt corner.
 TEST(CornerCase, ANotchOfARimOnAWallIsFilled) {
