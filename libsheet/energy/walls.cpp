@@ -116,8 +116,8 @@ std::uint32_t wall_of_solid(const std::vector<Wall>& walls, std::int32_t solid) 
   return no_index;
 }
 
-// The radius with which corners are rounded at each site, as long as the longest edge there or half the layer's thickness,
-// and nearly the same beside it: what is thicker would turn before what is ahead of it [m].
+// The radius with which corners are rounded at each site, as long as the longest edge there or half the layer's
+// thickness, and nearly the same beside it: what is thicker would turn before what is ahead of it [m].
 std::vector<double> roundings(const Stage& stage, std::span<const Around> around) {
   constexpr double steepest = 0.3;
   constexpr int most_rounds = 20;
@@ -197,7 +197,8 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, const Ar
   if (walls[site.wall].hollow && channel_of(stage, site) == nullptr)
     keep_off_face_beside(walls[site.wall], stage, own, around.thickness, site);
   for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w) {
-    if (w == site.wall || w == site.rounded_with || (walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
+    if (w == site.wall || w == site.rounded_with ||
+        (walls[w].beyond && walls[w].beyond(stage.end_time, x, in_reach * own)))
       continue;
     const WallPoint other = walls[w].nearest(stage.end_time, x);
     if (!(other.distance < in_reach * own))

@@ -35,8 +35,8 @@ struct Wall {
   std::vector<Vector3> forces;         // of solids on each of them at the end of the step before [N]; none: not known
   // Of each of them, the number of the other solid in whose corner with this one it turns, or -1; none: nothing does.
   std::vector<std::int32_t> turned_to;
-  double slip_length = 0;              // [m], or free_slip
-  double wetting = 2;                  // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs
+  double slip_length = 0; // [m], or free_slip
+  double wetting = 2;     // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs
   std::function<WallPoint(double t, const Vector3& x)> nearest;
   bool hollow = false; // whether it may have corners of its own into which liquid flows, as the mesh of a dish has
   // Whether x is surely farther from it than `reach` [m], which is cheaper to know; absent: no one knows.

@@ -25,8 +25,8 @@ struct InCorner {
 
 // one, other: with distance [m] and unit normal of the walls at the place. radius: of the rounding [m].
 template <class Point> [[nodiscard]] InCorner in_corner(const Point& one, const Point& other, double radius) {
-  const InCorner sharp = one.distance <= other.distance ? InCorner{one.distance, one.normal}
-                                                        : InCorner{other.distance, other.normal};
+  const InCorner sharp =
+      one.distance <= other.distance ? InCorner{one.distance, one.normal} : InCorner{other.distance, other.normal};
   const double c = one.normal.dot(other.normal), sine2 = 1 - c * c, sum = one.distance + other.distance;
   const double product = (one.distance * one.distance - 2 * c * one.distance * other.distance +
                           other.distance * other.distance - sine2 * radius * radius) /

@@ -137,9 +137,8 @@ std::uint32_t EditableSheet::grip_of(std::uint32_t v) {
 }
 
 void EditableSheet::keep_on_walls(Array& touch, std::span<const Parent> parents) {
-  if (std::ranges::all_of(parents, [&](const Parent& p) {
-        return wall_in(scene_, row_at(touch, p.row), row_size(touch)) != no_index;
-      }))
+  if (std::ranges::all_of(
+          parents, [&](const Parent& p) { return wall_in(scene_, row_at(touch, p.row), row_size(touch)) != no_index; }))
     std::memcpy(row_.data(), row_at(touch, std::ranges::max(parents, {}, &Parent::weight).row), row_.size());
 }
 

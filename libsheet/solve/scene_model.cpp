@@ -193,8 +193,7 @@ std::vector<std::int32_t> turning(const Scene& scene, const Frame& frame, const 
   const auto x = positions(frame);
   const auto corners = triangles(frame);
   const std::vector<double> thickness = thickness_at(frame), edges = longest_edges(x, corners);
-  return solid::turned_to(*solids,
-                          {x, corners, thickness, edges, touched, frame.time, *scene.environment.gravity});
+  return solid::turned_to(*solids, {x, corners, thickness, edges, touched, frame.time, *scene.environment.gravity});
 }
 
 // What touches a solid moves with its surface, without slip [Batty et al. 2012, section 3.5], or flows along it. Gives

@@ -20,8 +20,8 @@ Scene side_and_floor() {
   return scene;
 }
 
-// To what a vertex turns at this place, 5 mm thick with edges of 4 mm, that rides on a solid; as does another one beside
-// it.
+// To what a vertex turns at this place, 5 mm thick with edges of 4 mm, that rides on a solid; as does another one
+// beside it.
 std::int32_t turned(const Scene& scene, const Vector3& x, std::int32_t rides, std::int32_t beside) {
   const std::vector<Vector3> places = {x, x + Vector3(0, 0, 4e-3), x + Vector3(0, 4e-3, 0)};
   const std::vector<Corners> triangles = {{0, 1, 2}};
