@@ -33,8 +33,8 @@ struct WallSite {
   double wetting = 2;                // 1 - cos of the contact angle
   std::uint32_t second_wall = no_index; // another one that holds it, of this normal, if there is one
   Vector3 second_normal = Vector3::Zero();
-  std::uint32_t rounded_with = no_index; // another one on which it goes on, or from which it comes: their corner is
-  double rounding = 0;                   // rounded with this radius (rounded_corner.h) [m]
+  std::uint32_t rounded_with = no_index; // on which it goes on, or from which it comes, be it a face of its own one:
+  double rounding = 0;                   // their corner is rounded with this radius (rounded_corner.h) [m]
   bool beside_upright = false; // another wall that stands upright on its own one, or pushes, holds it; and no third
   std::vector<Vector3>
       across; // orthonormal: the directions in which its place is given, along its own wall's normal first

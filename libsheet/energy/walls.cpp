@@ -19,7 +19,7 @@ namespace sheet {
 namespace {
 
 constexpr double in_reach = 1 + 1e-3;    // of the distance kept: another wall that is so near holds a vertex as well
-constexpr double bluntest_corner = 0.9;  // cosine of the angle between two faces that make one: 26 degrees
+constexpr double bluntest_corner = 0.9;  // cosine of the angle between two walls that make one: 26 degrees
 constexpr double upright = 0.3;          // cosine of the angle between a wall and one beside it: 17 degrees off upright
 constexpr double same_face = 0.95;       // cosine of the angle by which a face turns in a step at most: 18 degrees
 constexpr double farthest_in_gap = 0.75; // of the gap between two walls: from its own wall
@@ -73,22 +73,16 @@ double kept_distance(const Stage& stage, const WallSite& site, double own) {
   return std::min(own, std::max(farthest_in_gap * channel->gap, nearer));
 }
 
-// The face of a hollow wall beside the one nearest to x, where a layer so thick stands in their corner: above that face
-// it is the nearest one. Its distance is that from its plane. Faces that face each other have a gap, not a corner.
-std::optional<WallPoint> face_beside(const Wall& wall, double t, const Vector3& x, double thickness) {
-  const Vector3 face = wall.nearest(t, x).normal, above = x + thickness * face;
-  const WallPoint other = wall.nearest(t, above);
-  const double cosine = other.normal.dot(face);
-  if (cosine > bluntest_corner || cosine < -least_facing)
-    return {};
-  return WallPoint{other.distance - other.normal.dot(above - x), other.normal};
+// See rounded_corner.h.
+std::optional<WallPoint> other_face(const Wall& wall, double t, const Vector3& x, double height) {
+  return face_beside([&](const Vector3& place) { return wall.nearest(t, place); }, x, height);
 }
 
 // Keeps a vertex from coming nearer to the other face of its wall's corner than it is, or than a layer so thick lies.
 void keep_off_face_beside(const Wall& wall, const Stage& stage, double own, double thickness, WallSite& site) {
   const Vector3 &x0 = stage.start->positions[site.vertex], &x = stage.predicted[site.vertex];
-  const std::optional<WallPoint> before = face_beside(wall, stage.start->time, x0, thickness),
-                                 beside = face_beside(wall, stage.end_time, x, thickness);
+  const std::optional<WallPoint> before = other_face(wall, stage.start->time, x0, thickness),
+                                 beside = other_face(wall, stage.end_time, x, thickness);
   if (!before || !beside || before->normal.dot(beside->normal) < same_face)
     return;
   const double kept = std::min(std::max(own, thickness / 2), before->distance);
@@ -140,6 +134,12 @@ std::vector<double> roundings(const Stage& stage, std::span<const Around> around
   return radius;
 }
 
+// The wall in whose corner with its own one a site turns, or the face beside of that, if it has one here.
+std::optional<WallPoint> other_side(const std::vector<Wall>& walls, const WallSite& site, double t, const Vector3& x) {
+  return site.rounded_with == site.wall ? other_face(walls[site.wall], t, x, 2 * site.rounding)
+                                        : walls[site.rounded_with].nearest(t, x);
+}
+
 // Sets in which corners sites turn, and how those are rounded.
 void round_corners(const std::vector<Wall>& walls, std::span<const Around> around, Stage& stage) {
   if (std::ranges::all_of(stage.sites, [](const WallSite& site) { return site.rounded_with == no_index; }))
@@ -149,10 +149,13 @@ void round_corners(const std::vector<Wall>& walls, std::span<const Around> aroun
     if (site.rounded_with != no_index && channel_of(stage, site) != nullptr)
       site.rounded_with = no_index;
     else if (site.rounded_with != no_index) {
-      const auto at_start = [&](std::uint32_t wall) {
-        return walls[wall].nearest(stage.start->time, stage.start->positions[site.vertex]);
-      };
-      site.rounding = rounding_at(at_start(site.wall), at_start(site.rounded_with), radius[site.vertex]);
+      const auto [t, x0] = std::pair(stage.start->time, stage.start->positions[site.vertex]);
+      site.rounding = radius[site.vertex];
+      const std::optional<WallPoint> other = other_side(walls, site, t, x0);
+      if (other)
+        site.rounding = rounding_at(walls[site.wall].nearest(t, x0), *other, radius[site.vertex]);
+      else
+        site.rounded_with = no_index;
     }
 }
 
@@ -194,7 +197,7 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, const Ar
   const WallPoint point = wall_point(walls, site, stage.end_time, x);
   site.normal = point.normal;
   add_plane_of(site, point, x, kept_distance(stage, site, own));
-  if (walls[site.wall].hollow && channel_of(stage, site) == nullptr)
+  if (walls[site.wall].hollow && site.rounded_with != site.wall && channel_of(stage, site) == nullptr)
     keep_off_face_beside(walls[site.wall], stage, own, around.thickness, site);
   for (std::uint32_t w = 0; w < walls.size() && site.across.size() < 3; ++w) {
     if (w == site.wall || w == site.rounded_with ||
@@ -260,9 +263,11 @@ Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint3
 
 WallPoint wall_point(const std::vector<Wall>& walls, const WallSite& site, double t, const Vector3& x) {
   const WallPoint own = walls[site.wall].nearest(t, x);
-  if (site.rounded_with == no_index)
+  const std::optional<WallPoint> other =
+      site.rounded_with == no_index ? std::nullopt : other_side(walls, site, t, x);
+  if (!other)
     return own;
-  const InCorner corner = in_corner(own, walls[site.rounded_with].nearest(t, x), site.rounding);
+  const InCorner corner = in_corner(own, *other, site.rounding);
   return corner.rounded ? WallPoint{corner.distance, corner.normal} : own;
 }
 

@@ -33,7 +33,8 @@ struct Wall {
   std::vector<std::uint32_t> vertices; // those that touch it; none: it only faces another wall (channels.h)
   std::uint32_t solid = 0;             // the number of the scene's solid that it is
   std::vector<Vector3> forces;         // of solids on each of them at the end of the step before [N]; none: not known
-  // Of each of them, the number of the other solid in whose corner with this one it turns, or -1; none: nothing does.
+  // Of each of them, the number of the solid in whose corner with this one it turns, be it this one's, or -1; none:
+  // nothing does.
   std::vector<std::int32_t> turned_to;
   double slip_length = 0; // [m], or free_slip
   double wetting = 2;     // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs

@@ -11,7 +11,9 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "libsheet/geometry/facing_walls.h"
 #include "libsheet/geometry/types.h"
 
 namespace sheet {
@@ -50,6 +52,22 @@ template <class Point> [[nodiscard]] double rounding_at(const Point& one, const 
     return 0;
   const double p = one.distance - half, q = other.distance - half, c = one.normal.dot(other.normal);
   return std::min(most, (p + q + std::sqrt(2 * (1 + c) * p * q)) / (1 - c));
+}
+
+// The face of one hollow wall beside that nearest to a place x, where the two are a corner: above the nearest face, by
+// `height` [m], it is the nearest one. Its distance is that from its plane. Faces that face each other have a gap, not a
+// corner. nearest: gives distance and normal of the wall at a place.
+template <class Nearest>
+[[nodiscard]] auto face_beside(const Nearest& nearest, const Vector3& x, double height)
+    -> std::optional<decltype(nearest(x))> {
+  constexpr double bluntest = 0.9; // cosine of the angle between two faces that make one: 26 degrees
+  const Vector3 face = nearest(x).normal, above = x + height * face;
+  auto other = nearest(above);
+  const double cosine = other.normal.dot(face);
+  if (cosine > bluntest || cosine < -least_facing)
+    return {};
+  other.distance -= other.normal.dot(above - x);
+  return other;
 }
 
 } // namespace sheet

@@ -2,8 +2,11 @@
 #include "libsheet/solid/corners.h"
 
 #include <algorithm>
+#include <cmath>
+#include <variant>
 
 #include "libsheet/base/each.h"
+#include "libsheet/geometry/rounded_corner.h"
 #include "libsheet/sheet/sheet.h"
 
 namespace sheet::solid {
@@ -48,17 +51,71 @@ std::int32_t turned_to(const Solids& solids, const SheetOnSolids& sheet, std::si
   return no_solid;
 }
 
+// Of the triangles around each vertex.
+std::vector<Vector3> area_vectors(const SheetOnSolids& sheet) {
+  std::vector<Vector3> sum(sheet.x.size(), Vector3::Zero());
+  for (const auto& [a, b, c] : sheet.triangles) {
+    const Vector3 area = (sheet.x[b] - sheet.x[a]).cross(sheet.x[c] - sheet.x[a]);
+    for (const std::uint32_t v : {a, b, c})
+      sum[v] += area;
+  }
+  return sum;
+}
+
+// Where a vertex is in a corner of its own mesh.
+enum class PlaceInCorner : char { nowhere, on_the_floor, on_the_side };
+
+PlaceInCorner part_of_corner(const Solids& solids, const SheetOnSolids& sheet, std::size_t v, const Vector3& area) {
+  const auto own = static_cast<std::size_t>(sheet.rides[v]);
+  const auto nearest = [&](const Vector3& x) { return solids.at(own, x, sheet.t); };
+  const double height = 2 * std::max(sheet.thickness[v], sheet.longest_edges[v]);
+  const auto other = face_beside(nearest, sheet.x[v], height);
+  if (!other)
+    return PlaceInCorner::nowhere;
+  const Vector3 face = nearest(sheet.x[v]).normal;
+  const bool down = leads_on(face, other->normal, sheet.gravity);
+  if (!down && !leads_on(other->normal, face, sheet.gravity))
+    return PlaceInCorner::nowhere;
+  const Vector3 &side = down ? face : other->normal, &floor = down ? other->normal : face;
+  return std::abs(area.dot(side)) > std::abs(area.dot(floor)) ? PlaceInCorner::on_the_side : PlaceInCorner::on_the_floor;
+}
+
+// What turns in corners of single meshes.
+void turn_in_meshes(const Solids& solids, const SheetOnSolids& sheet, std::vector<std::int32_t>& others) {
+  const auto is_mesh = [&](std::size_t solid) {
+    return std::holds_alternative<scene::SolidMesh>(solids.scene(solid).shape);
+  };
+  std::vector<char> mesh(solids.size());
+  for (std::size_t i = 0; i < mesh.size(); ++i)
+    mesh[i] = is_mesh(i) ? 1 : 0;
+  if (std::ranges::none_of(sheet.rides, [&](std::int32_t s) { return s != no_solid && mesh[static_cast<std::size_t>(s)] != 0; }))
+    return;
+  const std::vector<Vector3> area = area_vectors(sheet);
+  std::vector<PlaceInCorner> part(others.size(), PlaceInCorner::nowhere);
+  each_in_parallel(others.size(), [&](std::size_t v) {
+    if (const std::int32_t s = sheet.rides[v]; s != no_solid && others[v] == no_solid && mesh[static_cast<std::size_t>(s)] != 0)
+      part[v] = part_of_corner(solids, sheet, v, area[v]);
+  });
+  for (const Corners& c : sheet.triangles)
+    for (const std::uint32_t v : c)
+      if (part[v] != PlaceInCorner::nowhere && std::ranges::any_of(c, [&](std::uint32_t w) {
+            return part[w] == PlaceInCorner::on_the_side && sheet.rides[w] == sheet.rides[v];
+          }))
+        others[v] = sheet.rides[v];
+}
+
 } // namespace
 
 std::vector<std::int32_t> turned_to(const Solids& solids, const SheetOnSolids& sheet) {
   std::vector<std::int32_t> others(sheet.rides.size(), no_solid);
-  if (solids.size() < 2 || sheet.gravity.isZero(0))
+  if (sheet.gravity.isZero(0))
     return others;
   const std::vector<char> passes = passing(sheet);
   each_in_parallel(others.size(), [&](std::size_t v) {
-    if (sheet.rides[v] != no_solid)
+    if (sheet.rides[v] != no_solid && solids.size() > 1)
       others[v] = turned_to(solids, sheet, v, passes[v] != 0);
   });
+  turn_in_meshes(solids, sheet, others);
   return others;
 }
 

@@ -185,7 +185,7 @@ std::vector<std::uint32_t> take_squeezed(const solid::Solids& solids, std::size_
 // Of each vertex, the solid in whose corner with the one that it touches it turns (corners.h), or no_solid.
 std::vector<std::int32_t> turning(const Scene& scene, const Frame& frame, const solid::Solids* solids,
                                   std::vector<std::int32_t> touched) {
-  if (solids == nullptr || scene.solids.size() < 2 || !flows_on_solids(scene) || !scene.environment.gravity)
+  if (solids == nullptr || !flows_on_solids(scene) || !scene.environment.gravity)
     return std::vector<std::int32_t>(touched.size(), no_solid);
   for (std::int32_t& solid : touched)
     if (solid != no_solid && scene.solids[static_cast<std::size_t>(solid)].contact == SolidContact::stick)
