@@ -263,8 +263,7 @@ Vector3 free_of(const Vector3& direction, std::span<const char> held, std::uint3
 
 WallPoint wall_point(const std::vector<Wall>& walls, const WallSite& site, double t, const Vector3& x) {
   const WallPoint own = walls[site.wall].nearest(t, x);
-  const std::optional<WallPoint> other =
-      site.rounded_with == no_index ? std::nullopt : other_side(walls, site, t, x);
+  const std::optional<WallPoint> other = site.rounded_with == no_index ? std::nullopt : other_side(walls, site, t, x);
   if (!other)
     return own;
   const InCorner corner = in_corner(own, *other, site.rounding);

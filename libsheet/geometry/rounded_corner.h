@@ -55,8 +55,8 @@ template <class Point> [[nodiscard]] double rounding_at(const Point& one, const 
 }
 
 // The face of one hollow wall beside that nearest to a place x, where the two are a corner: above the nearest face, by
-// `height` [m], it is the nearest one. Its distance is that from its plane. Faces that face each other have a gap, not a
-// corner. nearest: gives distance and normal of the wall at a place.
+// `height` [m], it is the nearest one. Its distance is that from its plane. Faces that face each other have a gap, not
+// a corner. nearest: gives distance and normal of the wall at a place.
 template <class Nearest>
 [[nodiscard]] auto face_beside(const Nearest& nearest, const Vector3& x, double height)
     -> std::optional<decltype(nearest(x))> {

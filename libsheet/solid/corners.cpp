@@ -77,7 +77,8 @@ PlaceInCorner part_of_corner(const Solids& solids, const SheetOnSolids& sheet, s
   if (!down && !leads_on(other->normal, face, sheet.gravity))
     return PlaceInCorner::nowhere;
   const Vector3 &side = down ? face : other->normal, &floor = down ? other->normal : face;
-  return std::abs(area.dot(side)) > std::abs(area.dot(floor)) ? PlaceInCorner::on_the_side : PlaceInCorner::on_the_floor;
+  return std::abs(area.dot(side)) > std::abs(area.dot(floor)) ? PlaceInCorner::on_the_side
+                                                              : PlaceInCorner::on_the_floor;
 }
 
 // What turns in corners of single meshes.
@@ -88,12 +89,14 @@ void turn_in_meshes(const Solids& solids, const SheetOnSolids& sheet, std::vecto
   std::vector<char> mesh(solids.size());
   for (std::size_t i = 0; i < mesh.size(); ++i)
     mesh[i] = is_mesh(i) ? 1 : 0;
-  if (std::ranges::none_of(sheet.rides, [&](std::int32_t s) { return s != no_solid && mesh[static_cast<std::size_t>(s)] != 0; }))
+  if (std::ranges::none_of(sheet.rides,
+                           [&](std::int32_t s) { return s != no_solid && mesh[static_cast<std::size_t>(s)] != 0; }))
     return;
   const std::vector<Vector3> area = area_vectors(sheet);
   std::vector<PlaceInCorner> part(others.size(), PlaceInCorner::nowhere);
   each_in_parallel(others.size(), [&](std::size_t v) {
-    if (const std::int32_t s = sheet.rides[v]; s != no_solid && others[v] == no_solid && mesh[static_cast<std::size_t>(s)] != 0)
+    if (const std::int32_t s = sheet.rides[v];
+        s != no_solid && others[v] == no_solid && mesh[static_cast<std::size_t>(s)] != 0)
       part[v] = part_of_corner(solids, sheet, v, area[v]);
   });
   for (const Corners& c : sheet.triangles)
