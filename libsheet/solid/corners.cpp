@@ -66,13 +66,19 @@ std::vector<Vector3> area_vectors(const SheetOnSolids& sheet) {
 enum class PlaceInCorner : char { nowhere, on_the_floor, on_the_side };
 
 PlaceInCorner part_of_corner(const Solids& solids, const SheetOnSolids& sheet, std::size_t v, const Vector3& area) {
+  constexpr double nearly = 0.95;
   const auto own = static_cast<std::size_t>(sheet.rides[v]);
   const auto nearest = [&](const Vector3& x) { return solids.at(own, x, sheet.t); };
   const double height = 2 * std::max(sheet.thickness[v], sheet.longest_edges[v]);
+  const SolidPoint wall = nearest(sheet.x[v]);
+  const double within = nearly * (wall.distance + height); // cheaper to know
+  if (solids.shape(own).distance(solids.pose(own, sheet.t).inverse() * (sheet.x[v] + height * wall.normal), within) >=
+      within)
+    return PlaceInCorner::nowhere;
   const auto other = face_beside(nearest, sheet.x[v], height);
   if (!other)
     return PlaceInCorner::nowhere;
-  const Vector3 face = nearest(sheet.x[v]).normal;
+  const Vector3& face = wall.normal;
   const bool down = leads_on(face, other->normal, sheet.gravity);
   if (!down && !leads_on(other->normal, face, sheet.gravity))
     return PlaceInCorner::nowhere;
