@@ -89,7 +89,7 @@ public:
     changed_.assign(path.start.size(), 0);
     caught_.assign(path.start.size(), 0);
     between_ = squeezed();
-    passes_ = passing();
+    passes_ = solid::passing(path.triangles, rides_);
     turns_ = turning();
     carried_.assign(path.start.size(), 0);
     active_.resize(path.triangles.size());
@@ -234,19 +234,6 @@ private:
                           between[v] = is_squeezed(v) ? 1 : 0;
                       });
     return between;
-  }
-
-  // Of each vertex, whether it shares a triangle with one that touches another solid: there the sheet goes on to that.
-  [[nodiscard]] std::vector<std::uint8_t> passing() const {
-    std::vector<std::uint8_t> passes(rides_.size(), 0);
-    const auto other = [&](std::uint32_t v, std::uint32_t w) {
-      return rides_[w] != no_solid && rides_[w] != rides_[v];
-    };
-    for (const Corners& corners : path_.triangles)
-      for (const std::uint32_t v : corners)
-        if (std::ranges::any_of(corners, [&](std::uint32_t w) { return other(v, w); }))
-          passes[v] = 1;
-    return passes;
   }
 
   [[nodiscard]] bool is_squeezed(std::uint32_t v) const {

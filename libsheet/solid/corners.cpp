@@ -20,19 +20,6 @@ bool leads_on(const Vector3& wall, const Vector3& floor, const Vector3& gravity)
   return angle < flattest && angle > -least_facing && load > 0 && same_load * load > -gravity.dot(wall);
 }
 
-// Of each vertex, whether it shares a triangle with one that flows along another solid.
-std::vector<char> passing(const SheetOnSolids& sheet) {
-  std::vector<char> passes(sheet.rides.size(), 0);
-  const auto other = [&](std::uint32_t v, std::uint32_t w) {
-    return sheet.rides[v] != no_solid && sheet.rides[w] != no_solid && sheet.rides[w] != sheet.rides[v];
-  };
-  for (const Corners& c : sheet.triangles)
-    for (const std::uint32_t v : c)
-      if (std::ranges::any_of(c, [&](std::uint32_t w) { return other(v, w); }))
-        passes[v] = 1;
-  return passes;
-}
-
 std::int32_t turned_to(const Solids& solids, const SheetOnSolids& sheet, std::size_t v, bool passes) {
   const auto own = static_cast<std::size_t>(sheet.rides[v]);
   const Vector3& x = sheet.x[v];
@@ -89,20 +76,16 @@ PlaceInCorner part_of_corner(const Solids& solids, const SheetOnSolids& sheet, s
 
 // What turns in corners of single meshes.
 void turn_in_meshes(const Solids& solids, const SheetOnSolids& sheet, std::vector<std::int32_t>& others) {
-  const auto is_mesh = [&](std::size_t solid) {
-    return std::holds_alternative<scene::SolidMesh>(solids.scene(solid).shape);
+  const auto on_mesh = [&](std::int32_t solid) {
+    return solid != no_solid &&
+           std::holds_alternative<scene::SolidMesh>(solids.scene(static_cast<std::size_t>(solid)).shape);
   };
-  std::vector<char> mesh(solids.size());
-  for (std::size_t i = 0; i < mesh.size(); ++i)
-    mesh[i] = is_mesh(i) ? 1 : 0;
-  if (std::ranges::none_of(sheet.rides,
-                           [&](std::int32_t s) { return s != no_solid && mesh[static_cast<std::size_t>(s)] != 0; }))
+  if (std::ranges::none_of(sheet.rides, on_mesh))
     return;
   const std::vector<Vector3> area = area_vectors(sheet);
   std::vector<PlaceInCorner> part(others.size(), PlaceInCorner::nowhere);
   each_in_parallel(others.size(), [&](std::size_t v) {
-    if (const std::int32_t s = sheet.rides[v];
-        s != no_solid && others[v] == no_solid && mesh[static_cast<std::size_t>(s)] != 0)
+    if (others[v] == no_solid && on_mesh(sheet.rides[v]))
       part[v] = part_of_corner(solids, sheet, v, area[v]);
   });
   for (const Corners& c : sheet.triangles)
@@ -115,11 +98,21 @@ void turn_in_meshes(const Solids& solids, const SheetOnSolids& sheet, std::vecto
 
 } // namespace
 
+std::vector<std::uint8_t> passing(std::span<const Corners> triangles, std::span<const std::int32_t> rides) {
+  std::vector<std::uint8_t> passes(rides.size(), 0);
+  const auto other = [&](std::uint32_t v, std::uint32_t w) { return rides[w] != no_solid && rides[w] != rides[v]; };
+  for (const Corners& c : triangles)
+    for (const std::uint32_t v : c)
+      if (std::ranges::any_of(c, [&](std::uint32_t w) { return other(v, w); }))
+        passes[v] = 1;
+  return passes;
+}
+
 std::vector<std::int32_t> turned_to(const Solids& solids, const SheetOnSolids& sheet) {
   std::vector<std::int32_t> others(sheet.rides.size(), no_solid);
   if (sheet.gravity.isZero(0))
     return others;
-  const std::vector<char> passes = passing(sheet);
+  const std::vector<std::uint8_t> passes = passing(sheet.triangles, sheet.rides);
   each_in_parallel(others.size(), [&](std::size_t v) {
     if (sheet.rides[v] != no_solid && solids.size() > 1)
       others[v] = turned_to(solids, sheet, v, passes[v] != 0);

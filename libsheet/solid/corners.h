@@ -20,6 +20,10 @@ struct SheetOnSolids {
   Vector3 gravity;
 };
 
+// Of each vertex, whether it shares a triangle with one that touches another solid: there the sheet goes on to that.
+[[nodiscard]] std::vector<std::uint8_t> passing(std::span<const Corners> triangles,
+                                                std::span<const std::int32_t> rides);
+
 // Of each vertex, the other solid in whose corner with its own one it turns, or no_solid: one that rests beside it, at
 // an angle, along which liquid flows, not farther off than its own one by more than two edges or thicknesses; and that
 // bears more of the weight, or less, if the sheet has come from there: if it shares a triangle with what flows along
