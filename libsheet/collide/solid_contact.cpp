@@ -318,7 +318,7 @@ private:
       end = view.world_at_end(settle(view.shape(), view.own(view.pieces(), end), distance));
     }
     const bool between = prescribed_[v] != 0 && turns_[v] == no_solid;
-    path_.end[v] = between ? beside_hold(v, end) : with_fixed(prescribed_[v], path_.end[v], end);
+    path_.end[v] = between ? beside_hold(v, end, distance) : with_fixed(prescribed_[v], path_.end[v], end);
   }
 
   // Whether another solid faces the own one across a point, at the end. What flows between two such solids sheet-step
@@ -405,16 +405,16 @@ private:
     return std::clamp(before, half / 2, catching_distance(path_, other, v, start, 2 * half));
   }
 
-  // As near to `end` as the axes allow that a [[hold]] prescribes: along the others back to half the thickness from the
-  // own solid, unless that is nearly along the prescribed ones.
-  [[nodiscard]] Vector3 beside_hold(std::uint32_t v, const Vector3& end) const {
+  // As near to `end` as the axes allow that a [[hold]] prescribes: along the others back to that distance from the own
+  // solid, unless that is nearly along the prescribed ones.
+  [[nodiscard]] Vector3 beside_hold(std::uint32_t v, const Vector3& end, double distance) const {
     const SolidView& view = views_[static_cast<std::size_t>(rides_[v])];
     const Vector3 free = free_part(prescribed_[v]);
     Vector3 x = with_fixed(prescribed_[v], path_.end[v], end);
     for (int turn = 0; turn < 10; ++turn) {
       const solid::Near near = view.shape().nearest(view.own(view.pieces(), x));
       const Vector3 along = free.cwiseProduct(view.turned_at_end(near.normal));
-      const double error = path_.thickness[v] / 2 - near.distance;
+      const double error = distance - near.distance;
       if (std::abs(error) <= 1e-9 * path_.thickness[v] || along.squaredNorm() < 0.01)
         break;
       x += error / along.squaredNorm() * along;

@@ -935,6 +935,12 @@ goes_on_along_the_floor() {
   printf '[[solid]]\nshape = "box"\nsize = ["200 mm", "20 mm", "100 mm"]\ncenter = ["-100 mm", "10 mm", 0]\n' >> step.toml
   printf 'contact = "flow"\n[[solid]]\nshape = "plane"\ncontact = "flow"\n' >> step.toml
   goes_on_along_the_floor step
+  # The heights of the strip's sides, which a hold leads, were set back to what they had been: its front's corners stood
+  # up, were run over, and folded into layers of 0.1 mm.
+  sed 's/edge_length = "4 mm"/edge_length = "2 mm"/; s/"16 mm"/"8 mm"/' step.toml > finer.toml
+  run ! cmp -s step.toml finer.toml
+  goes_on_along_the_floor finer
+  awk -v thinnest="$(least finer thickness_min)" 'BEGIN { print thinnest; exit !(thinnest > 0.001) }'
 }
 
 # The step and its floor, 100 mm wide.

@@ -576,6 +576,23 @@ TEST(SolidContact, WhatIsBroughtBackToItsWallStaysOnIt) {
   }
 }
 
+// What a hold leads along one axis keeps the height to which sheet-step has brought it, as what is free does.
+TEST(SolidContact, WhatAHoldLeadsKeepsItsHeightWhereItFlows) {
+  scene::Solid wall = solid(scene::HalfSpace{{0, 1, 0}});
+  wall.contact = SolidContact::flow;
+  for (const Axes led : {Axes{0}, axis_bit(2)}) {
+    FallingSheet sheet = falling(0, 0.5 * thickness_of_sheet);
+    sheet.path.touch.assign(sheet.start.size(), 0);
+    sheet.path.fixed.assign(sheet.start.size(), led);
+    for (Vector3& end : sheet.path.end)
+      end.y() = 0.4 * thickness_of_sheet;
+    const auto end = sheet.path.end;
+    resolve_solids(sheet.path, solids_of({wall}));
+    for (std::size_t v = 0; v < end.size(); ++v)
+      EXPECT_NEAR((sheet.path.end[v] - end[v]).norm(), 0, 1e-12) << v;
+  }
+}
+
 // What is across a solid with a corner that is held there stays: its free corners cannot bring it out.
 TEST(SolidContact, FreeCornersDoNotBringOutWhatIsHeldInside) {
   const solid::Solids rod = solids_of({solid(scene::Capsule{5e-3, 0.1}, {0, -0.05, 0})});
