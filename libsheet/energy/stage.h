@@ -35,7 +35,9 @@ struct WallSite {
   Vector3 second_normal = Vector3::Zero();
   std::uint32_t rounded_with = no_index; // on which it goes on, or from which it comes, be it a face of its own one:
   double rounding = 0;                   // their corner is rounded with this radius (rounded_corner.h) [m]
-  bool beside_upright = false; // another wall that stands upright on its own one, or pushes, holds it; and no third
+  Vector3 rim = Vector3::Zero(); // out of the sheet at the start of the step, if its rim does not retreat, or zero
+  bool in_corner = false;        // another wall, or another face of its own one, holds it, too
+  bool beside_upright = false;   // another wall that stands upright on its own one, or pushes, holds it; and no third
   std::vector<Vector3>
       across; // orthonormal: the directions in which its place is given, along its own wall's normal first
   std::vector<double> place; // that place along each of them [m]

@@ -209,7 +209,7 @@ void set_distances_from_walls(const std::vector<Wall>& walls, const std::vector<
   Shifts shifts(stage.vertices());
   for (const WallSite& site : stage.sites) {
     shifts.known[site.vertex] = 1;
-    const bool corner = site.across.size() > 1;
+    const bool corner = site.in_corner;
     if (distance[site.vertex] == 0 || (corner && !(site.beside_upright && bears_nothing(site.across[1], gravity))))
       continue;
     const WallPoint point = wall_point(walls, site, end.time, end.positions[site.vertex]);

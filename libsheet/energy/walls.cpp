@@ -189,6 +189,16 @@ Beside beside(const std::vector<Wall>& walls, const Stage& stage, const WallSite
   return pushes(walls[site.wall], walls[other], stage, site.vertex, around) ? Beside::as_a_plough : Beside::not_at_all;
 }
 
+// Keeps a rim where it is across itself, on its wall.
+void keep_rim(const Wall& wall, const Stage& stage, const WallPoint& point, WallSite& site) {
+  Vector3 out = moved(wall, stage.start->time, stage.end_time).rotation * site.rim;
+  out -= out.dot(point.normal) * point.normal;
+  if (!(out.norm() > least_angle))
+    return;
+  out.normalize();
+  add_plane(site, out, out.dot(site.stuck));
+}
+
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
 // moves it across, but one that faces its own and would come too near.
 void keep_distances(const std::vector<Wall>& walls, const Stage& stage, const Around& around, WallSite& site) {
@@ -219,6 +229,9 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, const Ar
     site.beside_upright =
         second && (holding == Beside::as_a_plough || std::abs(other.normal.dot(point.normal)) < upright);
   }
+  site.in_corner = site.across.size() > 1;
+  if (!site.rim.isZero(0))
+    keep_rim(walls[site.wall], stage, point, site);
 }
 
 // Where the wall takes a vertex that sticks to it from the start of the step on.
@@ -385,6 +398,8 @@ void set_wall_sites(const std::vector<Wall>& walls, Stage& stage) {
         site.force = walls[w].forces[i];
       if (!walls[w].turned_to.empty())
         site.rounded_with = wall_of_solid(walls, walls[w].turned_to[i]);
+      if (!walls[w].rims.empty())
+        site.rim = walls[w].rims[i];
       site.slip_length = walls[w].slip_length;
       site.wetting = walls[w].wetting;
       site.stuck = stuck_to(walls[w], stage, v);

@@ -36,6 +36,8 @@ struct Wall {
   // Of each of them, the number of the solid in whose corner with this one it turns, be it this one's, or -1; none:
   // nothing does.
   std::vector<std::int32_t> turned_to;
+  // Of each of them, out of the sheet, if its rim does not retreat, or zero; none: all may.
+  std::vector<Vector3> rims;
   double slip_length = 0; // [m], or free_slip
   double wetting = 2;     // 1 - cos θ, θ the contact angle: of the tension γ, what wetted area costs
   std::function<WallPoint(double t, const Vector3& x)> nearest;

@@ -19,11 +19,18 @@ bool is_led(const Vector3& out, Axes held) {
   return false;
 }
 
-// Out of the sheet, at each vertex of its free rim; zero elsewhere.
-std::vector<Vector3> rim_directions(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh) {
+constexpr double sharpest = 0.866; // cosine of half the angle by which a rim turns at a vertex that has one direction
+
+// At each vertex of the free rim.
+struct FreeRim {
+  Vector3 out = Vector3::Zero(); // of the sheet, with the length of its edges
+  double length = 0;             // of these [m]
+};
+
+std::vector<FreeRim> free_rims(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh) {
   const auto x = positions(frame);
   const std::vector<Axes> prescribed = scene::prescribed_axes(frame, scene, frame.time);
-  std::vector<Vector3> out(mesh.vertices, Vector3::Zero());
+  std::vector<FreeRim> rims(mesh.vertices);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       if (!mesh.on_rim(mesh.triangle_edges[t][k]))
@@ -33,10 +40,21 @@ std::vector<Vector3> rim_directions(const Scene& scene, const formats::Frame& fr
       const Vector3 outward = edge.cross(normal);
       if (is_led(outward, prescribed[a] & prescribed[b]))
         continue;
-      for (const auto v : {a, b})
-        out[v] += outward;
+      for (const auto v : {a, b}) {
+        rims[v].out += outward;
+        rims[v].length += outward.norm();
+      }
     }
-  return out;
+  return rims;
+}
+
+// Of solids on each vertex, or in a first step, of which nothing is known, against gravity, without a scale.
+std::vector<Vector3> pushes(const Scene& scene, const formats::Frame& frame) {
+  if (const formats::Array* array = frame.find("touch_force")) {
+    const auto force = array->values<Vector3>();
+    return {force.begin(), force.end()};
+  }
+  return std::vector<Vector3>(frame.vertices, -scene.environment.gravity.value_or(Vector3::Zero()));
 }
 
 } // namespace
@@ -46,16 +64,19 @@ bool holds_rims(const Scene& scene) {
                              [](const scene::Solid& s) { return s.contact == SolidContact::flow && !s.receding; });
 }
 
-std::vector<std::uint32_t> held_rims(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh,
-                                     std::span<const std::uint32_t> touching) {
-  const formats::Array* array = frame.find("touch_force");
-  if (array == nullptr)
-    return {};
-  const auto force = array->values<Vector3>();
-  const std::vector<Vector3> out = rim_directions(scene, frame, mesh);
-  const auto retreats = [&](std::uint32_t v) { return force[v].dot(out[v]) > 0; };
-  std::vector<std::uint32_t> held;
-  std::ranges::copy_if(touching, std::back_inserter(held), retreats);
+HeldRims held_rims(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh,
+                   std::span<const std::uint32_t> touching, std::span<const std::int32_t> turned_to) {
+  HeldRims held;
+  const std::vector<Vector3> push = pushes(scene, frame);
+  const std::vector<FreeRim> rims = free_rims(scene, frame, mesh);
+  for (const std::uint32_t v : touching) {
+    const auto& [out, length] = rims[v];
+    const bool kept = push[v].dot(out) > 0 && turned_to[v] == no_solid;
+    const bool straight = out.norm() > sharpest * length;
+    if (kept && !straight)
+      held.corners.push_back(v);
+    held.out.push_back(kept && straight ? Vector3(out.normalized()) : Vector3(Vector3::Zero()));
+  }
   return held;
 }
 

@@ -227,13 +227,15 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
       touching[i] = std::move(squeezed);
     }
     hold.of_wall = true;
+    HeldRims rims;
     if (solid.contact == SolidContact::flow && !solid.receding)
-      hold.vertices = held_rims(scene, frame, mesh, touching[i]);
-    std::erase_if(hold.vertices, [&](std::uint32_t v) { return turned_to[v] != no_solid; }); // pushed round the corner
+      rims = held_rims(scene, frame, mesh, touching[i], turned_to);
+    hold.vertices = std::move(rims.corners);
     if (solid.contact == SolidContact::flow)
       std::ranges::copy_if(touching[i], std::back_inserter(hold.vertices), [&](std::uint32_t v) { return films[v]; });
     model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
     Wall& wall = model.walls.back();
+    wall.rims = std::move(rims.out);
     if (forces != nullptr)
       for (const std::uint32_t v : wall.vertices)
         wall.forces.push_back(forces->values<Vector3>()[v]);
