@@ -140,6 +140,20 @@ std::optional<WallPoint> other_side(const std::vector<Wall>& walls, const WallSi
                                         : walls[site.rounded_with].nearest(t, x);
 }
 
+// A velocity whose part across what holds a site is that of the walls there: of its own one, or where it turns in a
+// corner that which each of both has across itself, as belts run along them.
+Vector3 across_velocity(const std::vector<Wall>& walls, const WallSite& site, double t, const Vector3& x) {
+  const Vector3 own = velocity_at(walls[site.wall], t, x);
+  if (site.rounded_with == no_index || site.rounded_with == site.wall)
+    return own;
+  const Wall& other = walls[site.rounded_with];
+  const Vector3 n1 = walls[site.wall].nearest(t, x).normal, n2 = other.nearest(t, x).normal;
+  const double cosine = n1.dot(n2), v1 = own.dot(n1), v2 = velocity_at(other, t, x).dot(n2);
+  if (1 - cosine * cosine < least_angle * least_angle) // beyond an edge of one of them
+    return own;
+  return ((v1 - cosine * v2) * n1 + (v2 - cosine * v1) * n2) / (1 - cosine * cosine);
+}
+
 // Sets in which corners sites turn, and how those are rounded.
 void round_corners(const std::vector<Wall>& walls, std::span<const Around> around, Stage& stage) {
   if (std::ranges::all_of(stage.sites, [](const WallSite& site) { return site.rounded_with == no_index; }))
@@ -189,14 +203,19 @@ Beside beside(const std::vector<Wall>& walls, const Stage& stage, const WallSite
   return pushes(walls[site.wall], walls[other], stage, site.vertex, around) ? Beside::as_a_plough : Beside::not_at_all;
 }
 
-// Keeps a rim where it is across itself, on its wall.
-void keep_rim(const Wall& wall, const Stage& stage, const WallPoint& point, WallSite& site) {
-  Vector3 out = moved(wall, stage.start->time, stage.end_time).rotation * site.rim;
-  out -= out.dot(point.normal) * point.normal;
-  if (!(out.norm() > least_angle))
+// Keeps a rim where it is on its wall across itself, and in a corner along itself, too.
+void keep_rim(const Wall& wall, const Stage& stage, WallSite& site) {
+  const auto keep = [&](const Vector3& direction) { add_plane(site, direction, direction.dot(site.stuck)); };
+  if (site.in_corner) {
+    for (std::size_t k = 1; k < site.across.size(); ++k)
+      site.place[k] = site.across[k].dot(site.stuck);
+    keep(site.across[0].cross(site.across[1]));
     return;
-  out.normalize();
-  add_plane(site, out, out.dot(site.stuck));
+  }
+  const Vector3 out = moved(wall, stage.start->time, stage.end_time).rotation * site.rim;
+  const Vector3 along_wall = out - out.dot(site.normal) * site.normal;
+  if (along_wall.norm() > least_angle)
+    keep(along_wall.normalized());
 }
 
 // The wall that a vertex touches, and others that it would come nearer to than it is, or than it is to its own: none
@@ -231,7 +250,7 @@ void keep_distances(const std::vector<Wall>& walls, const Stage& stage, const Ar
   }
   site.in_corner = site.across.size() > 1;
   if (!site.rim.isZero(0))
-    keep_rim(walls[site.wall], stage, point, site);
+    keep_rim(walls[site.wall], stage, site);
 }
 
 // Where the wall takes a vertex that sticks to it from the start of the step on.
@@ -463,7 +482,7 @@ void turn_slides(const Stage& stage, Constraints& constraints) {
 void set_velocities_on_walls(const std::vector<Wall>& walls, const Stage& stage, double t, State& state) {
   for (const WallSite& site : stage.sites) {
     Vector3& v = state.velocities[site.vertex];
-    const Vector3 relative = v - velocity_at(walls[site.wall], t, state.positions[site.vertex]);
+    const Vector3 relative = v - across_velocity(walls, site, t, state.positions[site.vertex]);
     for (const Vector3& direction : site.across)
       v -= relative.dot(direction) * direction;
   }

@@ -24,13 +24,15 @@ std::int32_t turned_to(const Solids& solids, const SheetOnSolids& sheet, std::si
   const auto own = static_cast<std::size_t>(sheet.rides[v]);
   const Vector3& x = sheet.x[v];
   const SolidPoint wall = solids.at(own, x, sheet.t);
+  const auto motion_of = [&](std::size_t solid) { return scene::velocity_at(solids.scene(solid).motion, sheet.t, x); };
   const double reach = wall.distance + 2 * std::max(sheet.thickness[v], sheet.longest_edges[v]);
   for (std::size_t other = 0; other < solids.size(); ++other) {
     if (other == own || solids.scene(other).contact == SolidContact::stick ||
         solids.shape(other).distance(solids.pose(other, sheet.t).inverse() * x, reach) >= reach)
       continue;
     const SolidPoint floor = solids.at(other, x, sheet.t);
-    const bool rests = (floor.velocity - wall.velocity).norm() <= 1e-9 * wall.velocity.norm();
+    const Vector3 motion = motion_of(own), relative = motion_of(other) - motion;
+    const bool rests = relative.norm() <= 1e-9 * motion.norm(); // whatever belts run on them
     if (rests && (leads_on(wall.normal, floor.normal, sheet.gravity) ||
                   (passes && leads_on(floor.normal, wall.normal, sheet.gravity))))
       return static_cast<std::int32_t>(other);

@@ -72,10 +72,10 @@ HeldRims held_rims(const Scene& scene, const formats::Frame& frame, const Connec
   for (const std::uint32_t v : touching) {
     const auto& [out, length] = rims[v];
     const bool kept = push[v].dot(out) > 0 && turned_to[v] == no_solid;
-    const bool straight = out.norm() > sharpest * length;
-    if (kept && !straight)
-      held.corners.push_back(v);
-    held.out.push_back(kept && straight ? Vector3(out.normalized()) : Vector3(Vector3::Zero()));
+    const bool slides = out.norm() > sharpest * length;
+    if (kept && !slides)
+      held.wholly.push_back(v);
+    held.out.push_back(kept && slides ? Vector3(out.normalized()) : Vector3(Vector3::Zero()));
   }
   return held;
 }

@@ -230,7 +230,7 @@ bool add_touching(const Scene& scene, const Frame& frame, const Connectivity& me
     HeldRims rims;
     if (solid.contact == SolidContact::flow && !solid.receding)
       rims = held_rims(scene, frame, mesh, touching[i], turned_to);
-    hold.vertices = std::move(rims.corners);
+    hold.vertices = std::move(rims.wholly);
     if (solid.contact == SolidContact::flow)
       std::ranges::copy_if(touching[i], std::back_inserter(hold.vertices), [&](std::uint32_t v) { return films[v]; });
     model.walls.push_back(wall_of(solids, i, std::move(touching[i]), hold));
