@@ -24,6 +24,7 @@
 #include "libsheet/plan/face_warnings.h"
 #include "libsheet/plan/falling_past.h"
 #include "libsheet/plan/first_frame.h"
+#include "libsheet/plan/hanging_layer.h"
 #include "libsheet/plan/held_whole.h"
 #include "libsheet/plan/hole_forecast.h"
 #include "libsheet/plan/idle_rolls.h"
@@ -190,7 +191,8 @@ std::string explained(Source source, bool ring_alone) {
         sheet::bath_crushing_warning(scene, frame), sheet::held_whole_warning(scene, frame),
         sheet::overlapping_warning(scene), sheet::open_rim_warning(scene, frame),
         sheet::beside_walls_warning(scene, frame), sheet::bath_clinging_warning(scene, frame),
-        sheet::sinking_back_warning(scene, frame, until), sheet::drawing_along_warning(scene, frame, until)})
+        sheet::sinking_back_warning(scene, frame, until), sheet::drawing_along_warning(scene, frame, until),
+        sheet::hanging_layer_warning(scene, frame, until)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :

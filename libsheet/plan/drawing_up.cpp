@@ -87,8 +87,8 @@ private:
           touched = t;
           there = x;
         }
-      } else if ((moved(tool, *touched, t, there) - x).dot(up_) > risen * thickness_ &&
-                 solids_.at(tool, x, t).distance > risen * thickness_ && !passes(tool, there, *touched, t)) {
+      } else if ((moved(tool, *touched, t, there) - x).dot(up_) > clear * thickness_ &&
+                 solids_.at(tool, x, t).distance > clear * thickness_ && !passes(tool, there, *touched, t)) {
         return true;
       }
     }
@@ -100,7 +100,7 @@ private:
   [[nodiscard]] bool passes(std::size_t tool, const Vector3& there, double touched, double t) const {
     const Vector3 way = solids_.pose(tool, t).translation() - solids_.pose(tool, touched).translation();
     const Vector3 sideways = way - way.dot(up_) * up_;
-    return room_above(tool, there + sideways, t) < room_above(tool, there, touched) + risen * thickness_;
+    return room_above(tool, there + sideways, t) < room_above(tool, there, touched) + clear * thickness_;
   }
 
   // From x up to the solid [m]; without end where it is not above x.
@@ -118,6 +118,7 @@ private:
   static constexpr std::size_t looked_at = 200; // vertices, about
   static constexpr int times = 200;
   static constexpr double near_enough = 0.75; // thicknesses: from a solid, of what touches it
+  static constexpr double clear = 1;          // thicknesses: of the layer's middle, half of one above its upper face
   static constexpr double risen = 2;          // thicknesses
   static constexpr double beside = 2;         // thicknesses: of what spans a gap, from what lies on a solid
   static constexpr int marched = 100;         // steps of sphere tracing

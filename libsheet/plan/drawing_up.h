@@ -10,7 +10,7 @@
 namespace sheet {
 
 // Of the first solid that touches, not from below, what lies on another one at the start, and is later, before `until`
-// [s], more than two thicknesses higher above it; but not of one that only rolls on. "" if none does.
+// [s], more than a thickness higher above it; but not of one that only rolls on. "" if none does.
 [[nodiscard]] std::string drawing_up_warning(const Scene& scene, const formats::Frame& first, double until);
 
 // Of the first solid that comes from above to what spans a gap beside what lies on solids, and goes on, before `until`

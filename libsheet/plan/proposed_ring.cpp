@@ -21,6 +21,7 @@
 #include "libsheet/plan/passing.h"
 #include "libsheet/plan/piling.h"
 #include "libsheet/plan/running_down.h"
+#include "libsheet/plan/slopes.h"
 #include "libsheet/plan/solids_meet.h"
 #include "libsheet/plan/tiers.h"
 #include "libsheet/scene/explain_heat.h"
@@ -181,6 +182,22 @@ double time_spread(const Scene& scene, const Frame& first) {
   return spreading && spreading->lies ? times * spreading->time : 0;
 }
 
+// Until the sheet, the only one, that lies on solids at rest has gone by its length, where nothing but its forces moves
+// it and spreads() knows no better; 0 where it does not, or where that takes many times of everything else, `until`
+// [s].
+double time_along(const Scene& scene, const Frame& first, double until) {
+  constexpr double much_later = 1000;
+  const auto rests = [](const scene::Solid& solid) {
+    return std::holds_alternative<scene::Fixed>(solid.motion) && solid.surface_velocity.isZero(0);
+  };
+  if (scene.sheets.size() > 1 || !std::ranges::all_of(scene.solids, rests) || !scene.holds.empty() ||
+      !scene.inflows.empty() || spreads(scene, first))
+    return 0;
+  const scene::Scales scales = scene::scales_of_sheets(scene, measured_on_solids(scene, first)).front();
+  const double time = scales.lies && scales.length && scales.speed > 0 ? *scales.length / scales.speed : 0;
+  return time < much_later * until ? time : 0;
+}
+
 // Until its waves of thickness have levelled there; 0 where that takes many times of everything else, `until` [s].
 double time_level(const Scene& scene, const Frame& first, double until) {
   constexpr double times = 2, much_later = 1000;
@@ -256,7 +273,7 @@ double all_carried_time(const Scene& scene, const Frame& first) {
 
 // Some times of the flow, until that sets, of the fall and of what comes in, which overruns the tiers that it lands on;
 // until whatever ends by the clock has ended, whatever moves on for ever has come through or round, belts and slopes
-// have carried it past all, and what lies on level ground has spread and levelled.
+// have carried it past all, and what lies on solids has gone by its length, or spread and levelled.
 double until_of(const Scene& scene, const Frame& first) {
   double at_rest = first.time; // all solids
   for (const scene::Solid& solid : scene.solids)
@@ -268,6 +285,7 @@ double until_of(const Scene& scene, const Frame& first) {
   until += 4 * fall_time(scene, landings(scene, first));
   until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_down(of, first, at_rest); }));
   until = std::max(until, time_spread(scene, first));
+  until = std::max(until, with_heat(scene, first, [&](const Scene& of) { return time_along(of, first, until); }));
   until = std::max(until, time_level(scene, first, until));
   until = until_set(scene, first, until);
   const auto ends = [&](double time) { until = std::max(until, 1.5 * time); };

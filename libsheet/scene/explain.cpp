@@ -398,8 +398,12 @@ std::vector<std::string> left_out_of(const Scene& scene, const Scales& scales) {
   std::vector<std::string> left_out;
   if (std::ranges::any_of(scene.solids, [](const Solid& s) { return s.contact == SolidContact::stick; }))
     left_out.push_back("what sticks to a solid does not spread on it");
-  const auto has_an_underside = [](const Solid& s) {
-    return s.contact != SolidContact::stick && !std::holds_alternative<HalfSpace>(s.shape);
+  const auto has_an_underside = [&](const Solid& s) {
+    constexpr double looks_down = 0.2; // cosine
+    const auto* plane = std::get_if<HalfSpace>(&s.shape);
+    const Vector3d& gravity = *scene.environment.gravity;
+    return s.contact != SolidContact::stick &&
+           (plane == nullptr || plane->normal.normalized().dot(gravity) > looks_down * gravity.norm());
   };
   if (scene.environment.gravity && !(scene.contact && scene.contact->adhesion) &&
       std::ranges::any_of(scene.solids, has_an_underside))

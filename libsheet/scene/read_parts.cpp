@@ -96,6 +96,19 @@ namespace {
 
 constexpr std::size_t most_place_rows = 1000; // every frame of a run carries them
 
+// In which planes the sheet would have that border, as a tube whose axis is not the one that was meant; "" if in none.
+std::string planes_with(SheetTable sheet, Border border) {
+  const std::string_view own = words::planes[static_cast<std::size_t>(sheet.plane)];
+  std::string planes;
+  for (std::size_t i = 0; i < words::planes.size(); ++i) {
+    sheet.plane = static_cast<Plane>(i);
+    const auto there = borders_of(sheet);
+    if (std::find(there.begin(), there.end(), border) != there.end())
+      planes += fmt::format("{}\"{}\"", planes.empty() ? "" : " or ", words::planes[i]);
+  }
+  return planes.empty() ? "" : fmt::format(", as its plane is \"{}\"; with plane = {} it has that", own, planes);
+}
+
 } // namespace
 
 PlaceRows read_place_rows(TableReader& table, std::string_view key, std::string_view what, std::string_view example,
@@ -168,8 +181,8 @@ std::optional<Border> read_border(TableReader& table, std::string_view key, cons
     std::string list;
     for (const Border one : existing)
       list += fmt::format("{}{}", list.empty() ? "" : ", ", words::borders[static_cast<std::size_t>(one)]);
-    table.wrong(key, fmt::format("this sheet has no \"{}\"; it has {}", words::borders[*index],
-                                 list.empty() ? "no border" : list));
+    table.wrong(key, fmt::format("this sheet has no \"{}\"; it has {}{}", words::borders[*index],
+                                 list.empty() ? "no border" : list, planes_with(sheet, border)));
   }
   return border;
 }

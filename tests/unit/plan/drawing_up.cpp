@@ -38,6 +38,17 @@ TEST(DrawingUp, OfAToolThatComesDownAndGoesUp) {
   EXPECT_EQ(drawing("{kind = \"rotating\", axis = [1, 0, 0], rate = 3}", "[0, 0.0085, 0]"), "");
 }
 
+// Up by 9 mm, to 10 mm above the middle of 5 mm; by 4 mm it does not come clear.
+TEST(DrawingUp, OfAToolThatComesJustClear) {
+  const auto rises = [](const std::string& speed) {
+    return drawing("{kind = \"translating\", velocity = [[0, 0, -0.02, 0], [0.3, 0, -0.02, 0], [0.31, 0, 0, 0], "
+                   "[0.5, 0, " +
+                   speed + ", 0], [0.7, 0, " + speed + ", 0], [0.71, 0, 0, 0]]}");
+  };
+  EXPECT_NE(rises("0.03"), "");
+  EXPECT_EQ(rises("0.0133"), "");
+}
+
 TEST(DrawingUp, NotOfAPinThatRollsOn) {
   const std::string radius = "0.02", aside = "[0, 0.0225, -0.06]"; // 2.5 mm above the plate
   const auto rolls = [](const std::string& velocity) {

@@ -126,6 +126,27 @@ TEST(ProposedRing, TellsOfWhatFewFramesShow) {
   EXPECT_EQ(warning("velocity = [[0, 0, 0, 0], [0.1, 0, 0, 0.2]]\n"), ""); // which is away for ever
 }
 
+// A compound of 20 mm and 100 mm square on level ground, driven by rho g h²/L = 56 Pa: U = h (tau - tau_y)² (2 tau +
+// tau_y)/(6 mu tau²) = 9.80 mm/s, by Bingham's law, takes 10.2 s for 100 mm; free fall over that takes 0.1 s.
+TEST(ProposedRing, GoesOnUntilWhatLiesHasGoneByItsLength) {
+  const auto until = [](const std::string& yield_stress, const std::string& ground, const std::string& more = "") {
+    return ring_of("[sheet]\nshape = \"rectangle\"\nsize = [0.1, 0.1]\nedge_length = 0.02\nthickness = 0.02\n"
+                   "center = [0, 0.01, 0]\n[material]\nlaw = \"bingham\"\nviscosity = 30\ndensity = 1400\n"
+                   "yield_stress = " +
+                   yield_stress +
+                   "\n[environment]\ngravity = [0, -10, 0]\n[[solid]]\nshape = \"box\"\nsize = [1, 0.1, 1]\n"
+                   "center = [0, -0.05, 0]\n" +
+                   ground + more)
+        .until;
+  };
+  EXPECT_EQ(until("8", "contact = \"flow\"\n"), 11);
+  EXPECT_LT(until("60", "contact = \"flow\"\n"), 1); // it stands
+  EXPECT_LT(until("8", ""), 1);                      // it sticks
+  const std::string tool = "[[solid]]\nshape = \"sphere\"\nradius = 0.02\ncenter = [0, 0.1, 0]\n";
+  EXPECT_EQ(until("8", "contact = \"flow\"\n", tool), 11);
+  EXPECT_LT(until("8", "contact = \"flow\"\n", tool + "velocity = [0, 1, 0]\n"), 5); // what moves is to be seen
+}
+
 // A curtain that folds where it lands, with edges of as many digits as the mean of a mesh's has.
 TEST(ProposedRing, LeavesRemeshingRoomWhateverTheEdges) {
   const std::string stages =

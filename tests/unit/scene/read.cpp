@@ -476,9 +476,14 @@ TEST(Read, BordersOfShapes) {
   };
   EXPECT_EQ(hold("shape = \"rectangle\"\nsize = [1, 1]", "z_min"), "fine");
   EXPECT_EQ(hold("shape = \"rectangle\"\nsize = [1, 1]", "y_min"),
-            "s:10:10: region: this sheet has no \"y_min\"; it has rim, x_min, x_max, z_min, z_max");
+            "s:10:10: region: this sheet has no \"y_min\"; it has rim, x_min, x_max, z_min, z_max, as its plane "
+            "is \"xz\"; with plane = \"xy\" or \"yz\" it has that");
   EXPECT_EQ(hold("shape = \"rectangle\"\nsize = [1, 1]\nplane = \"xy\"", "y_min"), "fine");
   EXPECT_EQ(hold("shape = \"tube\"\nradius = 1\nheight = 1", "y_max"), "fine");
+  EXPECT_EQ(
+      hold("shape = \"tube\"\nradius = 1\nheight = 1\nplane = \"xy\"", "y_max"),
+      "s:12:10: region: this sheet has no \"y_max\"; it has rim, z_min, z_max, as its plane is \"xy\"; with plane "
+      "= \"xz\" it has that");
   EXPECT_EQ(hold("shape = \"sphere\"\nradius = 1", "rim"),
             "s:10:10: region: this sheet has no \"rim\"; it has no border");
   EXPECT_EQ(hold("shape = \"cap\"\nradius = 1\nangle = \"90 deg\"", "inner_rim"),
