@@ -21,6 +21,7 @@
 #include "libsheet/plan/beside_walls.h"
 #include "libsheet/plan/contact_warnings.h"
 #include "libsheet/plan/drawing_up.h"
+#include "libsheet/plan/drops_at_once.h"
 #include "libsheet/plan/face_warnings.h"
 #include "libsheet/plan/falling_past.h"
 #include "libsheet/plan/first_frame.h"
@@ -192,7 +193,7 @@ std::string explained(Source source, bool ring_alone) {
         sheet::overlapping_warning(scene), sheet::open_rim_warning(scene, frame),
         sheet::beside_walls_warning(scene, frame), sheet::bath_clinging_warning(scene, frame),
         sheet::sinking_back_warning(scene, frame, until), sheet::drawing_along_warning(scene, frame, until),
-        sheet::hanging_layer_warning(scene, frame, until)})
+        sheet::hanging_layer_warning(scene, frame, until), sheet::drops_at_once_warning(scene, frame)})
     if (!warning.empty())
       explanation.warnings.push_back(warning);
   for (const std::string& late :

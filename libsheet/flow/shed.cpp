@@ -222,16 +222,16 @@ Shed shed_off(Frame& frame, std::vector<bool> leaves, const Scene& scene) {
   return result;
 }
 
-Shed shed_round_pieces(Frame& frame, const Scene& scene) {
+std::vector<std::vector<std::uint32_t>> round_pieces(const Frame& frame, const Scene& scene) {
   if (!scene.tear || !scene.tear->drops || frame.triangles == 0)
     return {};
-  const Connectivity mesh = connect(frame.vertices, triangles(std::as_const(frame)));
+  const Connectivity mesh = connect(frame.vertices, triangles(frame));
   const auto pieces = groups_of(mesh, std::vector<bool>(frame.triangles, true));
   if (pieces.size() < 2)
     return {};
   const std::vector<bool> bound = bound_vertices(frame, scene);
   const FrameLiquids liquids(scene, frame);
-  const Bodies bodies(std::as_const(frame));
+  const Bodies bodies(frame);
   const auto is_free = [&](std::uint32_t t) {
     return std::ranges::none_of(mesh.triangles[t], [&](std::uint32_t v) { return bound[v]; });
   };
@@ -240,12 +240,19 @@ Shed shed_round_pieces(Frame& frame, const Scene& scene) {
   };
   const auto& largest =
       *std::ranges::max_element(pieces, {}, [&](const auto& piece) { return bodies.one(piece, liquids).volume; });
-  std::vector<bool> leaves(frame.triangles, false);
+  std::vector<std::vector<std::uint32_t>> round;
   for (const auto& piece : pieces)
     if (&piece != &largest && piece.size() < most_in_drop && std::ranges::all_of(piece, is_free) &&
         std::ranges::any_of(piece, has_rim) && is_round(bodies, piece, liquids))
-      for (const std::uint32_t t : piece)
-        leaves[t] = true;
+      round.push_back(piece);
+  return round;
+}
+
+Shed shed_round_pieces(Frame& frame, const Scene& scene) {
+  std::vector<bool> leaves(frame.triangles, false);
+  for (const auto& piece : round_pieces(frame, scene))
+    for (const std::uint32_t t : piece)
+      leaves[t] = true;
   return std::ranges::count(leaves, true) == 0 ? Shed{} : shed_off(frame, std::move(leaves), scene);
 }
 

@@ -7,6 +7,7 @@
 // drop has the volume, the momentum and the centre of mass of its triangles, whose corners carry a third each; their
 // relative motion and their turning end. Volume and momentum stay to round-off.
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "libsheet/flow/put_fans.h"
@@ -30,8 +31,11 @@ Shed shed_off(formats::Frame& frame, std::vector<bool> leaves, const Scene& scen
 
 // Pieces of the sheet that tension has made round, or soon will: of fewer than 100 triangles, open, within a ball about
 // their centre of mass of three times the radius of one with their volume, which nothing holds, no inlet makes longer,
-// and that touch no solid and no other layer. They become drops, but for the largest piece of all. Nothing without
+// and that touch no solid and no other layer; but for the largest piece of all. The triangles of each; none without
 // [tear] drops.
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> round_pieces(const formats::Frame& frame, const Scene& scene);
+
+// They become drops. Nothing without [tear] drops.
 Shed shed_round_pieces(formats::Frame& frame, const Scene& scene);
 
 } // namespace sheet::flow

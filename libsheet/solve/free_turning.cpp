@@ -12,8 +12,8 @@ namespace sheet {
 
 namespace {
 
-// Of each vertex the least one of its piece.
-std::vector<std::uint32_t> pieces_of(const Connectivity& mesh) {
+// Of each vertex the least one of its piece; layers that touch are one.
+std::vector<std::uint32_t> pieces_of(const Connectivity& mesh, std::span<const ContactSpring> contacts = {}) {
   std::vector<std::uint32_t> piece(mesh.vertices);
   std::iota(piece.begin(), piece.end(), 0U);
   const auto first = [&](std::uint32_t v) {
@@ -21,20 +21,51 @@ std::vector<std::uint32_t> pieces_of(const Connectivity& mesh) {
       v = piece[v] = piece[piece[v]];
     return v;
   };
-  for (const Edge& edge : mesh.edges) {
-    const std::uint32_t a = first(edge[0]), b = first(edge[1]);
+  const auto join = [&](std::uint32_t one, std::uint32_t other) {
+    const std::uint32_t a = first(one), b = first(other);
     piece[std::max(a, b)] = std::min(a, b);
-  }
+  };
+  for (const Edge& edge : mesh.edges)
+    join(edge[0], edge[1]);
+  for (const ContactSpring& spring : contacts)
+    for (const std::uint32_t v : spring.vertices)
+      join(spring.vertices[0], v);
   for (std::uint32_t v = 0; v < piece.size(); ++v)
     piece[v] = first(v);
   return piece;
 }
 
+// Of a mean velocity, or way, what is left of it: all, or what resistance that can only slow it leaves.
+Vector3 steady(const Vector3& before, const Vector3& now, bool resisted) {
+  if (!resisted || before.isZero(0))
+    return before;
+  return std::clamp(now.dot(before) / before.squaredNorm(), 0.0, 1.0) * before;
+}
+
 } // namespace
 
-bool turns_freely(const Model& model) {
-  return model.bath && !model.has_inertia() && model.holds.empty() && model.walls.empty() && model.contacts.empty() &&
-         !model.air;
+FreePieces free_pieces(const Model& model, const Connectivity& mesh) {
+  FreePieces pieces;
+  if (!model.bath || model.has_inertia() || model.air)
+    return pieces;
+  const std::vector<std::uint32_t> piece_of = pieces_of(mesh, model.contacts);
+  std::vector<bool> bound(mesh.vertices, false);
+  pieces.resisted.assign(mesh.vertices, model.bath->drag > 0);
+  for (const Hold& hold : model.holds)
+    for (const std::uint32_t v : hold.vertices)
+      bound[piece_of[v]] = true;
+  for (const Wall& wall : model.walls)
+    for (const std::uint32_t v : wall.vertices)
+      bound[piece_of[v]] = true;
+  for (std::size_t v = 0; v < model.bath_reach.size(); ++v)
+    if (model.bath_reach[v] == BathReach::around)
+      pieces.resisted[piece_of[v]] = true;
+  pieces.of_vertex.resize(mesh.vertices);
+  for (std::uint32_t v = 0; v < mesh.vertices; ++v)
+    pieces.of_vertex[v] = bound[piece_of[v]] ? no_index : piece_of[v];
+  if (std::ranges::all_of(pieces.of_vertex, [](std::uint32_t piece) { return piece == no_index; }))
+    pieces.of_vertex.clear();
+  return pieces;
 }
 
 bool turns_about_holds(const Model& model) {
@@ -43,30 +74,67 @@ bool turns_about_holds(const Model& model) {
          model.contacts.empty() && !model.holds.empty() && std::ranges::all_of(model.holds, pins);
 }
 
-void stop_turning(const Connectivity& mesh, std::span<const Vector3> positions, const Vector3& axis,
+void stop_turning(const FreePieces& free, std::span<const Vector3> positions, const Vector3& axis,
                   std::span<Vector3> velocities) {
   struct Piece {
     double vertices = 0, moment = 0, turning = 0; // the last two: sums over tangents t of t² [m²] and t·v [m²/s]
     Vector3 middle = Vector3::Zero();
   };
-  const std::vector<std::uint32_t> piece_of = pieces_of(mesh);
   const Vector3 about = axis.normalized();
   std::vector<Piece> pieces(positions.size());
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    pieces[piece_of[v]].vertices += 1;
-    pieces[piece_of[v]].middle += positions[v];
-  }
+  const auto each = [&](auto&& visit) {
+    for (std::size_t v = 0; v < free.of_vertex.size(); ++v)
+      if (free.of_vertex[v] != no_index)
+        visit(v, pieces[free.of_vertex[v]]);
+  };
+  each([&](std::size_t v, Piece& piece) {
+    piece.vertices += 1;
+    piece.middle += positions[v];
+  });
   for (Piece& piece : pieces)
     if (piece.vertices > 0)
       piece.middle /= piece.vertices;
-  const auto tangent = [&](std::size_t v) -> Vector3 { return about.cross(positions[v] - pieces[piece_of[v]].middle); };
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    pieces[piece_of[v]].moment += tangent(v).squaredNorm();
-    pieces[piece_of[v]].turning += tangent(v).dot(velocities[v]);
-  }
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    if (const Piece& piece = pieces[piece_of[v]]; piece.moment > 0)
-      velocities[v] -= piece.turning / piece.moment * tangent(v);
+  const auto tangent = [&](std::size_t v, const Piece& piece) -> Vector3 {
+    return about.cross(positions[v] - piece.middle);
+  };
+  each([&](std::size_t v, Piece& piece) {
+    piece.moment += tangent(v, piece).squaredNorm();
+    piece.turning += tangent(v, piece).dot(velocities[v]);
+  });
+  each([&](std::size_t v, const Piece& piece) {
+    if (piece.moment > 0)
+      velocities[v] -= piece.turning / piece.moment * tangent(v, piece);
+  });
+}
+
+void drift_steadily(const FreePieces& free, const DriftStart& start, double dt, const Vector3& axis,
+                    std::span<Vector3> positions, std::span<Vector3> velocities) {
+  struct Piece {
+    double volume = 0;
+    Vector3 before = Vector3::Zero(), way = Vector3::Zero(), now = Vector3::Zero(); // sums by volume
+    Vector3 excess_way = Vector3::Zero(), excess = Vector3::Zero();
+  };
+  const Vector3 up = axis.normalized();
+  const auto along = [&](const Vector3& way) -> Vector3 { return way - way.dot(up) * up; };
+  std::vector<Piece> pieces(positions.size());
+  for (std::size_t v = 0; v < free.of_vertex.size(); ++v)
+    if (free.of_vertex[v] != no_index) {
+      Piece& piece = pieces[free.of_vertex[v]];
+      piece.volume += start.volumes[v];
+      piece.before += start.volumes[v] * along(start.velocities[v]);
+      piece.way += start.volumes[v] * along(positions[v] - start.positions[v]);
+      piece.now += start.volumes[v] * along(velocities[v]);
+    }
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    if (Piece& piece = pieces[p]; piece.volume > 0) {
+      piece.excess_way = (piece.way - steady(dt * piece.before, piece.way, free.resisted[p])) / piece.volume;
+      piece.excess = (piece.now - steady(piece.before, piece.now, free.resisted[p])) / piece.volume;
+    }
+  for (std::size_t v = 0; v < free.of_vertex.size(); ++v)
+    if (free.of_vertex[v] != no_index) {
+      positions[v] -= pieces[free.of_vertex[v]].excess_way;
+      velocities[v] -= pieces[free.of_vertex[v]].excess;
+    }
 }
 
 void stop_turning_about(const std::vector<Hold>& holds, double t, const Connectivity& mesh,

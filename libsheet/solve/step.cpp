@@ -262,8 +262,7 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     end.positions[v] = x;
     end.velocities[v] = (x - reference) / stage.duration;
   }
-  if (turns_freely(model_))
-    stop_turning(*state.mesh, end.positions, model_.gravity, end.velocities);
+  stop_free_motion(state, stage, end);
   if (turns_about_holds(model_))
     stop_turning_about(model_.holds, end.time, *state.mesh, end.positions, end.velocities);
   estimate_error(state, dt, stage, first, last, end, scale, estimate, report);
@@ -285,6 +284,16 @@ Stepper::Outcome Stepper::finish_step(const State& state, double dt, Stage& stag
     set_prescribed_velocities(stage, end);
   set_distances_from_walls(model_.walls, model_.holds, model_.contacts, model_.gravity, stage, end);
   return Outcome::done;
+}
+
+// Of what floats without inertia.
+void Stepper::stop_free_motion(const State& state, const Stage& stage, State& end) const {
+  const FreePieces free = free_pieces(model_, *state.mesh);
+  if (free.of_vertex.empty())
+    return;
+  stop_turning(free, end.positions, model_.gravity, end.velocities);
+  drift_steadily(free, {state.positions, state.velocities, stage.vertex_volumes}, end.time - state.time, model_.gravity,
+                 end.positions, end.velocities);
 }
 
 void Stepper::set_prescribed_velocities(const Stage& stage, State& end) const {

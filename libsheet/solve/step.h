@@ -81,6 +81,7 @@ private:
   Outcome finish_step(const State& state, double dt, Stage& stage, const Unknowns& first, const Unknowns& last,
                       const Eigen::VectorXd& scale, Estimate estimate, const StepHeat* heat, State& end,
                       StepReport& report);
+  void stop_free_motion(const State& state, const Stage& stage, State& end) const;
   void set_prescribed_velocities(const Stage& stage, State& end) const;
   void estimate_error(const State& state, double dt, const Stage& stage, const Unknowns& first, const Unknowns& last,
                       const State& end, const Eigen::VectorXd& scale, Estimate estimate, StepReport& report) const;

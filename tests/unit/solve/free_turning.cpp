@@ -21,9 +21,54 @@ TEST(FreeTurning, EachPieceStopsAndKeepsTheRest) {
     rest.push_back(0.3 * (x[k] - middle) + Vector3(1, -2, 0.5));
     v.push_back(rest[k] + (k < 3 ? 2.0 : -7.0) * Vector3::UnitZ().cross(x[k] - middle));
   }
-  stop_turning(mesh, x, {0, 0, -9.81}, v);
+  stop_turning({{0, 0, 0, 3, 3, 3}, std::vector<bool>(6, false)}, x, {0, 0, -9.81}, v);
   for (std::size_t k = 0; k < x.size(); ++k)
     EXPECT_LT((v[k] - rest[k]).norm(), 1e-14);
+}
+
+// By (2 m/s, 0) for half a second, of the first piece; the other one is not free.
+TEST(FreeTurning, CentresOfMassDriftSteadilyAlongTheBath) {
+  const std::vector<Vector3> start{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+  const std::vector<double> volumes{1, 2, 3, 1, 1, 1};
+  const std::vector<Vector3> velocities(6, {2, 0, 1});
+  std::vector<Vector3> x, v;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    x.emplace_back(0.9 * start[k] + Vector3(0.2, -0.1, 0.3));
+    v.emplace_back(2.0 * static_cast<double>(k), 1, -4);
+  }
+  const std::vector<Vector3> x_before = x, v_before = v;
+  const FreePieces free{{0, 0, 0, no_index, no_index, no_index}, std::vector<bool>(6, false)};
+  drift_steadily(free, {start, velocities, volumes}, 0.5, {0, 0, -9.81}, x, v);
+  Vector3 way = Vector3::Zero(), flow = Vector3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    way += volumes[k] / 6 * (x[k] - start[k]);
+    flow += volumes[k] / 6 * v[k];
+    EXPECT_LT((x[k] - x[0] - (x_before[k] - x_before[0])).norm(), 1e-15); // as a whole
+  }
+  EXPECT_LT((way - Vector3(1, 0, 0.3)).norm(), 1e-15);
+  EXPECT_LT((flow - Vector3(2, 0, -4)).norm(), 1e-15);
+  for (std::size_t k = 3; k < 6; ++k) {
+    EXPECT_EQ(x[k], x_before[k]);
+    EXPECT_EQ(v[k], v_before[k]);
+  }
+}
+
+// Of what the bath resists: it may slow down, but neither turns back nor goes another way.
+TEST(FreeTurning, WhatTheBathResistsDriftsNoFaster) {
+  const std::vector<Vector3> start{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<double> volumes(3, 1);
+  const std::vector<Vector3> velocities(3, {2, 0, 0});
+  const FreePieces free{{0, 0, 0}, std::vector<bool>(3, true)};
+  for (const auto& [now, left] : {std::pair(3, 2), std::pair(1, 1), std::pair(-1, 0)}) {
+    std::vector<Vector3> x(start), v(3, Vector3(now, 1, 5));
+    for (Vector3& place : x)
+      place += 0.5 * v[0];
+    drift_steadily(free, {start, velocities, volumes}, 0.5, {0, 0, -9.81}, x, v);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LT((v[k] - Vector3(left, 0, 5)).norm(), 1e-15);
+      EXPECT_LT((x[k] - start[k] - 0.5 * v[k]).norm(), 1e-15);
+    }
+  }
 }
 
 // One piece is held at a point that moves, another one at two points, by something that turns about their axis: what
