@@ -24,11 +24,11 @@ struct SheetOnSolids {
 [[nodiscard]] std::vector<std::uint8_t> passing(std::span<const Corners> triangles,
                                                 std::span<const std::int32_t> rides);
 
-// Of each vertex, the other solid in whose corner with its own one it turns, or no_solid: one that rests beside it, at
-// an angle, along which liquid flows, not farther off than its own one by more than two edges or thicknesses; and that
-// bears more of the weight, or less, if the sheet has come from there: if it shares a triangle with what flows along
-// that. Its own one, if that is a mesh and it turns in a corner of that; what comes down a side of a mesh lies along
-// that rather than along the floor.
+// Of each vertex, the other solid in whose corner with its own one it turns, or no_solid: one that rests beside it, but
+// for belts, at an angle, along which liquid flows, not farther off than its own one by more than two edges or
+// thicknesses; and that bears more of the weight, or less, if the sheet has come from there: if it shares a triangle
+// with what flows along that. Its own one, if that is a mesh and it turns in a corner of that; what comes down a side
+// of a mesh lies along that rather than along the floor.
 [[nodiscard]] std::vector<std::int32_t> turned_to(const Solids& solids, const SheetOnSolids& sheet);
 
 } // namespace sheet::solid

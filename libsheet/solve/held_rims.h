@@ -24,8 +24,8 @@ struct HeldRims {
   std::vector<Vector3> out;          // of each of the vertices, if it is held across the rim: out of the sheet; or zero
 };
 
-// Of vertices that touch one solid, those that it keeps from retreating. turned_to: of each vertex of
-// the sheet, the solid in whose corner it turns, or no_solid.
+// Of vertices that touch one solid, those that it keeps from retreating. turned_to: of each vertex of the sheet, the
+// solid in whose corner it turns, or no_solid.
 [[nodiscard]] HeldRims held_rims(const Scene& scene, const formats::Frame& frame, const Connectivity& mesh,
                                  std::span<const std::uint32_t> touching, std::span<const std::int32_t> turned_to);
 
