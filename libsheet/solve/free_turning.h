@@ -31,13 +31,15 @@ struct FreePieces {
 void stop_turning(const FreePieces& free, std::span<const Vector3> positions, const Vector3& axis,
                   std::span<Vector3> velocities);
 
-// Moves each piece, and changes its velocities, as a whole and across the axis, such that its centre of mass has gone
-// on as fast as it did, by its velocity at the start of the step times dt [s]; or as it has, but no faster, and the
-// same way. `volumes`: of each vertex.
+// Of each vertex at the start of a step [m], [m/s], [m³].
 struct DriftStart {
   std::span<const Vector3> positions, velocities;
   std::span<const double> volumes;
 };
+
+// Moves each piece, and changes its velocities, as a whole and across the axis, such that its centre of mass has gone
+// on as fast as it did, by its velocity at the start of the step times dt [s]; or as it has, but no faster, and the
+// same way.
 void drift_steadily(const FreePieces& free, const DriftStart& start, double dt, const Vector3& axis,
                     std::span<Vector3> positions, std::span<Vector3> velocities);
 
